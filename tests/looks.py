@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from typing import NamedTuple
+from xml.etree import ElementTree as ET
 
 import numpy as np
 
 from crankwork.show.scene import Arc, Box, Circle, Drawing, Polyline, Text, arc_points, pen_of, runs, text_width
+from crankwork.show.svg import svg
 
 # letters of a reader's own font may be wider than our table has them
 WIDER = 1.1
@@ -116,3 +118,14 @@ def _holds(ground: Box, box: Box) -> bool:
         and ground.bottom <= inner.bottom
         and ground.top >= inner.top
     )
+
+
+def svg_texts(drawing: Drawing | bytes) -> list[ET.Element]:
+    """Return the texts of a picture as elements of SVG."""
+    data = drawing if isinstance(drawing, bytes) else svg(drawing)
+    return list(ET.fromstring(data).iter("{http://www.w3.org/2000/svg}text"))  # noqa: S314 - our own bytes
+
+
+def said(drawing: Drawing | bytes) -> list[str]:
+    """Return what stands in a picture, text by text."""
+    return ["".join(one.itertext()) for one in svg_texts(drawing)]

@@ -11,7 +11,7 @@ import re
 import shutil
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TextIO
 
@@ -172,19 +172,48 @@ def kept(name: str, text: str) -> Path | None:
 
     `CRANKWORK_CACHE` says in which folder, or the system where the user keeps such things.
     """
-    stated = os.environ.get("CRANKWORK_CACHE") or os.environ.get("XDG_CACHE_HOME")
-    path = (Path(stated) if stated else Path.home() / ".cache") / "crankwork" / name
     try:
+        path = _between_runs(name)
         if not path.exists():
             path.parent.mkdir(parents=True, exist_ok=True)
-            with tempfile.NamedTemporaryFile(
-                "w", dir=path.parent, suffix=".tmp", delete=False, encoding="utf-8"
-            ) as file:
-                file.write(text)
-            Path(file.name).replace(path)
-    except OSError:
+            _put(path, text)
+    except (OSError, RuntimeError):
         return None
     return path
+
+
+def changed(name: str, change: Callable[[str], str], *, limit: int) -> str:
+    """Return what is kept under a name between runs of the program as it is changed; nothing where it cannot be kept.
+
+    `limit`: longer texts are taken as none. [bytes] Programs that change it at once do so one after the other.
+    """
+    try:
+        path = _between_runs(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with _locked(path.parent):
+            data = b""
+            if path.is_file():
+                with path.open("rb") as stream:
+                    data = stream.read(limit + 1)
+            before = data.decode("utf-8", "replace") if len(data) <= limit else ""
+            after = change(before)
+            if after != before:
+                _put(path, after)
+    except (OSError, RuntimeError):
+        return ""
+    return after
+
+
+def _between_runs(name: str) -> Path:
+    stated = os.environ.get("CRANKWORK_CACHE") or os.environ.get("XDG_CACHE_HOME")
+    return (Path(stated) if stated else Path.home() / ".cache") / "crankwork" / name
+
+
+def _put(path: Path, text: str) -> None:
+    """Write a text, whole or not at all, into a folder that is there."""
+    with tempfile.NamedTemporaryFile("w", dir=path.parent, suffix=".tmp", delete=False, encoding="utf-8") as file:
+        file.write(text)
+    Path(file.name).replace(path)
 
 
 def send_nowhere(stream: TextIO) -> None:

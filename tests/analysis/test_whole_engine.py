@@ -17,11 +17,11 @@ from crankwork.analysis.engine_torque import engine_torque
 from crankwork.analysis.whole_engine import WholeMemory
 from crankwork.cylinders.articulated import articulated_motion
 from crankwork.cylinders.engines import boxer, inline, radial, vee
-from crankwork.cylinders.torque import cylinder_angle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Bearings, Drive, Engine, Machine
 from crankwork.report.summary import summary_data
+from engines import cylinder_angle
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ENGINES = ("petrol-four", "v8-diesel", "radial-five", "two-stroke")

@@ -18,11 +18,11 @@ from crankwork.cylinders.articulated import (
 )
 from crankwork.cylinders.articulated_forces import slave_forces
 from crankwork.cylinders.engines import radial
-from crankwork.cylinders.torque import cylinder_angle
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
+from engines import cylinder_angle
 
 pytestmark = pytest.mark.elsewhere
 

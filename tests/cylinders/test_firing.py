@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crankwork.cylinders.engines import standard_layout
 from crankwork.cylinders.firing import (
     LayoutError,
     checked_order,
@@ -22,6 +21,7 @@ from crankwork.cylinders.firing import (
     wrapped,
 )
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS, radial_order, standard_orders
+from engines import standard_layout
 
 every_standard = pytest.mark.parametrize(
     "standard",

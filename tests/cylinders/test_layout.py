@@ -7,10 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.cylinders.arrangement import arranged
-from crankwork.cylinders.engines import boxer, inline, radial, standard_layout, vee
+from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, order_text, wrapped
 from crankwork.cylinders.layout import Banks
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS
+from engines import standard_layout
 
 every_standard = pytest.mark.parametrize(
     "standard",

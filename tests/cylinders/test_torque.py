@@ -9,10 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from crankwork.cylinders.engines import standard_layout, vee
+from crankwork.cylinders.engines import vee
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS, standard_orders
 from crankwork.cylinders.torque import (
-    cylinder_angle,
     even_firing_interval,
     firing_intervals,
     mean_torque_of_work,
@@ -30,6 +29,7 @@ from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import Method
 from crankwork.shaft.curve import Curve
+from engines import cylinder_angle, standard_layout
 
 pytestmark = pytest.mark.elsewhere
 

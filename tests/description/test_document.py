@@ -102,6 +102,24 @@ def test_a_key_goes_with_what_is_said_beside_it():
     assert d.dump() == text.replace('d  = { angle = "12 deg", pressure = "0.090 MPa" }', 'd  = { angle = "12 deg" }')
 
 
+@pytest.mark.parametrize(
+    ("text", "left"),
+    [
+        (
+            "[[loads]]\nat = 1\n\n# two\n[[loads]]\nat = 2\n\n[[loads]]\nat = 3\n",
+            "# two\n[[loads]]\nat = 2\n\n[[loads]]\nat = 3\n",
+        ),
+        ("loads = [{ at = 1 }, { at = 2 }]\n", "loads = [{ at = 2 }]\n"),
+        ("loads = [{ at = 1 }]\n", "loads = []\n"),
+    ],
+    ids=["lines", "inline", "only"],
+)
+def test_an_entry_of_a_list_goes_and_the_others_stay(text, left):
+    described = Description(text)
+    del described["loads[1]"]
+    assert described.dump() == left
+
+
 def test_a_default_is_given_where_nothing_is_stated():
     d = Description(ENGINE)
     assert d["rod.ratio_definition"] == "r/l"

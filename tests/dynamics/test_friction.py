@@ -8,7 +8,6 @@ import pytest
 from crankwork.dynamics import friction as module
 from crankwork.dynamics.friction import (
     CONVERGED,
-    NO_POSITION,
     NOT_CONVERGED,
     SELF_LOCKING,
     GuideFriction,
@@ -21,7 +20,7 @@ from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import ForceOnPoint, ProcessForce, TorqueOnLink, Weight, applied_loads
-from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke, slotted_press
+from crankwork.mechanism.catalog import crank_shaper, scotch_yoke, slotted_press
 from crankwork.mechanism.dyads import RPP, RRP, Guide
 from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
@@ -153,8 +152,6 @@ def test_self_locking_is_said_with_the_angles():
     locked = found.status == SELF_LOCKING
     assert locked.any()
     assert np.isnan(found.joint_forces.balancing_torque[locked]).all()
-    first = GRID.degrees[locked][0]
-    assert any(f"from {first:g} to" in one and "no torque turns the crank" in one for one in found.messages(GRID))
 
 
 def test_friction_that_holds_the_load():
@@ -163,7 +160,6 @@ def test_friction_that_holds_the_load():
     found = friction_forces(pulled, [PinFriction("crank_pivot", 0.04, 0.5), PinFriction("crank_pin", 0.04, 2.0)])
     assert found.held.any()
     assert (found.efficiency[found.held] <= 0).all()
-    assert any("friction holds the load" in one for one in found.messages(pulled.motion.grid))
 
 
 def test_a_joint_at_rest_does_not_rub():
@@ -181,7 +177,8 @@ def test_no_load_no_friction():
     found = friction_forces(running, everywhere(running.mechanism, 0.1))
     assert not found.power_loss.any()
     assert np.isnan(found.efficiency).all()
-    assert found.messages(GRID) == []
+    assert (found.status == CONVERGED).all()
+    assert not found.held.any()
 
 
 @pytest.mark.parametrize(
@@ -197,16 +194,6 @@ def test_joints_that_do_not_exist(friction, message):
         friction_forces(running_of(slider_crank(0.05, 0.2)), friction)
 
 
-def test_positions_that_cannot_be_assembled_say_so():
-    bar = four_bar(0.2, 0.2, 0.12, 0.18)
-    moved = linkage_motion(bar, GRID, partial=True)
-    running = Running(bar, moved, 10.0, applied_loads(bar, moved, [TorqueOnLink("rocker", 5.0)]))
-    found = friction_forces(running, everywhere(bar, 0.01))
-    assert moved.status is not None
-    assert ((found.status == NO_POSITION) == (moved.status != 0)).all()
-    assert any("does not get here" in one for one in found.messages(GRID))
-
-
 def test_an_iteration_that_is_stopped_early_says_so(shaper, monkeypatch):
     monkeypatch.setattr(module, "_ITERATIONS", 1)
     found = friction_forces(shaper, everywhere(shaper.mechanism, 0.3))
@@ -214,4 +201,3 @@ def test_an_iteration_that_is_stopped_early_says_so(shaper, monkeypatch):
     assert stopped.any()
     assert np.isnan(found.joint_forces.balancing_torque[stopped]).all()
     assert (found.residual[stopped] > 1e-13).all()
-    assert any("did not converge" in one for one in found.messages(GRID))

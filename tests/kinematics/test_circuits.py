@@ -6,14 +6,7 @@ import numpy as np
 import pytest
 
 from crankwork.kinematics.circuits import all_circuits, circuit_at, circuit_through
-from crankwork.kinematics.coordinates import (
-    At,
-    distance,
-    driver_coordinate,
-    link_angle,
-    point_coordinate,
-    relative_angle,
-)
+from crankwork.kinematics.coordinates import driver_coordinate, link_angle, relative_angle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
@@ -21,6 +14,7 @@ from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, Segment
 from crankwork.mechanism.dyads import RRR, Guide
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, slider_crank
+from linkages import At, distance
 
 pytestmark = pytest.mark.elsewhere
 
@@ -107,7 +101,7 @@ def test_lengths_and_angles_between_links_may_drive():
     assert (found.least, found.greatest) == pytest.approx((ROCKER - COUPLER, ROCKER + COUPLER), abs=1e-12)
     opening = circuit.extent(relative_angle("crank", "coupler"))
     assert opening.travel == pytest.approx(math.tau, abs=1e-12)
-    pin = circuit.extent(point_coordinate(At("crank", CRANK), 0))
+    pin = circuit.extent(lambda there: At("crank", CRANK).on(there)[0])
     assert pin.greatest == pytest.approx(CRANK * math.cos(math.radians(FOLDED)), abs=1e-12)
 
 
@@ -154,7 +148,7 @@ def test_lengths_that_differ_by_little_are_equal_or_told(longer, passes):
 
 
 def test_of_a_chain_the_stated_circuit_is_followed():
-    from crankwork.mechanism.description import mechanism_from
+    from linkages import mechanism_from
 
     mechanism, _ = mechanism_from({
         "fixed_points": {"O": [0, 0], "E": [0.2, 0.5], "F": [0.26, 0.4]},

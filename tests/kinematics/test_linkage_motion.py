@@ -123,24 +123,3 @@ def test_a_short_rod_names_its_guide():
 def test_a_dyad_on_nothing_is_refused():
     with pytest.raises(GeometryError, match="rests on 'X'"):
         linkage_motion(Mechanism(Crank(0.05), (RRP("X", "P", "rod", 0.4),)), TURN)
-
-
-def test_partial_motion_ends_at_the_singular_position():
-    grid = CrankGrid.from_degrees(np.arange(60.0, 420, 10))
-    solved = linkage_motion(four_bar(3, 4, 5, 7), grid, partial=True)
-    assert solved.status.tolist() == [0] * 7 + [1] * 11 + [2] * 18
-    lost = solved.status > 0
-    assert np.isnan(solved.points["coupler_pin"].x.position[lost]).all()
-    assert np.isnan(solved.links["rocker"].position[lost]).all()
-    full = linkage_motion(four_bar(3, 4, 5, 7), CrankGrid.from_degrees(np.arange(60.0, 121, 10)))
-    assert np.array_equal(full.points["coupler_pin"].x[2], solved.points["coupler_pin"].x[2][~lost])
-
-
-def test_partial_motion_does_not_pass_a_change_point_between_positions():
-    grid = CrankGrid.from_degrees(np.arange(15.0, 360, 30))
-    status = linkage_motion(four_bar(2, 4, 2, 4), grid, partial=True).status
-    assert status.tolist() == [0] * 6 + [2] * 6
-
-
-def test_partial_motion_may_be_empty():
-    assert linkage_motion(four_bar(1, 1, 1, 9), TURN, partial=True).status.min() == 1

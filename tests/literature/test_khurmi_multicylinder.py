@@ -16,10 +16,10 @@ import numpy as np
 import pytest
 
 from crankwork.cylinders.engines import inline
-from crankwork.cylinders.torque import cylinder_angle
 from crankwork.cylinders.torque_harmonics import curve_harmonics, total_harmonics
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import acceleration_of_crank, excess_work, fluctuation_of_inertia
+from engines import cylinder_angle
 
 SPEED = 600 * math.pi / 30
 INERTIA = 12 * 0.08**2

@@ -15,10 +15,11 @@ import pytest
 
 from crankwork import read_machine
 from crankwork.kinematics.circuits import circuit_through
-from crankwork.kinematics.coordinates import At, driver_coordinate, point_coordinate
+from crankwork.kinematics.coordinates import driver_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
+from linkages import At
 
 PLACES = {
     0: {
@@ -110,6 +111,10 @@ LENGTHS = {"b": 41.5, "c": 39.3, "d": 40.1, "e": 55.8, "f": 39.4, "g": 36.7, "h"
 EXTREMES = (-71.52155224005665, -3.613130548548408, -91.83388674233223, -69.37671315801602)
 
 
+def _along(point, axis):
+    return lambda there: point.on(there)[axis]
+
+
 def _third(one, other, far):
     """The place of a third point of a triangle on its left, along and across its first side."""
     along = (one**2 + other**2 - far**2) / (2 * one)
@@ -172,7 +177,7 @@ def test_every_joint_of_jansens_leg(jansen):
 def test_stride_and_lift_of_jansens_leg(jansen):
     circuit = circuit_through(jansen)
     foot = next(one for one in jansen.points if one.name == "foot")
-    ends = [circuit.extent(point_coordinate(At("leg", foot.along, foot.across), axis)) for axis in (0, 1)]
+    ends = [circuit.extent(_along(At("leg", foot.along, foot.across), axis)) for axis in (0, 1)]
     found = [value for end in ends for value in (end.least, end.greatest)]
     assert found == pytest.approx([1e-3 * one for one in EXTREMES], abs=1e-13)
     at = np.degrees(circuit.values(driver_coordinate(jansen), np.array([ends[1].least_at]))) % 360
@@ -182,7 +187,7 @@ def test_stride_and_lift_of_jansens_leg(jansen):
 def test_the_tracer_of_the_lambda_linkage():
     circuit = circuit_through(four_bar(1.0, 2.5, 2.5, 2.0))
     tracer = At("coupler", 5.0)
-    ends = [circuit.extent(point_coordinate(tracer, axis)) for axis in (0, 1)]
+    ends = [circuit.extent(_along(tracer, axis)) for axis in (0, 1)]
     found = [value for end in ends for value in (end.least, end.greatest)]
     assert found == pytest.approx([-0.3518070749468599, 4.35180707494686, 4.0, 4.898979485566356], abs=1e-11)
     at = circuit.values(driver_coordinate(circuit.mechanism), np.array([ends[0].greatest_at]))
@@ -262,7 +267,7 @@ def test_klanns_leg_stays_on_the_stated_branch(hip):
         assert abs(start[3] - 1.0) < 6e-4
         half = linkage_motion(circuit.mechanism, CrankGrid.from_degrees([0.0, 180.0])).points["foot"]
         assert 1e3 * abs(half.x.position[1] - half.x.position[0]) == pytest.approx(1.000, abs=5e-4)
-        height = circuit.extent(point_coordinate(At("leg", *(1e-3 * one for one in _pair(along))), 1))
+        height = circuit.extent(_along(At("leg", *(1e-3 * one for one in _pair(along))), 1))
         # his four digits give 0.527
         assert 1e3 * height.travel == pytest.approx(0.523, abs=5e-3)
 

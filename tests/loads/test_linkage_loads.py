@@ -16,7 +16,6 @@ from crankwork.loads.load import (
     Damper,
     ForceOnPoint,
     ProcessForce,
-    ProcessForceAtPoint,
     SliderDamper,
     SliderSpring,
     Spring,
@@ -124,15 +123,6 @@ class TestProcess:
         load = ProcessForce("ram", Table((0.02, 0.05), (800.0, 200.0)), start=float(ram.min()))
         torque = reduced_torque(moved, applied_loads(mechanism, moved, [load]))
         assert np.mean(torque) * 2 * np.pi == pytest.approx(-500 * 0.03, rel=2e-3)
-
-    def test_at_a_point_in_a_fixed_direction(self):
-        moved = linkage_motion(CRANK, GRID)
-        load = ProcessForceAtPoint("crank_pin", np.pi / 2, Table((0.0, 0.2), (0.0, 20.0)), start=-0.1)
-        (force,) = applied_loads(CRANK, moved, [load]).forces
-        expected = np.where(GRID.cos > -1e-12, -10 * (1 + GRID.sin), 0)
-        assert force.link == "crank"
-        assert force.x == pytest.approx(0, abs=1e-14)
-        assert force.y == pytest.approx(expected, abs=1e-12)
 
     def test_torque_by_the_crank_angle(self):
         moved = linkage_motion(CRANK, GRID)
@@ -249,7 +239,6 @@ def test_rates_of_a_table_are_read_where_there_are_no_frames():
         ForceOnPoint("nowhere", 1.0, 0.0),
         TorqueOnLink("nowhere", 1.0),
         ProcessForce("nowhere", np.cos),
-        ProcessForceAtPoint("nowhere", 0.0, np.cos),
         Damper("nowhere", "tip", 1.0),
         SliderDamper("nowhere", 1.0),
         Spring("nowhere", "tip", 1.0, 1.0),

@@ -8,9 +8,10 @@ import pytest
 from crankwork.description.machine_file import read
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.mechanism.description import linkage_from, mechanism_from
+from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.structure import mobility, structure
+from linkages import mechanism_from
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SIX_BAR = {

@@ -111,7 +111,7 @@ def sample(language: Language) -> Note:
         Table(HOSTILE, (("n",), ("x, ", Math("x_1")), ("text",)), rows, wide=True, align="crl", label="wide"),
         Figure(DRAWING, HOSTILE, HOSTILE, label="drawing"),
         ItemList(((HOSTILE,), (Math("ω"),))),
-        ItemList((("one",), ("two",)), ordered=True),
+        ItemList((("one",), ("two",))),
         Heading(1, "References", numbered=False),
         Bibliography(),
     )

@@ -25,9 +25,10 @@ from crankwork.locale import say, texts
 from crankwork.note.contents import WRITERS, note_of, sheets_of
 from crankwork.note.document import Equation, Figure, Heading, ItemList, Math, Note, Paragraph, Table
 from crankwork.note.equations import printed_equation
-from crankwork.note.linkage_words import Words, subscript
 from crankwork.note.numbering import numbering
 from crankwork.note.options import NoteOptions
+from crankwork.note.symbols import subscript
+from crankwork.note.words import Words
 from crankwork.quantities import LANGUAGES
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -17,6 +17,7 @@ from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.contents import note_of
 from crankwork.note.document import Table
+from crankwork.note.engine_tables import folded
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.language import key_unit, reader_units
@@ -132,3 +133,14 @@ def test_the_numbers_of_tables_are_those_of_the_results(results_of, file, way):
                 columns = list(printed_columns(table))
                 unknown |= {(language, label, *one[:6].tolist()) for one, half in columns if not held.has(one, half)}
     assert sorted(unknown) == []
+
+
+def test_a_long_narrow_table_stands_side_by_side_and_loses_nothing():
+    rows = [(str(k), f"{k}.5") for k in range(100)]
+    table = folded(Table("long", (("a",), ("b",)), rows, align="cr"))
+    assert len(table.headings) == 6
+    assert len(table.rows) == 34
+    beside = [row[part : part + 2] for part in (0, 2, 4) for row in table.rows]
+    assert [one for one in beside if one != ("", "")] == rows
+    short = Table("short", (("a",),), [("1",)] * 24, align="c")
+    assert folded(short) is short

@@ -25,9 +25,9 @@ from crankwork.kinematics.textbook import textbook_displacement
 from crankwork.note.sheets import Paper, TitleBlock, drawn_sheets
 from crankwork.note.sheets.packing import Picture
 from crankwork.note.sheets.sheet import SIZES, sheets_with
-from crankwork.note.sheets.text import text_block
+from crankwork.note.sheets.table import text_block
 from crankwork.quantities import LANGUAGES
-from crankwork.report.figure_data import drawn_from
+from crankwork.report.engine_figure_data import engine_drawn
 from crankwork.report.figures import drawings
 from crankwork.show.dxf import dxf
 from crankwork.show.place import FINE, round_scale
@@ -113,7 +113,7 @@ def test_the_angle_of_a_cycle_is_drawn_to_two_or_four_degrees_a_millimetre():
 
 @pytest.mark.parametrize("per_area", [False, True])
 def test_forces_measured_on_the_sheet_are_the_forces(per_area):
-    drawn = drawn_from(results("spark-engine"), "en", per_area=per_area)
+    drawn = engine_drawn(results("spark-engine"), "en", per_area=per_area)
     sheet = sheets("spark-engine", per_area=per_area)[1]
     for name, key, sign in (("piston_forces", "piston_force", "F"), ("rod_forces", "side_force", "F")):
         drawing = sheet.figure(name).drawing
@@ -263,7 +263,10 @@ def test_sheets_are_filled(name):
     for sheet in sheets(name, "ru"):
         # plans of one scale leave room beside those that are small
         least = {1: 0.25, 2: 0.25, 3: 0.55}.get(len(sheet.figures), 0.55 if sheet.name == "linkage-kinematics" else 0.6)
-        assert sheet.filled > least, (sheet.name, round(sheet.filled, 3))
+        field, block = sheet.paper.frame, sheet.paper.reserved
+        covered = sum(one.ink.width * one.ink.height for one in sheet.figures)
+        filled = covered / (field.width * field.height - block.width * block.height)
+        assert filled > least, (sheet.name, round(filled, 3))
 
 
 @pytest.mark.parametrize("name", ALL)

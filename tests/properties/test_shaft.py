@@ -14,11 +14,10 @@ from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fitted import fitted
 from crankwork.shaft.fluctuation import excess_work, true_speed
-from crankwork.shaft.flywheel import flywheel, flywheels
-from crankwork.shaft.motor import LinearMotor
-from crankwork.shaft.motor_choice import motor_need
+from crankwork.shaft.flywheel import WAYS, flywheel
 from crankwork.shaft.speed import ReducedMachine, steady_speed
 from crankwork.shaft.transient import FreeMachine, Run
+from motors import LinearMotor, missed
 
 TURN = 2 * math.pi
 small = st.floats(-0.3, 0.3)
@@ -26,15 +25,12 @@ small = st.floats(-0.3, 0.3)
 
 @st.composite
 def inertias(draw):
-    angle = np.linspace(0, TURN, 181)
-    value, slope = np.ones_like(angle), np.zeros_like(angle)
-    for order in (1, 2, 3):
-        a, b = draw(small), draw(small)
-        value += (a * np.cos(order * angle) + b * np.sin(order * angle)) / 2
-        slope += order * (b * np.cos(order * angle) - a * np.sin(order * angle)) / 2
-    assume(np.min(value) > 0.05)
-    size = draw(st.floats(0.1, 10))
-    return Curve.hermite(angle, size * value, size * slope)
+    size, orders = draw(st.floats(0.1, 10)), [(order, draw(small), draw(small)) for order in (1, 2, 3)]
+    curve = Curve.fitted(
+        lambda phi: size * (1 + sum(a * np.cos(k * phi) + b * np.sin(k * phi) for k, a, b in orders) / 2), [0.0, TURN]
+    )
+    assume(curve.extremes().least > 0.05 * size)
+    return curve
 
 
 @st.composite
@@ -54,19 +50,19 @@ fluctuations = st.floats(0.002, 0.3)
 def test_the_exact_flywheel_gives_the_fluctuation_asked_for(inertia, torque, delta, speed):
     found = flywheel(inertia, torque, speed, delta)
     assume(found.inertia > -inertia.extremes().least + 1e-6)
-    assert abs(found.residual) < 1e-9
+    assert true_speed(inertia + found.inertia, torque, speed).fluctuation == pytest.approx(delta, abs=1e-9)
 
 
 @given(st.floats(0.0, 5.0), torques(), fluctuations)
 def test_constant_inertia_makes_all_ways_the_same(inertia, torque, delta):
-    found = flywheels(Curve.constant(inertia), torque, 10.0, delta)
+    found = [flywheel(Curve.constant(inertia), torque, 10.0, delta, way) for way in WAYS]
     assert [one.inertia for one in found] == pytest.approx([found[0].inertia] * 4, rel=1e-9, abs=1e-9)
 
 
 @given(inertias(), torques())
 def test_the_other_ways_tend_to_the_exact_one(inertia, torque):
     delta, speed = 1e-4, 10.0
-    _, mertsalov, wittenbauer, exact = flywheels(inertia, torque, speed, delta)
+    mertsalov, wittenbauer, exact = (flywheel(inertia, torque, speed, delta, way) for way in WAYS[1:])
     swing = inertia.extremes().largest
     assert abs(mertsalov.inertia - exact.inertia) <= 2 * swing
     assert abs(wittenbauer.inertia - exact.inertia) <= delta * swing
@@ -85,17 +81,10 @@ def test_kinetic_energy_gained_is_work_done(inertia, torque, speed):
 
 @given(torques(), st.floats(0, TURN))
 def test_where_the_cycle_begins_does_not_matter(torque, by):
-    """Mean, rms and excess work of a torque that comes later."""
+    """Mean and excess work of a torque that comes later."""
     later = torque.delayed(by)
-    assert (later.mean, later.rms) == pytest.approx((torque.mean, torque.rms), rel=1e-9, abs=1e-9)
+    assert later.mean == pytest.approx(torque.mean, rel=1e-9, abs=1e-9)
     assert excess_work(later).work == pytest.approx(excess_work(torque).work, rel=1e-9)
-
-
-@given(torques())
-def test_mean_rms_and_largest_are_in_order(torque):
-    need = motor_need(torque, 1.0)
-    assert abs(need.mean_torque) <= need.rms_torque * (1 + 1e-12)
-    assert need.mean_torque <= need.largest_torque + 1e-9
 
 
 @settings(max_examples=25)
@@ -104,10 +93,9 @@ def test_steady_motion_repeats_and_balances(inertia, torque, speed, stiffness):
     motor = LinearMotor(stiffness, speed - torque.mean / stiffness)
     machine = ReducedMachine.of_curves(inertia, torque, motor, flywheel=100.0)
     found = steady_speed(machine, speed)
-    assume(found.status == "steady")
+    assume(found is not None)
     assert found.speed[-1] == pytest.approx(found.speed[0], rel=1e-13)
-    assert found.energy_drift < 1e-12
-    assert found.multiplier < 1
+    assert missed(machine, found) < 1e-9
 
 
 @settings(max_examples=25)

@@ -41,10 +41,10 @@ from crankwork.mechanism.catalog import (
     whitworth,
 )
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.description import mechanism_from
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.joints import SlidingJoint, group_links, joints
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at, slider_crank
+from linkages import mechanism_from
 
 pytestmark = pytest.mark.elsewhere
 

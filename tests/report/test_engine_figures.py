@@ -20,9 +20,9 @@ from crankwork.description.machine_file import read
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.machine import Bearings, Drive, Engine
 from crankwork.quantities import LANGUAGES
-from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_data import EngineDrawn, engine_drawn
 from crankwork.report.engine_figure_list import figure_list
-from crankwork.report.figure_data import drawn_from, figure_title
+from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import figures
 from crankwork.show.chart import round_ticks
 from crankwork.show.chart import sign as sign_paper
@@ -58,7 +58,7 @@ def results(request) -> Results:
 
 @pytest.fixture(scope="module")
 def drawn(results) -> EngineDrawn:
-    return EngineDrawn(drawn_from(results, "en", per_area=False))
+    return engine_drawn(results, "en", per_area=False)
 
 
 def _graphs(engine: EngineDrawn, name: str):
@@ -89,7 +89,7 @@ def test_every_figure_is_drawn_with_a_title_and_no_mark_left_in_its_texts(result
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_texts_stay_on_the_paper_and_titles_off_each_other(results, language):
-    engine = EngineDrawn(drawn_from(results, language, per_area=False))
+    engine = engine_drawn(results, language, per_area=False)
     for name, draw in figure_list(engine).items():
         paper, _ = draw(engine)
         for text, left, top, right, bottom in paper.texts:
@@ -114,22 +114,22 @@ def test_the_largest_distance_from_the_pole_is_the_largest_load(results, drawn):
 
 
 def test_the_pole_of_one_cylinder_lies_at_the_inertia_force_of_its_big_end():
-    engine = EngineDrawn(drawn_from(analyse(read(ROOT / "examples" / "slider-crank.toml")), "en", per_area=False))
+    engine = engine_drawn(analyse(read(ROOT / "examples" / "slider-crank.toml")), "en", per_area=False)
     assert set(figure_list(engine)) == {"kinematics", "brix", "tolle"}
     results = analyse(read(ROOT / "examples" / "spark-engine.toml"))
-    engine = EngineDrawn(drawn_from(results, "en", per_area=False))
+    engine = engine_drawn(results, "en", per_area=False)
     assert set(figure_list(engine)) == ONE
     masses, solved = results.solved.machine.masses, results.solved
     expected = masses.rod_big_end * float(solved.lengths.crank_radius) * solved.speed**2
     graph = _graph(engine, "crankpin_polar")
     assert graph.curves["pole"][1][0] == pytest.approx(expected)
-    np.testing.assert_allclose(graph.curves["load"][1][:-1], engine.drawn.columns["radial_force"], atol=1e-9)
+    np.testing.assert_allclose(graph.curves["load"][1][:-1], engine.columns["radial_force"], atol=1e-9)
 
 
 def test_the_indicator_diagram_holds_its_named_points_and_the_sharp_one_if_known():
     results = analyse(read(ROOT / "examples" / "spark-engine.toml"))
-    drawn = drawn_from(results, "en", per_area=False)
-    graph = _graph(EngineDrawn(drawn), "indicator")
+    drawn = engine_drawn(results, "en", per_area=False)
+    graph = _graph(drawn, "indicator")
     named = results.solved.space.diagram.named
     expected = [(pressure - results.solved.space.ambient) / 1e6 for _, pressure in named.values()]
     np.testing.assert_allclose(graph.curves["points"][1], expected)
@@ -143,14 +143,14 @@ def test_the_indicator_diagram_holds_its_named_points_and_the_sharp_one_if_known
             return getattr(self._space, name)
 
     solved = replace(results.solved, space=WithSharpDiagram(results.solved.space))
-    shown = EngineDrawn(drawn._replace(results=replace(results, solved=solved)))
+    shown = replace(drawn, results=replace(results, solved=solved))
     curves = _graph(shown, "indicator").curves
     np.testing.assert_allclose(curves["theoretical"], curves["gas_pressure"])
 
 
 def test_both_indicator_diagrams_lie_within_the_axes_and_are_named():
     results = analyse(read(ROOT / "examples" / "radial-five.toml"))
-    paper, graphs = figure_list(engine := EngineDrawn(drawn_from(results, "en", per_area=False)))["indicator"](engine)
+    paper, graphs = figure_list(engine := engine_drawn(results, "en", per_area=False))["indicator"](engine)
     graph = graphs["indicator"]
     assert graph.curves["theoretical"][1].max() < graph.y[1]
     assert any("theoretical diagram" in text for text, *_ in paper.texts)
@@ -158,7 +158,7 @@ def test_both_indicator_diagrams_lie_within_the_axes_and_are_named():
 
 def test_the_loop_of_gas_exchange_is_drawn_larger_where_nothing_else_is():
     results = analyse(read(ROOT / "examples" / "radial-five.toml"))
-    graphs = _graphs(EngineDrawn(drawn_from(results, "en", per_area=False)), "indicator")
+    graphs = _graphs(engine_drawn(results, "en", per_area=False), "indicator")
     whole, inset = graphs["indicator"], graphs["inset"]
     assert np.ptp(inset.y) < 0.1 * np.ptp(whole.y)
     assert min(inset.y) < 0 < max(inset.y)
@@ -239,7 +239,7 @@ def test_the_mean_of_a_polar_diagram_is_a_circle_around_its_pole(results, drawn)
 
 def test_the_big_end_is_pressed_from_below_when_the_rod_pushes():
     # at the largest gas pressure the rod is in compression: crankpin on the rod upward, piston pin on it downward
-    engine = EngineDrawn(drawn_from(_engine("inline-4"), "en", per_area=False))
+    engine = engine_drawn(_engine("inline-4"), "en", per_area=False)
     for name, sign in (("big_end_polar", 1), ("small_end_polar", -1)):
         graph = _graph(engine, name)
         x, y = graph.curves["load"]
@@ -303,7 +303,7 @@ def test_the_total_torque_is_the_sum_of_the_drawn_cylinders(results, drawn):
 
 
 def test_the_last_journal_carries_the_total_torque(drawn):
-    throws = {place.throw for place in drawn.drawn.results.machine.engine.layout.places}
+    throws = {place.throw for place in drawn.results.machine.engine.layout.places}
     assert ("accumulated_torque" in figure_list(drawn)) == (len(throws) > 1)
     if len(throws) == 1:
         return
@@ -360,7 +360,7 @@ def test_phase_stars_stack_equal_directions_and_add_up(drawn):
 def test_free_forces_have_loci_as_long_as_their_listing():
     assert "balance_ellipses" not in figures(_engine("inline-6"))
     results = _engine("inline-4", rotating_share=1.0, balance_shafts=(2,))
-    engine = EngineDrawn(drawn_from(results, "en", per_area=False))
+    engine = engine_drawn(results, "en", per_area=False)
     graphs = _graphs(engine, "balance_ellipses")
     assert list(graphs) == ["2"]
     balance = results.listings["balance"]

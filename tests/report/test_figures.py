@@ -16,7 +16,8 @@ from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read, read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.quantities import LANGUAGES
-from crankwork.report.figure_data import drawn_from, figure_title
+from crankwork.report.engine_figure_data import engine_drawn
+from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import drawings, figures
 from crankwork.report.tables import sheets
 from crankwork.show.alt import described
@@ -148,7 +149,7 @@ def test_forces_per_area_without_a_bore_are_refused():
 
 
 def test_the_curves_hold_the_numbers_of_the_table(engine):
-    drawn = drawn_from(engine, "en", per_area=False)
+    drawn = engine_drawn(engine, "en", per_area=False)
     at = np.searchsorted(drawn.degrees, engine.grid.degrees)
     for key in ("gas_pressure", "piston_force", "crank_torque", "radial_force"):
         np.testing.assert_allclose(drawn.columns[key][at], engine.columns[key], rtol=1e-12, atol=1e-6)
@@ -156,7 +157,7 @@ def test_the_curves_hold_the_numbers_of_the_table(engine):
 
 def test_both_sides_of_a_jump_of_pressure_are_drawn():
     results = _results(ROOT / "examples" / "spark-engine.toml")
-    drawn = drawn_from(results, "en", per_area=False)
+    drawn = engine_drawn(results, "en", per_area=False)
     near = drawn.columns["gas_pressure"][np.abs(drawn.degrees - 360) < 1e-3]
     assert near.tolist() == pytest.approx([2.42322e6, 4.5083e6], rel=1e-4)
 

@@ -23,10 +23,6 @@ def test_the_mean_of_triangles():
     assert TRIANGLES.mean == pytest.approx((2000 * 180 + 1500 * 180) / 2 / 360, rel=1e-15)
 
 
-def test_the_rms_of_a_triangle():
-    assert Curve.linear([0, 1, 2], [0, 3, 0]).rms == pytest.approx(math.sqrt(3), rel=1e-15)
-
-
 def test_a_jump_is_taken_from_the_right():
     step = Curve.linear([0, 1, 1, 2], [3.0, 3.0, 5.0, 5.0])
     assert step([0.5, 1.0, 1.5, 2.0]) == pytest.approx([3, 5, 5, 3])
@@ -56,17 +52,14 @@ def test_a_delayed_curve(by):
     assert TRIANGLES.delayed(by)(angle) == pytest.approx(TRIANGLES(angle - by), abs=1e-9)
 
 
-def test_hermite_has_the_slopes_asked_for():
-    angle = np.linspace(0, 2 * math.pi, 181)
-    curve = Curve.hermite(angle, np.sin(angle), np.cos(angle))
-    between = angle[:-1] + 0.01
-    assert curve(between) == pytest.approx(np.sin(between), abs=1e-8)
-    assert curve.derivative(angle[:-1]) == pytest.approx(np.cos(angle[:-1]))
+def test_a_fitted_curve_has_the_values_and_the_slopes_of_its_function():
+    curve, angle = Curve.fitted(np.sin, [0, 2 * math.pi]), np.linspace(0, 2 * math.pi, 181)[:-1]
+    assert curve(angle) == pytest.approx(np.sin(angle), abs=1e-13)
+    assert curve.derivative(angle) == pytest.approx(np.cos(angle), abs=1e-10)
 
 
 def test_extremes_between_the_points():
-    angle = np.linspace(0, 2 * math.pi, 181) + 0.004
-    curve = Curve.hermite(angle, np.sin(angle), np.cos(angle))
+    curve = Curve.fitted(np.sin, [0.004, 2 * math.pi + 0.004])
     least, at_least, largest, at_largest = curve.extremes()
     assert (least, largest) == pytest.approx((-1, 1), abs=1e-8)
     assert (at_least, at_largest) == pytest.approx((1.5 * math.pi, 0.5 * math.pi), abs=1e-6)
@@ -93,5 +86,3 @@ def test_what_cannot_be_combined():
         TRIANGLES.integral * TRIANGLES
     with pytest.raises(MethodError, match="grows"):
         TRIANGLES.integral.delayed(1.0)
-    with pytest.raises(MethodError, match="jumps"):
-        Curve.hermite([0, 1, 1, 2], [0, 0, 0, 0], [0, 0, 0, 0])

@@ -10,17 +10,12 @@ import pytest
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_inertia, true_speed
-from crankwork.shaft.flywheel import WAYS, flywheel, flywheels, inertia_on_other_shaft, mass_energy_curve
-from crankwork.shaft.wheel import rim_speed_of_stress
+from crankwork.shaft.flywheel import WAYS, flywheel, inertia_on_other_shaft
+from crankwork.shaft.wheel import inertia_of_wheel, rim_speed_of_stress
 
 pytestmark = pytest.mark.elsewhere
 
-ANGLE = np.linspace(0, 2 * math.pi, 361)
-INERTIA = Curve.hermite(
-    ANGLE,
-    0.5 + 0.2 * np.cos(2 * ANGLE) + 0.05 * np.sin(ANGLE),
-    -0.4 * np.sin(2 * ANGLE) + 0.05 * np.cos(ANGLE),
-)
+INERTIA = Curve.fitted(lambda phi: 0.5 + 0.2 * np.cos(2 * phi) + 0.05 * np.sin(phi), [0, 2 * math.pi])
 LOAD = Curve.linear(np.radians([0, 200, 230, 250, 360]), [-40.0, -40.0, -400.0, -40.0, -40.0])
 
 
@@ -52,12 +47,12 @@ def test_acceleration_is_the_derivative_of_the_speed():
 @pytest.mark.parametrize("fluctuation", [0.3, 0.1, 0.02, 0.001])
 def test_the_exact_flywheel_gives_the_fluctuation_asked_for(fluctuation):
     found = flywheel(INERTIA, LOAD, 10.0, fluctuation)
-    assert abs(found.residual) < 1e-12
+    turning = true_speed(INERTIA + found.inertia, LOAD, 10.0)
+    assert turning.fluctuation == pytest.approx(fluctuation, abs=1e-12)
 
 
 def test_the_ways_agree_where_the_inertia_is_constant():
-    found = flywheels(Curve.constant(0.5), LOAD, 10.0, 0.05)
-    assert [one.way for one in found] == list(WAYS)
+    found = [flywheel(Curve.constant(0.5), LOAD, 10.0, 0.05, way) for way in WAYS]
     assert [one.inertia for one in found] == pytest.approx([found[0].inertia] * 4, rel=1e-13)
     assert found[0].inertia + 0.5 == pytest.approx(excess_work(LOAD).work / (0.05 * 100))
 
@@ -71,19 +66,8 @@ def test_order_of_convergence():
     assert math.log2(error("wittenbauer", 0.02) / error("wittenbauer", 0.01)) == pytest.approx(2, abs=0.1)
 
 
-def test_the_tangents_meet_in_the_origin_of_the_whole_machine():
-    found = flywheel(INERTIA, LOAD, 10.0, 0.1)
-    high, low = 10.5**2 / 2, 9.5**2 / 2
-    diagram = mass_energy_curve(INERTIA, excess_work(LOAD).curve, high, low)
-    x, y = diagram.origin
-    assert -x == pytest.approx(found.inertia, rel=1e-12)
-    assert -y == pytest.approx(true_speed(INERTIA + found.inertia, LOAD, 10.0).energy, rel=1e-12)
-
-
 def test_a_machine_that_needs_no_flywheel():
-    heavy = flywheel(Curve.constant(1000.0), LOAD, 10.0, 0.1)
-    assert heavy.inertia < 0
-    assert heavy.fluctuation == pytest.approx(0.1)
+    assert flywheel(Curve.constant(1000.0), LOAD, 10.0, 0.1).inertia < 0
 
 
 @pytest.mark.parametrize(("speed", "fluctuation"), [(10, 0), (10, 2), (10, -0.1), (0, 0.1)])
@@ -97,14 +81,14 @@ def test_a_machine_that_would_stop_says_where():
         true_speed(INERTIA, LOAD, 1.0)
 
 
-def test_a_negative_inertia_has_no_motion():
-    swinging = Curve.hermite(ANGLE, 5 + 4 * np.cos(ANGLE), -4 * np.sin(ANGLE))
-    assert math.isnan(flywheel(swinging, LOAD * 0.001, 10.0, 0.5, "energy").fluctuation)
-
-
 def test_a_flywheel_on_a_faster_shaft_counts_by_the_square_of_the_ratio():
     assert inertia_on_other_shaft(2.0, 3.0) == 18.0
     assert fluctuation_of_inertia(10.0, 2.0, 5.0) == 0.2
+
+
+def test_a_wheel_has_the_inertia_of_its_mass_at_its_radius_of_gyration():
+    """Khurmi and Gupta, Theory of Machines, ch. 16: 6500 kg at 1.8 m, 21 060 kg m2."""
+    assert inertia_of_wheel(6500.0, 1.8) == pytest.approx(21060.0, rel=1e-12)
 
 
 def test_a_rim_turns_as_fast_as_its_hoop_stress_allows():
@@ -114,6 +98,6 @@ def test_a_rim_turns_as_fast_as_its_hoop_stress_allows():
 
 def test_mertsalovs_flywheel_where_nothing_works_holds_what_swings_of_the_inertia():
     """Without torque the energy of the second group alone swings: J = (J_max - J_min) / (2 delta) - J_min."""
-    inertia = Curve.hermite(ANGLE, 3.0 + np.cos(2 * ANGLE), -2.0 * np.sin(2 * ANGLE))
+    inertia = Curve.fitted(lambda phi: 3.0 + np.cos(2 * phi), [0, 2 * math.pi])
     found = flywheel(inertia, Curve.linear([0, 2 * math.pi], [0.0, 0.0]), 10.0, 0.05, "mertsalov")
     assert found.inertia == pytest.approx(2.0 / (2 * 0.05) - 2.0, rel=1e-12)

@@ -12,15 +12,11 @@ from crankwork.shaft.curve import Curve
 from crankwork.shaft.motor import (
     AsynchronousMotor,
     GearedMotor,
-    LinearMotor,
     breakdown_slip,
-    breakdown_slip_full,
     synchronous_speed,
 )
-from crankwork.shaft.motor_choice import (
-    first_angle_beyond,
-    motor_need,
-)
+from crankwork.shaft.motor_choice import first_angle_beyond
+from motors import LinearMotor
 
 pytestmark = pytest.mark.elsewhere
 
@@ -32,9 +28,8 @@ def test_synchronous_speed():
     assert synchronous_speed(60.0, 3, math.pi) == pytest.approx(1200 * RPM)
 
 
-@pytest.mark.parametrize("ratio", [0.0, 0.5, 1.0])
-def test_a_catalogue_motor_has_its_rated_and_its_greatest_torque(ratio):
-    motor = AsynchronousMotor.of_catalogue(7500.0, 1455 * RPM, 2.5, resistance_ratio=ratio)
+def test_a_catalogue_motor_has_its_rated_and_its_greatest_torque():
+    motor = AsynchronousMotor.of_catalogue(7500.0, 1455 * RPM, 2.5)
     rated = 7500 / (1455 * RPM)
     assert motor.torque(1455 * RPM) == pytest.approx(rated, rel=1e-12)
     speeds = np.linspace(0, 1500 * RPM, 100001)
@@ -43,17 +38,14 @@ def test_a_catalogue_motor_has_its_rated_and_its_greatest_torque(ratio):
     assert motor.torque(1600 * RPM) < 0.0
 
 
-def test_the_full_formula_with_no_stator_is_the_simplified_one():
-    assert breakdown_slip_full(0.03, 2.2, 0.0) == breakdown_slip(0.03, 2.2)
+def test_the_slip_of_the_greatest_torque():
     assert breakdown_slip(0.03, 2.2) == pytest.approx(0.03 * 4.1595918, rel=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("speed", "overload", "ratio"), [(1500 * RPM, 2.0, 0.0), (1400 * RPM, 1.0, 0.0), (1000 * RPM, 3.0, 1.0)]
-)
-def test_motors_that_do_not_exist(speed, overload, ratio):
+@pytest.mark.parametrize(("speed", "overload"), [(1500 * RPM, 2.0), (1400 * RPM, 1.0)])
+def test_motors_that_do_not_exist(speed, overload):
     with pytest.raises(MethodError):
-        AsynchronousMotor.of_catalogue(7500.0, speed, overload, resistance_ratio=ratio)
+        AsynchronousMotor.of_catalogue(7500.0, speed, overload)
 
 
 def test_a_gear():
@@ -64,14 +56,6 @@ def test_a_gear():
 
 
 LOAD = Curve.linear(np.radians([0, 90, 90, 180, 180, 360]), [10.0, 10.0, 100.0, 100.0, 10.0, 10.0])
-
-
-def test_what_a_load_needs():
-    need = motor_need(LOAD, 20.0, efficiency=0.8, safety=1.2)
-    assert need.mean_torque == pytest.approx(32.5)
-    assert need.rms_torque == pytest.approx(math.sqrt((100 * 3 + 10000) / 4))
-    assert need.mean_power == pytest.approx(1.2 * 32.5 * 20 / 0.8)
-    assert (need.largest_torque, need.at_largest) == pytest.approx((100, math.pi / 2))
 
 
 def test_where_the_load_first_exceeds_a_torque():

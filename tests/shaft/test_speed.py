@@ -10,17 +10,13 @@ import pytest
 from crankwork.shaft.collocation import integrate_periodic
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import true_speed
-from crankwork.shaft.motor import AsynchronousMotor, GearedMotor, LinearMotor
+from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 from crankwork.shaft.speed import ReducedMachine, steady_speed
+from motors import LinearMotor, missed
 
 pytestmark = pytest.mark.elsewhere
 
-ANGLE = np.linspace(0, 2 * math.pi, 361)
-INERTIA = Curve.hermite(
-    ANGLE,
-    0.5 + 0.2 * np.cos(2 * ANGLE) + 0.05 * np.sin(ANGLE),
-    -0.4 * np.sin(2 * ANGLE) + 0.05 * np.cos(ANGLE),
-)
+INERTIA = Curve.fitted(lambda phi: 0.5 + 0.2 * np.cos(2 * phi) + 0.05 * np.sin(phi), [0, 2 * math.pi])
 LOAD = Curve.linear(np.radians([0, 40, 80, 120, 360]), [-5.0, -5.0, -100.0, -5.0, -5.0])
 MOTOR = GearedMotor(AsynchronousMotor.of_catalogue(750.0, 148.0, 2.2), 14.0, 0.002)
 
@@ -31,10 +27,10 @@ def machine(flywheel=3.0, load=LOAD, motor=MOTOR):
 
 class TestCollocation:
     def test_a_periodic_solution(self):
-        """The solution of y' = -y + cos x that repeats is (cos x + sin x) / 2."""
+        """The solution of y' = 2 - y + cos x that repeats is 2 + (cos x + sin x) / 2."""
         edges = np.linspace(0, 2 * math.pi, 5)
-        solved = integrate_periodic(lambda x, y: np.cos(x) - y, edges, np.ones(5))
-        assert solved.values == pytest.approx((np.cos(solved.edges) + np.sin(solved.edges)) / 2, abs=1e-13)
+        solved = integrate_periodic(lambda x, y: 2 + np.cos(x) - y, edges, np.ones(5))
+        assert solved.values == pytest.approx(2 + (np.cos(solved.edges) + np.sin(solved.edges)) / 2, abs=1e-13)
         assert solved.multiplier == pytest.approx(math.exp(-2 * math.pi))
 
     def test_no_periodic_solution_is_not_solved(self):
@@ -46,10 +42,8 @@ class TestCollocation:
 class TestSteady:
     def test_the_speed_repeats_and_the_energy_balances(self):
         found = steady_speed(machine(), 11.0)
-        assert found.status == "steady"
         assert found.speed[0] == pytest.approx(found.speed[-1], rel=1e-14)
-        assert found.energy_drift < 1e-13
-        assert found.multiplier < 1
+        assert missed(machine(), found) < 1e-10
 
     def test_it_does_not_depend_on_the_guess(self):
         one, two = (steady_speed(machine(), guess) for guess in (10.0, 11.2))
@@ -70,9 +64,7 @@ class TestSteady:
         assert found.speed == pytest.approx(exact.speed(found.angle), rel=1e-5)
 
     def test_a_load_beyond_the_motor_is_not_solved(self):
-        found = steady_speed(machine(load=Curve.constant(-400.0)), 10.0)
-        assert found.status == "not solved"
-        assert "weaker than the load" in found.message
+        assert steady_speed(machine(load=Curve.constant(-400.0)), 10.0) is None
 
     def test_no_steady_speed_without_a_motor(self):
-        assert steady_speed(ReducedMachine.of_curves(INERTIA, LOAD - LOAD.mean), 10.0).status == "not solved"
+        assert steady_speed(ReducedMachine.of_curves(INERTIA, LOAD - LOAD.mean), 10.0) is None

@@ -34,7 +34,11 @@ def studio_of(folder: Path, *arguments: str) -> Generator[Started]:
     with (
         complaints.open("w") as told,
         subprocess.Popen(
-            words, env=os.environ | {"PYTHONPATH": source}, stdout=subprocess.PIPE, stderr=told, text=True
+            words,
+            env=os.environ | {"PYTHONPATH": source, "CRANKWORK_CACHE": str(folder / "cache")},
+            stdout=subprocess.PIPE,
+            stderr=told,
+            text=True,
         ) as running,
     ):
         try:

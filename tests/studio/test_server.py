@@ -135,21 +135,27 @@ def test_a_file_is_saved_with_its_comments_and_never_over_what_somebody_wrote(tm
         assert json.loads(socket.recv())["path"] == str(path)
 
         def ask(**question):
-            socket.send(json.dumps({"n": 1, "text": text, **question}))
+            own = {"n": 1, "text": text, "path": str(path), "kept": text, "name": "mine"}
+            socket.send(json.dumps({**own, **question}))
             return json.loads(socket.recv())
 
         changed = ask(do="set", fields={"crank.radius": "60 mm"})["text"]
         assert ask(do="save", text=changed) == {"n": 1, "saved": str(path)}
         assert path.read_text("utf-8") == changed
         assert changed == text.replace('"62.5 mm"', '"60 mm"')
-        assert ask(do="disk") == {"n": 1, "changed": False}
+        assert ask(do="disk", kept=changed) == {"n": 1, "changed": False}
+        # another page has not seen that
+        assert ask(do="save") == {"n": 1, "conflict": str(path)}
         path.write_text("# somebody else\n", encoding="utf-8")
-        assert ask(do="disk") == {"n": 1, "changed": True}
-        assert ask(do="save", text=text) == {"n": 1, "conflict": str(path)}
+        assert ask(do="disk", kept=changed) == {"n": 1, "changed": True}
+        assert ask(do="save", kept=changed) == {"n": 1, "conflict": str(path)}
         assert path.read_text("utf-8") == "# somebody else\n"
         assert ask(do="disk", take=True)["text"] == "# somebody else\n"
-        assert ask(do="save", text=text, anyway=True)["saved"]
+        assert ask(do="save", anyway=True)["saved"]
         assert path.read_text("utf-8") == text
+        path.unlink()
+        assert ask(do="save") == {"n": 1, "gone": True}
+        assert ask(do="save", anyway=True)["saved"]
 
 
 def test_two_pages_do_not_disturb_each_other(started):

@@ -26,9 +26,10 @@ from crankwork.loads.monotone import hermite, hermite_slope
 from crankwork.loads.pressure import remembered_pressure
 from crankwork.working_cycle.first_law import internal_energy_change
 from crankwork.working_cycle.heat_data import HeatReleaseData, stages
-from crankwork.working_cycle.heat_release import HeatReleaseResult, cylinder_volumes, heat_release
+from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
 from crankwork.working_cycle.wiebe import wiebe_burning_rate, wiebe_burnt_fraction
 from crankwork.working_cycle.woschni import EXPANSION, woschni_coefficient, woschni_gas_speed
+from engines import cylinder_volumes
 
 BORE, RATIO = 0.08, 9.0
 CENTRAL = SliderCrank(0.04, 0.14, 0.0)

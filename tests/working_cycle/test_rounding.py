@@ -16,7 +16,6 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt, solve_diagram
-from crankwork.working_cycle.heat_release import cylinder_volumes
 from crankwork.working_cycle.rounding import (
     RoundedDiagram,
     Rounding,
@@ -25,6 +24,7 @@ from crankwork.working_cycle.rounding import (
     rounded_diagram,
     theoretical_work,
 )
+from engines import cylinder_volumes
 
 PETROL = {"p_r": 1.18e5, "p_a": 0.85e5, "p_z": 6.2e6, "n1": 1.37, "n2": 1.25}
 DIESEL = {"p_r": 1.1e5, "p_a": 0.9e5, "p_z": 8e6, "n1": 1.37, "n2": 1.26, "rho": 1.35}

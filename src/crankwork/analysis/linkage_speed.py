@@ -20,9 +20,10 @@ from crankwork.machine import Machine
 from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.fluctuation import excess_work, share_of_work, speed_of_energy, true_speed
 from crankwork.shaft.flywheel import (
+    WAYS,
     Flywheel,
+    flywheel,
     flywheel_beside_machine,
-    flywheels,
     inertia_for_fluctuation,
     inertia_on_other_shaft,
     slope_largest,
@@ -33,7 +34,7 @@ from crankwork.shaft.flywheel import (
     work_of_mean_torque,
 )
 from crankwork.shaft.motor import GearedMotor
-from crankwork.shaft.motor_choice import first_angle_beyond, motor_need, needed_power
+from crankwork.shaft.motor_choice import first_angle_beyond, needed_power
 from crankwork.shaft.speed import ReducedMachine, steady_speed
 
 _SLOPES = {
@@ -88,7 +89,7 @@ def _curves(over: OverCycle, memory: Mapping[str, Known]) -> tuple[Curve, Curve]
 def _even(machine: Machine, memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known) -> tuple[Turn, float]:
     """Return the flywheel in four ways, where one is wanted, and with the exact one or a given one the true speed."""
     of, wanted = (memory["static_torque"], memory["reduced_inertia"]), wanted_fluctuation(machine, w)
-    found = () if wanted is None else flywheels(inertia, load, w.value, wanted.value)
+    found = [] if wanted is None else [flywheel(inertia, load, w.value, wanted.value, way) for way in WAYS]
     # a way that finds a negative inertia says that it needs none
     added = max(found[-1].inertia, 0.0) if found else 0.0
     turning, excess = true_speed(inertia + added, load, w.value), excess_work(load)
@@ -159,14 +160,14 @@ def _driven(
     """Return the power that the motor needs and the speed that it settles at."""
     drive, w, (inertia, load) = machine.drive, speed_of(machine), curves
     notices: tuple[Notice, ...] = ()
-    need = motor_need(-load, w.value, efficiency=drive.efficiency)
-    eta = efficiency_of(drive)
-    power = Known(Found(need.mean_power, "need", (w, eta)), "motor_power")
-    if need.mean_torque > 0 and "mean_torque" in memory:
+    mean, eta = (-load).mean, efficiency_of(drive)
+    needed = float(needed_power(1.0, mean, w.value, drive.efficiency))
+    power = Known(Found(needed, "need", (w, eta)), "motor_power")
+    if mean > 0 and "mean_torque" in memory:
         power = needed_power(absent("power_reserve", 1.0), memory["mean_torque"], w, eta)
     result = {"motor_power": power}
-    if need.mean_power > drive.rated_power:
-        powers: dict[str, float | str] = {"needed": need.mean_power / 1e3, "rated": drive.rated_power / 1e3}
+    if needed > drive.rated_power:
+        powers: dict[str, float | str] = {"needed": needed / 1e3, "rated": drive.rated_power / 1e3}
         notices = (Notice("overloaded", powers),)
     more, told = _steady(motor, w.value, inertia, load, added)
     return result | {key: Known(Found(value, "steady"), key) for key, value in more.items()}, notices + told
@@ -178,11 +179,11 @@ def _steady(
     """Return the steady speed with the motor, or why there is none."""
     reduced = ReducedMachine.of_curves(inertia, load, motor, flywheel=flywheel + motor.reduced_inertia)
     run = steady_speed(reduced, speed)
-    if run.status == "steady":
+    if run is not None:
         return {"steady_speed": run.mean_speed, "steady_fluctuation": run.fluctuation}, ()
     speeds = np.linspace(0.0, 2 * speed, 400)
     greatest = float(np.max(motor.torque(speeds)))
     stalls = first_angle_beyond(load * -1.0, greatest)
     if stalls is None:
-        return {}, (Notice("no_steady_speed", {"message": run.message}),)
+        return {}, (Notice("no_steady_speed", {"message": Refusal("steady_unfound", speed=speed)}),)
     return {}, (Notice("stalls", {"torque": greatest, "angle": float(np.degrees(stalls))}),)

@@ -29,7 +29,7 @@ from crankwork.loads.applied import AppliedLoads
 from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.load import applied_loads
 from crankwork.loads.potential import has_potential, potential_energy
-from crankwork.loads.process import ProcessForce, ProcessForceAtPoint, TorqueOnLink
+from crankwork.loads.process import ProcessForce, TorqueOnLink
 from crankwork.locale import Refusal
 from crankwork.machine import Machine, Transient
 from crankwork.shaft.fitted import fitted
@@ -162,7 +162,7 @@ class Loose:
     @cached_property
     def is_two_sided(self) -> bool:
         """Whether loads are others when the crank turns back."""
-        processes = (one for one in self.machine.loads if isinstance(one, ProcessForce | ProcessForceAtPoint))
+        processes = (one for one in self.machine.loads if isinstance(one, ProcessForce))
         return any(one.acts == "forward" for one in processes)
 
     @cached_property
@@ -236,7 +236,7 @@ class Loose:
 
     def _breaks(self, piece: Piece) -> Array:
         """Return the coordinates on a branch at which a law of the loads changes."""
-        jumping = (ProcessForce, ProcessForceAtPoint, TorqueOnLink)
+        jumping = (ProcessForce, TorqueOnLink)
         if not (any(isinstance(one, jumping) for one in self.machine.loads) or self.machine.chambers):
             return np.empty(0)
         start, end = sorted(map(math.degrees, (piece.first, piece.last)))

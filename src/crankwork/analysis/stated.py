@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.loads.chamber import Chamber, face_owners
 from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.load import Load
-from crankwork.loads.process import ForceOnPoint, ProcessForce, ProcessForceAtPoint, TorqueOnLink
+from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
 from crankwork.loads.spring import SliderSpring, Spring
 from crankwork.loads.weight import Weight
 from crankwork.machine import Machine
@@ -36,8 +36,6 @@ def _stated(load: Load) -> StatedLoad:
     match load:
         case ProcessForce():
             return StatedLoad("slider", {"name": load.slider}, {"force": (_largest(load.force), "N")})
-        case ProcessForceAtPoint():
-            return StatedLoad("point", {"name": load.point}, {"force": (_largest(load.force), "N")})
         case ForceOnPoint():
             return StatedLoad("force", {"name": load.point}, {"x": (load.x, "N"), "y": (load.y, "N")})
         case TorqueOnLink():

@@ -1,6 +1,6 @@
 // The bar of the cursor: what starts and stops, the slider, its number, the choice of colours; keys that move it.
 import { Motion } from "./machine.js";
-import { told } from "./numbers.js";
+import { nearest, placeOf } from "./numbers.js";
 
 /** @typedef {import("./cursor.js").Cursor} Cursor */
 
@@ -17,24 +17,27 @@ export function bar(cursor, axis, seconds, turns) {
   const play = /** @type {HTMLButtonElement | null} */ (document.getElementById("play"));
   if (!slider || !shown || !play) return undefined;
   const motion = new Motion(cursor, play, seconds, turns);
-  slider.max = String(cursor.rows.length - 1);
-  slider.addEventListener("input", () => cursor.snap(cursor.rows[Number(slider.value)]));
+  slider.max = String(cursor.stops.length - 1);
+  slider.addEventListener("input", () => cursor.snap(cursor.stops[Number(slider.value)]));
   cursor.follow(() => {
-    slider.value = String(cursor.row);
-    const text = told(axis, cursor.row);
+    slider.value = String(nearest(cursor.stops, cursor.at));
+    const text = placeOf(cursor, axis);
     shown.innerHTML = `${axis.symbol} = ${text}`;
     slider.setAttribute("aria-valuetext", text);
   });
-  document.addEventListener("keydown", (event) => {
+  const keyed = (/** @type {KeyboardEvent} */ event) => {
+    // another bar stands in its place
+    if (!play.isConnected) return document.removeEventListener("keydown", keyed);
     const target = /** @type {Element} */ (event.target);
     if (event.ctrlKey || event.altKey || event.metaKey || target.closest("input, select, textarea, button, summary, [role=button]")) return;
     if (event.key === "ArrowRight") cursor.step(1);
     else if (event.key === "ArrowLeft") cursor.step(-1);
-    else if (event.key === "Home") cursor.snap(cursor.rows[0]);
+    else if (event.key === "Home") cursor.snap(cursor.stops[0]);
     else if (event.key === " " && !target.closest("a")) play.click();
     else return;
     event.preventDefault();
-  });
+  };
+  document.addEventListener("keydown", keyed);
   const look = document.getElementById("look");
   look?.addEventListener("click", () => {
     const root = document.documentElement;

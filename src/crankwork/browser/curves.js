@@ -8,10 +8,11 @@ import { firstFrom, significant } from "./numbers.js";
 
 /**
  * A graph on a drawing: left, top, width and height [mm], ends of its scales, what stands across, titles of its axes;
- * where it follows sliders its curves, ticks, which of these have numbers, and powers of ten that the numbers lack.
+ * where it follows sliders its curves, ticks, which of these have numbers, and powers of ten that the numbers lack;
+ * of a plan of positions what stands upon joints.
  * @typedef {{box: [number, number, number, number], x: [number, number], y: [number, number], over: string,
  *   t: [string, string], curves?: Record<string, Made>, ticks?: [number[], number[]], labels?: [boolean, boolean],
- *   powers?: [number, number]}} Plot
+ *   powers?: [number, number], upon?: import("./plans.js").Upon}} Plot
  */
 
 export class Curve {

@@ -1,5 +1,5 @@
 // Two drags of the machine, never confused: along its freedom, and, with Shift held, of a dimension.
-import { Limits } from "./limits.js";
+import { Limits, meant } from "./limits.js";
 
 /** @typedef {import("./machine.js").Film} Film */
 /** @typedef {import("./cursor.js").Cursor} Cursor */
@@ -12,12 +12,15 @@ import { Limits } from "./limits.js";
 
 // from a point of the machine, where the pointer still means it [of its width]
 const CLOSE = 0.08;
+// parts of the way from frame to frame, and how many of them a move goes at most
+const PARTS = 4;
+const FARTHEST = 40;
 
 export class Drag {
   /**
    * @param {HTMLElement} room where the machine stands
    * @param {Record<string, string>} words
-   * @param {{film: () => Film | undefined, cursor: () => Cursor | undefined, handles: () => Handle[],
+   * @param {{film: () => Film | undefined, cursor: () => Cursor | undefined, handles: () => Handle[], dyads: () => import("./limits.js").Dyad[],
    *   near: (key: string) => void, sized: (key: string, value: string, ends: boolean) => string, said: (text: string) => void}} tells
    */
   constructor(room, words, tells) {
@@ -26,6 +29,8 @@ export class Drag {
     this.tells = tells;
     /** @type {string} */
     this.part = "";
+    /** In which sense the crank went last. */
+    this.sense = 1;
     /** @type {{handle: Handle, at: [number, number], way: [number, number], length: number, text: string} | undefined} */
     this.size = undefined;
     /** From the screen to the drawing, as it was when the drag began. @type {DOMMatrix | undefined} */
@@ -55,6 +60,8 @@ export class Drag {
     else this.startFreedom(film, at);
     if (!this.part && !this.size) return;
     event.preventDefault();
+    // keys are for the machine from now on
+    if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
     this.room.setPointerCapture(event.pointerId);
     this.tells.cursor()?.stop();
   }
@@ -120,7 +127,8 @@ export class Drag {
   }
 
   /**
-   * Go to the frame, not far from the one that is seen, in which the part is nearest to the pointer.
+   * Follow the machine from where it is as long as that brings the part nearer to the pointer, on as it went last if
+   * both ways do: where a path crosses itself, or a rocker stands still, it never jumps.
    * @param {Film} film
    * @param {[number, number]} at
    */
@@ -128,19 +136,29 @@ export class Drag {
     const { angles, degrees, turns } = film.data;
     const now = film.frame(this.angle(film));
     const last = film.last;
-    let [best, nearest] = [Infinity, now];
-    for (let k = -16; k <= 16; k += 1) {
-      const frame = turns ? (now + k / 2 + last) % last : Math.min(Math.max(now + k / 2, 0), last);
-      const place = film.place(this.part, frame);
-      if (!place) return;
-      const apart = Math.hypot(place[0] - at[0], place[1] - at[1]) + Math.abs(k) * 1e-3;
-      if (apart < best) [best, nearest] = [apart, frame];
+    const step = (/** @type {number} */ by) => (turns ? (now + by + last) % last : Math.min(Math.max(now + by, 0), last));
+    const apart = (/** @type {number} */ frame) => {
+      const [x, y] = film.place(this.part, frame) ?? at;
+      return Math.hypot(x - at[0], y - at[1]);
+    };
+    let nearest = now;
+    for (const sense of [this.sense, -this.sense]) {
+      let [best, frame] = [apart(now), now];
+      for (let k = 1; k <= FARTHEST; k += 1) {
+        const next = step((sense * k) / PARTS);
+        const further = apart(next);
+        if (further >= best) break;
+        [best, frame] = [further, next];
+      }
+      if (frame === now) continue;
+      [nearest, this.sense] = [frame, sense];
+      break;
     }
     const first = Math.floor(nearest);
     const angle = angles[first] + (nearest - first) * ((angles[Math.min(first + 1, last)] ?? angles[first]) - angles[first]);
     this.tells.cursor()?.move(angle / degrees);
     const held = film.place(this.part, nearest);
-    if (held) this.tells.said(this.limits.show(film, this.tells.handles(), nearest, angle, held, at));
+    if (held) this.tells.said(this.limits.show(film, this.tells.dyads(), nearest, angle, this.sense, held, at));
   }
 
   /** @param {[number, number]} at */
@@ -163,6 +181,12 @@ export class Drag {
     this.limits.hide();
     this.part = "";
     this.size = undefined;
+  }
+
+  /** Return the dyad that is meant to go together the other way. */
+  meant() {
+    const film = this.tells.film();
+    return film && meant(film, this.tells.dyads(), this.angle(film));
   }
 
   /** @param {Film} film */

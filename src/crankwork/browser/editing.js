@@ -1,8 +1,10 @@
 // One machine file, whoever changes it: its text, and one entry of its history for each gesture.
 
+/** A linkage as it was drawn. @typedef {{pins: any, links: any}} Drawn */
+
 /**
- * An entry: what made it, its text, the file that it is saved to; the field whose slider made it, and when.
- * @typedef {{name: string, text: string, path: string, slid?: string, at?: number}} Entry
+ * An entry: what made it, its text, the file that it is saved to, what was drawn of it; the field whose slider made it, and when.
+ * @typedef {{name: string, text: string, path: string, drawn?: Drawn, slid?: string, at?: number}} Entry
  */
 
 const LONGEST = 200;
@@ -19,8 +21,15 @@ export class Editing {
     this.text = "";
     /** The file that this text is saved to, none for one that came from elsewhere. */
     this.path = "";
-    /** The text that was saved last, or opened from its file. */
-    this.kept = "";
+    /** What was drawn last of this text. @type {Drawn | undefined} */
+    this.drawn = undefined;
+    /** The text that was saved last, or opened from its file, by file. @type {Record<string, string>} */
+    this.files = {};
+  }
+
+  /** What stands in the file of this text. */
+  get kept() {
+    return this.files[this.path] ?? "";
   }
 
   /** Whether something was done that is not in a file. */
@@ -31,9 +40,10 @@ export class Editing {
   /**
    * Remember what was saved.
    * @param {string} text
+   * @param {string} path
    */
-  keep(text) {
-    this.kept = text;
+  keep(text, path) {
+    this.files[path] = text;
     this.changed(this);
   }
 
@@ -56,7 +66,7 @@ export class Editing {
     if (last?.text === this.text) return;
     const goesOn = slid && last?.slid === slid && Date.now() - (last.at ?? 0) < SOON;
     const before = this.entries.slice(0, this.at + (goesOn ? 0 : 1));
-    this.entries = [...before, { name, text: this.text, path: this.path, slid, at: Date.now() }].slice(-LONGEST);
+    this.entries = [...before, { name, text: this.text, path: this.path, drawn: this.drawn, slid, at: Date.now() }].slice(-LONGEST);
     this.at = this.entries.length - 1;
     this.changed(this);
   }
@@ -74,7 +84,7 @@ export class Editing {
     const entry = this.entries[this.at + by];
     if (!entry) return false;
     this.at += by;
-    this.path = entry.path;
+    Object.assign(this, { path: entry.path, drawn: entry.drawn });
     this.take(entry.text);
     return true;
   }

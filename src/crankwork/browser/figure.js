@@ -1,6 +1,6 @@
 // A diagram to read: cursor and dots, the numbers under them, zoom, curves shown and hidden by the legend.
 import { Curve } from "./curves.js";
-import { told } from "./numbers.js";
+import { placeOf, told } from "./numbers.js";
 
 /** @typedef {import("./curves.js").Plot} Plot */
 /** @typedef {import("./cursor.js").Cursor} Cursor */
@@ -104,14 +104,16 @@ export class Figure {
   read() {
     const { columns, cursor } = this;
     const axis = columns[this.axis];
-    const parts = [`${axis.symbol} = ${told(axis, cursor.row)}`];
+    const parts = [`${axis.symbol} = ${placeOf(cursor, axis)}`];
     /** @type {Set<string>} */
     const done = new Set();
     for (const curve of this.moving) {
       if (done.has(curve.name) || curve.path.matches(".off")) continue;
       const column = columns[curve.name];
       const place = curve.place(this.angleIn(curve.plot));
-      if (column) parts.push(`${column.symbol} = ${told(column, cursor.row)}`);
+      if (column) {
+        if (!cursor.beyond) parts.push(`${column.symbol} = ${told(column, cursor.row)}`);
+      }
       else if (place && !LEVELS.has(curve.name)) parts.push(...curve.told(place, curve.plot?.over ? this.said(curve.name) : ""));
       else continue;
       done.add(curve.name);
@@ -183,7 +185,7 @@ export class Figure {
       text.setAttribute("aria-pressed", "true");
       const toggle = () => {
         const off = own[0].path.classList.contains("off");
-        for (const one of own) one.path.classList.toggle("off", !off);
+        for (const one of this.svg.querySelectorAll("path[data-curve]")) if (names.includes(/** @type {SVGElement} */ (one).dataset.curve ?? "")) one.classList.toggle("off", !off);
         for (const one of [row, text]) one.classList.toggle("faint", !off);
         text.setAttribute("aria-pressed", String(off));
         this.draw();

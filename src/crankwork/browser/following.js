@@ -1,6 +1,8 @@
-// A diagram whose curves follow the sliders.
+// A diagram whose curves, or plans, follow the sliders.
 import { Figure } from "./figure.js";
-import { Frame } from "./frame.js";
+import { Frame, span } from "./frame.js";
+import { ghostsOf } from "./pins.js";
+import { Plans } from "./plans.js";
 
 /** @typedef {import("./numbers.js").Column} Column */
 
@@ -18,18 +20,59 @@ export class FollowingFigure extends Figure {
       const group = /** @type {SVGGElement | null} */ (svg.querySelector(`g.frame[class$=" ${k}"]`));
       return group ? new Frame(group, plot) : undefined;
     });
+    this.plans = data.plots.flatMap(({ upon }) => (upon ? [new Plans(svg, upon)] : []));
+    /** Curves of variants that are pinned. @type {import("./pins.js").Ghost[]} */
+    this.ghosts = [];
+    /** What moves marks and numbers with the scales. @type {(() => void)[]} */
+    this.loose = [];
   }
 
-  /** Whether any of its curves follows the sliders. */
+  /**
+   * Let variants that are pinned stand behind the curves, in scales that hold both.
+   * @param {import("./pins.js").Pinned[]} pins
+   */
+  haunt(pins) {
+    this.ghosts = ghostsOf(this.svg, pins, this.data.plots);
+    const haunted = new Set(this.ghosts.map(({ now }) => now));
+    this.loose = this.data.plots.flatMap((plot) => (haunted.has(plot) ? looseOf(this.svg, plot) : []));
+    this.stand();
+  }
+
+  /** Draw the graphs that variants stand on as they were written, in scales that hold these too. */
+  stand() {
+    for (const [k, plot] of this.data.plots.entries()) {
+      const ghosts = this.ghosts.filter(({ now }) => now === plot);
+      const { x, y } = plot;
+      const frame = this.frames[k];
+      if (!ghosts.length || !frame?.moves) continue;
+      frame.fit(...held(ghosts, [x], [y]));
+      if (plot.x === x && plot.y === y) continue;
+      for (const one of this.curves.filter((other) => other.plot === plot)) {
+        const values = one.values();
+        one.through(values.x, values.y);
+      }
+    }
+    this.settle();
+  }
+
+  /** Let what stands beside the curves be where the scales of now put it. */
+  settle() {
+    for (const one of this.ghosts) one.place();
+    for (const move of this.loose) move();
+    if (this.moving.length) this.draw();
+  }
+
+  /** Whether any of it follows the sliders. */
   get follows() {
-    return this.curves.some((one) => one.made);
+    return this.plans.length > 0 || this.curves.some((one) => one.made);
   }
 
   /** Go back to what the page was written with. */
   back() {
     for (const one of this.frames) one?.back();
     for (const one of this.curves) if (one.plot) one.back();
-    if (this.moving.length) this.draw();
+    for (const one of this.plans) one.back();
+    this.stand();
   }
 
   /**
@@ -42,25 +85,43 @@ export class FollowingFigure extends Figure {
       if (!own.some((one) => one.made)) return;
       const drawn = own.map((one) => ({ one, ...(one.made ? lines.of(one, plot) : { ...one.values(), angles: undefined }) }));
       const frame = this.frames[k];
-      if (frame?.moves) frame.fit(ends(drawn.map(({ x }) => x)), ends(drawn.map(({ y }) => y)));
+      const ghosts = this.ghosts.filter(({ now }) => now === plot);
+      if (frame?.moves) frame.fit(...held(ghosts, drawn.map(({ x }) => x), drawn.map(({ y }) => y)));
       for (const { one, x, y, angles } of drawn) one.through(x, y, angles);
     });
-    if (this.moving.length) this.draw();
+    for (const one of this.plans) one.follow(lines.calculation);
+    this.settle();
   }
 }
 
 /**
- * Return the least and the largest of numbers.
- * @param {ArrayLike<number>[]} values
- * @returns {[number, number]}
+ * Return the ends of values with those of variants.
+ * @param {import("./pins.js").Ghost[]} ghosts
+ * @param {ArrayLike<number>[]} x
+ * @param {ArrayLike<number>[]} y
+ * @returns {[[number, number], [number, number]]}
  */
-function ends(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const some of values) {
-    for (let k = 0; k < some.length; k += 1) {
-      if (some[k] < low) low = some[k];
-      if (some[k] > high) high = some[k];
-    }
-  }
-  return [low, high];
+function held(ghosts, x, y) {
+  return [span(...x, ...ghosts.map(({ curve }) => curve.reach[0])), span(...y, ...ghosts.map(({ curve }) => curve.reach[1]))];
+}
+
+/**
+ * Return what moves each thing that stands within a graph beside its curves, a mark or a number, with the scales.
+ * @param {SVGSVGElement} svg
+ * @param {import("./curves.js").Plot} plot
+ */
+function looseOf(svg, plot) {
+  const { box: [left, top, wide, tall], x: across, y: up } = plot;
+  const others = [...svg.children].filter((one) => !one.matches("svg, g.frame, g.cursor, [data-curve], [data-curve=legend] + *, .ghost-number"));
+  return /** @type {SVGGraphicsElement[]} */ (others).flatMap((one) => {
+    const { x, y, width, height } = one.getBBox();
+    const [right, down] = [x + width / 2 - left, y + height / 2 - top];
+    if (right < 0 || right > wide || down < 0 || down > tall) return [];
+    const values = [across[0] + (right / wide) * (across[1] - across[0]), up[1] + (down / tall) * (up[0] - up[1])];
+    const before = one.getAttribute("transform") ?? "";
+    return () => {
+      const to = [((values[0] - plot.x[0]) / (plot.x[1] - plot.x[0])) * wide, ((values[1] - plot.y[1]) / (plot.y[0] - plot.y[1])) * tall];
+      one.setAttribute("transform", `translate(${to[0] - right} ${to[1] - down})${before}`);
+    };
+  });
 }

@@ -11,7 +11,7 @@
 /**
  * What a form tells: a field as typed, whether its gesture has ended; a field that goes; fields that come.
  * @typedef {{typed: (key: string, value: string, ends: boolean, slid?: boolean) => void, gone: (key: string) => void,
- *   added: (fields: Record<string, string>) => void, more: (addition: string, name: string) => void}} Tells
+ *   added: (fields: Record<string, string>) => void, reach: (key: string) => void, more: (addition: string, name: string) => void}} Tells
  */
 
 export class Form {
@@ -74,12 +74,6 @@ export class Form {
     return made;
   }
 
-  /** Go to the first number. */
-  begin() {
-    const first = /** @type {HTMLElement | null} */ (this.room.querySelector("[data-slides]"));
-    this.field(first?.dataset.slides ?? "")?.focus();
-  }
-
   /**
    * Go from a field to the next one, or back.
    * @param {Element} field
@@ -138,9 +132,15 @@ export class Form {
     gone.tabIndex = -1;
     gone.title = "Ctrl+Delete";
     made.addEventListener("keydown", (event) => {
-      if (event.key === "Delete" && event.ctrlKey) this.tells.gone(row.key);
+      if (event.key === "Enter" && event.altKey) this.tells.reach(row.key);
+      else if (event.key === "Delete" && event.ctrlKey) this.tells.gone(row.key);
       else if (event.target === input && input instanceof HTMLInputElement && /^Arrow(Up|Down)$/.test(event.key)) this.step(input, event.key === "ArrowDown" ? 1 : -1);
       else if (event.key === "Escape" && input instanceof HTMLInputElement) input.value = this.stated.get(row.key) ?? input.value;
+    });
+    made.addEventListener("click", (event) => {
+      if (!event.altKey) return;
+      event.preventDefault();
+      this.tells.reach(row.key);
     });
     gone.setAttribute("aria-label", `${this.words.without} ${row.key}`);
     gone.addEventListener("click", () => this.tells.gone(row.key));
@@ -204,7 +204,7 @@ export class Form {
    */
   blame(refusals) {
     for (const one of /** @type {NodeListOf<HTMLElement>} */ (this.room.querySelectorAll("[data-of]"))) {
-      const own = refusals.find(({ key }) => key && (key === one.dataset.of || key.startsWith(`${one.dataset.of}.`) || key.startsWith(`${one.dataset.of}[`)));
+      const own = refusals.find(({ key }) => key && (key === one.dataset.of || key.startsWith(`${one.dataset.of}.`) || key.startsWith(`${one.dataset.of}[`) || one.dataset.of?.startsWith(`${key}[`)));
       one.toggleAttribute("aria-invalid", Boolean(own));
       if (own) one.setAttribute("aria-invalid", "true");
       one.title = own?.text ?? "";

@@ -172,3 +172,19 @@ function shown(place) {
 function same(one, other) {
   return one[0] === other[0] && one[1] === other[1];
 }
+
+/**
+ * Return the least and the largest of numbers.
+ * @param {...ArrayLike<number>} values
+ * @returns {[number, number]}
+ */
+export function span(...values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const some of values) {
+    for (let k = 0; k < some.length; k += 1) {
+      if (some[k] < low) low = some[k];
+      if (some[k] > high) high = some[k];
+    }
+  }
+  return [low, high];
+}

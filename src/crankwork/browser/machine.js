@@ -187,8 +187,8 @@ export class Motion {
   /** @param {number} time */
   frame(time) {
     if (!this.cursor.runs) return;
-    const { rows, at } = this.cursor;
-    const [start, end] = [rows[0], rows[rows.length - 1]];
+    const { stops, at } = this.cursor;
+    const [start, end] = [stops[0], stops[stops.length - 1]];
     const next = at + (this.way * (end - start) * Math.min(time - this.last, 100) * this.rate) / 1000 / this.seconds;
     this.last = time;
     if (next >= start && next <= end) this.cursor.move(next);

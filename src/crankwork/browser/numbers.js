@@ -61,6 +61,16 @@ export function significant(value, digits = 4) {
 }
 
 /**
+ * Return where a cursor stands: its row, or beyond the rows the place itself.
+ * @param {import("./cursor.js").Cursor} cursor
+ * @param {Column} axis
+ */
+export function placeOf(cursor, axis) {
+  if (!cursor.beyond) return told(axis, cursor.row);
+  return told({ ...axis, decimals: axis.decimals + 1, values: [cursor.at] }, 0);
+}
+
+/**
  * Return a number with up to some significant digits, as the language of the page writes it.
  * @param {number} value
  * @param {number} digits

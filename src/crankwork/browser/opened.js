@@ -48,7 +48,7 @@ function begin(data, kind, slide) {
   document.documentElement.classList.add("live");
   const columns = columnsOf(data);
   const axis = columns[data.axis];
-  const cursor = new Cursor(axis.values);
+  const cursor = new Cursor(axis.values, data.film?.angles.map((one) => one / (data.film?.degrees ?? 1)));
   /** @type {Figure[]} */
   const figures = [];
   for (const svg of /** @type {NodeListOf<SVGSVGElement>} */ (document.querySelectorAll("svg.drawing[data-figure]"))) {

@@ -1,68 +1,97 @@
 // Variants that were pinned: their curves dashed behind those of now, at the scales of now; what values differ by.
-import { Curve } from "./curves.js";
+import { span } from "./frame.js";
 import { printed } from "./numbers.js";
 
-/** @typedef {import("./figure.js").FigureData} FigureData */
+/** @typedef {import("./curves.js").Plot} Plot */
 
-/** @typedef {{text: string, fields: Record<string, string>, summary: Record<string, number>, curves: Record<string, {name: string, d: string, plot: import("./curves.js").Plot}[]>}} Pinned */
+/** A curve as it was written, its graph, and the least and the largest of its values. @typedef {{name: string, d: string, plot: Plot, reach: [number, number][]}} PinnedCurve */
+
+/** @typedef {{text: string, fields: Record<string, string>, summary: Record<string, number>, curves: Record<string, PinnedCurve[]>}} Pinned */
 
 /** How many there may be. */
 export const MOST_PINS = 4;
 
 /**
- * Return the curves of the figures that are seen, to be kept.
- * @param {Iterable<SVGSVGElement>} figures
- * @param {Record<string, FigureData>} data
+ * Return the curves of figures as they were written, to be kept.
+ * @param {Iterable<import("./figure.js").Figure>} figures
  */
-export function curvesOf(figures, data) {
+export function curvesOf(figures) {
   /** @type {Pinned["curves"]} */
   const found = {};
-  for (const svg of figures) {
-    const name = svg.dataset.figure ?? "";
-    const plots = data[name]?.plots ?? [];
-    const paths = /** @type {SVGPathElement[]} */ ([...svg.querySelectorAll("path[data-curve]:not(.ghost)")]);
-    found[name] = paths.flatMap((path) => {
-      const { plot } = new Curve(path, plots);
-      return plot && path.dataset.curve !== "legend" ? [{ name: path.dataset.curve ?? "", d: path.getAttribute("d") ?? "", plot }] : [];
+  for (const { svg, curves } of figures) {
+    found[svg.dataset.figure ?? ""] = curves.flatMap((one) => {
+      const { x, y } = one.values();
+      return one.plot && one.ends ? [{ name: one.name, d: one.d, plot: { ...one.plot, ...one.ends }, reach: [span(x), span(y)] }] : [];
     });
   }
   return found;
 }
 
-/**
- * Draw the curves of a variant behind those of now, where their quantities stand on the same graph, with its number.
- * @param {SVGSVGElement} svg
- * @param {Pinned} pinned
- * @param {FigureData} data
- * @param {number} number
- */
-export function haunt(svg, pinned, data, number) {
-  for (const { name, d, plot } of pinned.curves[svg.dataset.figure ?? ""] ?? []) {
-    const now = data.plots.find((one) => one.t[0] === plot.t[0] && one.t[1] === plot.t[1]);
-    if (!now) continue;
-    const [across, right] = onto(plot.x, now.x, plot.box[0], plot.box[2], now.box[0], now.box[2]);
-    const [down, below] = onto([plot.y[1], plot.y[0]], [now.y[1], now.y[0]], plot.box[1], plot.box[3], now.box[1], now.box[3]);
-    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
-    path.setAttribute("d", d);
-    path.setAttribute("class", `ghost ghost-${number}`);
-    path.dataset.curve = name;
-    path.setAttribute("transform", `matrix(${across} 0 0 ${down} ${right} ${below})`);
+/** A curve of a variant behind those of now, with its number; it stands in the scales of its graph. */
+export class Ghost {
+  /**
+   * @param {SVGSVGElement} svg
+   * @param {PinnedCurve} curve
+   * @param {Plot} now
+   * @param {number} number
+   */
+  constructor(svg, curve, now, number) {
+    this.curve = curve;
+    this.now = now;
+    this.number = number;
+    this.path = made("path", { d: curve.d, class: `ghost ghost-${number}`, "data-curve": curve.name });
     const [left, top, wide, tall] = now.box;
-    const room = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    for (const [key, value] of Object.entries({ x: left, y: top, width: wide, height: tall, viewBox: `${left} ${top} ${wide} ${tall}` })) room.setAttribute(key, String(value));
-    room.append(path);
+    const room = made("svg", { x: left, y: top, width: wide, height: tall, viewBox: `${left} ${top} ${wide} ${tall}` });
+    room.append(this.path);
     svg.prepend(room);
-    // numbers stand apart from one another along the curves, where these are seen
-    const places = [0, 0.06, -0.06, 0.12, 0.4, 0.6].map((more) => path.getPointAtLength(path.getTotalLength() * (0.1 + 0.15 * number + more)));
-    const at = places.map(({ x, y }) => [x * across + right, y * down + below]).find(([x, y]) => x > left && x < left + wide && y > top && y < top + tall);
-    if (!at) continue;
-    const told = document.createElementNS("http://www.w3.org/2000/svg", "text");
-    told.textContent = String(number);
-    told.setAttribute("class", "ghost-number");
-    told.setAttribute("x", String(at[0]));
-    told.setAttribute("y", String(at[1]));
-    svg.append(told);
+    this.label = made("text", { class: "ghost-number" });
+    this.label.textContent = String(number);
+    svg.append(this.label);
+    // numbers stand apart from one another along the curves
+    const long = this.path.getTotalLength();
+    this.places = [0, 0.06, -0.06, 0.12, 0.4, 0.6].map((more) => this.path.getPointAtLength(long * (0.1 + 0.15 * number + more)));
+    /** @type {number[][]} */
+    this.scales = [];
+    this.place();
   }
+
+  /** Stand where the scales of now put it. */
+  place() {
+    const { path, label, places, now, curve: { plot: then } } = this;
+    if (this.scales[0] === now.x && this.scales[1] === now.y) return;
+    this.scales = [now.x, now.y];
+    const [left, top, wide, tall] = now.box;
+    const [across, right] = onto(then.x, now.x, then.box[0], then.box[2], left, wide);
+    const [down, below] = onto([then.y[1], then.y[0]], [now.y[1], now.y[0]], then.box[1], then.box[3], top, tall);
+    path.setAttribute("transform", `matrix(${across} 0 0 ${down} ${right} ${below})`);
+    const at = places.map(({ x, y }) => [x * across + right, y * down + below]).find(([x, y]) => x > left && x < left + wide && y > top && y < top + tall);
+    label.toggleAttribute("hidden", !at);
+    for (const [k, key] of ["x", "y"].entries()) label.setAttribute(key, String(at?.[k] ?? 0));
+  }
+}
+
+/**
+ * Return the curves of variants whose quantities stand on graphs of a figure.
+ * @param {SVGSVGElement} svg
+ * @param {Pinned[]} pins
+ * @param {Plot[]} plots
+ */
+export function ghostsOf(svg, pins, plots) {
+  return pins.flatMap(({ curves }, k) => (curves[svg.dataset.figure ?? ""] ?? []).flatMap((curve) => {
+    const now = plots.find(({ t }) => t[0] === curve.plot.t[0] && t[1] === curve.plot.t[1]);
+    return now ? [new Ghost(svg, curve, now, k + 1)] : [];
+  }));
+}
+
+/**
+ * @template {"path" | "svg" | "text"} Name
+ * @param {Name} name
+ * @param {Record<string, string | number>} attributes
+ */
+function made(name, attributes) {
+  const one = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, String(value));
+  return one;
 }
 
 /**

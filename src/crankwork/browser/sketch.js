@@ -1,39 +1,57 @@
 // A linkage drawn with the mouse, or by keys: a chain of pins from ground to ground, the first link of which drives.
 
+import { fixed } from "./numbers.js";
+
 /** @typedef {{name: string, x: number, y: number, ground?: boolean, slides?: number}} Pin */
+/** A link keeps its name as long as it is there. @typedef {{name: string, pins: string[]}} Link */
+/** What was typed of a length and a direction, as the calculation reads it. @typedef {{length?: number, angle?: number, refusal?: string}} Measured */
 
 const SPACE = "http://www.w3.org/2000/svg";
 const WIDE = 240;
 const TALL = 180;
 // how near a pin is meant [mm]
 const NEAR_PIN = 5;
+// what is moved less is clicked [mm]
+const STILL = 1;
+// a second press that belongs to a double click [ms]
+const TWICE = 450;
 const LETTERS = "ABCDEFGHIJKLMNPQRSTUVWXYZ";
 
 export class Sketch {
   /**
    * @param {HTMLElement} room
    * @param {Record<string, string>} words
-   * @param {(pins: Pin[], links: string[][]) => void} drawn
-   * @param {(text: string) => void} said
+   * @param {{drawn: (pins: Pin[], links: Link[]) => void, asked: (pins: Pin[], links: Link[], typed: string[]) => void,
+   *   said: (text: string, at: DOMPoint | undefined) => void}} tells
+   * @param {Set<string>} taken names that the file has
    */
-  constructor(room, words, drawn, said) {
+  constructor(room, words, tells, taken) {
     this.words = words;
-    this.drawn = drawn;
-    this.said = said;
+    this.tells = tells;
+    this.taken = taken;
     /** @type {Pin[]} */
     this.pins = [];
-    /** @type {string[][]} */
+    /** @type {Link[]} */
     this.links = [];
     /** The pin that the next click goes on from. @type {Pin | undefined} */
     this.last = undefined;
     /** Where the pointer is. */
     this.at = [WIDE / 2, TALL / 2];
-    /** What was typed of a length. */
-    this.typed = "";
-    /** The link that is pressed, from which a point is drawn off. @type {string[] | undefined} */
+    /** What was typed of a length and of a direction, and which of them is being typed. */
+    this.typed = ["", ""];
+    this.part = 0;
+    /** @type {Measured | undefined} */
+    this.measured = undefined;
+    /** What is to be done once it is known what was typed. @type {"" | "click" | "end"} */
+    this.waits = "";
+    /** The link that is pressed, from which a point is drawn off. @type {Link | undefined} */
     this.pressed = undefined;
+    /** When and where was pressed last. */
+    this.before = [0, 0, 0];
     /** The pin that is held, and where it was pressed. @type {Pin | undefined} */
     this.moved = undefined;
+    /** The pin that keys carry. @type {Pin | undefined} */
+    this.carried = undefined;
     this.from = this.at;
     this.svg = document.createElementNS(SPACE, "svg");
     this.svg.setAttribute("viewBox", `0 0 ${WIDE} ${TALL}`);
@@ -41,7 +59,9 @@ export class Sketch {
     this.svg.setAttribute("role", "application");
     this.svg.setAttribute("aria-label", words.sketch);
     this.svg.tabIndex = 0;
-    room.replaceChildren(this.svg);
+    this.missing = document.createElement("output");
+    this.missing.className = "missing";
+    room.replaceChildren(this.svg, this.missing);
     this.svg.addEventListener("pointerdown", (event) => this.press(event));
     this.svg.addEventListener("pointermove", (event) => this.point(event));
     this.svg.addEventListener("pointerup", (event) => this.release(event));
@@ -53,12 +73,49 @@ export class Sketch {
   /**
    * Take what was drawn before.
    * @param {Pin[]} pins
-   * @param {string[][]} links
+   * @param {Link[]} links
    */
   take(pins, links) {
     this.pins = pins;
     this.links = links;
+    this.changed();
+  }
+
+  /** Draw what has changed, and ask what it is. */
+  changed() {
+    this.measured = undefined;
     this.draw();
+    this.tells.asked(this.pins, this.links, this.typed);
+  }
+
+  /**
+   * Hear what the sketch is as far as it goes, and what was typed.
+   * @param {import("./talk.js").Answer} answer
+   * @param {string[]} typed
+   */
+  heard(answer, typed) {
+    this.missing.textContent = answer.missing ?? "";
+    if (String(typed) === String(this.typed)) this.measured = answer.measured ?? {};
+    const { waits } = this;
+    if (waits && this.measured) {
+      this.waits = "";
+      if (waits === "end") this.end();
+      else this.click();
+    }
+    this.draw();
+  }
+
+  /** Where the next pin comes to stand: at what was typed, else where the pointer is. */
+  target() {
+    const { last, measured, at } = this;
+    if (!last || !this.isTyped || !measured || measured.refusal) return at;
+    const way = measured.angle === undefined ? Math.atan2(at[1] - last.y, at[0] - last.x) : (-measured.angle * Math.PI) / 180;
+    const length = measured.length ?? Math.hypot(at[0] - last.x, at[1] - last.y);
+    return [last.x + length * Math.cos(way), last.y + length * Math.sin(way)];
+  }
+
+  get isTyped() {
+    return this.typed.some(Boolean);
   }
 
   /** @param {PointerEvent} event */
@@ -71,10 +128,14 @@ export class Sketch {
   /** @param {PointerEvent} event */
   press(event) {
     this.place(event);
+    const [when, x, y] = this.before;
+    this.before = [event.timeStamp, ...this.at];
+    if (event.timeStamp - when < TWICE && Math.hypot(this.at[0] - x, this.at[1] - y) < STILL) return;
+    const pin = this.near();
     // a pin that stands there is moved, or begun from where it is let go at once
-    this.moved = this.last ? undefined : this.near();
+    this.moved = this.last ? undefined : pin;
     this.from = this.at;
-    this.pressed = this.last || this.moved ? undefined : this.nearLink();
+    this.pressed = pin || this.isTyped ? undefined : this.nearLink();
     if (!this.pressed && !this.moved) this.click();
     this.svg.setPointerCapture(event.pointerId);
     this.svg.focus();
@@ -83,7 +144,7 @@ export class Sketch {
   /** @param {PointerEvent} event */
   point(event) {
     this.place(event);
-    if (this.moved && this.apart() > 1) [this.moved.x, this.moved.y] = this.at;
+    if (this.moved && this.apart() > STILL) [this.moved.x, this.moved.y] = this.at;
     this.draw();
   }
 
@@ -96,41 +157,78 @@ export class Sketch {
   release(event) {
     this.place(event);
     if (this.moved) {
-      const isClick = this.apart() <= 1;
+      const isClick = this.apart() <= STILL;
       this.moved = undefined;
       if (isClick) this.click();
-      else if (this.links.length) this.drawn(this.pins, this.links);
+      else if (this.links.length) this.tells.drawn(this.pins, this.links);
       return;
     }
     if (!this.pressed) return;
     const link = this.pressed;
     this.pressed = undefined;
-    const pin = this.add(false);
-    link.push(pin.name);
-    this.draw();
-    this.drawn(this.pins, this.links);
+    if (this.apart() > STILL) this.addPoint(link);
+    else if (this.last) this.click();
+    else {
+      // a chain goes on from a pin of this link
+      this.last = this.add(false);
+      link.pins.push(this.last.name);
+      this.changed();
+    }
+  }
+
+  /**
+   * Put a point of a link where the pointer is.
+   * @param {Link} link
+   */
+  addPoint(link) {
+    link.pins.push(this.add(false).name);
+    this.changed();
+    if (!this.last) this.tells.drawn(this.pins, this.links);
   }
 
   /** Put a pin where the pointer is, or take the one that is there, and join it to the one before. */
   click() {
-    const typed = this.last && Number.parseFloat(this.typed.replace(",", "."));
-    if (this.last && typed) {
-      const way = Math.atan2(this.at[1] - this.last.y, this.at[0] - this.last.x);
-      this.at = [this.last.x + typed * Math.cos(way), this.last.y + typed * Math.sin(way)];
-    }
-    this.typed = "";
-    const there = this.near();
-    const before = this.last;
+    const { isTyped, last: before } = this;
+    if (isTyped && this.waitsFor("click")) return;
+    this.at = this.target();
+    this.forget();
+    const there = this.near(isTyped ? STILL : NEAR_PIN);
     if (there && there === before) return;
     const pin = there ?? this.add(!before);
-    if (before) this.links.push([before.name, pin.name]);
+    if (before) this.links.push({ name: String(this.free()), pins: [before.name, pin.name] });
     this.last = pin;
     if (there && before && this.links.length > 1) this.finish();
-    this.draw();
+    else this.changed();
+  }
+
+  /**
+   * Return whether something has to wait until it is known what was typed, or cannot be done as that is refused.
+   * @param {"click" | "end"} what
+   */
+  waitsFor(what) {
+    if (!this.measured) this.waits = what;
+    return !this.measured || Boolean(this.measured.refusal);
+  }
+
+  /** Forget what was typed. */
+  forget() {
+    this.typed = ["", ""];
+    this.part = 0;
+    this.waits = "";
+  }
+
+  /** Return the number of a link that no link ever had. */
+  free() {
+    const numbers = [...this.taken, ...this.links.map(({ name }) => name)].map(Number).filter(Number.isInteger);
+    return Math.max(0, ...numbers) + 1;
   }
 
   /** End a chain: its last pin stands on the ground. */
   end() {
+    if (this.isTyped) {
+      if (this.waitsFor("end")) return;
+      this.click();
+    }
     if (!this.last) return;
     this.last.ground = true;
     this.finish();
@@ -138,25 +236,25 @@ export class Sketch {
 
   finish() {
     this.last = undefined;
-    this.draw();
-    this.drawn(this.pins, this.links);
+    this.changed();
+    this.tells.drawn(this.pins, this.links);
   }
 
   /** @param {boolean} ground */
   add(ground) {
-    const used = new Set(this.pins.map(({ name }) => name));
+    const used = new Set([...this.taken, ...this.pins.map(({ name }) => name)]);
     const free = ground && !used.has("O") ? "O" : [...LETTERS].find((one) => !used.has(one)) ?? `P${this.pins.length}`;
     const pin = { name: free, x: this.at[0], y: this.at[1], ground };
     this.pins.push(pin);
     return pin;
   }
 
-  near() {
-    return this.pins.find(({ x, y }) => Math.hypot(x - this.at[0], y - this.at[1]) < NEAR_PIN);
+  near(reach = NEAR_PIN) {
+    return this.pins.find(({ x, y }) => Math.hypot(x - this.at[0], y - this.at[1]) < reach);
   }
 
   nearLink() {
-    return this.links.find(([one, other]) => {
+    return this.links.find(({ pins: [one, other] }) => {
       const [start, end] = [this.pin(one), this.pin(other)];
       const [x, y] = [end.x - start.x, end.y - start.y];
       const share = ((this.at[0] - start.x) * x + (this.at[1] - start.y) * y) / (x * x + y * y);
@@ -174,23 +272,50 @@ export class Sketch {
     const by = event.shiftKey ? 1 : 5;
     const moves = /** @type {Record<string, number[]>} */ ({ ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, -by], ArrowDown: [0, by] });
     const pin = this.near();
-    if (moves[event.key]) this.at = this.at.map((one, k) => one + moves[event.key][k]);
+    if (moves[event.key]) {
+      this.at = this.at.map((one, k) => one + moves[event.key][k]);
+      if (this.carried) [this.carried.x, this.carried.y] = this.at;
+    } else if (this.carried && /^(m|enter|escape)$/i.test(event.key)) this.lay(event.key === "Escape");
+    else if (pin && !this.last && /^m$/i.test(event.key)) [this.carried, this.from] = [pin, [pin.x, pin.y]];
     else if (event.key === "Enter") {
-      if (pin !== this.last || !pin) this.click();
-      if (event.ctrlKey || pin === this.last) this.end();
-    } else if (event.key === "Backspace" && this.typed) this.typed = this.typed.slice(0, -1);
+      const ends = event.ctrlKey || (pin && pin === this.last && !this.isTyped);
+      if (!ends || (!this.isTyped && pin !== this.last)) this.click();
+      if (ends) this.end();
+    } else if (this.last && this.types(event)) this.changed();
     else if (event.key === "Delete" && pin && !this.last) this.without(pin);
     else if (["Escape", "Backspace", "Delete"].includes(event.key) || (event.ctrlKey && event.key === "z")) this.back();
-    else if (/^[\d.,]$/.test(event.key)) this.typed += event.key;
     else if (pin && /^[gs]$/i.test(event.key)) this.change(pin, event.key.toLowerCase());
-    else if (/^p$/i.test(event.key) && this.links.length && !this.last) {
-      const link = this.nearLink() ?? this.links[this.links.length > 1 ? 1 : 0];
-      link.push(this.add(false).name);
-      this.drawn(this.pins, this.links);
-    } else return;
+    else if (/^p$/i.test(event.key) && this.links.length) this.addPoint(this.nearLink() ?? this.links[this.links.length > 1 ? 1 : 0]);
+    else return;
     event.preventDefault();
     event.stopPropagation();
     this.draw();
+  }
+
+  /**
+   * Let the pin that keys carry stand where it is, or where it was.
+   * @param {boolean} back
+   */
+  lay(back) {
+    const pin = /** @type {Pin} */ (this.carried);
+    this.carried = undefined;
+    if (back) [pin.x, pin.y] = this.at = this.from;
+    else if (this.links.length) this.tells.drawn(this.pins, this.links);
+  }
+
+  /**
+   * Take a key as part of a length or a direction; return whether it is one.
+   * @param {KeyboardEvent} event
+   */
+  types({ key, ctrlKey, metaKey, shiftKey }) {
+    const { typed, part } = this;
+    if (ctrlKey || metaKey) return false;
+    if (this.isTyped && key === "Tab" && !shiftKey) this.part = 1 - part;
+    else if (this.isTyped && key === "Escape") this.forget();
+    else if (this.isTyped && key === "Backspace") typed[part] = typed[part].slice(0, -1);
+    else if (key.length === 1 && (this.isTyped || this.part || /[\d.,+-]/.test(key))) typed[part] += key;
+    else return false;
+    return true;
   }
 
   /**
@@ -206,8 +331,9 @@ export class Sketch {
       pin.slides = pin.slides === undefined ? (across ? 0 : 90) : undefined;
       pin.ground = false;
     }
-    if (!this.last) this.drawn(this.pins, this.links);
-    else if (kind === "s") this.finish();
+    if (this.last && kind === "s") return this.finish();
+    this.changed();
+    if (!this.last) this.tells.drawn(this.pins, this.links);
   }
 
   /**
@@ -215,10 +341,16 @@ export class Sketch {
    * @param {Pin} pin
    */
   without(pin) {
-    this.links = this.links.map((link) => link.filter((name) => name !== pin.name)).filter((link) => link.length > 1);
-    const held = new Set(this.links.flat());
+    this.links = this.links.map(({ name, pins }) => ({ name, pins: pins.filter((one) => one !== pin.name) })).filter(({ pins }) => pins.length > 1);
+    const held = this.held();
     this.pins = this.pins.filter((one) => one !== pin && held.has(one.name));
-    if (this.links.length) this.drawn(this.pins, this.links);
+    this.changed();
+    if (this.links.length) this.tells.drawn(this.pins, this.links);
+  }
+
+  /** Return the names of the pins that links join. */
+  held() {
+    return new Set(this.links.flatMap(({ pins }) => pins));
   }
 
   /** Take the last click back. */
@@ -226,33 +358,44 @@ export class Sketch {
     if (this.last) {
       const pin = this.last;
       const link = this.links[this.links.length - 1];
-      if (link?.includes(pin.name)) this.links.pop();
-      if (!this.links.some((one) => one.includes(pin.name))) this.pins = this.pins.filter((one) => one !== pin);
-      this.last = link && this.pins.length ? this.pin(link[0] === pin.name ? link[1] : link[0]) : undefined;
+      const [start, end] = link?.pins ?? [];
+      const own = end === pin.name && this.links.pop();
+      // a chain that went on from a link had a pin there
+      if (!own) for (const { pins } of this.links) if (pins.indexOf(pin.name) > 1) pins.splice(pins.indexOf(pin.name), 1);
+      if (!this.held().has(pin.name)) this.pins = this.pins.filter((one) => one !== pin);
+      this.last = own && this.pins.length ? this.pin(start) : undefined;
     } else {
       // a link goes with the pins that it leaves alone
       this.links.pop();
-      const held = new Set(this.links.flat());
+      const held = this.held();
       this.pins = this.links.length ? this.pins.filter(({ name }) => held.has(name)) : [];
     }
-    this.draw();
+    this.changed();
   }
 
   /** Say beside the pointer what the next click does. */
   tell() {
+    const { last, words } = this;
     const near = this.near();
-    if (this.last && this.typed) return `${this.last.name}: ${this.typed} mm`;
-    if (!this.last) return near ? this.words.sketch_on : this.pins.length && this.nearLink() ? this.words.sketch_point : this.words.sketch_begin;
-    const length = Math.hypot(this.at[0] - this.last.x, this.at[1] - this.last.y);
-    return `${this.last.name}–${near?.name ?? ""} ${length.toPrecision(3)} mm · ${this.words.sketch_end}`;
+    if (last && this.isTyped) {
+      const [length, angle] = this.typed.map((one, k) => (/^[-+\d.,]+$/.test(one) ? `${one}${[" mm", "°"][k]}` : one));
+      return `${last.name}: ${[length, angle && `∠ ${angle}`].filter(Boolean).join(" ")} · ${this.measured?.refusal ?? words.sketch_typed}`;
+    }
+    if (!near && this.nearLink()) return words.sketch_point;
+    if (!last) return near ? words.sketch_on : words.sketch_begin;
+    if (near) return near === last ? words.sketch_go : words.sketch_join.replace("{of}", near.name);
+    const [x, y] = [this.at[0] - last.x, last.y - this.at[1]];
+    const of = `${last.name} ${fixed(Math.hypot(x, y), 1)} mm ∠ ${fixed((Math.atan2(y, x) * 180) / Math.PI, 0)}°`;
+    return words.sketch_link.replace("{of}", of);
   }
 
   draw() {
-    const lines = this.links.flatMap((link) => {
-      const [start, ...others] = link.map((name) => this.pin(name));
+    const lines = this.links.flatMap(({ pins }) => {
+      const [start, ...others] = pins.map((name) => this.pin(name));
       return others.map((end) => line(start.x, start.y, end.x, end.y, "link"));
     });
-    if (this.last) lines.push(line(this.last.x, this.last.y, this.at[0], this.at[1], "next"));
+    const [to, down] = this.target();
+    if (this.last) lines.push(line(this.last.x, this.last.y, to, down, "next"));
     const pins = this.pins.flatMap((pin) => {
       const circle = mark("circle", { cx: pin.x, cy: pin.y, r: 2 });
       const name = mark("text", { x: pin.x + 3, y: pin.y - 3 });
@@ -264,7 +407,8 @@ export class Sketch {
     const [x, y] = this.at;
     const cross = mark("path", { d: `M${x - 3} ${y}h6M${x} ${y - 3}v6`, class: "cross" });
     this.svg.replaceChildren(...lines, ...pins, cross);
-    this.said(this.tell());
+    const matrix = this.svg.getScreenCTM();
+    this.tells.said(this.tell(), matrix ? new DOMPoint(x, y).matrixTransform(matrix) : undefined);
   }
 }
 

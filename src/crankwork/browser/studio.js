@@ -1,6 +1,7 @@
 // The studio: a machine file as form and as text, the machine, its diagrams, its values; all of one document.
 import { Ahead } from "./ahead.js";
 import { bar } from "./bar.js";
+import { Commands } from "./commands.js";
 import { Cursor } from "./cursor.js";
 import { Drag } from "./drag.js";
 import { Editing } from "./editing.js";
@@ -10,10 +11,11 @@ import { FollowingFigure } from "./following.js";
 import { Form } from "./form.js";
 import { choose, Film } from "./machine.js";
 import { columnsOf, fixed } from "./numbers.js";
-import { changed, curvesOf, differs, haunt, MOST_PINS } from "./pins.js";
+import { changed, curvesOf, differs, MOST_PINS } from "./pins.js";
 import { Sketch } from "./sketch.js";
 import { Talk } from "./talk.js";
 import { Trial } from "./trial.js";
+import { Walk } from "./walk.js";
 
 /** @typedef {import("./talk.js").Answer} Answer */
 /** @typedef {import("./talk.js").Question} Question */
@@ -49,23 +51,26 @@ class StudioPage {
     this.opened = 0;
     /** What follows the cursor, by where it stands. @type {Map<string, import("./cursor.js").Follower[]>} */
     this.followers = new Map();
+    /** The figures that are seen, by name. @type {Map<string, FollowingFigure>} */
+    this.drawnFigures = new Map();
     /** @type {Sketch | undefined} */
     this.sketch = undefined;
-    /** What was drawn last. @type {{pins: any, links: any} | undefined} */
-    this.drawn = undefined;
     this.barText = room("bar").innerHTML;
+    this.hint = /** @type {HTMLElement} */ (room("machine").querySelector(".hint"));
     this.editing = new Editing((editing) => this.edited(editing));
     this.editor = new Editor(room("source"), room("lines"), (text, ends) => this.typed(text, ends));
     this.form = new Form(room("form"), this.words, {
+      reach: (key) => this.talk.ask({ do: "reach", key }),
       typed: (key, value, ends, slid) => this.set(key, value, ends, slid),
-      gone: (key) => this.talk.ask({ do: "without", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `− ${key}` }),
-      added: (fields) => this.talk.ask({ do: "set", fields, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${Object.keys(fields).join(", ")}` }),
-      more: (key, name) => this.talk.ask({ do: "add", key, of: this.opened, figures: this.wanted, reads: this.reads, named: `+ ${name}` }),
+      gone: (key) => this.talk.ask({ do: "without", key, of: this.opened, figures: this.wanted, named: `− ${key}` }),
+      added: (fields) => this.talk.ask({ do: "set", fields, of: this.opened, figures: this.wanted, named: `+ ${Object.keys(fields).join(", ")}` }),
+      more: (key, name) => this.talk.ask({ do: "add", key, of: this.opened, figures: this.wanted, named: `+ ${name}` }),
     });
     this.drag = new Drag(room("film"), this.words, {
       film: () => this.film,
       cursor: () => this.cursor,
       handles: () => this.seen.handles ?? [],
+      dyads: () => this.seen.dyads ?? [],
       near: (key) => this.ahead.prepare(key),
       sized: (key, value, ends) => {
         this.set(key, value, ends);
@@ -73,14 +78,23 @@ class StudioPage {
       },
       said: (text) => this.chip(text),
     });
+    this.commands = new Commands(room("commands"), this.words);
+    this.walk = new Walk(room("film"), this.words, {
+      film: () => this.film,
+      handles: () => this.seen.handles ?? [],
+      said: (text) => this.say(text),
+      turn: (count) => this.cursor?.step(count),
+      card: (part) => this.commands.open(part),
+      sized: (key, value) => this.set(key, value, true, true),
+    });
     this.trial = new Trial(room("trial"), this.words, {
       rows: () => (this.seen.form ?? []).flatMap((/** @type {import("./form.js").Group} */ group) => group.rows),
       values: () => [.../** @type {NodeListOf<HTMLElement>} */ (room("results").querySelectorAll("tr [data-key]"))].map((one) => [one.dataset.key ?? "", one.closest("tr")?.querySelector("th")?.textContent ?? ""]),
-      asked: () => ({ text: this.editing.text, reads: this.reads }),
+      asked: () => this.document(),
     });
     this.ahead = new Ahead({
       beside: (key) => this.beside(key),
-      ask: (key, beside) => this.aside.ask({ do: "ahead", text: this.seen.from, key, beside, figures: this.wanted, reads: this.reads }),
+      ask: (key, beside) => this.aside.ask({ do: "ahead", text: this.seen.from, key, beside, figures: this.wanted }),
       bound: (name, bind) => this.bound(name, bind),
       figure: (name, found, columns) => {
         const frame = /** @type {HTMLElement | null} */ (room("diagrams").querySelector(`.figures > [data-name="${name}"]`));
@@ -91,10 +105,15 @@ class StudioPage {
     });
     this.bind();
     document.documentElement.classList.add("live");
-    const text = () => this.editing.text;
-    this.talk = new Talk(text, (answer, question) => this.heard(answer, question), "waits", (open) => this.notice(open ? "" : this.words.lost));
+    const now = () => this.document();
+    this.talk = new Talk(now, (answer, question) => this.heard(answer, question), "waits", (open) => this.notice(open ? "" : this.words.lost));
     // what is asked for ahead keeps nobody waiting
-    this.aside = new Talk(text, (answer, question) => question && this.ahead.heard(String(question.key), String(question.beside), answer), "prepares");
+    this.aside = new Talk(now, (answer, question) => question && this.ahead.heard(String(question.key), String(question.beside), answer), "prepares");
+  }
+
+  /** What every question is asked of: the text, the file that it stands in, whether it may name others. */
+  document() {
+    return { text: this.editing.text, path: this.editing.path, reads: this.reads };
   }
 
   /**
@@ -156,14 +175,14 @@ class StudioPage {
 
   /** Keep what is here beyond a reload: the document with its last steps, variants, diagrams. */
   keep() {
-    const { text, path, entries, at } = this.editing;
+    const { text, path, files, entries, at } = this.editing;
     const first = Math.max(0, at - 30);
-    const kept = { text, path, entries: entries.slice(first, at + 1), wanted: this.wanted, pins: this.pins };
+    const kept = { text, path, files, entries: entries.slice(first, at + 1), wanted: this.wanted, pins: this.pins, language: document.documentElement.lang };
     try {
       sessionStorage.setItem("studio", JSON.stringify(kept));
     } catch {
       // there is no room for the steps
-      sessionStorage.setItem("studio", JSON.stringify({ ...kept, entries: [], pins: [] }));
+      sessionStorage.setItem("studio", JSON.stringify({ ...kept, files: path ? { [path]: files[path] } : {}, entries: [], pins: [] }));
     }
   }
 
@@ -171,8 +190,10 @@ class StudioPage {
   resume() {
     const kept = JSON.parse(sessionStorage.getItem("studio") ?? "null");
     if (!kept?.text) return false;
+    // where nothing was done yet, another language begins anew
+    if (kept.entries.length < 2 && kept.language !== document.documentElement.lang) return false;
     Object.assign(this, { wanted: kept.wanted, pins: kept.pins });
-    Object.assign(this.editing, { entries: kept.entries, at: kept.entries.length - 1, path: kept.path });
+    Object.assign(this.editing, { entries: kept.entries, at: kept.entries.length - 1, path: kept.path, files: kept.files, drawn: kept.entries.at(-1)?.drawn });
     this.editing.take(kept.text);
     this.editing.commit(this.words.text);
     this.listPins();
@@ -191,7 +212,7 @@ class StudioPage {
     if (behind && !behind.machine && !behind.figures.length) return;
     const figures = behind ? behind.figures : this.wanted;
     const named = ends ? `${key} = ${value}` : "";
-    this.talk.ask({ do: "set", fields: { [key]: value }, of: this.opened, figures, held: Boolean(behind), reads: this.reads, named, slid: slid ? key : "" });
+    this.talk.ask({ do: "set", fields: { [key]: value }, of: this.opened, figures, held: Boolean(behind), machine: behind?.machine, named, slid: slid ? key : "" });
   }
 
   /**
@@ -206,7 +227,7 @@ class StudioPage {
   }
 
   show() {
-    this.talk.ask({ do: "show", figures: this.wanted, reads: this.reads });
+    this.talk.ask({ do: "show", figures: this.wanted });
   }
 
   /**
@@ -218,7 +239,7 @@ class StudioPage {
   open(text, name, path = "") {
     this.fresh();
     this.editing.path = path;
-    if (path) this.editing.kept = text;
+    if (path) this.editing.files[path] = text;
     this.editing.take(text);
     this.editing.commit(name);
     this.show();
@@ -229,6 +250,7 @@ class StudioPage {
    * @param {Question | undefined} question
    */
   heard(answer, question) {
+    if (answer.recent) this.recent(answer.recent);
     if (answer.n === undefined) {
       // what this page had when it was left comes before the file
       if (this.editing.at >= 0) this.show();
@@ -236,10 +258,17 @@ class StudioPage {
       return;
     }
     if (question?.do === "explain" && answer.memories) return this.explain(answer);
+    if (question?.do === "missing") return this.sketch?.heard(answer, /** @type {string[]} */ (question.typed));
+    if (question?.do === "reach" && answer.reach) return this.light(answer);
     if (question?.do === "save") return this.saved(answer, question);
     if (question?.do === "disk") return this.disk(answer);
+    if (question?.do === "recent") {
+      if (answer.text === undefined) this.notice(answer.refusals?.[0]?.text ?? "");
+      else this.open(answer.text, this.words.open, answer.path);
+      return;
+    }
     if (answer.long) return this.refused([{ key: "", line: 0, text: this.words.long }]);
-    if (question && ["set", "without", "sketch", "add"].includes(question.do) && question.base !== this.editing.text) {
+    if (question && ["set", "without", "sketch", "add", "swap"].includes(question.do) && question.base !== this.editing.text) {
       // the text went on meanwhile: what was asked for is done to what it is now, if it is the same machine
       if (question.named && question.of === this.opened) this.talk.ask(question);
       return;
@@ -321,13 +350,15 @@ class StudioPage {
   drawHeld(answer) {
     const columns = columnsOf(answer.data);
     const before = room("film").querySelector("svg");
-    if (before && !this.sketch && this.ahead.held?.ready.ahead.stays) {
+    if (before && !this.sketch && answer.film) {
       const view = before.getAttribute("viewBox") ?? "";
+      const focused = before === document.activeElement;
       before.outerHTML = answer.film;
       const svg = /** @type {SVGSVGElement} */ (room("film").querySelector("svg"));
       // what is seen stands still under the pointer
       svg.setAttribute("viewBox", view);
       this.bound("machine", (cursor) => (this.film = new Film(svg, answer.data.film, cursor)));
+      this.walk.take(focused);
       if (/** @type {HTMLInputElement | null} */ (document.getElementById("traces"))?.checked) this.film?.trace();
     }
     for (const one of /** @type {NodeListOf<HTMLElement>} */ (room("diagrams").querySelectorAll(".figures > figure"))) {
@@ -339,6 +370,7 @@ class StudioPage {
   /** @param {Answer} answer */
   draw(answer) {
     this.ahead.release();
+    this.unlight();
     this.seen = answer;
     const { data } = answer;
     const columns = columnsOf(data);
@@ -348,6 +380,7 @@ class StudioPage {
     if (!this.sketch) this.machine(answer.film, data.film);
     this.figures(answer, columns);
     this.values(answer);
+    this.turn(answer.turn);
     this.columns = columns;
   }
 
@@ -358,14 +391,15 @@ class StudioPage {
    */
   follow(axis, data) {
     const { cursor } = this;
-    const same = cursor && cursor.rows.length === axis.values.length && cursor.rows.every((one, k) => one === axis.values[k]);
+    const found = new Cursor(axis.values, data.film?.angles.map((/** @type {number} */ one) => one / data.film.degrees));
+    const same = cursor && String(cursor.stops) === String(found.stops);
     if (!cursor || !same) {
       const was = cursor?.at;
       const runs = cursor?.runs;
       cursor?.stop();
       const own = room("bar");
       own.innerHTML = this.barText;
-      this.cursor = new Cursor(axis.values);
+      this.cursor = found;
       this.motion = bar(this.cursor, axis, data.film?.seconds ?? 4, data.film?.turns ?? true);
       this.followers.clear();
       if (was !== undefined) this.cursor.move(was);
@@ -386,6 +420,7 @@ class StudioPage {
     const own = room("film");
     const states = [...own.querySelectorAll("input, select")].map((one) => [one.id || /** @type {HTMLElement} */ (one).dataset.choice, one]);
     const open = own.querySelector("details")?.open;
+    const focused = own.querySelector("svg") === document.activeElement;
     own.innerHTML = drawn;
     for (const [name, was] of states) {
       const now = own.querySelector(`#${CSS.escape(String(name))}, [data-choice="${CSS.escape(String(name))}"]`);
@@ -400,6 +435,8 @@ class StudioPage {
       this.film = svg && data ? new Film(svg, data, cursor) : undefined;
     });
     if (this.film && this.motion) choose(this.film, this.motion);
+    this.walk.take(focused);
+    this.hint.hidden = !this.film;
   }
 
   /**
@@ -414,6 +451,7 @@ class StudioPage {
     const there = new Map([...own.children].map((one) => [/** @type {HTMLElement} */ (one).dataset.name ?? "", one]));
     own.replaceChildren(...names.map((name) => there.get(name) ?? this.frame(name, answer.names[name])));
     for (const gone of there.keys()) if (!names.includes(gone)) this.bound(gone, () => {});
+    this.drawnFigures.clear();
     for (const [k, name] of names.entries()) this.figure(/** @type {HTMLElement} */ (own.children[k]), name, answer, columns);
     const add = /** @type {HTMLSelectElement} */ (room("add"));
     const others = Object.entries(answer.names).filter(([name]) => !names.includes(name));
@@ -459,10 +497,12 @@ class StudioPage {
     drawn.innerHTML = answer.figures[name];
     const svg = drawn.querySelector("svg");
     if (!svg || !this.cursor) return undefined;
-    for (const [k, one] of this.pins.entries()) haunt(svg, one, answer.data.figures[name], k + 1);
     /** @type {FollowingFigure | undefined} */
     let made;
-    this.bound(name, (cursor) => (made = new FollowingFigure(svg, answer.data.figures[name], columns, answer.data.axis, cursor)));
+    // scales change, and what was told stays
+    this.bound(name, (cursor) => (made = new FollowingFigure(svg, structuredClone(answer.data.figures[name]), columns, answer.data.axis, cursor)));
+    made?.haunt(this.pins);
+    if (made) this.drawnFigures.set(name, made);
     if (view) svg.setAttribute("viewBox", view);
     svg.classList.toggle("near", Boolean(view));
     for (const one of svg.querySelectorAll("[aria-pressed]")) if (off.includes(one.textContent)) one.dispatchEvent(new Event("click"));
@@ -489,6 +529,20 @@ class StudioPage {
     }
   }
 
+  /**
+   * Say what a crank needs to turn fully, with a way to have it.
+   * @param {{text: string, use: string, key: string, value: string} | undefined} needed
+   */
+  turn(needed) {
+    const place = room("turn");
+    place.hidden = !needed;
+    place.textContent = needed ? `${needed.text} ` : "";
+    if (!needed) return;
+    const button = place.appendChild(document.createElement("button"));
+    button.textContent = needed.use;
+    button.addEventListener("click", () => this.set(needed.key, needed.value, true));
+  }
+
   /** @param {Answer} answer */
   explain(answer) {
     if (!this.cursor || !this.columns) return;
@@ -496,11 +550,55 @@ class StudioPage {
     shown.explain(answer.key);
   }
 
-  /** @param {string} text */
-  chip(text) {
+  /**
+   * Say something above the machine, or beside a place on the screen.
+   * @param {string} text
+   * @param {DOMPoint} [at]
+   */
+  chip(text, at) {
     const chip = room("chip");
     chip.hidden = !text;
     chip.textContent = text;
+    const { left, top, width, right } = room("machine").getBoundingClientRect();
+    const isRight = at !== undefined && at.x - left > width / 2;
+    chip.classList.toggle("beside", Boolean(at));
+    // it has the wider side to stand on
+    chip.style.left = at ? (isRight ? "auto" : `${at.x - left + 14}px`) : "";
+    chip.style.right = at && isRight ? `${right - at.x + 14}px` : "";
+    chip.style.top = at ? `${at.y - top + 14}px` : "";
+  }
+
+  /** Return the names that links and pins of the file have. */
+  taken() {
+    const groups = /** @type {import("./form.js").Group[]} */ (this.seen.form ?? []);
+    const own = groups.flatMap(({ rows }) => rows).filter(({ key }) => /^(links|sliders|fixed_points|guides|positions|crank)\./.test(key));
+    return new Set(own.flatMap(({ key, value }) => [...key.replace(/\[.*/, "").split("."), ...(/\.(joins|pin)$/.test(key) ? String(value).match(/\w+/g) ?? [] : [])]));
+  }
+
+  /**
+   * Light what a number reaches, until something else is drawn or pressed.
+   * @param {Answer} answer
+   */
+  light({ reach: { values, columns }, key }) {
+    const rows = /** @type {HTMLElement[]} */ ([...room("results").querySelectorAll("tr [data-key]")]);
+    const curves = /** @type {SVGElement[]} */ ([...room("diagrams").querySelectorAll("[data-curve]:not(.ghost)")]);
+    document.body.classList.add("lit");
+    for (const one of rows) one.closest("tr")?.classList.toggle("reached", values.includes(one.dataset.key));
+    for (const one of curves) one.classList.toggle("reached", columns.includes(one.dataset.curve));
+    this.say(this.words.reaches.replace("{key}", key).replace("{count}", String(rows.filter((one) => one.closest(".reached")).length)));
+    room("results").querySelector(".reached")?.closest("table")?.scrollIntoView({ block: "nearest" });
+  }
+
+  unlight() {
+    if (!document.body.classList.contains("lit")) return;
+    document.body.classList.remove("lit");
+    this.say("");
+  }
+
+  /** Say at the machine, and aloud. @param {string} text */
+  say(text) {
+    this.chip(text);
+    room("told").textContent = text;
   }
 
   /**
@@ -509,11 +607,15 @@ class StudioPage {
    */
   saved(answer, question) {
     if (answer.saved) {
-      this.editing.keep(question.base ?? "");
+      this.editing.keep(question.base ?? "", answer.saved);
       this.notice(`${this.words.saved} ${answer.saved}`);
       setTimeout(() => room("notice").textContent?.startsWith(this.words.saved) && this.notice(""), 4000);
-    } else if (answer.conflict) {
-      this.notice(`${answer.conflict}: ${this.words.conflict}`, this.words.anyway, () => this.talk.ask({ do: "save", anyway: true }));
+    } else if (answer.gone) this.disk(answer);
+    else if (answer.conflict) {
+      this.notice(`${answer.conflict}: ${this.words.conflict}`, this.words.anyway, () => this.save(true));
+    } else if (answer.handed) {
+      // what the server does not know as a file is handed over
+      if (this.editing.path) this.hand();
     } else this.notice(answer.refusals?.[0]?.text ?? "");
   }
 
@@ -521,8 +623,8 @@ class StudioPage {
   disk(answer) {
     const { path } = this.editing;
     if (answer.text !== undefined) this.open(answer.text, this.words.reread, path);
-    else if (answer.gone) this.notice(`${path}: ${this.words.gone}`, this.words.save, () => this.talk.ask({ do: "save", anyway: true }));
-    else if (answer.changed) this.notice(`${path}: ${this.words.changed}`, this.words.reread, () => this.talk.ask({ do: "disk", take: true }));
+    else if (answer.gone) this.notice(`${path}: ${this.words.gone}`, this.words.save, () => this.save(true));
+    else if (answer.changed) this.notice(`${path}: ${this.words.changed}`, this.words.reread, () => this.talk.ask({ do: "disk", take: true, kept: this.editing.kept }));
   }
 
   /**
@@ -531,8 +633,8 @@ class StudioPage {
    */
   drawing(begins) {
     room("draw").setAttribute("aria-pressed", String(begins));
-    const hint = /** @type {HTMLElement} */ (room("machine").querySelector(".hint"));
-    hint.textContent = begins ? this.words.sketch : `${this.words.hint} ${this.drawn ? this.words.sketch_again : ""}`;
+    this.hint.hidden = false;
+    this.hint.textContent = begins ? this.words.sketch : `${this.words.hint} ${this.editing.drawn ? this.words.sketch_again : ""}`;
     if (!begins) {
       this.sketch = undefined;
       this.chip("");
@@ -542,14 +644,29 @@ class StudioPage {
     this.motion?.stop();
     this.film = undefined;
     const ask = (/** @type {any} */ pins, /** @type {any} */ links) => {
-      const before = this.drawn;
+      const before = this.editing.drawn;
       // what goes on there changes in place
-      this.drawn = structuredClone({ pins, links });
-      this.talk.ask({ do: "sketch", ...this.drawn, before, of: this.opened, figures: before ? this.wanted : null, named: this.words.draw });
+      this.editing.drawn = structuredClone({ pins, links });
+      this.talk.ask({ do: "sketch", ...this.editing.drawn, before, of: this.opened, figures: before ? this.wanted : null, named: this.words.draw });
     };
-    this.sketch = new Sketch(room("film"), this.words, ask, (text) => this.chip(text));
-    if (this.drawn) this.sketch.take(structuredClone(this.drawn.pins), structuredClone(this.drawn.links));
+    const tells = {
+      drawn: ask,
+      asked: (/** @type {any} */ pins, /** @type {any} */ links, /** @type {string[]} */ typed) => this.talk.ask({ do: "missing", ...structuredClone({ pins, links, typed }) }),
+      said: (/** @type {string} */ text, /** @type {DOMPoint | undefined} */ at) => this.chip(text, at),
+    };
+    this.sketch = new Sketch(room("film"), this.words, tells, this.editing.drawn ? this.taken() : new Set());
+    if (this.editing.drawn) this.sketch.take(structuredClone(this.editing.drawn.pins), structuredClone(this.editing.drawn.links));
     this.sketch.svg.focus();
+  }
+
+  /**
+   * Go back in the history, or on; what is being drawn goes with it.
+   * @param {number} by
+   */
+  step(by) {
+    if (!this.editing.step(by)) return;
+    if (this.sketch) this.drawing(Boolean(this.editing.drawn));
+    this.show();
   }
 
   /** @param {string} name */
@@ -574,10 +691,39 @@ class StudioPage {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
 
+  /** Write the text to its file; one without a file stays among those that were opened last. */
+  save(anyway = false) {
+    this.talk.ask({ do: "save", anyway, kept: this.editing.kept, name: this.seen.title || "machine.toml" });
+  }
+
+  /** Hand the text to the browser. */
+  hand() {
+    this.editing.path = "";
+    this.download("machine.toml", new Blob([this.editing.text]));
+    this.editing.keep(this.editing.text, "");
+  }
+
+  /**
+   * List the machines that were opened last: names, and the folders of files.
+   * @param {string[][]} found
+   */
+  recent(found) {
+    const own = /** @type {HTMLOptGroupElement} */ (room("template").querySelector("optgroup"));
+    own.hidden = !found.length;
+    own.replaceChildren(
+      ...found.map(([name, folder]) => {
+        const option = new Option(folder ? `${name.slice(folder.length).replace(/^[\\/]/, "")} – ${folder}` : name, name);
+        option.dataset.recent = "true";
+        return option;
+      }),
+    );
+  }
+
   /** @param {string} name */
   async export(name) {
     this.notice(this.words.working);
-    const answer = await fetch(`export${location.search}`, { method: "POST", body: JSON.stringify({ text: this.editing.text, name, reads: this.reads }) });
+    const answer = await fetch(`export${location.search}`, { method: "POST", body: JSON.stringify({ ...this.document(), name }) }).catch(() => undefined);
+    if (!answer) return this.notice(this.words.lost);
     if (answer.ok) {
       this.notice("");
       this.download(name, await answer.blob());
@@ -594,8 +740,7 @@ class StudioPage {
 
   pin() {
     if (!this.seen.data) return;
-    const svgs = /** @type {NodeListOf<SVGSVGElement>} */ (room("diagrams").querySelectorAll("svg.drawing"));
-    const pinned = { text: this.editing.text, fields: this.fields(), summary: this.seen.summary, curves: curvesOf(svgs, this.seen.data.figures) };
+    const pinned = { text: this.editing.text, fields: this.fields(), summary: this.seen.summary, curves: curvesOf(this.drawnFigures.values()) };
     this.pins = [...this.pins, pinned].slice(-MOST_PINS);
     this.keep();
     this.listPins();
@@ -623,8 +768,9 @@ class StudioPage {
         gone.setAttribute("aria-label", `${this.words.without} ${this.words.pinned} ${k + 1}`);
         gone.addEventListener("click", () => {
           this.pins = this.pins.filter((other) => other !== one);
+          this.keep();
           this.listPins();
-          this.draw(this.seen);
+          if (this.seen.data) this.draw(this.seen);
         });
         return [take, gone];
       }),
@@ -633,16 +779,15 @@ class StudioPage {
 
   bind() {
     const on = (/** @type {string} */ id, /** @type {() => void} */ act) => room(id).addEventListener("click", act);
-    on("undo", () => this.editing.step(-1) && this.show());
-    on("redo", () => this.editing.step(1) && this.show());
+    on("undo", () => this.step(-1));
+    on("redo", () => this.step(1));
     on("save", () => {
-      if (this.editing.path) this.talk.ask({ do: "save" });
-      else {
-        this.download("machine.toml", new Blob([this.editing.text]));
-        this.editing.keep(this.editing.text);
-      }
+      if (!this.editing.path) this.hand();
+      this.save();
     });
     on("pin", () => this.pin());
+    on("all", () => this.commands.open());
+    document.addEventListener("pointerdown", () => this.unlight());
     on("draw", () => this.drawing(!this.sketch));
     on("share", async () => {
       const word = await this.shared();
@@ -667,10 +812,15 @@ class StudioPage {
     this.bindChoices();
     document.addEventListener("keydown", (event) => {
       const inField = /** @type {Element} */ (event.target).matches("textarea, input, select");
-      if (event.key === "/" && !inField) {
-        this.tab("form");
-        this.form.begin();
+      if (event.key === "/" && !inField && !this.sketch) {
+        this.commands.open();
         event.preventDefault();
+      }
+      if (event.key === "Escape") this.unlight();
+      const dyad = event.key.toLowerCase() === "b" && !inField && !this.sketch ? this.drag.meant() : undefined;
+      if (!(event.ctrlKey || event.metaKey) && dyad) {
+        const named = this.words.swapped.replace("{joint}", dyad.name);
+        this.talk.ask({ do: "swap", key: dyad.name, of: this.opened, figures: this.wanted, reads: this.reads, named });
       }
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
@@ -684,7 +834,7 @@ class StudioPage {
       else return;
       event.preventDefault();
     });
-    addEventListener("focus", () => this.editing.path && this.talk.ask({ do: "disk" }));
+    addEventListener("focus", () => this.editing.path && this.talk.ask({ do: "disk", kept: this.editing.kept }));
     document.addEventListener("paste", (event) => {
       const word = event.clipboardData?.getData("text").trim() ?? "";
       const inside = /** @type {Element} */ (event.target).closest("input, textarea");
@@ -706,21 +856,24 @@ class StudioPage {
     this.opened += 1;
     this.reads = false;
     this.wanted = null;
-    this.drawn = undefined;
+    this.editing.drawn = undefined;
     this.form.shape = "";
+    this.walk.fresh();
+    for (const id of ["form", "results", "diagrams"]) room(id).scrollTo(0, 0);
     if (this.sketch) this.drawing(false);
   }
 
   bindChoices() {
-    const chosen = (/** @type {string} */ id, /** @type {(value: string) => void} */ act, stays = false) => {
+    const chosen = (/** @type {string} */ id, /** @type {(value: string, option: HTMLOptionElement) => void} */ act, stays = false) => {
       const select = /** @type {HTMLSelectElement} */ (room(id));
       select.addEventListener("change", () => {
-        const { value } = select;
+        const { value, selectedOptions } = select;
+        const [option] = selectedOptions;
         if (!stays) select.value = "";
-        if (value) act(value);
+        if (value) act(value, option);
       });
     };
-    chosen("template", (name) => this.take({ do: "template", name }));
+    chosen("template", (name, option) => (option.dataset.recent ? this.talk.ask({ do: "recent", name }) : this.take({ do: "template", name })));
     chosen("export", (name) => void this.export(name));
     chosen("language", (language) => location.assign(`/?lang=${language}`), true);
     chosen("add", (name) => {
@@ -732,7 +885,10 @@ class StudioPage {
       const file = open.files?.[0];
       const text = (await file?.text()) ?? "";
       if (SHARED.test(text.trim())) this.take({ do: "shared", word: text });
-      else if (file) this.open(text, file.name);
+      else if (file) {
+        this.open(text, file.name);
+        this.talk.ask({ do: "save", kept: "", name: file.name });
+      }
       open.value = "";
     });
   }

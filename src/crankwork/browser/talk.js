@@ -3,18 +3,18 @@
 /** A question; its base is the text that it was asked of. @typedef {{do: string, fields?: Record<string, string>, base?: string, [key: string]: unknown}} Question */
 /** @typedef {{n?: number, text?: string, [key: string]: any}} Answer */
 
-// what the server takes; a machine file is far shorter
-const LONGEST_MESSAGE = 300_000;
+// what the server takes [bytes]; a machine file is far shorter
+const LONGEST_MESSAGE = 1_000_000;
 
 export class Talk {
   /**
-   * @param {() => string} text what stands in the file when a question goes out
+   * @param {() => {text: string, path: string, reads: boolean}} now what a question is asked of when it goes out
    * @param {(answer: Answer, question: Question | undefined) => void} heard
    * @param {string} name of what it says of itself at the page: whether something is under way
    * @param {(open: boolean) => void} [state]
    */
-  constructor(text, heard, name, state) {
-    this.text = text;
+  constructor(now, heard, name, state) {
+    this.now = now;
     this.heard = heard;
     this.name = name;
     this.state = state;
@@ -46,7 +46,7 @@ export class Talk {
   ask(question) {
     const last = this.waiting[this.waiting.length - 1];
     if (question.do === "set" && last?.do === "set") this.waiting.pop();
-    if (question.do === "show" || question.do === "ahead") this.waiting = this.waiting.filter((one) => one.do !== question.do);
+    if (["show", "ahead", "missing"].includes(question.do)) this.waiting = this.waiting.filter((one) => one.do !== question.do);
     const fields = question.do === "set" && last?.do === "set" ? { ...last.fields, ...question.fields } : question.fields;
     this.waiting.push({ ...question, fields });
     this.next();
@@ -58,9 +58,10 @@ export class Talk {
     this.asked = this.waiting.shift();
     if (!this.asked) return;
     this.number += 1;
-    this.asked.base = this.text();
-    const message = JSON.stringify({ text: this.asked.base, ...this.asked, base: undefined, n: this.number });
-    if (message.length < LONGEST_MESSAGE) this.socket.send(message);
+    const now = this.now();
+    this.asked.base = now.text;
+    const message = JSON.stringify({ ...now, ...this.asked, base: undefined, n: this.number });
+    if (new Blob([message]).size < LONGEST_MESSAGE) this.socket.send(message);
     else this.answered({ n: this.number, long: true });
   }
 

@@ -8,19 +8,17 @@ import json
 import os
 import re
 import sys
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 import click
 
 from crankwork.cli.asked import (
+    Asked,
     analysed,
-    compared,
-    doubt,
+    asking,
+    count_of,
     factor_of,
     formats_of,
-    laid_over,
-    machine_of,
     place_of,
 )
 from crankwork.cli.documents import draw, page, report
@@ -44,9 +42,6 @@ from crankwork.cli.studio import studio
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
 from crankwork.locale import Language, Refusal, say, told
 from crankwork.progress import bar, with_progress
-
-if TYPE_CHECKING:
-    from crankwork.show.theme import Theme
 
 
 def main() -> None:
@@ -158,22 +153,23 @@ def commands() -> None:
 @click.option("-o", "--output", metavar="FILE")
 @LANG
 @OVERWRITE
-def new(name: str | None, output: str | None, language: Language, *, overwrite: bool) -> None:
+@asking
+def new(asked: Asked, name: str | None, output: str | None) -> None:
     """Write a template, or list those there are."""
     from crankwork import files
     from crankwork.description.machine_file import template, template_names, template_title
 
     if name is None:
-        titles = {one: template_title(one, language) for one in template_names()}
+        titles = {one: template_title(one, asked.language) for one in template_names()}
         width = max(map(len, titles))
         click.echo("\n".join(f"{one:<{width}}  {title}" for one, title in titles.items()))
         return
-    text = template(name, language)
+    text = template(name, asked.language)
     if output is None:
         click.echo(text, nl=False)
         return
-    files.write_new(output, text, overwrite=overwrite)
-    click.echo(say("report.written_new", language, file=output))
+    files.write_new(output, text, overwrite=asked.overwrite)
+    click.echo(say("report.written_new", asked.language, file=output))
 
 
 @commands.command()
@@ -184,48 +180,39 @@ def new(name: str | None, output: str | None, language: Language, *, overwrite: 
 @click.option("--circuits", is_flag=True)
 @JSON
 @click.option("--expand", is_flag=True)
-def check(  # noqa: PLR0913 - one argument per option of the command
-    file: str,
-    language: Language,
-    units: str | None,
-    settings: tuple[str, ...],
-    *,
-    circuits: bool,
-    as_json: bool,
-    expand: bool,
-) -> None:
+@asking
+def check(asked: Asked, *, circuits: bool, expand: bool) -> None:
     """Read a machine and say what it is."""
-    if expand and (circuits or as_json):
+    if expand and (circuits or asked.as_json):
         raise CrankworkError(Refusal("expand_alone"))
     if expand:
         from crankwork.description.expand import expanded
 
-        click.echo(expanded(file, settings, language), nl=False)
+        click.echo(expanded(asked.file, asked.settings, asked.language), nl=False)
         return
-    from crankwork.description.machine_file import read
     from crankwork.report.notices import notice_text
     from crankwork.report.summary import description_text
 
-    if as_json and not circuits:
+    if asked.as_json and not circuits:
         raise CrankworkError(Refusal("json_of_circuits"))
-    machine = read(file, laid_over(settings, units=units))
-    if circuits and as_json:
+    machine = asked.machine
+    if circuits and asked.as_json:
         from crankwork.analysis.ways import ways
         from crankwork.report.ways import ways_data
 
         click.echo(json.dumps(ways_data(machine, ways(machine)), ensure_ascii=False, indent=1))
         return
     results = analysed(machine)
-    click.echo(f"{file}: {machine.title}" if machine.title else file)
-    click.echo(description_text(results, language))
+    click.echo(f"{asked.file}: {machine.title}" if machine.title else asked.file)
+    click.echo(description_text(results, asked.language))
     if circuits:
         from crankwork.analysis.ways import ways
         from crankwork.report.ways import ways_text
 
-        click.echo(ways_text(machine, ways(machine), language))
+        click.echo(ways_text(machine, ways(machine), asked.language))
     for notice in results.notices:
-        click.echo(say("check.note", language, notice=notice_text(notice.code, notice.values, language)))
-    doubt(file, results, language)
+        click.echo(say("check.note", asked.language, notice=notice_text(notice.code, notice.values, asked.language)))
+    asked.doubt(results)
 
 
 @commands.command()
@@ -244,48 +231,32 @@ def check(  # noqa: PLR0913 - one argument per option of the command
 @THEME
 @click.option("--excel-csv", is_flag=True)
 @OVERWRITE
-def run(  # noqa: PLR0913 - one argument per option of the command
-    file: str,
-    output: str | None,
-    step: str | None,
-    method: str | None,
-    language: Language,
-    units: str | None,
-    settings: tuple[str, ...],
-    compare: str | None,
-    formats: str,
-    theme: Theme,
-    *,
-    per_area: bool,
-    as_json: bool,
-    no_figures: bool,
-    excel_csv: bool,
-    overwrite: bool,
-) -> None:
+@asking
+def run(asked: Asked, output: str | None, *, excel_csv: bool) -> None:
     """Compute a machine: print the summary, and write tables and figures with -o."""
     from crankwork import files
-    from crankwork.report import summary
+    from crankwork.report.summary import summary_data, summary_text
 
-    machine = machine_of(file, laid_over(settings, step, method, units), per_area=per_area)
+    language, per_area = asked.language, asked.per_area
     if output is not None:
         if not output:
             raise CrankworkError(Refusal("folder_unnamed"))
-        files.check_folder(output, overwrite=overwrite)
-    wanted = () if no_figures or output is None else formats_of(formats)
-    results = compared(machine, file, compare, per_area=per_area)
-    if as_json:
-        click.echo(json.dumps(summary.summary_data(results, per_area=per_area), ensure_ascii=False, indent=1))
-    else:
-        click.echo(summary.summary_text(results, language=language, per_area=per_area))
+        files.check_folder(output, overwrite=asked.overwrite)
+    wanted = () if asked.no_figures or output is None else formats_of(asked.formats)
+    results = asked.results()
+    asked.tell(
+        lambda: summary_text(results, language=language, per_area=per_area),
+        lambda: summary_data(results, per_area=per_area),
+    )
     if output is not None:
         from crankwork.report.results_folder import left_out, results_folder
 
         steps = results_folder(
-            results, language=language, per_area=per_area, for_excel=excel_csv, formats=wanted, theme=theme
+            results, language=language, per_area=per_area, for_excel=excel_csv, formats=wanted, theme=asked.theme
         )
-        contents = with_progress(steps, 4 - no_figures)
-        files.write_folder(output, contents, overwrite=overwrite)
-        click.echo(f"\n{say('report.written', language)} {output}", err=as_json)
+        contents = with_progress(steps, 4 - asked.no_figures)
+        files.write_folder(output, contents, overwrite=asked.overwrite)
+        asked.tell_written(output, "\n")
         if wanted:
             from crankwork.report.not_drawn import not_drawn
 
@@ -293,7 +264,7 @@ def run(  # noqa: PLR0913 - one argument per option of the command
                 _tell(say("check.note", language, notice=one))
         if (missing := left_out()) is not None:
             _tell(say("check.note", language, notice=_told(missing.args[0])))
-    doubt(file, results, language)
+    asked.doubt(results)
 
 
 for one in (report, page, draw, sweep, optimise, map_, studio):
@@ -309,38 +280,20 @@ for one in (report, page, draw, sweep, optimise, map_, studio):
 @LANG
 @SYSTEM
 @SET
-def explain(  # noqa: PLR0913 - one argument per option of the command
-    file: str,
-    key: str | None,
-    at: str | None,
-    method: str | None,
-    language: Language,
-    units: str | None,
-    settings: tuple[str, ...],
-    *,
-    with_keys: bool,
-) -> None:
+@asking
+def explain(asked: Asked, key: str | None, at: str | None, *, with_keys: bool) -> None:
     """Explain one value of a machine: every step in order, down to the lines of the file."""
-    from crankwork.description.machine_file import read
-    from crankwork.description.origins import origins
-    from crankwork.note.explain import explanation, key_lines, place_text
+    from crankwork.note.explain import explanation, key_lines
 
     if key is None and not with_keys:
         raise CrankworkError(Refusal("explain_what"))
-    overrides = laid_over(settings, None, method, units)
     # what is no crank angle may be a time, which the machine knows
-    machine = read(file, overrides)
-    where = None if at is None else place_of(at, "time" if machine.mechanism.driver.law else "angle")
-    results = analysed(machine)
+    where = None if at is None else place_of(at, "time" if asked.machine.mechanism.driver.law else "angle")
+    results = asked.results()
     if key is None or with_keys:
-        click.echo("\n".join(key_lines(results, language)))
+        click.echo("\n".join(key_lines(results, asked.language)))
         return
-    origin = origins(file, overrides)
-
-    def place(path: str, numbers: Iterable[float]) -> str:
-        return place_text(origin(path, numbers), language)
-
-    click.echo(explanation(results, key, where, language, place), nl=False)
+    click.echo(explanation(results, key, where, asked.language, asked.origin()), nl=False)
 
 
 @commands.command()
@@ -353,32 +306,19 @@ def explain(  # noqa: PLR0913 - one argument per option of the command
 @LANG
 @SET
 @JSON
-def solve(  # noqa: PLR0913 - one argument per option of the command
-    file: str,
-    equation: str,
-    sought: str,
-    start: str | None,
-    end: str | None,
-    steps: str,
-    language: Language,
-    settings: tuple[str, ...],
-    *,
-    as_json: bool,
-) -> None:
+@asking
+def solve(asked: Asked, equation: str, sought: str, start: str | None, end: str | None, steps: str) -> None:
     """Find the numbers of a file that make a value what is wanted: "piston_force@33deg = 0" --for crank.speed."""
     from crankwork.description.document import load
     from crankwork.study.solution import solution_data, solution_text
     from crankwork.study.solve import solve as solved
 
-    count = int(steps) if steps.isascii() and steps.isdecimal() and len(steps) < 10 else 0
     with bar() as telling:
         found = solved(
-            load(file), equation, sought, limits=(start, end), steps=count, overrides=settings, told=telling
+            load(asked.file), equation, sought, limits=(start, end), steps=count_of(steps), overrides=asked.settings,
+            told=telling,
         )  # fmt: skip
-    if as_json:
-        click.echo(json.dumps(solution_data(found), ensure_ascii=False, indent=1))
-    else:
-        click.echo(solution_text(found, language))
+    asked.tell(lambda: solution_text(found, asked.language), lambda: solution_data(found))
 
 
 @commands.command()
@@ -390,32 +330,19 @@ def solve(  # noqa: PLR0913 - one argument per option of the command
 @SYSTEM
 @SET
 @JSON
-def spread(  # noqa: PLR0913 - one argument per option of the command
-    file: str,
-    keys: tuple[str, ...],
-    samples: str,
-    within: str,
-    language: Language,
-    units: str | None,
-    settings: tuple[str, ...],
-    *,
-    as_json: bool,
-) -> None:
+@asking
+def spread(asked: Asked, keys: tuple[str, ...], samples: str, within: str) -> None:
     """Tell how far results spread where the file states numbers with a deviation: "75 ± 0.1 mm"."""
     from crankwork.description.document import load
     from crankwork.study.spread import spread as found_spread
     from crankwork.study.spread_text import spread_data, spread_text
 
-    count = int(samples) if samples.isascii() and samples.isdecimal() and len(samples) < 10 else 0
     with bar() as telling:
         found = found_spread(
-            load(file), keys, samples=count, within=factor_of(within), overrides=laid_over(settings, units=units),
+            load(asked.file), keys, samples=count_of(samples), within=factor_of(within), overrides=asked.overrides,
             told=telling,
         )  # fmt: skip
-    if as_json:
-        click.echo(json.dumps(spread_data(found), ensure_ascii=False, indent=1))
-    else:
-        click.echo(spread_text(found, language))
+    asked.tell(lambda: spread_text(found, asked.language), lambda: spread_data(found))
 
 
 @commands.command()

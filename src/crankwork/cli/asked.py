@@ -2,61 +2,124 @@
 
 from __future__ import annotations
 
+import dataclasses
+import functools
+import json
 import math
+from collections.abc import Callable, Iterable
 from pathlib import PurePath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import click
 
 from crankwork.errors import CrankworkError, DoubtfulError, MissingExtraError, missing_extras
-from crankwork.locale import Language, Refusal
+from crankwork.locale import Language, Refusal, say
 from crankwork.progress import bar
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
     from crankwork.description.machine_file import Setting
     from crankwork.machine import Machine
+    from crankwork.show.theme import Theme
 
 
-def machine_of(file: str, overrides: list[str | Setting], *, per_area: bool) -> Machine:
-    """Return the machine of a file with the options of a command put into it."""
-    from crankwork.description.machine_file import read
+@dataclasses.dataclass(frozen=True)
+class Asked:
+    """What the arguments and options that commands share ask for; a command that lacks one has its default."""
 
-    machine = read(file, overrides)
-    if per_area and machine.cylinder is None:
-        raise CrankworkError(Refusal("per_area_bore"))
-    return machine
+    language: Language
+    file: str = ""
+    settings: tuple[str, ...] = ()
+    step: str | None = None
+    method: str | None = None
+    units: str | None = None
+    compare: str | None = None
+    formats: str = "svg"
+    theme: Theme = "print"
+    per_area: bool = False
+    as_json: bool = False
+    no_figures: bool = False
+    overwrite: bool = False
+
+    @functools.cached_property
+    def overrides(self) -> list[str | Setting]:
+        """What is laid over the file: settings, and what options say instead of it."""
+        from crankwork.description.machine_file import Setting
+
+        # a step may be without its unit
+        step = f"{self.step} deg" if self.step and self.step.strip()[-1:].isdecimal() else self.step
+        options = (("table.step", step), ("method.kinematics", self.method), ("units", self.units))
+        names = ("--step", "--method", "--units")
+        said = zip(names, options, strict=True)
+        return [*self.settings, *(Setting(name, key, one) for name, (key, one) in said if one is not None)]
+
+    @functools.cached_property
+    def machine(self) -> Machine:
+        """The machine of the file with the options put into it."""
+        from crankwork.description.machine_file import read
+
+        machine = read(self.file, self.overrides)
+        if self.per_area and machine.cylinder is None:
+            raise CrankworkError(Refusal("per_area_bore"))
+        return machine
+
+    def results(self) -> Results:
+        """Return the results of the machine, with those beside them that it is to be compared with."""
+        if self.compare is None:
+            return analysed(self.machine)
+        from crankwork.analysis.compare import compare
+        from crankwork.study.beside import others
+
+        name, machines = others(self.machine, self.file, self.compare)
+        results = analysed(self.machine)
+        found = compare(results, {other: analysed(one) for other, one in machines.items()}, name)
+        if self.per_area and found.compared is not None and not found.compared.is_of_methods:
+            raise CrankworkError(Refusal("compare_per_area"))
+        return found
+
+    def origin(self) -> Callable[[str, Iterable[float]], str]:
+        """Return what tells where in the file given numbers stand."""
+        from crankwork.description.origins import origins
+        from crankwork.note.explain import place_text
+
+        found = origins(self.file, self.overrides)
+        return lambda path, numbers: place_text(found(path, numbers), self.language)
+
+    def tell(self, text: Callable[[], str], data: Callable[[], object]) -> None:
+        """Print what was found, as text or as data."""
+        click.echo(json.dumps(data(), ensure_ascii=False, indent=1) if self.as_json else text())
+
+    def tell_written(self, names: str, before: str = "") -> None:
+        """Say which files were written, beside data on the error stream."""
+        click.echo(f"{before}{say('report.written', self.language)} {names}", err=self.as_json)
+
+    def doubt(self, results: Results) -> None:
+        """Raise if the results do not hold together, or do not cover what was asked; they were told and written."""
+        from crankwork.report.summary import warning_text
+
+        every = {self.file: results}
+        if results.compared is not None:
+            every |= zip(results.compared.names[1:], results.compared.others, strict=True)
+        for name, one in every.items():
+            if warning := warning_text(one, self.language):
+                raise DoubtfulError(f"{name}: {warning}")
 
 
-def laid_over(
-    settings: tuple[str, ...], step: str | None = None, method: str | None = None, units: str | None = None
-) -> list[str | Setting]:
-    """Return the settings of a command with what its options say."""
-    from crankwork.description.machine_file import Setting
+def asking(command: Callable[..., None]) -> Callable[..., None]:
+    """Return a command that takes what commands share as one thing, and options of its own beside it."""
+    shared = {one.name for one in dataclasses.fields(Asked)}
 
-    overrides: list[str | Setting] = list(settings)
-    if step is not None:
-        overrides.append(Setting("--step", "table.step", degrees(step)))
-    if method is not None:
-        overrides.append(Setting("--method", "method.kinematics", method))
-    if units is not None:
-        overrides.append(Setting("--units", "units", units))
-    return overrides
+    @functools.wraps(command)
+    def called(**options: Any) -> None:  # noqa: ANN401 - whatever Click has read
+        common = {name: options.pop(name) for name in shared & options.keys()}
+        command(Asked(**common), **options)
+
+    return called
 
 
-def doubt(file: str, results: Results, language: Language) -> None:
-    """Raise if the results do not hold together, or do not cover what was asked; they have been told and written."""
-    from crankwork.report.summary import warning_text
-
-    every = {file: results}
-    if results.compared is not None:
-        every |= zip(results.compared.names[1:], results.compared.others, strict=True)
-    for name, one in every.items():
-        if warning := warning_text(one, language):
-            raise DoubtfulError(f"{name}: {warning}")
-
-
-def degrees(text: str) -> str:
-    """Return a step with its unit, which may be left out."""
-    return f"{text} deg" if text.strip()[-1:].isdecimal() else text
+def count_of(text: str) -> int:
+    """Return a whole number of an option, 0 where it is none."""
+    return int(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0
 
 
 def place_of(text: str, dimension: str) -> float:
@@ -84,21 +147,6 @@ def analysed(machine: Machine) -> Results:
 
     with bar() as told:
         return analyse(machine, progress=told)
-
-
-def compared(machine: Machine, file: str, asked: str | None, *, per_area: bool) -> Results:
-    """Return the results of a machine, with those beside them that it is to be compared with."""
-    if asked is None:
-        return analysed(machine)
-    from crankwork.analysis.compare import compare
-    from crankwork.study.beside import others
-
-    name, machines = others(machine, file, asked)
-    results = analysed(machine)
-    found = compare(results, {other: analysed(one) for other, one in machines.items()}, name)
-    if per_area and found.compared is not None and not found.compared.is_of_methods:
-        raise CrankworkError(Refusal("compare_per_area"))
-    return found
 
 
 def formats_of(text: str) -> tuple[str, ...]:

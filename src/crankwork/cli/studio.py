@@ -12,7 +12,6 @@ from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Language, Refusal
 
 _MODULES = {"starlette": "studio", "uvicorn": "studio", "websockets": "studio"}
-_FIRST = "four-bar"
 
 
 @click.command(cls=SpokenCommand)
@@ -27,17 +26,16 @@ def studio(file: str | None, port: str, language: Language, *, no_browser: bool)
     if extras := missing_extras(_MODULES):
         raise MissingExtraError(Refusal("extra_studio"), *extras)
     from crankwork import files
-    from crankwork.description.machine_file import template
     from crankwork.studio.answers import is_share, opened_share
     from crankwork.studio.server import Opening, serve
 
     if file is None:
-        opening = Opening(template(_FIRST, language))
+        opening = Opening()
     elif is_share(file):
         opening = Opening(opened_share(file, language))
     else:
         path = Path(file)
         text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
         # what came in another form is not saved in the place of that
-        opening = Opening(opened_share(text, language)) if is_share(text) else Opening(text, path.resolve(), reads=True)
+        opening = Opening(opened_share(text, language)) if is_share(text) else Opening(text, path.resolve())
     serve(opening, language, int(port), opens=not no_browser, says=click.echo)

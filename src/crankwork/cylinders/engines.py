@@ -8,7 +8,7 @@ from dataclasses import replace
 from crankwork.cylinders.arrangement import arranged
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.layout import Banks, Layout
-from crankwork.cylinders.standard_orders import StandardOrder, radial_order
+from crankwork.cylinders.standard_orders import radial_order
 from crankwork.locale import Refusal
 
 
@@ -105,13 +105,3 @@ def radial(  # noqa: PLR0913 - each argument is a key of the description
     layout, notices = arranged(banks, order, strokes=strokes, throws=(0.0,), uneven=uneven)
     places = tuple(replace(one, master=0 if one.number == master else master) for one in layout.places)
     return replace(layout, places=places), notices
-
-
-def standard_layout(standard: StandardOrder, *, spacing: float = 0.0) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return a customary engine."""
-    own = standard.kind in ("inline", "boxer")
-    pitch, stagger = (2 * spacing, spacing) if standard.kind == "boxer" else (spacing, 0.0)
-    banks = Banks(
-        standard.kind, standard.cylinders, standard.axes, pitch, stagger, standard.pin_offset, standard.numbering, own
-    )
-    return arranged(banks, standard.order, strokes=standard.strokes, throws=standard.throws)

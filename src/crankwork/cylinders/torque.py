@@ -6,16 +6,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crankwork.cylinders.firing import intervals, wrapped
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import Layout
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, added, is_known, named
-from crankwork.kinematics.crank_grid import Array
-
-_DECIMALS = 9
 
 
 @formula("journal_torque", "kolchin_demidov_2008, ch. 9")
@@ -40,23 +36,6 @@ def mean_torque_of_work(i_cyl: Value, W: Value, phi_c: Value) -> Value:
 def even_firing_interval(phi_c: Value, i_cyl: Value) -> Value:
     """Angle between firings that follow each other evenly, the period of the total torque."""
     return phi_c / i_cyl
-
-
-def cylinder_angle(degrees: ArrayLike, place: Place, cycle: float) -> Array:
-    """Return the crank angle of a cylinder in its own cycle. [deg]
-
-    (degrees - firing angle) mod cycle; a decimal where rounding alone keeps it from being one, and left as it is for
-    a cylinder that fires with the first, within one cycle.
-    """
-    degrees = np.asarray(degrees, dtype=float)
-    within = (degrees >= 0) & (degrees <= cycle)
-    if place.firing_angle == 0 and np.all(within):
-        return degrees
-    rest = np.mod(degrees - place.firing_angle, cycle)
-    near = np.round(rest, _DECIMALS)
-    reach = 1e-15 * (np.abs(degrees) + place.firing_angle + cycle)
-    rest = np.where(np.abs(rest - near) <= reach, near, rest)
-    return np.where(cycle - rest <= 1e-12 * cycle, 0.0, rest)
 
 
 class TorquesAlongShaft(NamedTuple):

@@ -43,7 +43,7 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
     masses = _masses(values, lengths, cylinder, method, reader)
     gas = calculated.gas if calculated else build_gas(values.get("gas"), cylinder, reader, read_measured)
     table, flywheel = values["table"], values["flywheel"]
-    special = [math.degrees(angle.value) for angle in table["special_angles"] if angle]
+    special = table.degrees("special_angles")
     is_whole = not _ENGINE_TABLES.isdisjoint(values)
     cycle = gas.cycle if gas else 180.0 * values["engine"]["strokes"] if is_whole else 360.0
     for number, angle in enumerate(special, start=1):
@@ -75,8 +75,8 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
         gas=gas,
         has_gravity=values["method"]["weights"],
         method=method,
-        table_step=round(math.degrees(table.si("step")), 9),
-        table_special=tuple(round(angle, 9) for angle in special),
+        table_step=table.degrees("step"),
+        table_special=tuple(special),
         engine=engine,
         drive=drive,
         stated=stated,
@@ -163,13 +163,7 @@ def _check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | N
 def _cylinder(values: Values) -> Cylinder | None:
     if "bore" not in values:
         return None
-    return Cylinder(
-        bore=values.si("bore"),
-        clearance_volume=values.si("clearance_volume"),
-        compression_ratio=values["compression_ratio"],
-        piston_rod_diameter=values.si("piston_rod_diameter") or 0.0,
-        inclination=values.si("inclination"),
-    )
+    return values.made(Cylinder, piston_rod_diameter=values.si("piston_rod_diameter") or 0.0)
 
 
 def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, float] | None, reader: Reader) -> None:

@@ -42,18 +42,15 @@ def build_chambers(
             diagram = with_valves(diagram, valves, has_clearance=any(volumes))
         is_absolute = one["pressures"] == "absolute" or name in holder or "cycle" in one
         counted = one.but(pressures="absolute") if is_absolute else one
-        chambers[name] = Chamber(
+        chambers[name] = one.made(
+            Chamber,
             faces=faces,
-            clearance_volume=one.si("clearance_volume"),
-            compression_ratio=one["compression_ratio"],
             ambient=counted.si("ambient") or 0.0,
             names_ambient="ambient" in one or not is_absolute,
             cycle=float(one["period"].split()[0]),
-            pressure=one.si("pressure"),
-            delay=round(math.degrees(one.si("delay") or 0.0), 9),
+            delay=one.degrees("delay") or 0.0,
             factor=one["pressure_factor"],
             released=_released(one, faces, values["crank"], path, reader),
-            temperature=one.si("temperature"),
             valves=valves,
             **diagram._asdict(),
         )
@@ -169,15 +166,9 @@ def _check_charge(path: str, charge: Values, reader: Reader) -> None:
 
 
 def _charge(values: Values) -> Charge:
-    return Charge(
+    return values.made(
+        Charge,
         chambers=tuple(values["chambers"]),
-        dead_volumes=tuple(
-            DeadVolume(one.si("volume"), one.si("temperature")) for one in values["dead_volumes"] if one
-        ),
-        exponent=values["exponent"],
-        mean_pressure=values.si("mean_pressure"),
-        pressure=values.si("pressure"),
+        dead_volumes=tuple(one.made(DeadVolume) for one in values["dead_volumes"] if one),
         angle=math.degrees(values.si("angle") or 0.0),
-        mass=values.si("mass"),
-        gas_constant=values.si("gas_constant"),
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any, Literal, NamedTuple, cast
 
 import numpy as np
@@ -84,45 +84,24 @@ def _built(values: Values, table: Values, ratio: float, pi: float) -> Cycle:
     return Cycle(gas, values)
 
 
-def _degrees(table: Values, key: str) -> float:
-    return round(math.degrees(table.si(key) or 0.0), 9)
-
-
 def _timing(table: Values, angle: float) -> Timing:
-    return Timing(
-        ignition_advance=_degrees(table, "ignition"),
-        ignition_delay=_degrees(table, "ignition_delay"),
-        intake_opens=_degrees(table, "intake_opens"),
-        intake_closes=_degrees(table, "intake_closes"),
-        exhaust_opens=_degrees(table, "exhaust_opens"),
-        exhaust_closes=_degrees(table, "exhaust_closes"),
-        cycle=angle,
-    )
+    events = ("ignition_delay", "intake_opens", "intake_closes", "exhaust_opens", "exhaust_closes")
+    degrees = {name: table.degrees(name) or 0.0 for name in events}
+    return Timing(ignition_advance=table.degrees("ignition") or 0.0, cycle=angle, **degrees)
 
 
 def _rounding(table: Values) -> Rounding:
     school = cast("Literal['ru', 'vi']", table["school"])
-    return Rounding(school=school, peak_angle=_degrees(table["timing"], "peak"), peak_level=table["peak_level"])
+    return Rounding(school=school, peak_angle=table["timing"].degrees("peak"), peak_level=table["peak_level"])
 
 
 def _ideal(table: Values, ratio: float, angle: float) -> IdealData:
-    return IdealData(
-        kind=table["kind"],
-        compression_ratio=ratio,
-        pressure=table.si("intake_pressure"),
-        temperature=table.si("intake_temperature"),
-        heat=table.si("heat"),
-        peak_temperature=table.si("peak_temperature"),
-        pressure_ratio=table["pressure_ratio"],
-        cut_off=table["cut_off"],
-        adiabatic_exponent=table["adiabatic_exponent"],
-        angle=angle,
-    )
+    pressure, temperature = table.si("intake_pressure"), table.si("intake_temperature")
+    return table.made(IdealData, compression_ratio=ratio, pressure=pressure, temperature=temperature, angle=angle)
 
 
 def _data(values: Values, table: Values, ratio: float, angle: float, timing: Timing, pi: float) -> GrinevetskyData:
     """Return the data of a calculation by Grinevetsky and Mazing."""
-    known = {one.name: table.si(one.name) for one in fields(GrinevetskyData) if one.name in table.table.keys}
     size: dict[str, Any] = {}
     if "power" in table:
         size["rounds_size"] = True
@@ -132,16 +111,18 @@ def _data(values: Values, table: Values, ratio: float, angle: float, timing: Tim
     loss, lost = table["mechanical_loss"], table["lost_stroke"]
     if lost is None:
         lost = _lost_stroke(values, timing) if angle == 360 else 0.0
-    return GrinevetskyData(**(known | size | {
-        "compression_ratio": ratio,
-        "rotational_speed": values["crank"]["speed"].value * 30 / math.pi,
-        "fuel": _fuel(table["fuel"]),
-        "strokes": 4 if angle == 720 else 2,
-        "cylinders": int(values["engine"]["cylinders"] or 1),
-        "mechanical_loss": None if not loss or None in loss else (loss[0] * 1e6, loss[1] * 1e6),
-        "lost_stroke": lost,
-        "pi": pi,
-    }))  # fmt: skip
+    return table.made(
+        GrinevetskyData,
+        compression_ratio=ratio,
+        rotational_speed=values["crank"]["speed"].value * 30 / math.pi,
+        fuel=_fuel(table["fuel"]),
+        strokes=4 if angle == 720 else 2,
+        cylinders=int(values["engine"]["cylinders"] or 1),
+        mechanical_loss=None if not loss or None in loss else (loss[0] * 1e6, loss[1] * 1e6),
+        lost_stroke=lost,
+        pi=pi,
+        **size,
+    )
 
 
 def _stroke(crank: Values) -> float | None:
@@ -242,7 +223,7 @@ def heat_release_data(table: Values, angle: float, bore: float | None, speed: fl
         "exhaust_opens": (timing, "exhaust_opens"),
         "exhaust_closes": (timing, "exhaust_closes"),
     }
-    given |= {name: _degrees(place, key) for name, (place, key) in angles.items() if place.si(key) is not None}
+    given |= {name: place.degrees(key) for name, (place, key) in angles.items()}
     of_fuel = [key for key in ("fuel_mass", "heating_value", "burning_efficiency") if key in table]
     if given["heat"] is not None and of_fuel:
         raise CrankworkError(Refusal("cycle_heat_twice", names=", ".join(of_fuel)))

@@ -22,15 +22,6 @@ from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.locale import Refusal
 from crankwork.machine import Bearings, Engine
 
-_SIZES: tuple[str, ...] = (
-    "crankpin_diameter",
-    "crankpin_length",
-    "main_diameter",
-    "main_length",
-    "pin_diameter",
-    "pin_length",
-)
-
 
 def build_engine(
     values: Values, lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
@@ -62,7 +53,7 @@ def build_engine(
         slaves=slaves,
         offsets=_offsets(values, layout, lengths, reader),
         slave_rod=_slave_rod(table["articulated"], slaves, reader),
-        bearings=Bearings(**{key: sizes.si(key) for key in _SIZES}, rays=sizes["rays"]),
+        bearings=sizes.made(Bearings),
         counterweight=sizes.si("counterweight"),
         rotating_share=balance["rotating_share"],
         reciprocating_share=balance["reciprocating_share"],
@@ -80,15 +71,6 @@ def _check_places(layout: Layout, table: Values, reader: Reader) -> None:
             reader.complain("engine.bank_stagger" if "bank_stagger" in table else "engine.spacing", error.args[0])
 
 
-def _degrees(table: Values, key: str) -> float:
-    return _clean(math.degrees(table.si(key) or 0.0))
-
-
-def _clean(degrees: float) -> float:
-    """Return an angle without what radians have added to it."""
-    return round(degrees, 9)
-
-
 def _tops(table: Values, lengths: tuple[float, float, float] | None) -> tuple[float, ...]:
     """Return where offsets that differ put the top dead centres of the cylinders, from their axes. [deg]"""
     offsets = [one.value for one in table["offsets"] if one]
@@ -102,7 +84,7 @@ def _tops(table: Values, lengths: tuple[float, float, float] | None) -> tuple[fl
 def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return the layout that the keys describe."""
     kind, cylinders = table["layout"], int(table["cylinders"])
-    throws = [_clean(math.degrees(one.value)) for one in table["throws"] if one] if "throws" in table else None
+    throws = table.degrees("throws") if "throws" in table else None
     usual = _usual(table, strokes)
     order = [int(one) for one in table["firing_order"] if one]
     if not order and kind != "radial":
@@ -126,13 +108,13 @@ def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layou
     stagger = table.si("bank_stagger")
     match kind:
         case "V":
-            options |= {"bank_stagger": stagger or 0.0, "pin_offset": _degrees(table, "pin_offset")}
-            angle = _degrees(table, "bank_angle")
+            options |= {"bank_stagger": stagger or 0.0, "pin_offset": table.degrees("pin_offset")}
+            angle = table.degrees("bank_angle")
             options["own_throws"] = table["own_throws"]
             return vee(cylinders, order, angle, throws=throws, articulated=articulated, **options)
         case "boxer":
             return boxer(cylinders, order, bank_stagger=stagger, throws=throws, **options)
-    axes = tuple(_clean(math.degrees(one.value)) for one in table["bank_angles"] if one)
+    axes = tuple(table.degrees("bank_angles"))
     sizes = {"numbering": options.pop("numbering"), "tops": options.pop("tops")}
     banks = Banks("W", cylinders, axes, options.pop("spacing"), stagger or 0.0, **sizes)
     return arranged(banks, order, throws=throws, **options)
@@ -141,18 +123,18 @@ def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layou
 def _no_order(table: Values, strokes: int) -> Refusal:
     """Return what to write where no order is customary, or with which split of the pins one would be."""
     asked = {"kind": table["layout"], "cylinders": int(table["cylinders"]), "strokes": strokes}
-    axes = (-_degrees(table, "bank_angle") / 2, _degrees(table, "bank_angle") / 2)
+    half = (table.degrees("bank_angle") or 0.0) / 2
     for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
-        if one.axes == axes and one.pin_offset:
+        if one.axes == (-half, half) and one.pin_offset:
             return Refusal("order_unusual_near", **asked, pin_offset=f"{one.pin_offset:g}")
     return Refusal("order_unusual", **asked)
 
 
 def _usual(table: Values, strokes: int) -> StandardOrder | None:
     """Return the customary engine with these keys."""
-    axes = (-_degrees(table, "bank_angle") / 2, _degrees(table, "bank_angle") / 2)
+    half = (table.degrees("bank_angle") or 0.0) / 2
     for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
-        fits = table["layout"] != "V" or (one.axes == axes and one.pin_offset == _degrees(table, "pin_offset"))
+        fits = table["layout"] != "V" or (one.axes == (-half, half) and one.pin_offset == table.degrees("pin_offset"))
         if fits and table["numbering"] in (None, one.numbering):
             return one
     return None
@@ -203,7 +185,7 @@ def _slaves(
     between = {one.number: one.axis - layout.places[one.master - 1].axis for one in slaves}
     angles: Sequence[float] = list(between.values())
     if "knuckle_angles" in values:
-        angles = [_clean(math.degrees(one.value)) for one in values["knuckle_angles"] if one]
+        angles = values.degrees("knuckle_angles")
         if len(angles) != len(slaves):
             reader.complain(
                 "engine.articulated.knuckle_angles",

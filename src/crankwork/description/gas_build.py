@@ -96,22 +96,8 @@ def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
     if "valves" not in values or not {"suction", "discharge"} <= set(values["valves"]):
         return None
     stated, path = values["valves"], f"{path}.valves"
-    found = Valves(
-        suction=stated.si("suction"),
-        discharge=stated.si("discharge"),
-        compression_exponent=stated["compression_exponent"],
-        expansion_exponent=stated["expansion_exponent"],
-        temperature=stated.si("temperature"),
-        discharge_temperature=stated.si("discharge_temperature"),
-        gas_constant=stated.si("gas_constant"),
-        free_pressure=stated.si("free_pressure"),
-        free_temperature=stated.si("free_temperature"),
-        delivered=stated.si("delivered"),
-        density=stated.si("density"),
-        suction_pipe=_pipe(stated, "suction_pipe"),
-        discharge_pipe=_pipe(stated, "discharge_pipe"),
-        vapour_pressure=stated.si("vapour_pressure"),
-    )
+    pipes = {name: _pipe(stated, name) for name in ("suction_pipe", "discharge_pipe")}
+    found: Valves = stated.made(Valves, **pipes)
     if not found.discharge > found.suction:
         reader.complain(f"{path}.discharge", Refusal("valves_turned"))
     elif found.temperature and found.discharge_temperature:
@@ -131,8 +117,8 @@ def _pipe(stated: Values, name: str) -> Pipe | None:
     """Return a pipe of a pump, None without one or after complaints about it."""
     if name not in stated or not {"length", "diameter"} <= set(stated[name]):
         return None
-    one = stated[name]
-    return Pipe(one.si("length"), one.si("diameter"), one["friction"])
+    pipe: Pipe = stated[name].made(Pipe)
+    return pipe
 
 
 class Diagram(NamedTuple):
@@ -171,8 +157,16 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
             if pressure is not None and pressure < 0:
                 reader.complain(f"{path}.points.{name}.pressure", Refusal("point_vacuum"))
     return Diagram(
-        points={name: _point(one) for name, one in values["points"].items() if one is not None},
-        pieces=tuple(_piece(one) for one in values["pieces"] if one and {"law", "points"} <= set(one)),
+        points={
+            name: one.made(DiagramPoint, angle=one.degrees("angle"))
+            for name, one in values["points"].items()
+            if one is not None
+        },
+        pieces=tuple(
+            one.made(Piece, points=tuple(name for name in one["points"] if name))
+            for one in values["pieces"]
+            if one and {"law", "points"} <= set(one)
+        ),
         measured=measured,
         angle_shift=math.degrees(source.si("shift")),
         resample=math.degrees(resample) if resample else None,
@@ -195,18 +189,3 @@ def _check_points(values: Values, path: str, reader: Reader) -> None:
                 reader.complain(
                     place, near if nearest else Refusal("no_point", name=name, known=", ".join(known)[:120], path=path)
                 )
-
-
-def _point(values: Values) -> DiagramPoint:
-    angle = values.si("angle")
-    return DiagramPoint(
-        angle=None if angle is None else round(math.degrees(angle), 9),
-        pressure=values.si("pressure"),
-        volume=values.si("volume"),
-        stroke=values["stroke"],
-    )
-
-
-def _piece(values: Values) -> Piece:
-    points = tuple(name for name in values["points"] if name)
-    return Piece(values["law"], points, values["exponent"], values["reference"])

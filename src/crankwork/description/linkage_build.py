@@ -102,7 +102,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         transient=transient,
         method=method,
         table_step=_table_step(table.si("step"), mechanism.driver.law),
-        table_special=tuple(round(math.degrees(one.value), 9) for one in table["special_angles"] or () if one),
+        table_special=tuple(table.degrees("special_angles") or ()),
         stated=stated_numbers(values),
     )
     check_friction(machine, reader)
@@ -243,18 +243,15 @@ def _transient(values: Values, reader: Reader) -> Transient | None:
     rows = table.si("time") / table.si("step") if table["step"] and table["time"] else 0.0
     if rows > _MOST_ROWS:
         reader.complain("transient.step", Refusal("transient_rows", rows=rows, most=_MOST_ROWS))
-    return Transient(
-        time=table.si("time"),
+    transient: Transient = table.made(
+        Transient,
         torque=table.si("torque") or 0.0,
-        speed=table.si("speed"),
-        start=start,
         motor=has_motor and table.get("motor", "torque" not in table),
-        until=table["until"],
-        step=table.si("step"),
         stops=ends or (-math.inf, math.inf),
         restitution=table["restitution"] or 0.0,
         speeds=tuple(one.value for one in table["speeds"] or ()),
     )
+    return transient
 
 
 def _loads(values: Values, linkage: Linkage | None, reader: Reader) -> tuple[Load, ...]:
@@ -325,14 +322,14 @@ def _load(load: Values) -> Load:
                 -1 if load["stroke"] == "falling" else 1, load.si("start") or 0.0, load["acts"],
             )  # fmt: skip
         case "force":
-            return ForceOnPoint(load["point"], load.si("x"), load.si("y"), load["link"] or "")
+            return load.made(ForceOnPoint, link=load["link"] or "")
         case "torque":
             return TorqueOnLink(load["link"], _curve(load, "torque"))
         case "damper" if "slider" in load:
-            return SliderDamper(load["slider"], load.si("damping"))
+            return load.made(SliderDamper)
         case "damper":
             start, end = load["between"]
-            return Damper(start, end, load.si("damping"))
+            return load.made(Damper, start=start, end=end)
         case _ if "slider" in load:
             return SliderSpring(load["slider"], *(load.si(key) for key in _OF_SPRING))
     return Spring(*load["between"], *(load.si(key) for key in _OF_SPRING))

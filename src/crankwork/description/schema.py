@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator, Mapping
+import inspect
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from crankwork import units
 from crankwork.description.kinds import Choice, Kind, Measure, Number, Quantity, Reader, Text, is_one_line, shown
@@ -16,15 +18,25 @@ _LONGEST_NAME = 60
 
 
 class ListOf(NamedTuple):
-    """A list whose entries are of one kind; `from_file`: or a column of the file that stands beside it."""
+    """A list whose entries are of one kind; `from_file`: or a column of the file that stands beside it.
+
+    A single value may stand for a list of one that is `from_file`.
+    """
 
     entry: Kind
     fewest: int = 0
     most: int = _MAX_ENTRIES
     from_file: bool = False
 
+    @property
+    def may_be_one(self) -> bool:
+        """Whether a single value may stand for the list."""
+        return self.from_file and self.fewest == 1
+
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
         """Return the entries; a bad one is left out after its complaint."""
+        if self.may_be_one and isinstance(value, str) and not reader.doubts(key):
+            return [self.entry.read(value, key, reader)]
         if not isinstance(value, list):
             # what a file that is none would have held is not told
             if not (self.from_file and reader.doubts(key)):
@@ -193,6 +205,9 @@ class By(NamedTuple):
     values: Mapping[str, Any]
 
 
+Made = TypeVar("Made")
+
+
 class Key(NamedTuple):
     """A field of a table: its kind, its default as a file would state it, and when it applies.
 
@@ -359,9 +374,25 @@ class Values(dict[str, Any]):
         value = self[name]
         return value.value if isinstance(value, Measure) else value
 
+    def degrees(self, name: str) -> Any:  # noqa: ANN401 - a number, several of a list, or None
+        """Return an angle in degrees, without what radians have added to it; None where there is none."""
+        value = self[name]
+        if isinstance(value, list):
+            return [_degrees(one) for one in value if one is not None]
+        return None if value is None else _degrees(value)
+
+    def made(self, kind: Callable[..., Made], **others: Any) -> Made:  # noqa: ANN401 - each field has its own type
+        """Return an object that has these values in SI in fields of the same names, and `others`."""
+        own = {name: self.si(name) for name in inspect.signature(kind).parameters if name in self.table.keys}
+        return kind(**{**own, **others})
+
     def but(self, **changes: Any) -> Values:  # noqa: ANN401 - each kind has its own type
         """Return these values with others in their place."""
         return Values({**self, **changes}, self.table)
+
+
+def _degrees(angle: Measure) -> float:
+    return round(math.degrees(angle.value), 9)
 
 
 def _applies(entry: Key, language: Language) -> Iterator[str]:

@@ -78,8 +78,8 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
         turning=turning,
         drive=drive,
         method=method,
-        table_step=round(math.degrees(values["table"].si("step")), 9),
-        table_special=tuple(round(math.degrees(one.value), 9) for one in values["table"]["special_angles"] if one),
+        table_step=values["table"].degrees("step"),
+        table_special=tuple(values["table"].degrees("special_angles")),
         stated=stated_numbers(values),
     )
     return machine if largest is None else _slowed(machine, turning, values, reader)

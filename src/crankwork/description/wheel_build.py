@@ -21,12 +21,12 @@ def read_wheel(values: Values, drive: Drive, speed: float | None, reader: Reader
     wheel = Wheel(
         mass=values.si("mass"),
         gyration_radius=values.si("radius_of_gyration"),
-        rim=_rim(rim) if "rim" in values else None,
+        rim=rim.made(Rim) if "rim" in values else None,
         recovery_time=values.si("recovery"),
     )
     if wheel == Wheel() and not {"inertia", *WANTED} & set(values):
         return drive
-    if wheel.mass is not None and wheel.gyration_radius is None and not (wheel.rim and _radius_known(wheel.rim)):
+    if wheel.mass is not None and wheel.gyration_radius is None and not (wheel.rim and wheel.rim.diameter is not None):
         if not reader.doubts("flywheel.radius_of_gyration", "flywheel.rim"):
             reader.complain("flywheel.mass", Refusal("wheel_mass_where"))
         return drive
@@ -48,15 +48,6 @@ def is_given(values: Values) -> bool:
     """Return whether a table states a flywheel, and not only what is wanted of it."""
     rim = values["rim"]
     return bool(values.si("inertia")) or "mass" in values or {"diameter", "width", "thickness", "density"} <= set(rim)
-
-
-def _rim(values: Values) -> Rim:
-    sizes = ("diameter", "speed", "stress", "density", "ratio", "width", "thickness", "share")
-    return Rim(**{name: values.si(name) for name in sizes})
-
-
-def _radius_known(rim: Rim) -> bool:
-    return rim.diameter is not None
 
 
 def _inertia(values: Values, wheel: Wheel, pi: float) -> float:

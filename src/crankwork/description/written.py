@@ -117,11 +117,12 @@ def with_entry(source: str, key: str, values: Mapping[str, Any]) -> str:
 def without(source: str, key: str) -> str:
     """Return a text without a key or a table, and without what is said beside it."""
     places = Places(source)
-    if key not in places.pairs:
-        return _without_table(source, places, key)
-    start, end = places.pairs[key]
+    is_entry = key.endswith("]") and key in places.values
+    if key not in places.pairs and not is_entry:
+        return _without_table(source, key)
+    start, end = places.values[key] if is_entry else places.pairs[key]
     around, _ = _split(key)
-    if around in places.inner:
+    if is_entry or around in places.inner:
         before, after = source[:start].rstrip(), source[end:].lstrip()
         if before.endswith(","):
             return f"{before[:-1].rstrip()}{source[end:]}"
@@ -169,7 +170,7 @@ def _with_block(source: str, name: str, values: Mapping[str, Any], head: str = "
 def _with_table(source: str, places: Places, key: str, value: Any) -> str:  # noqa: ANN401
     """Return a text with other values in a table that has lines of its own, or another value in its place."""
     if not isinstance(value, Mapping) or key not in places.ends:
-        return with_value(_without_table(source, places, key), key, value)
+        return with_value(_without_table(source, key), key, value)
     for name in dict.fromkeys(_below(places, key)):
         if name not in value:
             source = without(source, f"{key}.{name}")
@@ -185,14 +186,16 @@ def _below(places: Places, key: str) -> Iterator[str]:
             yield re.split(r"[.\[]", one.removeprefix(f"{key}."), maxsplit=1)[0]
 
 
-def _without_table(source: str, places: Places, key: str) -> str:
+def _without_table(source: str, key: str) -> str:
     """Return a text without a table that has lines of its own, and without those below it."""
-    ends = [start for _, start in places.headers[1:]] + [len(source)]
-    for (name, start), end in reversed(list(zip(places.headers, ends, strict=True))):
-        if name == key or name.startswith((f"{key}.", f"{key}[")):
-            source = source[: _line_start(source, start)] + source[_block_end(source, start, end) :]
+    # entries of a list that follow have its number once it is gone
     for pair in [one for one in Places(source).pairs if one.startswith(f"{key}.")]:
         source = without(source, pair)
+    headers = Places(source).headers
+    ends = [*(start for _, start in headers[1:]), len(source)]
+    for (name, start), end in reversed(list(zip(headers, ends, strict=False))):
+        if name == key or name.startswith((f"{key}.", f"{key}[")):
+            source = source[: _line_start(source, start)] + source[_block_end(source, start, end) :]
     return source
 
 

@@ -16,7 +16,7 @@ from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.bodies import everywhere
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
@@ -28,13 +28,6 @@ Truth = NDArray[np.bool_]
 Rows = NDArray[np.intp] | slice
 
 CONVERGED, NOT_CONVERGED, SELF_LOCKING, NO_POSITION = 0, 1, 2, 3
-MEANING = {
-    CONVERGED: "the forces balance",
-    NOT_CONVERGED: "the iteration did not converge; the forces are not to be relied on",
-    NO_POSITION: "the mechanism does not get here",
-    SELF_LOCKING: "self-locking, no torque turns the crank; reduce the friction or move the links out of line",
-}
-
 _TOLERANCE = 1e-13
 _ITERATIONS = 30
 # steps after which no other solution is expected
@@ -106,9 +99,8 @@ class FrictionForces:
     # where the load alone could not move the mechanism, shape (n,) [-]
     efficiency: Array
     residual: Array  # By what share of the forces on a link the equilibrium is missed, shape (n,) [-]
-    # 0 converged, 1 not converged, 2 self-locking, 3 no position; `MEANING` says it in words, shape (n,) [-]
+    # 0 converged, 1 not converged, 2 self-locking, 3 no position, shape (n,) [-]
     status: Status
-    iterations: int  # Steps of the iteration
     # Determinant of the equations over that without friction: towards zero the forces grow beyond all bounds,
     # shape (n,) [-]
     margin: Array
@@ -120,12 +112,6 @@ class FrictionForces:
         ideal, torque = self.ideal_torque, self.joint_forces.balancing_torque
         rounding = _NOTHING * np.nanmax(np.abs(np.stack([ideal, torque])), initial=0.0)
         return np.asarray((ideal < -rounding) & (torque >= 0))
-
-    def messages(self, grid: CrankGrid) -> list[str]:
-        """Return a sentence for each run of crank angles where something is wrong, or friction holds the load."""
-        runs = [(self.status == code, text) for code, text in MEANING.items() if code != CONVERGED]
-        runs.append((self.held, "friction holds the load, which cannot drive the crank (self-locking in reverse)"))
-        return [f"{where}: {text}" for wrong, text in runs for where in _ranges(wrong, grid)]
 
 
 @dataclass(frozen=True)
@@ -245,7 +231,7 @@ def rubbed(running: Running, rubbing: Sequence[Rubbing], *, thorough: bool = Fal
     right = system.right_side(wrenches)
     equations = _Equations(running, system, right, rubbing)
     ideal = solve_positions(system.matrix, right)
-    unknowns, residual, status, iterations = equations.followed(ideal)
+    unknowns, residual, status = equations.followed(ideal)
     pressing = equations.pressing(unknowns)
     values = {one.law: one.friction(pressing[one.law]) for one in rubbing}
     power = sum((-values[one.law] * one.velocity for one in rubbing), np.zeros_like(residual))
@@ -259,7 +245,6 @@ def rubbed(running: Running, rubbing: Sequence[Rubbing], *, thorough: bool = Fal
         _efficiency(without, torque),
         residual,
         status,
-        iterations,
         equations.margin(unknowns),
         equations.has_another(unknowns, ideal) if thorough else np.zeros_like(status, dtype=bool),
     )
@@ -291,9 +276,9 @@ class _Equations:
         """Return the pressing forces. [N]"""
         return {one.law: one.pressing(*unknowns[:, at : at + 2].T)[0] for one, at, _ in self._parts}
 
-    def followed(self, start: Array) -> tuple[Array, Array, Status, int]:
-        """Return the unknowns, the residual, the status and the number of steps, from a start without friction."""
-        unknowns, count, every = start.copy(), 0, np.arange(len(start))
+    def followed(self, start: Array) -> tuple[Array, Array, Status]:
+        """Return the unknowns, the residual and the status, from a start without friction."""
+        unknowns, every = start.copy(), np.arange(len(start))
         status = np.where(np.isfinite(start).all(axis=1), CONVERGED, NO_POSITION).astype(np.int8)
         turned, residual = np.zeros(len(start), dtype=bool), np.full(len(start), np.nan)
         for share in _STEPS:
@@ -307,7 +292,6 @@ class _Equations:
                 if not rows.size or step == _ITERATIONS:
                     break
                 unknowns[rows] -= solve_positions(derivative[going], missing[going])
-                count += 1
             open_yet, settled = status == CONVERGED, residual < _TOLERANCE
             lost = np.where(settled, turned, turns)
             status[open_yet & lost] = SELF_LOCKING
@@ -317,7 +301,7 @@ class _Equations:
         missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
         unknowns[rows] -= solve_positions(derivative, missing)
         unknowns[status != CONVERGED] = np.nan
-        return unknowns, residual, status, count
+        return unknowns, residual, status
 
     def margin(self, unknowns: Array) -> Array:
         """Return the determinant of the equations at a solution over that without friction. [-]"""
@@ -380,16 +364,6 @@ def _efficiency(ideal: Array, actual: Array) -> Array:
     one = np.where(forward, ideal, np.where(backward, actual, np.nan))
     other = np.where(forward, actual, np.where(backward, ideal, 1.0))
     return np.asarray(instantaneous_efficiency(one, other))
-
-
-def _ranges(wrong: Truth, grid: CrankGrid) -> list[str]:
-    """Return the runs of crank angles in words."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], wrong, [False]]).astype(int)))
-    degrees = grid.degrees
-    return [
-        f"at {degrees[first]:g} deg" if after - first == 1 else f"from {degrees[first]:g} to {degrees[after - 1]:g} deg"
-        for first, after in zip(edges[::2], edges[1::2], strict=True)
-    ]
 
 
 @formula("friction_radius", "artobolevsky_1988, ch. 11")

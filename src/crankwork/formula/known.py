@@ -9,7 +9,7 @@ a column is replayed at whatever angles are asked for.
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
@@ -482,6 +482,3 @@ def _value(function: Callable[..., Any], inputs: Sequence[Known | float]) -> tup
         else:
             numbers.append(one)
     return None if None in numbers else float(function(*numbers)), tuple(knowns)
-
-
-Memory = Mapping[str, Known]

@@ -265,9 +265,9 @@ def compiled(text: str) -> ModuleType:
     name = f"kernel_{hashlib.sha256((inspect.getsource(elementary) + text).encode()).hexdigest()[:24]}"
     path = files.kept(f"kernels/{name}.py", text)
     if path is None:
-        # nothing can be kept: compiled from memory, for this run
+        # from memory, for this run
         module = ModuleType(name)
-        exec(compile(text.replace("@compiled", "@once"), name, "exec"), vars(module))  # noqa: S102 - written above
+        exec(compile(text, name, "exec"), vars(module))  # noqa: S102 - written above
         return module
     spec = importlib.util.spec_from_file_location(f"crankwork_{name}", path)
     assert spec is not None and spec.loader is not None  # noqa: S101, PT018 - of a file that is there

@@ -24,20 +24,26 @@ if not _config.CPU_NAME and _features.get("avx512f"):
 # what its stubs do not know, it takes: no wrappers that nothing calls, which take a tenth of the time to compile
 _numba: Any = njit
 _asked = {"fastmath": {"contract"}, "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-compiled = _numba(cache=True, **_asked)
 once = _numba(**_asked)
 # called by nothing but what is compiled
 inside = _numba(no_cpython_wrapper=True, **_asked)
 
 
-def _within(function: Any) -> Any:  # noqa: ANN401
-    """Return a function that is put where it is called, kept for this machine if it has a place for that."""
-    try:
-        return _numba(cache=True, forceinline=True, **_asked)(function)
-    except RuntimeError:
-        return _numba(forceinline=True, **_asked)(function)
+def _kept(**more: bool) -> Any:  # noqa: ANN401
+    """Return what compiles a function and keeps it for this machine, if that has a place for it."""
+
+    def compiling(function: Any) -> Any:  # noqa: ANN401
+        try:
+            return _numba(cache=True, **more, **_asked)(function)
+        except RuntimeError:
+            return _numba(**more, **_asked)(function)
+
+    return compiling
 
 
+compiled = _kept()
+# put where it is called
+_within = _kept(forceinline=True)
 # ln 2 in two parts, the first with zeros at its end, so that whole multiples of it are exact
 _LN2, _LN2_REST = float.fromhex("0x1.62e42fefa3800p-1"), float.fromhex("0x1.ef35793c76730p-45")
 _PER_LN2 = 1 / math.log(2)

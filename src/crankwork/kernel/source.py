@@ -33,7 +33,7 @@ _HEAD = """import math
 
 import numpy as np
 
-from crankwork.kernel.elementary import compiled, exp, half_turns, inside, log, log_ratio, once
+from crankwork.kernel.elementary import compiled, exp, half_turns, inside, log, log_ratio
 """
 _RUN = """@compiled
 def run(given, results, left_out, t, p, order, weights, degrees, first):

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
-from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, point_on_link, seen_from
-from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, seen_from
+from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import Guide
 from crankwork.mechanism.mechanism import Mechanism
@@ -59,37 +57,6 @@ def slider_place(guide: Guide, piece: str) -> Coordinate:
     def coordinate(there: Stretch) -> Transfer:
         line = guide_on_link(there.frames[guide.link], guide) if guide.link else fixed_guide(guide)
         return seen_from(line, there.frames[piece].origin).x
-
-    return coordinate
-
-
-class At(NamedTuple):
-    """A point in the frame of a link."""
-
-    link: str
-    along: float = 0.0
-    across: float = 0.0
-
-    def on(self, there: Stretch) -> PointMotion:
-        """Return its motion."""
-        return point_on_link(there.frames[self.link], self.along, self.across)
-
-
-def point_coordinate(point: At, axis: int) -> Coordinate:
-    """Return a coordinate of a point, x or y. [m]"""
-    return lambda there: point.on(there)[axis]
-
-
-def distance(point: At, other: At) -> Coordinate:
-    """Return the distance of two points. [m]"""
-
-    def coordinate(there: Stretch) -> Transfer:
-        (x, x_1, _), (y, y_1, _) = (
-            tuple(b - a for a, b in zip(mine, its, strict=True))
-            for mine, its in zip(point.on(there), other.on(there), strict=True)
-        )
-        far = np.hypot(x, y)
-        return Transfer(far, (x * x_1 + y * y_1) / far, np.zeros_like(far))
 
     return coordinate
 

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dyads import (
     LinkMotion,
 )
 from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import law_at
-from crankwork.kinematics.placement import Placed, assembled, place, reached
+from crankwork.kinematics.placement import assembled
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -35,8 +35,6 @@ class Motion:
     frames: Mapping[str, LinkMotion] = field(default_factory=dict)
     # Coordinate of the driver, its rate and second rate, where a law moves it; columns or knowns
     driver: Transfer | None = None
-    # 0 where the crank gets, 1 where the mechanism cannot be assembled, 2 where it can, but not be reached, shape (n,)
-    status: Status | None = None
 
 
 class Directions(Mapping[str, Transfer]):
@@ -74,44 +72,19 @@ def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
     return Transfer(angle, rate, link.angle_2 + still)
 
 
-def linkage_motion(
-    mechanism: Mechanism, grid: CrankGrid, *, partial: bool = False, paths: dict[int, ChainPath] | None = None
-) -> Motion:
+def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, paths: dict[int, ChainPath] | None = None) -> Motion:
     """Return the exact motion of a mechanism, group after group.
 
-    Positions and transfer functions [m], [rad]. `partial`: keep the positions that the crank can reach, with NaN and
-    a status at the others, instead of refusing; `paths`: see `place_at`.
+    Positions and transfer functions [m], [rad]. `paths`: see `place_at`.
     """
-    if not partial:
-        return _as_motion(mechanism, assembled(mechanism, grid, paths), grid, np.zeros(len(grid), dtype=np.int8))
-    placed = place(mechanism, grid)
-    return _as_motion(mechanism, placed, grid, reached(mechanism, placed))
-
-
-def _as_motion(mechanism: Mechanism, placed: Placed, grid: CrankGrid, status: Status) -> Motion:
-    """Return the motion of what has been placed, NaN where the crank does not get."""
-    lost = status != 0 if status.any() else None
-
-    def full(one: Array) -> Array:
-        if lost is not None:
-            return np.where(lost, np.nan, one)
-        return one if one.ndim else np.broadcast_to(one, status.shape)
+    placed, halves = assembled(mechanism, grid, paths), {one.link for one in mechanism.halves}
 
     def transfer(one: Transfer) -> Transfer:
-        return Transfer(full(one[0]), full(one[1]), full(one[2]))
+        return Transfer(*(part if part.ndim else np.broadcast_to(part, grid.angle.shape) for part in one))
 
     points = {name: PointMotion(transfer(one.x), transfer(one.y)) for name, one in placed.points.items()}
-    frames = placed.links
-    if lost is not None:
-        frames = {name: _masked(link, full) for name, link in frames.items()}
     sliders = {name: transfer(one) for name, one in placed.sliders.items()}
-    halves = {one.link for one in mechanism.halves}
-    links = {name: frame for name, frame in frames.items() if name not in sliders and name not in halves}
+    links = {name: frame for name, frame in placed.links.items() if name not in sliders and name not in halves}
     law = mechanism.driver.law
     driver = None if law is None else law_at(law, grid)
-    return Motion(grid, points, Directions(placed.grid, links), sliders, frames, driver, status)
-
-
-def _masked(link: LinkMotion, full: Callable[[Array], Array]) -> LinkMotion:
-    x, y = (Transfer(*(full(one) for one in side)) for side in link.origin)
-    return LinkMotion(PointMotion(x, y), *(full(one) for one in link[1:]))
+    return Motion(grid, points, Directions(placed.grid, links), sliders, placed.links, driver)

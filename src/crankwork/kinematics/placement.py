@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crankwork.errors import GeometryError
 from crankwork.formula.known import Root, absent, is_known, named
@@ -302,29 +301,6 @@ def _assembled_at(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainP
             there = closures[index](at)._replace(scale=closure.scale)
             raise refusal(group, there, at, np.array([True]))
     return placed
-
-
-def reached(mechanism: Mechanism, placed: Placed) -> NDArray[np.int8]:
-    """Return the status of each position: 0 reached, 1 cannot be assembled, 2 assembled but not to be reached.
-
-    Reached are the positions that the crank can turn to without passing a singular one, from the first position that
-    can be assembled.
-    """
-    grid = placed.grid
-    bad = np.zeros(grid.angle.shape, dtype=bool)
-    cut = np.zeros(grid.angle.shape, dtype=bool)
-    closures = Closures(mechanism)
-    for index, closure in enumerate(placed.closures):
-        missing = unassembled(closure)
-        if missing is not None:
-            bad |= missing
-        for interval, _ in singular_between(grid, closure, closures[index]):
-            cut[interval + 1] = True
-    if bad.all():
-        return np.ones(grid.angle.shape, dtype=np.int8)
-    run = np.cumsum(bad | cut)
-    first = int(np.argmin(bad))
-    return np.where(bad, 1, np.where(run == run[first], 0, 2)).astype(np.int8)
 
 
 class Closures:

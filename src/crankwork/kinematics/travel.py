@@ -193,11 +193,6 @@ def near_changes(circuit: Circuit) -> list[tuple[float, float]]:
     ]
 
 
-def passing(mechanism: Mechanism) -> Mechanism:
-    """Return a linkage that passes the change points on its way, as itself where it has none."""
-    return way_through(mechanism)[0]
-
-
 def way_through(mechanism: Mechanism, known: Travel | None = None) -> tuple[Mechanism, Travel | None]:
     """Return a linkage that passes the change points on its way, as itself where it has none, and that way.
 

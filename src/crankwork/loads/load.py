@@ -12,12 +12,10 @@ from crankwork.loads.damper import Damper, SliderDamper, point_damper, slider_da
 from crankwork.loads.process import (
     ForceOnPoint,
     ProcessForce,
-    ProcessForceAtPoint,
     TorqueOnLink,
     constant_force,
     link_torque,
     process_force,
-    process_force_at_point,
 )
 from crankwork.loads.spring import SliderSpring, Spring, point_spring, slider_spring
 from crankwork.loads.weight import Weight, weight
@@ -29,7 +27,6 @@ __all__ = [
     "Load",
     "LoadLaw",
     "ProcessForce",
-    "ProcessForceAtPoint",
     "SliderDamper",
     "SliderSpring",
     "Spring",
@@ -61,7 +58,7 @@ class LoadLaw(Protocol):
 
 
 Load = (
-    ProcessForce | ProcessForceAtPoint | ForceOnPoint | TorqueOnLink | Spring | SliderSpring | Damper | SliderDamper
+    ProcessForce | ForceOnPoint | TorqueOnLink | Spring | SliderSpring | Damper | SliderDamper
     | Weight | LoadLaw
 )  # fmt: skip
 
@@ -80,8 +77,6 @@ def _applied(load: Load, mechanism: Mechanism, motion: Motion, speed: Value, pat
     match load:
         case ProcessForce():
             return process_force(load, motion, path)
-        case ProcessForceAtPoint():
-            return process_force_at_point(load, mechanism, motion, path)
         case ForceOnPoint():
             return constant_force(load, mechanism, motion, path)
         case TorqueOnLink():

@@ -40,20 +40,6 @@ class ProcessForce:
 
 
 @dataclass(frozen=True)
-class ProcessForceAtPoint:
-    """A force of fixed direction at a point, against its way in the opposite direction."""
-
-    point: str  # Where it acts
-    direction: float  # Direction of the working stroke from the x axis; a positive force acts the other way [rad]
-    force: Curve  # Force at the stroke or the crank angle [N]
-    # What `force` is given by: the way of the point in that direction, or the crank angle [m], [rad]
-    against: Literal["stroke", "angle"] = "stroke"
-    start: float = 0.0  # Coordinate of the point in that direction where the working stroke begins [m]
-    acts: Literal["forward", "both"] = "forward"  # On the working stroke only, or always
-    link: str = ""  # The link it acts on; empty for the first one of those that meet there
-
-
-@dataclass(frozen=True)
 class ForceOnPoint:
     """A constant force at a point."""
 
@@ -92,25 +78,12 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
     return AppliedLoads((force_along_guide(motion, load.slider, -force if load.forward == 1 else force),))
 
 
-def process_force_at_point(
-    load: ProcessForceAtPoint, mechanism: Mechanism, motion: Motion, path: str = ""
-) -> AppliedLoads:
-    """Return the force of a process at a point."""
-    check_name("point", load.point, motion.points)
-    x, y = motion.points[load.point]
-    cos, sin = np.cos(load.direction), np.sin(load.direction)
-    rate = _in_time(x.position_1 * cos + y.position_1 * sin, motion)
-    way = _Way(x.position * cos + y.position * sin - load.start, rate)
-    force = -_force(load, way, motion, (load.point, path))
-    return force_at(mechanism, motion, load.point, (force * cos, force * sin), load.link)
-
-
 def _in_time(rate: Value, motion: Motion) -> Value:
     """Return a rate that has the sign of the velocity: by the driver's coordinate, which may go back."""
     return rate if motion.driver is None else rate * motion.driver.position_1
 
 
-def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, named_at: tuple[str, str]) -> Value:
+def _force(load: ProcessForce, way: _Way, motion: Motion, named_at: tuple[str, str]) -> Value:
     if is_known(way.position):
         return _remembered(load, way, motion, *named_at)
     force = np.asarray(load.force(way.position if load.against == "stroke" else motion.grid.angle), dtype=float)
@@ -120,7 +93,7 @@ def _force(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, 
     return np.where(forward, force, 0.0)
 
 
-def _remembered(load: ProcessForce | ProcessForceAtPoint, way: _Way, motion: Motion, name: str, path: str) -> Known:
+def _remembered(load: ProcessForce, way: _Way, motion: Motion, name: str, path: str) -> Known:
     """Return the force as a table read at the way or the crank angle, in pieces where it acts one way only."""
     key, course = f"process_force.{name}", course_of(motion.grid)
     way = way._replace(position=named(way.position, f"working_stroke.{name}"))

@@ -15,6 +15,8 @@ from crankwork.mechanism.linkage import Linkage, Member
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
 from crankwork.mechanism.structure import known_points, structure
 
+_IN_LINE = 1e-9
+
 
 def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) -> tuple[Mechanism | None, list[Problem]]:
     """Return the mechanism that a linkage is, or every problem that keeps it from being one.
@@ -97,6 +99,7 @@ class _Order:
         if point in stated and {joint_a, joint_b} <= at.keys():
             (ax, ay), (bx, by), (cx, cy) = at[joint_a], at[joint_b], stated[point]
             side = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+            side /= math.hypot(bx - ax, by - ay) * lengths[0] or 1.0
         return RRR(joint_a, joint_b, point, a.name, b.name, lengths[0], lengths[1], self._branch(point, side))
 
     def _rrp(self, link: Member, piece: Member, joint: str, point: str, guide: Guide) -> RRP:
@@ -107,7 +110,7 @@ class _Order:
         ahead = 0.0
         if point in stated and joint in at:
             angle, (x, y) = line.angle + self._angle_at_zero(line.link), _difference(at[joint], stated[point])
-            ahead = x * math.cos(angle) + y * math.sin(angle)
+            ahead = (x * math.cos(angle) + y * math.sin(angle)) / length
         branch = self._branch(point, ahead)
         return RRP(joint, point, link.name, length, line.point, line.angle, branch, line.link, piece.name)
 
@@ -124,7 +127,7 @@ class _Order:
             along, across = _difference(at[pivot], at[joint])
             (u, v), (p, q) = _difference(at[pivot], stated[named]), _difference((x, y), lever.points[named])
             angle = math.atan2(v, u) - math.atan2(q, p) + slot.angle
-            ahead = along * math.cos(angle) + across * math.sin(angle)
+            ahead = (along * math.cos(angle) + across * math.sin(angle)) / (math.hypot(along, across) or 1.0)
         return RPR(joint, pivot, lever.name, block.name, slot, self._branch(lever.name, ahead))
 
     def _placed_bar(self, link: Member, joint: str, point: str) -> float:
@@ -153,7 +156,8 @@ class _Order:
         """Return the branch given for a joint or a lever, else that of the positions, else 1."""
         self.branched.add(name)
         given = self.linkage.branches.get(name)
-        return given if given is not None else -1 if side < 0 else 1
+        # in one line to rounding it is neither
+        return given if given is not None else -1 if side < -_IN_LINE else 1
 
     def check_branches(self) -> None:
         """Note branches of what has none."""

@@ -10,11 +10,10 @@ from typing import Any
 
 from crankwork.errors import Problem
 from crankwork.locale import Refusal
-from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Half, Law, LinkMotor
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
-from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
+from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import structure
 
 Table = Mapping[str, Any]
@@ -31,32 +30,6 @@ _DRIVER = (*_DRIVERS, *_HALVES, "law")
 _SAME = 1e-12
 _GEARED = ("pivot", "ratio", "start", "points", "pressure_angle", *_MASS)
 _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
-
-
-def mechanism_from(tables: Table) -> tuple[Mechanism | None, list[Problem]]:
-    """Return the mechanism that some tables describe, or every problem that is in them.
-
-    The mechanism where there is no problem. `tables`: tables `fixed_points`, `crank` or `driver`, `links`, `guides`,
-    `sliders`, `branch`, `positions` with plain values in SI units, angles in radians; `driver.law` is a `Law`.
-
-    Examples
-    --------
-    >>> mechanism, problems = mechanism_from(
-    ...     {
-    ...         "fixed_points": {"O": [0.0, 0.0]},
-    ...         "crank": {"pivot": "O", "pin": "A", "radius": 0.05},
-    ...         "links": {"rod": {"joins": ["A", "B"], "length": 0.2}},
-    ...         "guides": {"line": {"through": "O", "angle": 0.0}},
-    ...         "sliders": {"piston": {"pin": "B", "guide": "line"}},
-    ...     }
-    ... )
-    >>> mechanism.dyads[0].length, problems
-    (0.2, [])
-    """
-    linkage, problems = linkage_from(tables)
-    if linkage is None:
-        return None, problems
-    return mechanism_of(linkage)
 
 
 def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:

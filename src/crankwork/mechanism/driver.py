@@ -61,11 +61,6 @@ class Law:
     period: float  # [s]
     start: float  # The coordinate at time zero [m] or [rad]
 
-    @property
-    def returns(self) -> bool:
-        """Whether the coordinate ends where it began."""
-        return self.segments[-1].to == self.start
-
 
 @dataclass(frozen=True)
 class DrivingSlider:

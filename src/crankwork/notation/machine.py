@@ -134,7 +134,6 @@ ARGUMENTS: dict[str, Argument] = {
     "s_n": Argument("rated_slip"),
     "s_k": Argument("breakdown_slip"),
     "lam_m": Argument("overload_capacity"),
-    "a_r": Argument("resistance_ratio"),
     "M_k": Argument("breakdown_torque"),
     "k_s": Argument("power_reserve"),
     "a_k": Argument("series_cosine"),

@@ -7,12 +7,9 @@ from collections.abc import Iterator
 
 from crankwork.analysis.stated import StatedChamber, stated_chambers, stated_charges
 from crankwork.locale import say
-from crankwork.note.document import Block, Citation, Runs, Table
+from crankwork.note.document import Block, Citation
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_motion import worked_at
-from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words, named
-from crankwork.note.words import in_display_unit
+from crankwork.note.words import Words, in_display_unit, named
 from crankwork.quantities import QUANTITIES, base_key
 
 _VOLUME, _CHARGE = "kolchin_demidov_2008, ch. 5", "urieli_berchowitz_1984"
@@ -31,10 +28,8 @@ def given_chambers(material: Material) -> Iterator[Block]:
     if not found:
         return
     rows = [tuple(_given(one, material)) for one in found]
-    titles: list[Runs] = [(words.column(one),) for one in ("chamber", "faces")]
-    titles += [words.titled(key) for key in ("piston_area", "clearance_volume", "ambient_pressure")]
-    titles += [(words.column("gas"),)]
-    yield Table(words.caption("chambers"), tuple(titles), rows, align="llrrrl")
+    sizes = (words.titled(key) for key in ("piston_area", "clearance_volume", "ambient_pressure"))
+    yield words.table("chambers", ("chamber", "faces", *sizes, "gas"), rows, "llrrrl")
     for charge in stated_charges(material.machine):
         dead = "; ".join(_amount(volume, temperature, words) for volume, temperature in charge.dead_volumes) or "–"
         parts = {"name": charge.name, "chambers": ", ".join(charge.chambers), "dead": dead}
@@ -79,21 +74,19 @@ def chambers(material: Material) -> Iterator[Block]:
     yield words.paragraph("chambers", source=Citation(_VOLUME))
     if any(one.exponent is None for one in machine.charges.values()):
         yield words.paragraph("isothermal", source=Citation(_CHARGE))
-    yield from equations(material.lines("charges"), words)
-    yield from worked_at(material, "chambers")
-    yield from equations(material.lines("chambers"), words)
+    yield from material.equations("charges")
+    yield from material.worked("chambers")
     keys = named(columns, "cylinder_volume", "gas_pressure", "gas_force", "rod_load")
-    shown = quantity_columns(keys, columns, words)
-    yield from position_tables("gas", material.positions, shown, words, first=material.first, label="gas")
+    yield from material.table("gas", keys, label="gas")
     yield from material.figures("chambers", "indicator")
     yield words.paragraph("gas_work")
-    yield from equations(material.lines("gas_work"), words)
+    yield from material.equations("gas_work")
     rows = [(one.name, *_values(one.name, material)) for one in stated_chambers(machine)]
     titles = [words.titled(key, QUANTITIES[base_key(key)].unit) for key in _SINGLE]
-    yield Table(words.caption("gas_work"), ((words.column("chamber"),), *titles), rows, align="l" + "r" * len(_SINGLE))
+    yield words.table("gas_work", ("chamber", *titles), rows, "l" + "r" * len(_SINGLE))
     if material.lines("delivery"):
         yield words.paragraph("delivery", source=Citation(_DELIVERED))
-        yield from equations(material.lines("delivery"), words)
+        yield from material.equations("delivery")
 
 
 def _values(name: str, material: Material) -> Iterator[str]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from crankwork.analysis import Results
-from crankwork.note.document import Block, Heading, Reference, Runs, Table
+from crankwork.locale import say
+from crankwork.note.document import Block, Heading, ItemList, Math, Reference, Runs, Table
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.words import NoteWords
 from crankwork.report.comparison import comparison_rows, shown_names
-from crankwork.report.language import key_unit, label, told_as
+from crankwork.report.language import displayed, key_unit, label, told_as
 
 _LABEL = "compared"
 _DIGITS = 3
@@ -43,3 +44,44 @@ def comparison_blocks(
     ]
     align = "lc" + "r" * (len(titles) - 2)
     yield Table(caption, tuple(titles), rows, wide=not fits(titles, rows, SIZES[-1]), align=align, label=_LABEL)
+
+
+# in their order; of what links, joints and cylinders have the largest is told
+_KEYS = (
+    "effective_power", "engine_indicated_power", "indicated_power", "motor_power", "shaft_power", "mean_total_torque",
+    "mean_torque", "total_torque_max", "driving_torque_max", "driver_force_max", "piston_force_max", "slider_stroke",
+    "joint_force_max", "crankpin_load_max", "excess_work", "flywheel_inertia", "flywheel_inertia.exact",
+    "speed_fluctuation", "piston_velocity_max", "piston_acceleration_max",
+)  # fmt: skip
+_SAME = {"indicated_power": ("effective_power", "engine_indicated_power"), "shaft_power": ("motor_power",),
+         "mean_torque": ("mean_total_torque",)}  # fmt: skip
+_MOST = 10
+
+
+def main_numbers(results: Results, words: NoteWords) -> Iterator[Block]:
+    """Yield the numbers that matter, one in a line."""
+    summary = results.summary
+    some = [
+        key for one in _KEYS if not any(other in summary for other in _SAME.get(one, ())) for key in _of(one, summary)
+    ]
+    items = [_item(key, results, words) for key in some[:_MOST]]
+    if items:
+        yield words.paragraph("numbers")
+        yield ItemList(tuple(items))
+
+
+def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
+    """Return the key of a quantity, or of the largest of those that links, joints and cylinders have."""
+    if kind in summary or "." in kind:
+        return [kind] if kind in summary else []
+    parts = [key for key in summary if key.startswith(f"{kind}.")] if kind.endswith(("_max", "_stroke")) else []
+    return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
+
+
+def _item(key: str, results: Results, words: NoteWords) -> Runs:
+    unit = printed_unit(key_unit(key), words.language)
+    name = say("report.exact", words.language) if key.endswith(".exact") else ""
+    own = told_as(key, results).removesuffix(".exact")
+    told = label(own, words.language) + (f", {name}" if name else "")
+    value = words.number(displayed(key, results.summary[key]), digits=5)
+    return (f"{told}, ", Math(words.symbol(own)), f" = {value}\u00a0{unit}".rstrip("\u00a0"))

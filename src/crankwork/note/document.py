@@ -157,10 +157,9 @@ class Figure:
 
 @dataclass(frozen=True)
 class ItemList:
-    """A list with dashes, or with numbers."""
+    """A list with dashes."""
 
     items: tuple[Runs, ...]
-    ordered: bool = False
 
 
 @dataclass(frozen=True)

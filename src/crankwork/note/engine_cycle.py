@@ -8,17 +8,22 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from crankwork.analysis.polytropes import Polytropes, polytropes
+from crankwork.formula.expression import symbol
 from crankwork.formula.known import Pieces
 from crankwork.formula.known import Table as TableOfValues
 from crankwork.formula.lines import FormulaLine, Line, ValueLine
-from crankwork.locale import say
+from crankwork.locale import has_text, say
+from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.document import Block, Cell, Citation, Math, Reference, Runs, Table
-from crankwork.note.engine_cycle_data import cycle_data_rows
+from crankwork.note.engine_data import cycle_keys
 from crankwork.note.engine_material import Material
-from crankwork.note.engine_tables import column_table, folded, value_table
-from crankwork.note.engine_words import EngineWords
-from crankwork.note.words import in_display_unit
-from crankwork.report.language import displayed
+from crankwork.note.engine_tables import column_table, folded, value_row, value_table
+from crankwork.note.legends import legend
+from crankwork.note.printed_units import printed_unit
+from crankwork.note.words import EngineWords, in_display_unit
+from crankwork.quantities import QUANTITIES, base_key
+from crankwork.report.language import FILE_KEYS, displayed
+from crankwork.units import UNITS
 
 # stage of the calculation: what it gives
 _STAGES: dict[str, tuple[str, ...]] = {
@@ -228,11 +233,65 @@ def _laws(material: Material) -> Table | None:
             told = words.amount(step.value, "MPa")
         rows.append((words.number(start, digits=5), words.number(end, digits=5), told))
         start = end
-    titles = tuple((words.column(one, "deg"),) for one in ("law_from", "law_to"))
-    law_of = (Math(words.symbol("diagram_pressure")),)
-    return Table(words.caption("laws"), (*titles, law_of), rows, align="rrl", label="t:laws")
+    ends = ((words.column(one, "deg"),) for one in ("law_from", "law_to"))
+    return words.table("laws", (*ends, (Math(words.symbol("diagram_pressure")),)), rows, "rrl", "t:laws")
 
 
 def _shown(key: str, values: Sequence[float], words: EngineWords) -> tuple[Runs, Sequence[str]]:
     """Return a column of values in SI under its title."""
     return words.titled(key), words.column_texts(in_display_unit(key, values))
+
+
+# what varies with the crank angle or stands among the data of the machine
+_ELSEWHERE = (
+    "crank_angle", "cylinder_pressure", "cylinder_temperature", "cylinder_volume", "piston_displacement",
+    "diagram_pressure", "bore", "rotational_speed", "speed", "stroke",
+)  # fmt: skip
+# arguments that formulas of the cycle calculate under several names
+_CALCULATED = ("Q_part", "mc_gas", "th_gas", "T_zero", "t_gas", "h_prod", "h_fresh", "p_1", "V_1", "V_phi")
+# what a fuel, or the kind of an engine, brings along when it is taken as usual
+_BROUGHT = {
+    "fuel": ("fuel_carbon", "fuel_hydrogen", "fuel_oxygen", "fuel_molar_mass"),
+    "mechanical_loss_pressure": ("mechanical_loss_constant", "mechanical_loss_slope"),
+}
+
+
+def cycle_data_rows(material: Material, steps: Sequence[FormulaLine]) -> Iterator[tuple[Cell, ...]]:
+    """Yield what is given or chosen for the cycle, and what is put into its formulas that nothing else gives."""
+    words, given, assumed = material.words, cycle_keys(material), _assumed(material)
+
+    def marked(key: str, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
+        return (f"{row[0]} ({words.term('assumed')})", *row[1:]) if key in assumed else row
+
+    for key in given:
+        yield marked(key, value_row(key, material.summary[key], words))
+    known = {*given, *material.summary, *material.results.columns, *_ELSEWHERE}
+    known |= {base_key(one.key) for one in material.cycle}
+    for step in steps:
+        meanings = {one.symbol: one.text for one in legend(step, words.language, frozenset(known))}
+        for name, value in step.values.items():
+            if name not in ARGUMENTS:
+                continue
+            shown, key = symbol(name, words.language), _key(name)
+            if shown not in meanings or key in known or name in _CALCULATED:
+                continue
+            known.add(key)
+            stated = argument_unit(name)
+            if key in QUANTITIES and stated in UNITS and UNITS[stated].factor == 1.0:
+                yield marked(key, value_row(key, value, words))
+                continue
+            unit = printed_unit(stated, words.language)
+            title = meanings[shown].removesuffix(f", {unit}") if unit else meanings[shown]
+            yield marked(key, (title, Math(shown), words.number(value), unit or "–"))
+
+
+def _key(name: str) -> str:
+    entry = ARGUMENTS[name]
+    return f"argument:{name}" if has_text(f"arguments.{name}") else entry.quantity
+
+
+def _assumed(material: Material) -> set[str]:
+    """Return the keys of what the calculation has taken as usual."""
+    names = [str(one.values["names"]) for one in material.results.notices if one.code == "cycle_assumed"]
+    keys = {FILE_KEYS.get(one, one) for some in names for one in some.split(", ")}
+    return keys | {one for key in keys for one in _BROUGHT.get(key, ())}

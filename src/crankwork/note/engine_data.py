@@ -10,7 +10,7 @@ from crankwork.machine import Bearings, Engine
 from crankwork.note.document import Block, Cell, Citation, Reference
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import value_row, value_table
-from crankwork.note.engine_words import EngineWords
+from crankwork.note.words import EngineWords
 from crankwork.quantities import cycle as cycle_quantities
 from crankwork.report.summary import results_method
 

@@ -6,16 +6,15 @@ from collections.abc import Iterator
 
 from crankwork.analysis.solved import Notice
 from crankwork.locale import say
-from crankwork.note.comparison import comparison_blocks
-from crankwork.note.document import Bibliography, Block, Cell, ItemList, Math, Reference, Runs, Table
+from crankwork.note.comparison import comparison_blocks, main_numbers
+from crankwork.note.document import Bibliography, Block, Cell, ItemList, Math, Reference, Table
 from crankwork.note.engine_data import GEAR, cycle_keys
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_motion import errors
 from crankwork.note.engine_shaft import balance, evenness, mains
 from crankwork.note.engine_tables import value_row, value_table
-from crankwork.note.engine_words import EngineWords
-from crankwork.note.main_numbers import main_numbers
 from crankwork.note.printed_units import printed_unit
+from crankwork.note.words import EngineWords
 from crankwork.report.language import displayed, key_unit, label
 from crankwork.report.notices import notice_text
 
@@ -42,8 +41,7 @@ def checks(material: Material) -> Iterator[Block]:
     if results.checks:
         yield words.paragraph("checks", table=Reference("t:identities"))
         rows = [(_identity(key, words), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
-        titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("residual"),))
-        yield Table(words.caption("identities"), titles, rows, align="lr", label="t:identities")
+        yield words.table("identities", ("identity", "residual"), rows, "lr", "t:identities")
     if found:
         yield words.paragraph("errors", table=Reference("t:errors"))
         yield _errors(material, found)
@@ -92,8 +90,7 @@ def _errors(material: Material, found: dict[str, tuple[float, float]]) -> Table:
         )
         for key, (error, share) in found.items()
     ]
-    titles: tuple[Runs, ...] = tuple((words.column(one),) for one in ("quantity", "value", "unit", "relative"))
-    return Table(words.caption("errors"), titles, rows, align="lrcr", label="t:errors")
+    return words.table("errors", ("quantity", "value", "unit", "relative"), rows, "lrcr", "t:errors")
 
 
 def conclusion(material: Material) -> Iterator[Block]:

@@ -15,14 +15,13 @@ from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
 from crankwork.machine import Machine
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.engine_lines import cycle_lines, engine_lines
-from crankwork.note.engine_seen import crankpins, seen
-from crankwork.note.engine_words import EngineWords
 from crankwork.note.groups import Group
 from crankwork.note.options import NoteOptions
 from crankwork.note.textbook import TRANSFER, in_one_formula
+from crankwork.note.words import EngineWords
 from crankwork.report.figure_data import figure_title, kind_of
 from crankwork.report.figures import drawings
-from crankwork.report.language import is_per_area, key_unit
+from crankwork.report.language import is_per_area, key_unit, label
 from crankwork.show.scene import Drawing
 from crankwork.units import from_si
 
@@ -241,3 +240,63 @@ def _first(lines: list[Line]) -> Iterator[Line]:
         if mark not in seen:
             seen.add(mark)
             yield one
+
+
+_SHOWN: Mapping[str, tuple[str, ...]] = {
+    "kinematics": ("piston_displacement", "piston_velocity", "piston_acceleration"),
+    "pressure": ("gas_pressure",),
+    "indicator": ("gas_pressure",),
+    "piston_forces": ("gas_force", "inertia_force", "piston_force"),
+    "rod_forces": ("rod_force", "side_force"),
+    "crankpin_forces": ("tangential_force", "radial_force"),
+    "torque": ("crank_torque",),
+    "crankpin_polar": ("crankpin_tangential_force", "crankpin_radial_force"),
+    "brix": ("piston_displacement",),
+    "tolle": ("piston_displacement", "piston_acceleration"),
+    "total_torque": ("total_torque",),
+    "crankpin_load": ("crankpin_load",),
+    "big_end_polar": ("big_end_load",),
+    "small_end_polar": ("small_end_load",),
+    "excess_work": ("kinetic_energy_change",),
+    "crank_speed": ("crank_speed",),
+    "crankpin_wear": ("wear_sum",),
+    "balance_orders": ("free_force", "free_moment"),
+    "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
+}
+# figures that show each crankpin whose load is another
+_OF_CRANKPINS = ("crankpin_polar", "crankpin_load", "crankpin_wear")
+_OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
+
+
+def seen(name: str, shown: Material) -> str:
+    """Return the quantities of a figure with their extreme values."""
+    keys = _SHOWN.get(kind_of(name), ())
+    pins = crankpins(name, shown.results.columns)
+    if pins:
+        keys = tuple(f"{key}.{pin}" for pin in pins for key in keys)
+    if name in _OVER_CYCLE:
+        keys = shown.results.groups.get(_OVER_CYCLE[name], ())
+    return "; ".join(one for one in (_range(key, shown) for key in keys) if one)
+
+
+def crankpins(name: str, columns: Iterable[str]) -> tuple[str, ...]:
+    """Return the numbers of the crankpins that a figure shows: of a polar diagram one, none of other figures."""
+    kind = kind_of(name)
+    pins = tuple(key.partition(".")[2] for key in columns if key.startswith("crankpin_load."))
+    if kind not in _OF_CRANKPINS or not pins:
+        return ()
+    if kind != "crankpin_polar":
+        return pins
+    return (name.rpartition("_")[2],) if name != kind else pins[:1]
+
+
+def _range(key: str, shown: Material) -> str:
+    """Return the least and the largest value of a column or listing, in words."""
+    words, values = shown.words, shown.columns.get(key)
+    if values is None:
+        values = next((one[key] for one in shown.listings.values() if key in one), None)
+    if values is None or not len(values):
+        return ""
+    low, high = (words.number(float(one), digits=4) for one in (values.min(), values.max()))
+    named = label(key, words.language)
+    return words.phrase("seen", quantity=named, low=low, high=f"{high}\u00a0{words.unit(key)}".rstrip())

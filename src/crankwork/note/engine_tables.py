@@ -9,9 +9,9 @@ import numpy as np
 
 from crankwork.note.document import Cell, Math, Runs, Table
 from crankwork.note.engine_material import Material
-from crankwork.note.engine_words import EngineWords
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
+from crankwork.note.words import EngineWords
 from crankwork.report.language import displayed, key_unit, label, row_name
 
 # rows that fit on a page, and parts and columns of a table that stand side by side
@@ -96,11 +96,10 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
 def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: EngineWords) -> Table:
     """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry."""
     found = list(rows)
-    titles: list[Runs] = [(words.column(one),) for one in ("quantity", "symbol", "value", "unit")]
-    has_angle = any(len(one) > len(titles) for one in found)
-    if has_angle:
+    titles: list[str | Runs] = ["quantity", "symbol", "value", "unit"]
+    if any(len(one) > len(titles) for one in found):
         titles.append((words.column("at") + " ", Math(words.symbol("crank_angle"))))
-    return Table(words.caption(caption), tuple(titles), found, align="lcrcr"[: len(titles)], label=f"t:{caption}")
+    return words.table(caption, titles, found, "lcrcr"[: len(titles)], f"t:{caption}")
 
 
 def value_row(key: str, value: float, words: EngineWords, *, area: float | None = None) -> tuple[Cell, ...]:

@@ -36,10 +36,9 @@ from crankwork.note.layout import (
     row,
     width,
 )
-from crankwork.note.linkage_words import owned_symbol
 from crankwork.note.math import formula_box
 from crankwork.note.printed_units import display_unit, printed_unit
-from crankwork.note.symbols import number_box, symbol_box
+from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
 from crankwork.report.language import displayed, key_unit
 from crankwork.report.language import symbol as key_symbol

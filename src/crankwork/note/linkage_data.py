@@ -16,8 +16,7 @@ from crankwork.mechanism.structure import links_of
 from crankwork.note.chambers import given_chambers
 from crankwork.note.document import Block, ItemList, Runs, Table
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_tables import equations
-from crankwork.note.linkage_words import Words
+from crankwork.note.words import Words
 from crankwork.report.language import called
 from crankwork.report.summary import results_method
 
@@ -43,13 +42,7 @@ def task(material: Material) -> Iterator[Block]:
         yield words.paragraph("geared_crank", name=one.link, ratio=words.number(one.ratio))
     if machine.angular_acceleration:
         yield words.paragraph("acceleration", value=words.amount(machine.angular_acceleration, "rad/s2"))
-    yield from links_and_places(material)
-    if machine.loads:
-        yield words.paragraph("outer_loads")
-        yield ItemList(tuple(outer_load(one, words) for one in stated_loads(machine)))
-    elif machine.mechanism.bodies and not machine.chambers:
-        yield words.paragraph("no_loads")
-    yield from given_chambers(material)
+    yield from given_parts(material)
     if machine.drive.inertia:
         yield words.paragraph("drive_inertia", value=words.amount(machine.drive.inertia, "kg*m2"))
     if machine.drive.fluctuation is not None:
@@ -70,10 +63,17 @@ def method(material: Material) -> Block:
     )
 
 
-def links_and_places(material: Material) -> Iterator[Block]:
-    """Yield tables of the links, the fixed points and the guides."""
+def given_parts(material: Material) -> Iterator[Block]:
+    """Yield tables of the links, the fixed points and the guides, then loads and chambers."""
+    words, machine = material.words, material.machine
     yield _links(material)
     yield from _places(material)
+    if machine.loads:
+        yield words.paragraph("outer_loads")
+        yield ItemList(tuple(_outer_load(one, words) for one in stated_loads(machine)))
+    elif machine.mechanism.bodies and not machine.chambers:
+        yield words.paragraph("no_loads")
+    yield from given_chambers(material)
 
 
 def _links(material: Material) -> Table:
@@ -94,10 +94,9 @@ def _links(material: Material) -> Table:
             words.shown("body_mass", one.mass) if one.mass else "–",
             words.shown("body_inertia", one.inertia) if one.inertia else "–", _centre(one, words),
         ))  # fmt: skip
-    titles: list[Runs] = [(words.column(one),) for one in ("number", "link", "joints")]
-    titles += [(words.column("length", "mm"),), words.titled("body_mass"), words.titled("body_inertia")]
-    titles += [(words.column("centre", "mm"),)]
-    return Table(words.caption("links"), tuple(titles), rows, align="clcrrrc", label="links")
+    masses = (words.titled(key) for key in ("body_mass", "body_inertia"))
+    length, centre = ((words.column(one, "mm"),) for one in ("length", "centre"))
+    return words.table("links", ("number", "link", "joints", length, *masses, centre), rows, "clcrrrc", "links")
 
 
 def _length(member: Member, shared: list[str], words: Words) -> str:
@@ -126,7 +125,7 @@ def _places(material: Material) -> Iterator[Table]:
     rows = [(name, words.shown("point_x", x), words.shown("point_y", y)) for name, (x, y) in linkage.ground.items()]
     axes = (words.titled("point_x"), words.titled("point_y"))
     if rows:
-        yield Table(words.caption("pivots"), ((words.column("point"),), *axes), rows, align="crr")
+        yield words.table("pivots", ("point", *axes), rows, "crr")
     lines = [
         (
             name, guide.link or words.term("ground"), *(words.shown("point_x", one) for one in guide.point),
@@ -135,11 +134,10 @@ def _places(material: Material) -> Iterator[Table]:
         for name, guide in linkage.guides.items()
     ]  # fmt: skip
     if lines:
-        titles: tuple[Runs, ...] = ((words.column("guide"),), (words.column("carrier"),), *axes)
-        yield Table(words.caption("guides"), (*titles, (words.column("angle"),)), lines, align="ccrrr")
+        yield words.table("guides", ("guide", "carrier", *axes, "angle"), lines, "ccrrr")
 
 
-def outer_load(load: StatedLoad, words: Words) -> Runs:
+def _outer_load(load: StatedLoad, words: Words) -> Runs:
     """Return a load in words."""
     amounts = {
         name: "…" if value is None else words.amount(value, unit) for name, (value, unit) in load.amounts.items()
@@ -156,7 +154,7 @@ def structural_analysis(material: Material) -> Iterator[Block]:
     yield words.paragraph("structure", n=str(len(found.links)), p=str(found.joints))
     yield _pairs(material, ("", *found.links))
     yield words.paragraph("chebyshev")
-    yield from equations(material.lines("structure"), words)
+    yield from material.equations("structure")
     yield words.paragraph("one_driver" if material.words.period else "one_drive")
     numbers = {name: str(number) for number, name in enumerate(found.links, start=1)}
     driver = material.machine.mechanism.driver
@@ -173,8 +171,7 @@ def structural_analysis(material: Material) -> Iterator[Block]:
         )
         for number, group in enumerate(found.groups, start=1)
     ]
-    titles = tuple((words.column(one),) for one in ("group", "members", "class", "species"))
-    yield Table(words.caption("groups"), titles, rows, align="clcc")
+    yield words.table("groups", ("group", "members", "class", "species"), rows, "clcc")
     yield words.paragraph("formula", formula=found.formula.replace("->", "→"), number=_ROMAN[found.number])
     kind = four_bar_type(material.machine)
     if kind:
@@ -211,5 +208,4 @@ def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     if isinstance(driver, Cylinder):
         inside = "–".join(str(links.index(name)) for name in (driver.link, rod_name(driver.link)))
         rows.append((str(len(rows) + 1), driver.link, inside, words.term("sliding")))
-    titles = tuple((words.column(one),) for one in ("number", "pair", "between", "kind"))
-    return Table(words.caption("pairs"), titles, rows, align="cccc")
+    return words.table("pairs", ("number", "pair", "between", "kind"), rows, "cccc")

@@ -5,29 +5,21 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 
-from crankwork.analysis.stated import stated_loads
 from crankwork.locale import say
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.mechanism import Driver
-from crankwork.note.chambers import given_chambers
-from crankwork.note.document import Block, Citation, ItemList, Paragraph, Reference, Runs, Table
-from crankwork.note.linkage_data import links_and_places, method, outer_load
+from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
+from crankwork.note.linkage_data import given_parts, method
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_motion import instant_centres, worked_at
-from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words, named
+from crankwork.note.linkage_motion import ACCELERATING, MOVING, instant_centres, positions
+from crankwork.note.words import Words, named
 from crankwork.report.language import key_unit
-from crankwork.report.tables import any_nonzero
 
 _SOURCE = "artobolevsky_1988, ch. 4"
 _STATICS = "artobolevsky_1988, ch. 13"
 _COORDINATE = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
     "driver_angular_acceleration",
-)  # fmt: skip
-_MOVING = (
-    "point_velocity", "link_angular_velocity", "slider_velocity", "point_acceleration", "link_angular_acceleration",
-    "slider_acceleration",
 )  # fmt: skip
 
 
@@ -47,13 +39,7 @@ def driven_task(material: Material) -> Iterator[Block]:
         period = words.amount(driver.law.period, "s")
         yield words.paragraph("driver_law", period=period, table=Reference("law"))
         yield _segments(driver.law, words, turns=driver.turns)
-    yield from links_and_places(material)
-    if machine.loads:
-        yield words.paragraph("outer_loads")
-        yield ItemList(tuple(outer_load(one, words) for one in stated_loads(machine)))
-    elif machine.mechanism.bodies and not machine.chambers:
-        yield words.paragraph("no_loads")
-    yield from given_chambers(material)
+    yield from given_parts(material)
     yield method(material)
 
 
@@ -80,10 +66,9 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
         )
         for number, (one, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
     ]  # fmt: skip
-    titles: list[Runs] = [(words.column(one),) for one in ("number", "motion_law")]
-    titles += [(words.column(one, key_unit(key)),) for one in ("law_from", "law_to")]
-    titles += [words.titled("start_time"), words.titled("segment_time")]
-    return Table(words.caption("law"), tuple(titles), rows, align="clrrrr", label="law")
+    ends = ((words.column(one, key_unit(key)),) for one in ("law_from", "law_to"))
+    times_of = (words.titled(one) for one in ("start_time", "segment_time"))
+    return words.table("law", ("number", "motion_law", *ends, *times_of), rows, "clrrrr", "law")
 
 
 def _moves(segment: Segment, words: Words) -> str:
@@ -92,23 +77,16 @@ def _moves(segment: Segment, words: Words) -> str:
 
 def driven_motion(material: Material) -> Iterator[Block]:
     """Yield the section about the motion of the driver and what it moves."""
-    words, columns, degrees = material.words, material.columns, material.positions
+    words, columns = material.words, material.columns
     yield words.heading("linkage_kinematics")
     yield words.paragraph("driven_positions", source=Citation(_SOURCE))
     yield from material.figures("position_plans")
-    yield from worked_at(material, "driver")
-    yield from equations(material.lines("driver"), words)
-    own = named(columns, *_COORDINATE)
-    yield from position_tables("driver", degrees, quantity_columns(own, columns, words), words, first=material.first)
-    yield from equations(material.lines("motion"), words)
-    places = [f"point_{axis}.{key.partition('.')[2]}" for key in named(columns, "point_x") for axis in "xy"]
-    for caption, keys in (
-        ("positions", [*places, *named(columns, "link_angle", "slider_displacement")]),
-        ("velocities", named(columns, *_MOVING[:3])),
-        ("accelerations", named(columns, *_MOVING[3:])),
-    ):
-        shown = quantity_columns(keys, columns, words)
-        yield from position_tables(caption, degrees, shown, words, first=material.first)
+    yield from material.worked("driver")
+    yield from material.table("driver", named(columns, *_COORDINATE))
+    yield from material.equations("motion")
+    yield from material.table("positions", positions(material))
+    yield from material.table("velocities", named(columns, *MOVING))
+    yield from material.table("accelerations", named(columns, *ACCELERATING))
     yield from instant_centres(material)
     yield from material.figures("driver", "sliders")
     if "velocity_plan" in material.drawn:
@@ -119,21 +97,18 @@ def driven_motion(material: Material) -> Iterator[Block]:
 
 def driven_forces(material: Material) -> Iterator[Block]:
     """Yield the section about inertia, joint forces, and what the driver has to give."""
-    words, columns, mechanism = material.words, material.columns, material.machine.mechanism
+    words, mechanism = material.words, material.machine.mechanism
     if not (mechanism.bodies or material.machine.loads or material.machine.chambers):
         return
     yield words.heading("linkage_forces")
     if mechanism.bodies:
         yield words.paragraph("inertia_of_links", source=Citation(_STATICS))
-        yield from worked_at(material, "inertia_loads")
-        yield from equations(material.lines("inertia_loads"), words)
+        yield from material.worked("inertia_loads")
     yield words.paragraph("driven_reactions")
-    yield from equations(material.lines("joint_forces"), words)
-    yield from equations(material.lines("driver_force"), words)
-    given = any_nonzero(named(columns, "driver_force", "driver_torque", "driver_power"), material.results.columns)
-    joints = any_nonzero(
-        named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), material.results.columns
+    yield from material.equations("joint_forces")
+    yield from material.equations("driver_force")
+    keys = material.nonzero(
+        "driver_force", "driver_torque", "driver_power", "joint_force", "axial_force", "normal_force", "normal_moment"
     )
-    shown = quantity_columns([*given, *joints], columns, words)
-    yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
+    yield from material.table("reactions", keys, label="reactions")
     yield from material.figures("joint_forces")

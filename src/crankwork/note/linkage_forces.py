@@ -9,16 +9,15 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.linkage import torque_by_routes
 from crankwork.analysis.rounding import without_rounding
-from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
+from crankwork.analysis.stated import StatedFriction, stated_friction
+from crankwork.note.document import Block, Citation, ItemList, Math, Paragraph, Reference, Run, Runs
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_motion import worked_at
-from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words, named
-from crankwork.note.words import in_display_unit
+from crankwork.note.linkage_tables import Column, equations
+from crankwork.note.words import Words, in_display_unit, named
 from crankwork.report.not_drawn import not_drawn
 from crankwork.report.tables import any_nonzero
 
-_STATICS, _WORK, _RUNNING, _EFFICIENCY = (f"artobolevsky_1988, ch. {one}" for one in (13, 15, 16, 14))
+_STATICS, _WORK, _EFFICIENCY = (f"artobolevsky_1988, ch. {one}" for one in (13, 15, 14))
 _BALANCE = "den_hartog_1956, ch. 5"
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
@@ -34,23 +33,17 @@ def forces(material: Material) -> Iterator[Block]:
     mechanism = material.machine.mechanism
     if not (mechanism.bodies or material.machine.loads or material.machine.chambers):
         return
-    words, columns = material.words, material.columns
+    words = material.words
     yield words.heading("linkage_forces")
     if mechanism.bodies:
         yield words.heading("inertia_loads", 2)
         yield words.paragraph("inertia_of_links", source=Citation(_STATICS))
-        yield from worked_at(material, "inertia_loads")
-        yield from equations(material.lines("inertia_loads"), words)
+        yield from material.worked("inertia_loads")
     yield words.heading("reactions", 2)
     yield words.paragraph("reactions")
-    yield from worked_at(material, "joint_forces")
-    yield from equations(material.lines("joint_forces"), words)
-    keys = any_nonzero(
-        named(columns, "joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment"),
-        material.results.columns,
-    )
-    shown = quantity_columns(keys, columns, words)
-    yield from position_tables("reactions", material.positions, shown, words, first=material.first, label="reactions")
+    yield from material.worked("joint_forces")
+    keys = material.nonzero("joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment")
+    yield from material.table("reactions", keys, label="reactions")
     yield from material.figures("joint_forces", "force_plans")
     for one in not_drawn(material.results, words.language):
         yield Paragraph((f"{one[0].upper()}{one[1:]}.",))
@@ -72,7 +65,7 @@ def _lever(material: Material) -> Iterator[Block]:
     shown = [_route(name, values, words) for name, values in routes.items()]
     percent = [words.number(one, digits=2) for one in (100.0 * apart).tolist()]
     shown.append(Column((words.column("difference"),), percent))
-    yield from position_tables("routes", material.positions, shown, words, first=material.first, label="routes")
+    yield from material.tabulated("routes", shown, label="routes")
     yield from material.figures("zhukovsky_lever")
 
 
@@ -88,36 +81,29 @@ def balance(material: Material) -> Iterator[Block]:
         return
     yield words.heading("linkage_balance")
     yield words.paragraph("shaking", source=Citation(_BALANCE))
-    yield from worked_at(material, "shaking")
-    yield from equations(material.lines("shaking"), words)
-    shown = quantity_columns(any_nonzero(_SHAKING, material.results.columns), columns, words)
-    yield from position_tables("shaking", material.positions, shown, words, first=material.first, label="shaking")
+    yield from material.worked("shaking")
+    yield from material.table("shaking", material.nonzero(*_SHAKING), label="shaking")
     orders = named(summary, "free_force")
     if not orders:
         return
     yield words.paragraph("free_forces", table=Reference("orders"))
     sizes = words.column_texts(in_display_unit("free_force", [summary[key] for key in orders]), digits=6)
     rows = [(key.partition(".")[2], size) for key, size in zip(orders, sizes, strict=True)]
-    yield Table(
-        words.caption("linkage_orders"), ((words.column("order_of_turn"),), words.titled("free_force")), rows,
-        align="cr", label="orders",
-    )  # fmt: skip
+    yield words.table("linkage_orders", ("order_of_turn", words.titled("free_force")), rows, "cr", "orders")
     yield words.paragraph("counterweight")
-    yield from equations(material.lines("counterweight"), words)
+    yield from material.equations("counterweight")
 
 
 def reduction(material: Material) -> Iterator[Block]:
     """Yield the section about reduced inertia and reduced torque."""
     if not has_forces(material):
         return
-    words, columns = material.words, material.columns
+    words = material.words
     yield words.heading("reduction")
     yield words.paragraph("reduction", source=Citation(_WORK))
-    yield from worked_at(material, "reduction")
-    yield from equations(material.lines("reduction"), words)
-    keys = any_nonzero(("reduced_inertia", "reduced_inertia_1"), material.results.columns)
-    shown = quantity_columns(keys, columns, words)
-    yield from position_tables("reduced", material.positions, shown, words, first=material.first, label="reduced")
+    yield from material.worked("reduction")
+    keys = material.nonzero("reduced_inertia", "reduced_inertia_1")
+    yield from material.table("reduced", keys, label="reduced")
     yield from material.figures("reduced_inertia")
 
 
@@ -125,16 +111,14 @@ def torques(material: Material) -> Iterator[Block]:
     """Yield the section about static, dynamic and driving torque, with the efficiency."""
     if not has_forces(material):
         return
-    words, columns = material.words, material.columns
+    words = material.words
     yield words.heading("torques")
     yield words.paragraph("torques")
-    yield from worked_at(material, "torques")
-    yield from equations(material.lines("torques", "static_torque", "dynamic_torque", "balancing_torque"), words)
+    yield from material.worked("torques", "static_torque", "dynamic_torque", "balancing_torque")
     yield from efficiency(material)
     yield words.paragraph("driving")
-    yield from equations(material.lines("torques", "driving_torque"), words)
-    shown = quantity_columns(any_nonzero(_TORQUES, material.results.columns), columns, words)
-    yield from position_tables("table_torque", material.positions, shown, words, first=material.first, label="torque")
+    yield from material.equations("torques", "driving_torque")
+    yield from material.table("table_torque", material.nonzero(*_TORQUES), label="torque")
     yield from material.figures("torques")
 
 
@@ -156,3 +140,43 @@ def efficiency(material: Material) -> Iterator[Block]:
     if drive.exact_efficiency is not None:
         used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency)
         yield words.paragraph("efficiency_rounded", used=used, exact=exact)
+
+
+_SOURCE = "artobolevsky_1988, ch. 11, 14"
+_WITH_FRICTION = (
+    "torque_with_friction", "driver_force_with_friction", "driver_torque_with_friction", "static_torque_with_friction",
+    "instantaneous_efficiency",
+)  # fmt: skip
+_JOINTS = ("friction_torque", "friction_force", "joint_force_with_friction", "normal_force_with_friction")
+
+
+def friction(material: Material) -> Iterator[Block]:
+    """Yield the section about friction in the joints."""
+    words, columns, summary = material.words, material.columns, material.results.summary
+    rubbing = stated_friction(material.machine)
+    if not rubbing or "friction_power" not in columns:
+        return
+    yield words.heading("friction")
+    yield words.paragraph("rubbing")
+    yield ItemList(tuple(_rubbing(one, words) for one in rubbing))
+    yield words.paragraph("with_friction", source=Citation(_SOURCE))
+    yield from material.worked("friction")
+    keys = any_nonzero([*named(columns, *_WITH_FRICTION), "friction_power", *named(columns, *_JOINTS)], columns)
+    yield from material.table("friction", keys, label="friction")
+    if "mean_friction_power" in summary:
+        yield words.paragraph("mean_friction_power", value=words.amount(summary["mean_friction_power"], "W"))
+    if "mean_efficiency" in summary:
+        yield words.paragraph("mean_efficiency", value=words.number(summary["mean_efficiency"]))
+    yield from material.figures("friction")
+
+
+def _rubbing(one: StatedFriction, words: Words) -> Runs:
+    """Return a joint that rubs in words."""
+    runs: list[Run] = []
+    for key, (value, unit) in one.amounts.items():
+        runs += [
+            ", " if runs else f"{one.name.replace('_', ' ')}: ",
+            Math(words.symbol(key)),
+            f" = {words.amount(value, unit)}",
+        ]
+    return tuple(runs)

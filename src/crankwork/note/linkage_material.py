@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,13 +14,15 @@ from crankwork.analysis.rounding import summary_without_rounding, without_roundi
 from crankwork.formula.lines import Line
 from crankwork.machine import Machine, TransferTable
 from crankwork.mechanism.structure import Structure, structure
-from crankwork.note.document import Block, listed
+from crankwork.note.document import Block, Table, listed
 from crankwork.note.groups import Group
 from crankwork.note.linkage_lines import linkage_lines
-from crankwork.note.linkage_words import Words
+from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
 from crankwork.note.options import NoteOptions
+from crankwork.note.words import Words, named
 from crankwork.report.figure_data import kind_of
 from crankwork.report.figures import drawings
+from crankwork.report.tables import any_nonzero
 from crankwork.show.scene import Drawing
 
 # figures that are no curves
@@ -48,7 +50,7 @@ class Material:
         return self.results.machine
 
     @property
-    def table(self) -> TransferTable:
+    def transfer(self) -> TransferTable:
         """Its transfer functions, where they are given."""
         if self.machine.transfer is None:
             raise TypeError("this machine has a mechanism instead of transfer functions")
@@ -92,6 +94,39 @@ class Material:
         """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
         lines = self.groups[group].lines if group in self.groups else ()
         return tuple(one for one in lines if not kinds or one.key.partition(".")[0] in kinds)
+
+    def equations(self, group: str, *kinds: str) -> Iterator[Block]:
+        """Yield the equations of a group, or those of it that give some quantities."""
+        return equations(self.lines(group, *kinds), self.words)
+
+    def worked_at(self, group: str) -> Iterator[Block]:
+        """Yield the sentence that says at which crank angle, or when, a group is worked."""
+        found = self.groups.get(group)
+        if found is not None and found.degrees is not None:
+            key = "worked_time" if self.words.period else "worked_position"
+            yield self.words.paragraph(key, value=self.words.place_text(found.degrees))
+
+    def worked(self, group: str, *kinds: str) -> Iterator[Block]:
+        """Yield the equations of a group after the sentence that says where it is worked."""
+        yield from self.worked_at(group)
+        yield from self.equations(group, *kinds)
+
+    def nonzero(self, *kinds: str) -> list[str]:
+        """Return the columns of some kinds that are not zero throughout."""
+        return any_nonzero(named(self.columns, *kinds), self.results.columns)
+
+    def of_axes(self, kind: str) -> list[str]:
+        """Return the columns of a place, x and y of one point after the other."""
+        names = (key.partition(".")[2] for key in named(self.columns, f"{kind}_x"))
+        return [f"{kind}_{axis}.{name}" for name in names for axis in "xy"]
+
+    def table(self, caption: str, keys: Iterable[str], label: str = "") -> Iterator[Table]:
+        """Yield columns at the positions as a table."""
+        return self.tabulated(caption, quantity_columns(keys, self.columns, self.words), label)
+
+    def tabulated(self, caption: str, columns: Sequence[Column], label: str = "") -> Iterator[Table]:
+        """Yield finished columns at the positions as a table."""
+        return position_tables(caption, self.positions, columns, self.words, first=self.first, label=label)
 
     @cached_property
     def drawn(self) -> Mapping[str, Drawing]:

@@ -9,14 +9,12 @@ from crankwork.note.chambers import chambers
 from crankwork.note.document import Block, Note
 from crankwork.note.linkage_data import structural_analysis, task
 from crankwork.note.linkage_driver import driven_forces, driven_motion, driven_task
-from crankwork.note.linkage_forces import balance, forces, reduction, torques
-from crankwork.note.linkage_friction import friction
+from crankwork.note.linkage_forces import balance, forces, friction, reduction, torques
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_motion import kinematics, law_of_motion
+from crankwork.note.linkage_motion import kinematics, law_of_motion, transient
 from crankwork.note.linkage_quality import quality
 from crankwork.note.linkage_shaft import appendix, checks, comparison, conclusion, flywheel, motor, sources
 from crankwork.note.linkage_table_note import driving, dynamic, static, table_task
-from crankwork.note.linkage_transient import transient
 from crankwork.note.options import NoteOptions
 from crankwork.note.sections import note_of_sections
 

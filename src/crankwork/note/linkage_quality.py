@@ -8,9 +8,9 @@ from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
 from crankwork.note.document import Block, Citation, Reference, Runs, Table
 from crankwork.note.linkage_lines import WORST_ANGLES, extreme_of, worst_angles
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words, named
+from crankwork.note.linkage_tables import equations
 from crankwork.note.printed_units import printed_unit
+from crankwork.note.words import Words, named
 from crankwork.report.language import displayed, key_unit
 
 _SOURCE = "norton_2012, ch. 4"
@@ -38,17 +38,13 @@ def _range(material: Material) -> Iterator[Block]:
     for kind in _TRAVEL.values():
         for key in named(summary, kind, f"{kind}_circuit"):
             name = key.partition(".")[2]
-            row = (
-                name,
-                _unit(material, key),
-                *(_value(material, f"{one}.{name}") for one in (kind, f"{kind}_circuit")),
-            )
+            reached = (_value(material, f"{one}.{name}") for one in (kind, f"{kind}_circuit"))
+            row = (name, _unit(material, key), *reached)
             if row not in rows:
                 rows.append(row)
     if rows:
         yield words.paragraph("reach", table=Reference("reach"))
-        titles: tuple[Runs, ...] = tuple((words.column(one),) for one in ("link", "unit", "on_branch", "on_circuit"))
-        yield Table(words.caption("reach"), titles, rows, align="lcrr", label="reach")
+        yield words.table("reach", ("link", "unit", "on_branch", "on_circuit"), rows, "lcrr", "reach")
 
 
 def _ends(material: Material) -> Iterator[Block]:
@@ -69,11 +65,12 @@ def _ends(material: Material) -> Iterator[Block]:
     if has_ratio:
         yield words.paragraph("time_ratio")
     at = words.reached_at()
-    titles: list[Runs] = [(words.column("link"),), (words.column("unit"),), (words.column("least"),), at]
-    titles += [(words.column("largest"),), at, (words.column("travel"),), words.titled("time_ratio")]
-    if not has_ratio:
-        titles, rows = titles[:-1], [row[:-1] for row in rows]
-    yield Table(words.caption("ends"), tuple(titles), rows, align="lc" + "r" * (len(titles) - 2), label="ends")
+    titles: list[str | Runs] = ["link", "unit", "least", at, "largest", at, "travel"]
+    if has_ratio:
+        titles.append(words.titled("time_ratio"))
+    else:
+        rows = [row[:-1] for row in rows]
+    yield words.table("ends", titles, rows, "lc" + "r" * (len(titles) - 2), "ends")
 
 
 def _transmission(material: Material) -> Iterator[Block]:
@@ -89,8 +86,7 @@ def _transmission(material: Material) -> Iterator[Block]:
     if named(columns, "pressure_angle"):
         yield words.paragraph("pressure", source=Citation(_SOURCE), limit=words.number(USUAL_PRESSURE) + "°")
     yield from _worst(material)
-    shown = quantity_columns(keys, columns, words)
-    yield from position_tables("transmission_angles", material.positions, shown, words, first=material.first)
+    yield from material.table("transmission_angles", keys)
 
 
 def _worst(material: Material) -> Iterator[Block]:
@@ -122,10 +118,8 @@ def _limits(material: Material) -> Table:
         )
         for name in names
     ]
-    titles: list[Runs] = [(words.column("transmitting"),)]
-    for one in kinds:
-        titles += [words.titled(one, "deg"), words.reached_at()]
-    return Table(words.caption("limits"), tuple(titles), rows, align="l" + "r" * (len(titles) - 1), label="limits")
+    angles = [title for one in kinds for title in (words.titled(one, "deg"), words.reached_at())]
+    return words.table("limits", ("transmitting", *angles), rows, "l" + "r" * len(angles), "limits")
 
 
 def _value(material: Material, key: str) -> str:

@@ -8,14 +8,13 @@ import numpy as np
 
 from crankwork.analysis.rounding import without_rounding
 from crankwork.locale import capital, say
-from crankwork.note.comparison import comparison_blocks
-from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference, Runs, Table
+from crankwork.note.comparison import comparison_blocks, main_numbers
+from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference
 from crankwork.note.linkage_lines import WHEEL_SIZES
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words, named
-from crankwork.note.main_numbers import main_numbers
 from crankwork.note.printed_units import printed_unit
+from crankwork.note.words import Words, named
 from crankwork.report.language import displayed, key_unit, label, told_as
 from crankwork.report.notices import notice_text
 from crankwork.report.tables import any_nonzero
@@ -37,7 +36,7 @@ def motor(material: Material) -> Iterator[Block]:
         return
     yield words.heading("motor")
     yield words.paragraph("motor", rated=words.amount(drive.rated_power, "kW"))
-    yield from equations(material.lines("motor"), words)
+    yield from material.equations("motor")
 
 
 # lines about the work, and the sizes of the wheel found exactly
@@ -70,8 +69,8 @@ def flywheel(material: Material) -> Iterator[Block]:
         for way in ways
         if way in excess
     ]  # fmt: skip
-    titles: tuple[Runs, ...] = ((words.column("way"),), words.titled("excess_work"), words.titled("flywheel_inertia"))
-    yield Table(words.caption("flywheels"), titles, rows, align="lrr", label="flywheels")
+    titles = ("way", words.titled("excess_work"), words.titled("flywheel_inertia"))
+    yield words.table("flywheels", titles, rows, "lrr", "flywheels")
     yield from material.figures("wittenbauer")
 
 
@@ -108,8 +107,7 @@ def checks(material: Material) -> Iterator[Block]:
             (say(f"report.{key}", words.language), words.number(100.0 * one, digits=2))
             for key, one in results.checks.items()
         ]
-        titles: tuple[Runs, ...] = ((words.column("identity"),), (words.column("difference"),))
-        yield Table(words.caption("identities"), titles, rows, align="lr", label="checks")
+        yield words.table("identities", ("identity", "difference"), rows, "lr", "checks")
     elif results.has_positions:
         yield words.paragraph("no_checks")
     if results.notices:
@@ -124,9 +122,7 @@ def conclusion(material: Material) -> Iterator[Block]:
     yield from main_numbers(results, words)
     yield words.paragraph("conclusion", table=Reference("summary"))
     rows = [_row(key, material) for key in results.summary if not _is_angle(key)]
-    titles: list[Runs] = [(words.column(one),) for one in ("quantity", "value", "unit")]
-    titles.append(words.reached_at())
-    yield Table(words.caption("summary"), tuple(titles), rows, align="lrcr", label="summary")
+    yield words.table("summary", ("quantity", "value", "unit", words.reached_at()), rows, "lrcr", "summary")
 
 
 def _is_angle(key: str) -> bool:
@@ -169,7 +165,7 @@ def appendix(material: Material) -> Iterator[Block]:
         ("motion_all", named(columns, *_MOTION)),
         (
             f"reactions_{over}",
-            any_nonzero(named(columns, "joint_force", "axial_force", "normal_force", "normal_moment"), results.columns),
+            material.nonzero("joint_force", "axial_force", "normal_force", "normal_moment"),
         ),
     ):
         shown = quantity_columns(keys, columns, words)

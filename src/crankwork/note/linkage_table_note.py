@@ -11,16 +11,16 @@ from crankwork.note.document import Block, Citation, Equation, ItemList, Math, R
 from crankwork.note.linkage_data import method
 from crankwork.note.linkage_forces import efficiency
 from crankwork.note.linkage_material import Material
-from crankwork.note.linkage_motion import worked_at
-from crankwork.note.linkage_tables import Column, equations, position_tables, quantity_columns
-from crankwork.note.linkage_words import Words, subscript
+from crankwork.note.linkage_tables import Column, position_tables, quantity_columns
+from crankwork.note.symbols import subscript
+from crankwork.note.words import Words
 
 _WORK = "artobolevsky_1988, ch. 15"
 
 
 def table_task(material: Material) -> Iterator[Block]:
     """Yield what is asked, the masses, and the transfer functions."""
-    words, table = material.words, material.table
+    words, table = material.words, material.transfer
     yield words.heading("task")
     yield words.paragraph("task_table")
     yield words.paragraph("table_speed", value=words.amount(material.results.solved.speed, "rad/s"))
@@ -47,8 +47,8 @@ def _body(table: TransferTable, at: int, words: Words) -> Runs:
 
 def _ratios(material: Material) -> Iterator[Column]:
     """Yield the columns of the table, in metres and without a unit, as the formulas take them."""
-    words, count = material.words, len(material.table.angles)
-    for body in material.table.bodies:
+    words, count = material.words, len(material.transfer.angles)
+    for body in material.transfer.bodies:
         for key, unit, ratios in (
             ("velocity_ratio", "m", body.velocity_ratio),
             ("rotation_ratio", "", body.rotation_ratio),
@@ -64,10 +64,9 @@ def static(material: Material) -> Iterator[Block]:
     if "static_torque" not in columns:
         return
     yield words.heading("static")
-    if material.table.static_torque is None:
+    if material.transfer.static_torque is None:
         yield words.paragraph("given_balancing")
-        yield from worked_at(material, "torques")
-        yield from equations(material.lines("torques", "static_torque"), words)
+        yield from material.worked("torques", "static_torque")
     shown = quantity_columns(("static_torque",), columns, words)
     yield from position_tables("table_static", material.results.grid.degrees, shown, words, first=1, label="static")
 
@@ -77,10 +76,9 @@ def dynamic(material: Material) -> Iterator[Block]:
     words, columns = material.words, material.results.columns
     yield words.heading("dynamic")
     yield words.paragraph("table_reduction", source=Citation(_WORK), table=Reference("transfer"))
-    yield from equations(material.lines("speed"), words)
-    yield from worked_at(material, "reduction")
-    yield from equations(material.lines("reduction", "reduced_inertia"), words)
-    if material.table.reduced_inertia_1 is not None:
+    yield from material.equations("speed")
+    yield from material.worked("reduction", "reduced_inertia")
+    if material.transfer.reduced_inertia_1 is not None:
         yield words.paragraph("given_derivative")
     else:
         yield from _at_all(material, "reduced_inertia_1")
@@ -96,7 +94,9 @@ def _parts(material: Material) -> list[Column]:
     whole = in_order([results.memory["reduced_inertia"]])
     known = {one.key: one for one in whole if one.key.startswith("reduced_inertia.")}
     rows = Program(known)(results.grid)
-    parts = {key: rows[key] for key in (f"reduced_inertia.{one.name}" for one in material.table.bodies) if key in rows}
+    parts = {
+        key: rows[key] for key in (f"reduced_inertia.{one.name}" for one in material.transfer.bodies) if key in rows
+    }
     return [quantity_columns((key,), parts, words)[0] for key, values in parts.items() if values.any()]
 
 

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from crankwork.analysis import Array
 from crankwork.formula.lines import Line
 from crankwork.note.document import Equation, Runs, Table
-from crankwork.note.linkage_words import Words
-from crankwork.note.words import in_display_unit
+from crankwork.note.words import Words, in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
 
 # columns of numbers beside position and crank angle that fit on a page

@@ -10,7 +10,20 @@ from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Formula
 from crankwork.formula.lines import FormulaLine
 from crankwork.note.captions import place_in_source
-from crankwork.note.document import Block, Citation, Equation, Figure, Heading, ItemList, Note, Paragraph, Run, Table
+from crankwork.note.document import (
+    Block,
+    Bold,
+    Citation,
+    Equation,
+    Figure,
+    Heading,
+    ItemList,
+    Note,
+    Paragraph,
+    Reference,
+    Run,
+    Table,
+)
 from crankwork.quantities import Language
 from crankwork.sources import source_language, sources
 
@@ -34,6 +47,22 @@ class Numbering(NamedTuple):
         key, _, place = source.partition(",")
         number = str(self.sources[key])
         return f"[{number}, {place_in_source(place.strip(), self.language)}]" if place.strip() else f"[{number}]"
+
+    def words(self, run: str | Bold | Reference | Citation) -> str:
+        """Return what a run says that is no mathematics."""
+        match run:
+            case Bold(words):
+                return words
+            case Reference(label):
+                return self.reference(label)
+            case Citation(source):
+                return self.citation(source)
+        return run
+
+    def mark(self, block: Equation, number: str, between: str = "\u2002") -> str:
+        """Return what stands beside an equation: its source and its number."""
+        source = equation_source(block)
+        return between.join(([self.citation(source)] if source else []) + ([f"({number})"] if number else []))
 
 
 def numbering(note: Note) -> Numbering:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from crankwork.locale import texts
 from crankwork.locale.numbers import number
 from crankwork.note.layout import (
     DOT,
@@ -22,6 +23,8 @@ from crankwork.note.layout import (
     row,
 )
 from crankwork.quantities import Language
+from crankwork.quantities.quantity import own_name
+from crankwork.report.language import called
 
 _FUNCTION = re.compile(r"(?P<name>sin|cos|tan|tg|ctg|arcsin|arccos|arctan|arctg|ln|lg|exp) ?(?P<rest>\S.*)")
 _SUM = re.compile(r" ?([+−=]) ?")
@@ -31,6 +34,12 @@ _PLAIN = re.compile(r"(?P<base>[^_\s′″²₀-₉]+)(?:_(?P<below>[^\s′″²
 _MARKS = re.compile(r"[′″²]+")
 _LOW = re.compile(r"([₀-₉]+)")
 _LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+# what of a link or point: its guide, the arm from a joint, the load on it
+_PARTS = frozenset((
+    "guide", "shaking", "weight", "arm", "arms", "place", "carried", "load", "both", "normal",
+    "start", "free", "preload", "piece", "end", "from", "damper",
+))  # fmt: skip
+_WITHIN = str.maketrans({".": ",", "/": ":", "′": "'", "″": "'"})
 _NUMBER = re.compile(r"(?P<sign>−?)(?:(?P<mantissa>[\d.,]+)(?:·|$))?(?:10(?P<exponent>[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+))?")
 _LEVEL = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 
@@ -119,3 +128,35 @@ def number_box(value: float, language: Language, digits: int = 6) -> tuple[Box, 
     above = Digits(exponent.lstrip("⁻").translate(_LEVEL))
     ten = Script(Digits("10"), None, row(MINUS, above) if exponent.startswith("⁻") else above)
     return row(*parts, *((DOT,) if mantissa else ()), ten), False
+
+
+def subscript(name: str) -> str:
+    """Return the name of a link or point for the subscript of a symbol, without what would end it or divide it.
+
+    Examples
+    --------
+    >>> subscript("upper rod.x")
+    'upper-rod,x'
+    >>> subscript("P_coupler")
+    'P_coupler'
+    """
+    return "-".join(name.translate(_WITHIN).split())
+
+
+def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
+    """Return the symbol of a quantity with the name of the link or point that it belongs to in the subscript.
+
+    Examples
+    --------
+    >>> owned_symbol("joint_force_x", "R_x", "A", "en"), owned_symbol("point_x", "x", "upper rod.guide", "en")
+    ('R_x,A', 'x_upper-rod,g')
+    """
+    told = own_name(kind, name)
+    # of the centre of mass of a link
+    owner, *parts = told.split(" ", 1) if told.startswith("S ") else told.split(".")
+    marks = texts("marks", language)
+    names = [called(owner, language), *(marks[one] if one in _PARTS else called(one, language) for one in parts)]
+    name = subscript(".".join(names))
+    if "_i" in shown and not kind.startswith("indicated"):
+        return shown.replace("_i", f"_{name}", 1)
+    return f"{shown}{',' if '_' in shown else '_'}{name}"

@@ -98,7 +98,7 @@ def _points(material: Material, table: str) -> Table:
     points = turning.diagrams[table].points if turning is not None else ()
     key = "turning_moment" if table == "torque" else "load_torque"
     rows = [(words.number(math.degrees(angle)), words.shown(key, torque)) for angle, torque in points]
-    return Table(words.caption("points_of_torque"), (words.titled("crank_angle"), words.titled(key)), rows, align="rr")
+    return words.table("points_of_torque", (words.titled("crank_angle"), words.titled(key)), rows, "rr")
 
 
 def _moments(material: Material) -> Iterator[Block]:
@@ -106,14 +106,10 @@ def _moments(material: Material) -> Iterator[Block]:
     words = material.words
     yield words.heading("turning_moments")
     if "turning_moment" in material.results.columns:
-        yield from equations(material.lines("stretches"), words)
-        worked = material.groups.get("turning_moments")
-        if worked is not None:
-            place = words.amount(math.radians(worked.degrees or 0.0), "deg")
-            yield words.paragraph("worked_position", value=place)
-            yield from equations(worked.lines, words)
+        yield from material.equations("stretches")
+        yield from material.worked("turning_moments")
         yield words.paragraph("mean_of_torque")
-    yield from equations(material.lines("shaft_power"), words)
+    yield from material.equations("shaft_power")
 
 
 def _excess(material: Material) -> Iterator[Block]:
@@ -127,9 +123,9 @@ def _excess(material: Material) -> Iterator[Block]:
             (key, words.column_texts(in_display_unit(key, one.tolist()))) for key, one in listing.columns.items()
         ]
         rows = list(zip(*(one for _, one in columns), strict=True))
-        titles = tuple(words.titled(key) for key, _ in columns)
-        yield Table(words.caption("energy_extremes"), titles, rows, align="r" * len(columns), label="extremes")
-    yield from equations(material.lines("energy_extremes"), words)
+        titles = [words.titled(key) for key, _ in columns]
+        yield words.table("energy_extremes", titles, rows, "r" * len(columns), "extremes")
+    yield from material.equations("energy_extremes")
     yield from material.figures("turning_moment", "loops")
 
 
@@ -151,7 +147,7 @@ def _course(material: Material) -> Iterator[Block]:
     yield words.heading("law_of_shaft")
     if "crank_speed" in shown:
         yield words.paragraph("speed_of_shaft")
-    yield from equations(material.lines("shaft_course"), words)
+    yield from material.equations("shaft_course")
     degrees = results.grid.degrees
     every = math.ceil(degrees.size / _MOST_ROWS)
     rows = np.unique(np.append(np.arange(0, degrees.size, every), degrees.size - 1))

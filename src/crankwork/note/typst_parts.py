@@ -14,7 +14,6 @@ from crankwork.note.document import (
     Bibliography,
     Block,
     Bold,
-    Citation,
     Contents,
     Equation,
     Figure,
@@ -24,7 +23,6 @@ from crankwork.note.document import (
     Note,
     PageBreak,
     Paragraph,
-    Reference,
     Run,
     Runs,
     Table,
@@ -33,7 +31,7 @@ from crankwork.note.document import (
 from crankwork.note.equations import formula_of, legend_rows, line_parts, printed_equation
 from crankwork.note.layout import Box, Fraction, width
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import Numbering, equation_source
+from crankwork.note.numbering import Numbering
 from crankwork.note.symbols import symbol_box
 from crankwork.note.table_width import SIZES, fits, one_line_widths
 from crankwork.note.typst_math import typst_box
@@ -124,8 +122,8 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
             yield from _table(block, number, numbers)
         case Figure():
             yield _figure(block, number, note.language)
-        case ItemList(items, ordered):
-            yield f"#{'enum' if ordered else 'list'}({', '.join(f'[{_runs(item, numbers)}]' for item in items)})"
+        case ItemList(items):
+            yield f"#list({', '.join(f'[{_runs(item, numbers)}]' for item in items)})"
         case PageBreak():
             yield "#pagebreak(weak: true)"
         case Contents():
@@ -142,16 +140,10 @@ def _runs(runs: Runs, numbers: Numbering) -> str:
 
 
 def _run(run: Run, numbers: Numbering) -> str:
-    match run:
-        case Bold(words):
-            return f"#strong({typst_string(words)});"
-        case Math(content):
-            return _inline(content, numbers.language)
-        case Reference(label):
-            return f"#{typst_string(numbers.reference(label))};"
-        case Citation(source):
-            return f"#{typst_string(numbers.citation(source))};"
-    return f"#{typst_string(run)};"
+    if isinstance(run, Math):
+        return _inline(run.content, numbers.language)
+    words = typst_string(numbers.words(run))
+    return f"#strong({words});" if isinstance(run, Bold) else f"#{words};"
 
 
 def _inline(content: str | Expression | FormulaLine, language: Language) -> str:
@@ -168,8 +160,7 @@ def _math(box: Box, words: str) -> str:
 
 def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]:
     printed = printed_equation(block, numbers.language)
-    source = equation_source(block)
-    mark = "\u2002".join(([numbers.citation(source)] if source else []) + ([f"({number})"] if number else []))
+    mark = numbers.mark(block, number)
     drawn, free = [], _SURELY_FITS - _LETTER * len(mark)
     for k, line in enumerate(printed.lines):
         # what is read aloud is the whole equation once

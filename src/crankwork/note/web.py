@@ -12,7 +12,6 @@ from crankwork.note.document import (
     Bibliography,
     Block,
     Bold,
-    Citation,
     Contents,
     Equation,
     Figure,
@@ -22,7 +21,6 @@ from crankwork.note.document import (
     Note,
     PageBreak,
     Paragraph,
-    Reference,
     Run,
     Runs,
     Table,
@@ -31,7 +29,7 @@ from crankwork.note.document import (
 from crankwork.note.equations import legend_rows, printed_equation
 from crankwork.note.live import bar, controls, look, page_data, stored, symbol_html
 from crankwork.note.mathml import mathml_box
-from crankwork.note.numbering import Numbering, equation_source, numbering
+from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.web_style import STYLE
 from crankwork.note.word_parts import inline_box
 from crankwork.quantities import Language
@@ -81,9 +79,8 @@ def _block(block: Block, number: str, k: int, note: Note, numbers: Numbering) ->
             yield from _table(block, number, numbers)
         case Figure():
             yield _figure(block, number, k, note.language)
-        case ItemList(items, ordered):
-            name = "ol" if ordered else "ul"
-            yield f"<{name}>" + "".join(f"<li>{_runs(item, numbers)}</li>" for item in items) + f"</{name}>"
+        case ItemList(items):
+            yield "<ul>" + "".join(f"<li>{_runs(item, numbers)}</li>" for item in items) + "</ul>"
         case PageBreak():
             yield '<div class="page"></div>'
         case Contents():
@@ -101,24 +98,17 @@ def _runs(runs: Runs, numbers: Numbering) -> str:
 
 
 def _run(run: Run, numbers: Numbering) -> str:
-    match run:
-        case Bold(words):
-            return f"<strong>{xml_text(words)}</strong>"
-        case Math(content):
-            return f"<math>{mathml_box(inline_box(content, numbers.language))}</math>"
-        case Reference(label):
-            return xml_text(numbers.reference(label))
-        case Citation(source):
-            return xml_text(numbers.citation(source))
-    return xml_text(run)
+    if isinstance(run, Math):
+        return f"<math>{mathml_box(inline_box(run.content, numbers.language))}</math>"
+    words = xml_text(numbers.words(run))
+    return f"<strong>{words}</strong>" if isinstance(run, Bold) else words
 
 
 def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]:
     printed = printed_equation(block, numbers.language, _LINE_WIDTH)
     lines = "".join(f'<math display="block">{mathml_box(line)}</math>' for line in printed.lines)
-    source = equation_source(block)
-    mark = " ".join(([numbers.citation(source)] if source else []) + ([f"({number})"] if number else []))
-    yield f'<div class="equation"><div class="lines">{lines}</div><div class="mark">{xml_text(mark)}</div></div>'
+    mark = xml_text(numbers.mark(block, number, " "))
+    yield f'<div class="equation"><div class="lines">{lines}</div><div class="mark">{mark}</div></div>'
     if block.legend:
         rows = "".join(
             f"<tr><td>{where}</td><td><math>{mathml_box(box)}</math>{xml_text(words)}</td></tr>"

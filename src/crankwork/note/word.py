@@ -29,21 +29,23 @@ from crankwork.note.document import (
 )
 from crankwork.note.equations import printed_equation
 from crankwork.note.numbering import Numbering, numbering
-from crankwork.note.word_cover import cover_xml
-from crankwork.note.word_figure import figure_xml
 from crankwork.note.word_flow import block_height, equation_height, flow, table_height
 from crankwork.note.word_parts import (
     EQUATION_WIDTH,
+    PAGE_BREAK,
     PREFIXES,
     contents_xml,
+    cover_xml,
     equation_xml,
+    figure_xml,
     heading_xml,
+    paragraph,
     runs_xml,
     table_columns,
     table_xml,
+    text_run,
 )
 from crankwork.note.word_styles import FOOTER, set_pages, set_styles
-from crankwork.note.word_xml import PAGE_BREAK, paragraph, text_run
 from crankwork.show.pdf import pngs
 from crankwork.show.svg import svg
 from crankwork.sources import cite
@@ -147,9 +149,9 @@ class _Writer:
                 yield from equation_xml(block, number, numbers, self._printed[id(block)])
             case Table():
                 yield from table_xml(block, number, numbers, self._columns[id(block)])
-            case ItemList(items, ordered):
-                for k, item in enumerate(items, start=1):
-                    yield _item(f"{k}." if ordered else "–", runs_xml(item, numbers))
+            case ItemList(items):
+                for item in items:
+                    yield _item("–", runs_xml(item, numbers))
             case PageBreak():
                 yield PAGE_BREAK
             case Contents():

@@ -10,15 +10,27 @@ from crankwork.formula.lines import FormulaLine
 from crankwork.locale import say
 from crankwork.note.captions import caption
 from crankwork.note.characters import xml_text
-from crankwork.note.document import Bold, Cell, Citation, Equation, Math, Reference, Run, Runs, Table, cell_length
+from crankwork.note.document import (
+    Bold,
+    Cell,
+    Equation,
+    Figure,
+    Math,
+    Note,
+    Person,
+    Run,
+    Runs,
+    Table,
+    TitlePage,
+    cell_length,
+)
 from crankwork.note.equations import PrintedEquation, formula_of, legend_rows
 from crankwork.note.layout import Box
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
-from crankwork.note.numbering import Numbering, equation_source
+from crankwork.note.numbering import Numbering
 from crankwork.note.omml import omml_box
 from crankwork.note.symbols import symbol_box
-from crankwork.note.word_xml import TEXT_WIDTH, WIDE_TEXT_WIDTH, cell, paragraph, text_run
 from crankwork.quantities import Language
 
 PREFIXES = (
@@ -56,18 +68,7 @@ def runs_xml(runs: Runs, numbers: Numbering, properties: str = "") -> str:
 def _run(run: Run, numbers: Numbering, properties: str) -> str:
     if isinstance(run, Math):
         return f"<m:oMath>{omml_box(inline_box(run.content, numbers.language))}</m:oMath>"
-    return text_run(_words(run, numbers), "<w:b/>" + properties if isinstance(run, Bold) else properties)
-
-
-def _words(run: str | Bold | Reference | Citation, numbers: Numbering) -> str:
-    match run:
-        case Bold(words):
-            return words
-        case Reference(label):
-            return numbers.reference(label)
-        case Citation(source):
-            return numbers.citation(source)
-    return run
+    return text_run(numbers.words(run), "<w:b/>" + properties if isinstance(run, Bold) else properties)
 
 
 def inline_box(content: str | Expression | FormulaLine, language: Language) -> Box:
@@ -79,8 +80,7 @@ def inline_box(content: str | Expression | FormulaLine, language: Language) -> B
 
 def equation_xml(block: Equation, number: str, numbers: Numbering, printed: PrintedEquation) -> Iterator[str]:
     """Yield an equation, a table without lines: mathematics in the middle, source and number at the right."""
-    source = equation_source(block)
-    mark = "\u2002".join(([numbers.citation(source)] if source else []) + ([f"({number})"] if number else []))
+    mark = numbers.mark(block, number)
     spacing = '<w:spacing w:before="60" w:after="60" w:line="240" w:lineRule="auto"/>'
     lines = "".join(
         paragraph(
@@ -208,7 +208,7 @@ def _heading_width(runs: Runs, numbers: Numbering, size: int) -> float:
         if isinstance(run, Math):
             widths[-1] += _EM * box_width(inline_box(run.content, numbers.language))
             continue
-        first, *others = (size * _letters_width(one) for one in _words(run, numbers).split(" "))
+        first, *others = (size * _letters_width(one) for one in numbers.words(run).split(" "))
         widths[-1] += first
         widths += others
     return max(widths)
@@ -244,3 +244,130 @@ def heading_xml(level: int, text: str, k: int) -> str:
     """Return the k-th heading with its bookmark."""
     start = f'<w:bookmarkStart w:id="{k}" w:name="{bookmark(k)}"/>'
     return paragraph(f'{start}{text_run(text)}<w:bookmarkEnd w:id="{k}"/>', f"Heading{level}")
+
+
+# twentieths of a point, for an A4 page upright and on its side
+TEXT_WIDTH, WIDE_TEXT_WIDTH = 9638, 14570
+
+
+def text_run(text: str, properties: str = "") -> str:
+    """Return a run of text."""
+    look = f"<w:rPr>{properties}</w:rPr>" if properties else ""
+    return f'<w:r>{look}<w:t xml:space="preserve">{xml_text(text)}</w:t></w:r>'
+
+
+def paragraph(content: str, style: str = "", properties: str = "") -> str:
+    """Return a paragraph of runs."""
+    named = f'<w:pStyle w:val="{style}"/>' if style else ""
+    return f"<w:p><w:pPr>{named}{properties}</w:pPr>{content}</w:p>"
+
+
+# the rest of its paragraph stands on the next page, as low as can be
+PAGE_BREAK = paragraph(
+    '<w:r><w:br w:type="page"/></w:r>', "", '<w:spacing w:before="0" w:after="0" w:line="20" w:lineRule="exact"/>'
+)
+
+
+def cell(width: int, content: str, place: str) -> str:
+    """Return a cell of a table, its content at the top, in the middle or at the bottom."""
+    size = f'<w:tcW w:w="{width}" w:type="dxa"/>'
+    return f'<w:tc><w:tcPr>{size}<w:vAlign w:val="{place}"/></w:tcPr>{content}</w:tc>'
+
+
+# least heights of the parts of the page, head to foot: 250 of its 257 mm [twip]
+_HEAD, _TITLE, _PEOPLE, _PLACE = 3200, 5700, 4200, 650
+_LABEL, _SIGN, _NAME = 3000, 1500, 3200
+# letters of a name that stand in one line
+_SHORT = 60
+_INDENT = '<w:ind w:left="60"/>'
+_NONE = '<w:tblCellMar><w:left w:w="0" w:type="dxa"/><w:right w:w="0" w:type="dxa"/></w:tblCellMar>'
+_STROKE = '<w:tcBorders><w:bottom w:val="single" w:sz="4" w:space="0" w:color="auto"/></w:tcBorders>'
+
+
+def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
+    """Yield the cover and the end of its page."""
+    small = 0.62 if page.is_crowded else 1.0
+
+    def lines(some: tuple[str, ...], size: int, *, bold: bool = False, style: str = "TitleLine") -> str:
+        font = f'{"<w:b/>" if bold else ""}<w:sz w:val="{int(size * small)}"/><w:szCs w:val="{int(size * small)}"/>'
+        return "".join(paragraph(text_run(one, font), style) for one in some)
+
+    title = lines(page.above, 30) + lines((note.headline,), 40, bold=True, style="Title") + lines(page.below, 28)
+    parts = [
+        (_HEAD, "top", lines(page.institution, 26)),
+        (_TITLE, "center", title),
+        (_PEOPLE, "center", _people(page.people, int(24 * small))),
+        (_PLACE, "bottom", lines((page.place,), 24)),
+    ]
+    rows = "".join(
+        f'<w:tr><w:trPr><w:cantSplit/><w:trHeight w:val="{int(height * small**2)}" w:hRule="atLeast"/></w:trPr>'
+        f"{cell(TEXT_WIDTH, content or paragraph(''), place)}</w:tr>"
+        for height, place, content in parts
+    )
+    yield (
+        f'<w:tbl><w:tblPr><w:tblW w:w="{TEXT_WIDTH}" w:type="dxa"/><w:tblLayout w:type="fixed"/>{_NONE}</w:tblPr>'
+        f'<w:tblGrid><w:gridCol w:w="{TEXT_WIDTH}"/></w:tblGrid>{rows}</w:tbl>'
+    )
+    yield PAGE_BREAK
+
+
+def _people(people: tuple[Person, ...], size: int) -> str:
+    """Return who has to do with the note in the right part of the page, with a stroke for each signature."""
+    if not people:
+        return ""
+    signs = any(one.signs for one in people)
+    most = max(len(name) for one in people for name in one.names)
+    name_width = _NAME if most < _SHORT else TEXT_WIDTH - _LABEL - _SIGN
+    widths = [_LABEL, _SIGN, name_width] if signs else [_LABEL, name_width]
+    font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
+
+    def entry(width: int, text: str, more: str = "") -> str:
+        look = f'<w:tcW w:w="{width}" w:type="dxa"/>{more}<w:vAlign w:val="bottom"/>'
+        return f"<w:tc><w:tcPr>{look}</w:tcPr>{paragraph(text_run(text, font), '', _INDENT)}</w:tc>"
+
+    rows = ""
+    for one in people:
+        for k, name in enumerate(one.names):
+            stroke = entry(_SIGN, "", _STROKE if one.signs else "") if signs else ""
+            label = entry(_LABEL, f"{one.label}:" if k == 0 else "")
+            rows += f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{label}{stroke}{entry(widths[-1], name)}</w:tr>"
+    grid = "".join(f'<w:gridCol w:w="{one}"/>' for one in widths)
+    return (
+        f'<w:tbl><w:tblPr><w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:jc w:val="right"/>'
+        f'<w:tblLayout w:type="fixed"/></w:tblPr><w:tblGrid>{grid}</w:tblGrid>{rows}</w:tbl>'
+        # a cell ends with a paragraph
+        + paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="20" w:lineRule="exact"/>')
+    )
+
+
+# as wide as the text at most [mm]
+_WIDEST = 169.6
+# English metric units
+_EMU = 36000
+_DRAWING = "http://schemas.openxmlformats.org/drawingml/2006"
+
+
+def figure_xml(block: Figure, words: str, k: int, picture: str, lines: str) -> Iterator[str]:
+    """Yield the k-th figure and its caption; `picture` and `lines` are the names of its parts."""
+    drawing = block.drawing
+    width = min(drawing.width, _WIDEST)
+    size = f'cx="{round(width * _EMU)}" cy="{round(drawing.height * width / drawing.width * _EMU)}"'
+    about = f'id="{k}" name="drawing{k}" descr="{xml_text(block.alt)}"'
+    blip = (
+        f'<a:blip r:embed="{picture}"><a:extLst><a:ext uri="{{96DAC541-7B7A-43D3-8B79-37D633B846F1}}">'
+        '<asvg:svgBlip xmlns:asvg="http://schemas.microsoft.com/office/drawing/2016/SVG/main" '
+        f'r:embed="{lines}"/></a:ext></a:extLst></a:blip>'
+    )
+    shape = (
+        f"<pic:pic><pic:nvPicPr><pic:cNvPr {about}/><pic:cNvPicPr/></pic:nvPicPr><pic:blipFill>{blip}"
+        f'<a:stretch><a:fillRect/></a:stretch></pic:blipFill><pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext {size}/>'
+        '</a:xfrm><a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr></pic:pic>'
+    )
+    inline = (
+        f'<w:r><w:drawing><wp:inline xmlns:wp="{_DRAWING}/wordprocessingDrawing" xmlns:a="{_DRAWING}/main" '
+        f'xmlns:pic="{_DRAWING}/picture" distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/>'
+        f'<wp:docPr {about}/><a:graphic><a:graphicData uri="{_DRAWING}/picture">{shape}</a:graphicData></a:graphic>'
+        "</wp:inline></w:drawing></w:r>"
+    )
+    yield paragraph(inline, "Drawing")
+    yield paragraph(text_run(words), "Caption", '<w:jc w:val="center"/>')

@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from string import Formatter
 
 import numpy as np
 
-from crankwork.locale import Language, capital, decimal, say, texts
+from crankwork.locale import Language, capital, decimal, has_text, say, texts
 from crankwork.locale.numbers import number
 from crankwork.note.captions import note_text
-from crankwork.note.document import Math, Paragraph, Run, Runs
+from crankwork.note.document import Cell, Figure, Heading, Math, Paragraph, Run, Runs, Table
+from crankwork.note.equations import value_symbol
 from crankwork.note.printed_units import printed_unit
-from crankwork.report.language import displayed, displayed_column
+from crankwork.note.symbols import owned_symbol
+from crankwork.quantities import QUANTITIES
+from crankwork.report.figure_data import kind_of
+from crankwork.report.language import FILE_KEYS, displayed, displayed_column, key_unit
+from crankwork.report.language import symbol as key_symbol
+from crankwork.show.scene import Drawing
 from crankwork.units import from_si, shown_unit
 
 _TIGHT = ("°", "%")
+# what notes of every school leave without a number
+_UNNUMBERED = ("preface", "conclusion", "sources", "appendix")
 
 
 class NoteWords(ABC):
-    """What a note says, in one language."""
+    """What a note says, in one language, forces divided by the piston area if wanted."""
 
-    def __init__(self, language: Language) -> None:
+    def __init__(self, language: Language, *, per_area: bool = False) -> None:
         self.language: Language = language
+        self.per_area = per_area
 
     def title(self, key: str) -> str:
         """Return the words of a heading."""
@@ -32,6 +42,31 @@ class NoteWords(ABC):
     def column(self, key: str, unit: str = "") -> str:
         """Return the title of a column."""
         return capital(self.term(key, unit))
+
+    def heading(self, key: str, level: int = 1, *, numbered: bool = True, label: str = "") -> Heading:
+        """Return a heading; those of the preface, the end and the appendix have no number."""
+        is_numbered = numbered and key.partition("_")[0] not in _UNNUMBERED
+        return Heading(level, self.title(key), numbered=is_numbered, label=label)
+
+    def caption(self, key: str) -> str:
+        """Return the caption of a table."""
+        return note_text(f"captions.{key}", self.language)
+
+    def table(
+        self, caption: str, titles: Iterable[str | Runs], rows: Sequence[Sequence[Cell]], align: str, label: str = ""
+    ) -> Table:
+        """Return a table; a title that is no runs is the key of a column."""
+        headings = tuple((self.column(one),) if isinstance(one, str) else one for one in titles)
+        return Table(self.caption(caption), headings, rows, align=align, label=label)
+
+    def unit(self, key: str) -> str:
+        """Return the unit in which tables show a key."""
+        return printed_unit(key_unit(key, per_area=self.per_area), self.language)
+
+    def titled(self, key: str, unit: str | None = None) -> Runs:
+        """Return the heading of a column: symbol and unit, that of the quantity if none is given."""
+        shown = self.unit(key) if unit is None else printed_unit(unit, self.language)
+        return (Math(self.symbol(key)), f", {shown}") if shown else (Math(self.symbol(key)),)
 
     def term(self, key: str, unit: str = "") -> str:
         """Return a single word of a table as it stands in a cell or sentence."""
@@ -87,6 +122,97 @@ class NoteWords(ABC):
         if not shown.strip("-0."):
             shown = shown.lstrip("-")
         return decimal(shown, self.language).replace("-", "−")
+
+
+class EngineWords(NoteWords):
+    """What the note of an engine says."""
+
+    def symbol(self, key: str) -> str:
+        """Return the symbol of a key as `base_subscript`, what tells its parts apart in the subscript."""
+        return value_symbol(key, self.language)
+
+    def meaning(self, name: str) -> str:
+        """Return what a key of the machine file means; the key itself where nobody knows."""
+        key = FILE_KEYS.get(name, name)
+        if key in QUANTITIES:
+            return QUANTITIES[key].label(self.language)
+        return say(f"report.{key}", self.language) if has_text(f"report.{key}") else key
+
+    def column_texts(self, values: Sequence[float], *, digits: int = 5, decimals: int | None = None) -> list[str]:
+        """Return numbers of one column, all with as many decimals as give the largest that many digits."""
+        known = [abs(one) for one in values if one == one]  # noqa: PLR0124 - not a number
+        largest = max(known, default=0.0)
+        if decimals is None:
+            if not largest or all(one == round(one) and one < 10**digits for one in known):
+                decimals = 0
+            else:
+                decimals = max(digits - 1 - int(f"{largest:.0e}".partition("e")[2]), 0)
+        return [self.fixed(one, decimals) for one in values]
+
+
+class Words(NoteWords):
+    """What the note of a linkage says, in one language; positions are times where a law with a period drives. [s]
+
+    `is_partial`: whether the crank goes to and fro between dead positions.
+    """
+
+    def __init__(self, language: Language, period: float = 0.0, *, is_partial: bool = False) -> None:
+        super().__init__(language)
+        self.period, self.is_partial = period, is_partial
+
+    def place(self, degrees: float) -> tuple[Math, float, str]:
+        """Return symbol, value and unit of a position: a crank angle, or a time."""
+        if self.period:
+            return Math(self.symbol("time")), degrees / 360.0 * self.period, "s"
+        return Math(self.symbol("crank_angle")), degrees, "deg"
+
+    def place_text(self, degrees: float) -> str:
+        """Return a position with its unit."""
+        _, value, unit = self.place(degrees)
+        return self.amount(value, unit) if self.period else self.amount(math.radians(value), unit)
+
+    def reached_at(self) -> Runs:
+        """Return the heading of a column of positions at which values are reached."""
+        symbol, _, unit = self.place(0.0)
+        return (self.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, self.language)}")
+
+    def way(self, key: str) -> str:
+        """Return the name of a way to find a flywheel."""
+        return say("report.exact" if key == "exact" else f"report.way_{key}", self.language)
+
+    def figure(self, name: str, drawing: Drawing) -> Figure:
+        """Return a figure with caption and description."""
+        number = name.removeprefix(kind_of(name)).removeprefix("_")
+        caption = note_text(f"figures.{kind_of(name)}", self.language) + (f", {number}" if number else "")
+        seen = say(f"seen.{kind_of(name)}", self.language)
+        return Figure(drawing, caption, seen, label=f"figure:{name}")
+
+    def symbol(self, key: str) -> str:
+        """Return the symbol of a key as `base_subscript`, the name of what it belongs to in the subscript."""
+        kind, _, name = key.partition(".")
+        shown = QUANTITIES[kind].symbol(self.language) if kind in QUANTITIES else key_symbol(kind, self.language)
+        return owned_symbol(kind, shown, name, self.language) if name else shown
+
+    def column_texts(self, values: Sequence[float], *, digits: int = 4) -> list[str]:
+        """Return numbers of one column with as many decimals as give the largest that many digits."""
+        largest = max((abs(one) for one in values if one == one), default=0.0)  # noqa: PLR0124 - not a number
+        if not largest:
+            return ["0"] * len(values)
+        whole = len(f"{largest:.0f}") if largest >= 1 else 1 - _leading_zeros(largest)
+        if whole < -digits:
+            return [self.number(one, digits=digits) for one in values]
+        decimals = max(digits - whole, 0)
+        return [self.fixed(one, decimals) for one in values]
+
+
+def _leading_zeros(value: float) -> int:
+    """Return how many zeros stand after the decimal mark before the first digit, and one more."""
+    return int(f"{value:.0e}".partition("e-")[2] or 0)
+
+
+def named(columns: Mapping[str, object], *kinds: str) -> list[str]:
+    """Return the keys of columns that are of some kinds, in their order within each kind."""
+    return [key for kind in kinds for key in columns if key.partition(".")[0] == kind]
 
 
 def in_display_unit(key: str, values: Sequence[float]) -> list[float]:

@@ -15,11 +15,12 @@ from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Language, Refusal
-from crankwork.page.joints import joints_of
+from crankwork.page.joints import is_label, joints_of, upon_joints
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
 from crankwork.report.language import displayed
+from crankwork.show.inline import frame_data, frame_marks
 from crankwork.show.moving import MovingDrawing
 from crankwork.show.scene import Arc, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
 from crankwork.units import to_si
@@ -87,7 +88,9 @@ class Live:
             raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in moved.sliders]))
         self._drawings = [drawings(one, language=language, only=only) for one in self._results]
         self.drawn = self._drawings[0]
-        self._films = [film_of(one, language=language, forces=True) for one in self._results]
+        # arrows of forces take room upon the paper, and move nothing
+        self._films = [film_of(one, language=language) for one in self._results]
+        self._shown = film_of(self._results[0], language=language, forces=True)
         self._replayed: dict[tuple[int, bytes], Array] = {}
         self._used: dict[str, None] = {}
 
@@ -140,6 +143,8 @@ class Live:
         drawn = every[0]
         assert drawn is not None  # noqa: S101 - the page has it
         there = [one for one in every if one is not None]
+        if len(there) == len(every) and all(one.plots and one.plots[0].metre for one in there):
+            return self._upon(there)
         plots = [self._plot(at, there) for at in range(len(drawn.plots))] if len(there) == len(every) else []
         signs = [Counter(map(_signed, one.items)) for one in there[1:]]
         staying = _staying(there)
@@ -157,11 +162,22 @@ class Live:
             is_legend = isinstance(before, Polyline) and before.name == "legend"
             is_curve = isinstance(item, Polyline) and item.name
             marks[at] = FAINT if is_legend or is_curve or not live else GONE
-        for at, plot in enumerate(drawn.plots):
-            if plots and plots[at]["curves"] and plot.frame:
-                first, last = plot.frame["items"]
-                marks[first:last] = [f"frame {at}"] * (last - first)
+        following = {f"frame {at}" for at, one in enumerate(plots) if one["curves"]}
+        marks = [frame if frame in following else mark for frame, mark in zip(frame_marks(drawn), marks, strict=True)]
         return plots if live else [], marks if differs else [], differs
+
+    def _upon(self, drawn: Sequence[Drawing]) -> tuple[list[dict[str, Any]], list[str], bool]:
+        """Return how a plan of positions follows its joints, what becomes of each item, and whether it differs."""
+        found, upon = upon_joints(drawn, self._results)
+        keys = {key for one in upon.get("items", {}).values() for corner in one for key in corner[:2] if key}
+        differs = any(one != "" for one in found)
+        if not keys or any(not self.follows(key) and self.differs(key) for key in keys):
+            return [], [FAINT] * len(found) if differs else [], differs
+        marks = [
+            (GONE if is_label(item) else FAINT) if one is None else one
+            for one, item in zip(found, drawn[0].items, strict=True)
+        ]
+        return [{"curves": {}, "upon": upon}], marks, differs
 
     def _plot(self, at: int, drawn: Sequence[Drawing]) -> dict[str, Any]:
         """Return the curves of a graph that follow, by name, each with what stands across and upward."""
@@ -174,9 +190,7 @@ class Live:
                 of = self._curve(name, plots)
                 if of:
                     found["curves"][name] = of
-        if plots[0].frame:
-            found |= {key: plots[0].frame[key] for key in ("ticks", "labels", "powers")}
-        return found
+        return found | frame_data(plots[0])
 
     def _curve(self, name: str, plots: Sequence[Plot]) -> dict[str, Any]:
         x, y = ([one.curves[name][axis] for one in plots] for axis in (0, 1))
@@ -241,7 +255,8 @@ class Live:
         films = [one for one in self._films if one is not None]
         if all(_is_same_film(films[0], one) for one in films[1:]) and len(films) in (0, len(self._films)):
             return False, None
-        joints = joints_of(films, self._results)
+        shown = [one for one in (self._shown,) if one is not None]
+        joints = joints_of([*shown, *films[1:]], self._results)
         keys = [key for pair in (joints or {"joints": {}})["joints"].values() for key in pair]
         if not keys or any(not self.follows(key) and self.differs(key) for key in keys):
             return True, None
@@ -302,8 +317,8 @@ def scale(key: str) -> list[float]:
 
 
 def _is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
-    """Return whether nobody sees a difference between two films, arrows of forces apart."""
-    own, others = ({one.name: one for one in each.parts if not one.name.startswith("force.")} for each in (film, other))
+    """Return whether nobody sees a difference between two films."""
+    own, others = ({one.name: one for one in each.parts} for each in (film, other))
     return own.keys() == others.keys() and all(
         one.track.shape == others[name].track.shape
         and bool(np.all(np.abs(one.track - others[name].track) < _UNSEEN_MOVE))
@@ -324,12 +339,13 @@ def _staying(drawn: Sequence[Drawing]) -> set[str]:
 
 
 def _are_near(one: Sequence[Array], other: Sequence[Array]) -> bool:
-    """Return whether two curves are the same line; an extreme may add a point to either."""
+    """Return whether two curves are the same line; extremes may add points to either."""
     (x, y), (across, up) = map(np.asarray, one), map(np.asarray, other)
+    shared, others = np.isin(x, across), np.isin(across, x)
+    if shared.sum() == others.sum() and 2 * shared.sum() > max(x.size, across.size):
+        x, y, across, up = x[shared], y[shared], across[others], up[others]
     if x.shape != across.shape:
-        if not (np.all(np.diff(x) >= 0) and np.all(np.diff(across) >= 0)):
-            return False
-        across, up = x, np.interp(x, across, up)
+        return False
     near = [_SAME_PLACE * np.max(np.abs(of[np.isfinite(of)]), initial=0.0) for of in (x, y)]
     return np.allclose(x, across, rtol=0, atol=near[0]) and np.allclose(y, up, rtol=0, atol=near[1], equal_nan=True)
 

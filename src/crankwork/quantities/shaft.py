@@ -70,7 +70,6 @@ ROWS = (
     Quantity("rated_slip", "", "Slip at rated power."),
     Quantity("breakdown_slip", "", "Slip of the greatest torque."),
     Quantity("overload_capacity", "", "Greatest over rated torque of a motor."),
-    Quantity("resistance_ratio", "", "Resistance of the stator over that of the rotor, referred to the stator."),
     Quantity("breakdown_torque", "N*m", "Greatest torque of an asynchronous motor."),
     Quantity("motor_torque", "N*m", "Torque of the motor on its own shaft."),
     Quantity("motor_power", "kW", "Power that the motor must have."),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -30,7 +31,7 @@ from crankwork.show.film import Told
 from crankwork.show.formats import FILMS, FORMATS
 from crankwork.show.moving import MovingDrawing, Part, part
 from crankwork.show.paper import WIDER, marked
-from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, line, text_width
+from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, flowed, line, text_width
 from crankwork.show.theme import Theme
 
 _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 8.0, 4.5, 80.0
@@ -190,7 +191,7 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
         row = _ROW if taken > width - 2 * _MARGIN else 0.0
         foot += row
         texts = [Text((width / 2, _MARGIN + row), text, TEXT, "middle")]
-        rows = _rows(keys, (width - 2 * _MARGIN) / WIDER)
+        rows = flowed(keys, "; ", (width - 2 * _MARGIN) / WIDER, partial(text_width, height=SMALL))
         texts += [Text((_MARGIN, foot + 1.5 + _KEY * at), one, SMALL) for at, one in enumerate(reversed(rows))]
         foot += _KEY * len(rows) + 1.5
         # left out with the forces
@@ -228,18 +229,6 @@ def _acting(mechanism: Mechanism, shape: Skeleton, symbols: Mapping[str, str], l
     ]  # fmt: skip
     told = [f"{sign} {other} → {link}" for sign, other, link in found if sign and None not in (other, link)]
     return [f"{say('drawing.acts_on', language)} {told[0]}", *told[1:]] if told else []
-
-
-def _rows(texts: Sequence[str], width: float) -> list[str]:
-    """Return texts one after the other, as many in a row as have room. [mm]"""
-    rows: list[str] = []
-    for one in texts:
-        joined = f"{rows[-1]}; {one}" if rows else one
-        if rows and text_width(joined, SMALL) <= width:
-            rows[-1] = joined
-        else:
-            rows.append(one)
-    return rows
 
 
 def _views(sketch: Sketch, height: float, language: Language) -> tuple[tuple[str, Box], ...]:

@@ -23,10 +23,10 @@ _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
 
 def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return Brix's circle beside the displacement over the crank angle, on one vertical scale."""
-    lengths = engine.drawn.results.solved.lengths
-    degrees, radius = engine.drawn.degrees, float(engine.shown("piston_displacement", lengths.crank_radius))
+    lengths = engine.results.solved.lengths
+    degrees, radius = engine.degrees, float(engine.shown("piston_displacement", lengths.crank_radius))
     turn = degrees <= 360
-    degrees, exact = degrees[turn], engine.drawn.values("piston_displacement")[turn]
+    degrees, exact = degrees[turn], engine.values("piston_displacement")[turn]
     circle = brix_points(lengths, degrees)
     error = float(np.max(np.abs(radius * (1 - circle.up) - exact)))
     shift = engine.value("piston_displacement", float(lengths.crank_radius * lengths.rod_ratio / 2))
@@ -100,11 +100,11 @@ def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, m
 
 def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return the acceleration over the displacement, and the tangents that envelop it by Tolle's construction."""
-    drawn, lengths = engine.drawn, engine.drawn.results.solved.lengths
+    lengths = engine.results.solved.lengths
     ratio, radius = float(lengths.rod_ratio), float(engine.shown("piston_displacement", lengths.crank_radius))
-    unit = float(engine.shown("piston_acceleration", lengths.crank_radius * drawn.results.solved.speed**2))
-    turn = drawn.degrees <= 360
-    x, y = drawn.values("piston_displacement")[turn], drawn.values("piston_acceleration")[turn]
+    unit = float(engine.shown("piston_acceleration", lengths.crank_radius * engine.results.solved.speed**2))
+    turn = engine.degrees <= 360
+    x, y = engine.values("piston_displacement")[turn], engine.values("piston_acceleration")[turn]
     found = tolle_points(ratio)
     corners = {name.upper(): (a * radius, b * unit) for name, (a, b) in found._asdict().items()}
     along, up = tolle_parabola(ratio)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,9 +13,8 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.locale import say
 from crankwork.quantities import QUANTITIES
-from crankwork.report.engine_figure_bands import banded_sheet, strokes
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, limits, over_cycle
+from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import Paper
 from crankwork.show.place import here, tall
@@ -37,9 +37,8 @@ class _Line(NamedTuple):
 
 def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return three panels over one revolution; an approximate method shows the two orders it is made of."""
-    drawn = engine.drawn
-    turn = drawn.degrees <= 360
-    has_orders = "piston_velocity_first_order" in drawn.columns
+    turn = engine.degrees <= 360
+    has_orders = "piston_velocity_first_order" in engine.columns
     gap = _PANEL_GAP if has_orders else 20.0
     head = 16.0 if has_orders else 4.0
     panel = tall(_PANEL)
@@ -50,12 +49,12 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         keys = {f"piston_{noun}": SOLID}
         if has_orders:
             keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
-        curves = [_Line(key, drawn.values(key)[turn], style) for key, style in keys.items()]
+        curves = [_Line(key, engine.values(key)[turn], style) for key, style in keys.items()]
         box = Box(here().left, top, here().inner, panel)
         ends = limits(*(one.values for one in curves))
         graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
         for at, one in enumerate(curves):
-            graph.curve(one.key, drawn.degrees[turn], one.values, one.style)
+            graph.curve(one.key, engine.degrees[turn], one.values, one.style)
             if has_orders:
                 left = box.left + 8 + 70 * at
                 paper.line([left, left + 20], [box.top - 10] * 2, style=one.style, width=1.2, name="legend")
@@ -69,7 +68,7 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
-    degrees, values = engine.drawn.degrees, engine.drawn.values("gas_pressure")
+    degrees, values = engine.degrees, engine.values("gas_pressure")
     others = engine.other_pressures
     names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *others)]
     rows = [Row(name, style) for name, style in zip(names, itertools.cycle(_STYLES), strict=False)]
@@ -78,8 +77,7 @@ def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     for (number, other), row in zip(others.items(), rows[1:], strict=True):
         graph.curve(f"gas_pressure.{number}", degrees, other, row.style)
     graph.curve("gas_pressure", degrees, values)
-    graph.x_title(engine.title("crank_angle"))
-    graph.y_title(engine.title("gas_pressure"))
+    engine.name_axes(graph, "crank_angle", "gas_pressure")
     strokes(engine, graph)
     mark_points(graph, named_points(engine))
     return paper, {"pressure": graph}
@@ -87,7 +85,7 @@ def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
     """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit]."""
-    space = engine.drawn.results.solved.space
+    space = engine.results.solved.space
     return [
         (_short(name), angle, float(engine.shown("gas_pressure", space.gauge(value))))
         for name, (angle, value) in space.diagram.named.items()
@@ -117,7 +115,7 @@ def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]]) -> Non
 def piston_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it."""
     styles = {"gas_force": DASHED, "inertia_force": DASH_DOT, "weight_force": DOTTED}
-    parts = {key: style for key, style in styles.items() if key in engine.drawn.columns}
+    parts = {key: style for key, style in styles.items() if key in engine.columns}
     if len(parts) == 1:
         return _forces(engine, "piston_forces", dict.fromkeys(parts, SOLID))
     return _forces(engine, "piston_forces", {**parts, "piston_force": SOLID})
@@ -135,7 +133,7 @@ def crankpin_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 def _forces(engine: EngineDrawn, name: str, keys: Mapping[str, Style]) -> tuple[Paper, Mapping[str, Graph]]:
     """Draw columns of forces over the cycle."""
-    curves = [_Line(key, engine.drawn.values(key), style) for key, style in keys.items()]
+    curves = [_Line(key, engine.values(key), style) for key, style in keys.items()]
     title = f"{', '.join(engine.symbol(key) for key in keys)}, {engine.unit('piston_force')}"
     return _over_cycle(engine, name, curves, [Row(engine.named(key), style) for key, style in keys.items()], title)
 
@@ -146,7 +144,7 @@ def _over_cycle(
     paper, box = banded_sheet(engine, _HEIGHT, rows)
     graph = over_cycle(paper, box, limits(*(one.values for one in curves)), engine.cycle, engine.language)
     for one in curves:
-        graph.curve(one.key, engine.drawn.degrees, one.values, one.style)
+        graph.curve(one.key, engine.degrees, one.values, one.style)
     strokes(engine, graph)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(title)
@@ -155,7 +153,7 @@ def _over_cycle(
 
 def torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return the crank torque of one cylinder and its mean."""
-    values, mean = engine.drawn.values("crank_torque"), engine.drawn.results.summary["mean_torque"]
+    values, mean = engine.values("crank_torque"), engine.results.summary["mean_torque"]
     if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
         mean = 0.0
     row = QUANTITIES["mean_torque"]
@@ -164,3 +162,149 @@ def torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     curves = [_Line("crank_torque", values), _Line("mean_torque", level, DASHED)]
     rows = [Row(engine.named("crank_torque")), Row(text, DASHED)]
     return _over_cycle(engine, "torque", curves, rows, engine.title("crank_torque"))
+
+
+_BAND = 12.0
+_FOUR_STROKES = ("intake", "compression", "expansion", "exhaust")
+_TWO_STROKES, _COMPRESSOR = ("expansion", "compression"), ("suction", "delivery")
+# a cycle of this length has its dead centre of ignition in the middle [deg]
+_FOUR_STROKE = 720.0
+
+
+def banded_sheet(engine: EngineDrawn, height: float, rows: Sequence[Row] = ()) -> tuple[Paper, Box]:
+    """Return paper with a legend and the place for a graph with a band above it. [pt]"""
+    if not _names(engine):
+        return sheet(height, rows)
+    paper, box = sheet(height + _BAND, rows)
+    return paper, box._replace(top=box.top + _BAND, height=box.height - _BAND)
+
+
+def strokes(engine: EngineDrawn, graph: Graph) -> None:
+    """Write the strokes of a cylinder above a graph, each over its half turn."""
+    names = _names(engine)
+    if not names:
+        return
+    ends = graph.across(np.arange(0.0, engine.cycle + 1, 180.0))
+    top = graph.box.top
+    lines = [(end, top - _BAND, end, top) for end in ends]
+    graph.paper.segments(np.array([*lines, (ends[0], top - _BAND, ends[-1], top - _BAND)]), width=0.4)
+    for name, (left, right) in zip(names, pairwise(ends), strict=True):
+        small_text(graph.paper, float(left + right) / 2, top - 3.5, say(f"drawing.{name}", engine.language))
+
+
+def _names(engine: EngineDrawn) -> tuple[str, ...]:
+    """Return the keys of the strokes from the first dead centre on, none without gas that does work or takes it."""
+    space = engine.results.solved.space
+    if space is None or not space.work:
+        return ()
+    if engine.cycle == _FOUR_STROKE:
+        return _FOUR_STROKES
+    return _TWO_STROKES if space.work > 0 else _COMPRESSOR
+
+
+def firings(engine: EngineDrawn, graph: Graph) -> None:
+    """Write the number of each cylinder above a graph where it fires."""
+    centre = 360.0 if engine.cycle == _FOUR_STROKE else 0.0
+    found: dict[float, list[str]] = {}
+    for number, place in enumerate(engine.diagrams.whole.layout.places, start=1):
+        at = (place.firing_angle + place.top + centre) % engine.cycle
+        found.setdefault(round(at, 6), []).append(str(number))
+    top = graph.box.top
+    for at, numbers in found.items():
+        x = float(graph.across(at))
+        graph.paper.area([x, x - 2.2, x + 2.2], [top, top - 4.5, top - 4.5], fill="#000000")
+        small_text(graph.paper, x, top - 7, ",".join(numbers))
+
+
+_INDICATOR, _ABOVE = 245.0, 24.0
+# crank angles before and after which the cylinder is open [deg], and what share of the diagram its loop may be
+_CALM, _FLAT = (180.0, 620.0), 0.1
+# where the loop may begin, as shares of the width, and what its numbers take beside it [pt]
+_STARTS, _NUMBERS = (0.36, 0.44, 0.52), 36.0
+
+# an inset lower than this shows nothing [pt]
+_LOWEST = 60.0
+
+
+def indicator(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+    """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known."""
+    space = engine.results.solved.space
+    volume, values = engine.values("cylinder_volume"), engine.values("gas_pressure")
+    sharp = space.theoretical
+    pressures = [values]
+    if sharp is not None:
+        absolute = sharp.pressure(engine.degrees, engine.columns["cylinder_volume"])
+        pressures.append(engine.shown("gas_pressure", space.gauge(absolute)))
+    rows = [Row(engine.named("gas_pressure")), Row(say("drawing.sharp", engine.language), DASHED, 0.9)]
+    paper, box = sheet(_INDICATOR + _ABOVE, rows if sharp is not None else ())
+    box = box._replace(top=box.top + _ABOVE, height=box.height - _ABOVE)
+    ends, reach = limits(*pressures), 1.06 * float(np.max(volume))
+    graph = Graph(paper, box, (0.0, reach), ends, engine.language)
+    graph.frame(round_ticks(0.0, reach, 8), round_ticks(*ends, 9))
+    if sharp is not None:
+        graph.curve("theoretical", volume, pressures[1], DASHED, width=0.9, angles=engine.degrees)
+    graph.curve("gas_pressure", volume, values, angles=engine.degrees)
+    engine.name_axes(graph, "cylinder_volume", "gas_pressure")
+    _dead_centres(engine, graph)
+    points = [
+        (name, float(np.interp(angle, engine.degrees, volume)), value) for name, angle, value in named_points(engine)
+    ]
+    mark_points(graph, points)
+    inset = _inset(engine, graph, volume, values)
+    return paper, {"indicator": graph} | ({"inset": inset} if inset else {})
+
+
+def _inset(engine: EngineDrawn, graph: Graph, volume: Array, values: Array) -> Graph | None:
+    """Draw the loop of gas exchange larger where no curve is, above the pressure of the surroundings."""
+    degrees, (left, top, width, height) = engine.degrees, graph.box
+    calm = (degrees < _CALM[0]) | (degrees > _CALM[1])
+    if engine.cycle != _FOUR_STROKE or np.ptp(values[calm]) > _FLAT * np.ptp(values):
+        return None
+    ends = limits(values[calm], margin=0.5)
+    x, y = graph.across(volume), graph.down(values)
+    centre = float(np.max(x))
+    for start in _STARTS:
+        begin = left + start * width
+        box = Box(begin, top + 0.05 * height, centre - 8 - begin, 0.36 * height)
+        room = (x > box.left - _NUMBERS) & (y < box.top + box.height + 10) & (x < box.left + box.width)
+        if not np.any(room):
+            break
+    else:
+        return None
+    if box.height < _LOWEST:
+        return None
+    inset = Graph(graph.paper, box, (0.0, graph.x[1]), ends, engine.language)
+    # on a sheet it is smaller, to a round scale
+    box = inset.box
+    corners = box.left - _NUMBERS, box.left + box.width, box.top - 6, box.top + box.height + 6
+    graph.paper.area([corners[0], corners[1], corners[1], corners[0]], [*corners[2:3] * 2, *corners[3:] * 2])
+    inset.frame(np.array([]), round_ticks(*ends, min(5, round(inset.box.height / 16))))
+    inset.curve("gas_exchange", *_within(inset, volume, values), angles=degrees)
+    graph.paper.text(box.left + box.width, float(inset.down(0.0)) - 3, engine.symbol("ambient_pressure"), size=8,
+                     anchor="end")  # fmt: skip
+    return inset
+
+
+def _within(graph: Graph, x: Array, y: Array) -> tuple[Array, Array]:
+    """Return a curve with gaps where it leaves the graph."""
+    low, high = sorted(graph.y)
+    return x, np.where((y < low) | (y > high), np.nan, y)
+
+
+def _dead_centres(engine: EngineDrawn, graph: Graph) -> None:
+    """Mark the volumes at the dead centres, clearance and swept volume above."""
+    space, paper, box = engine.results.solved.space, graph.paper, graph.box
+    volumes = [float(engine.shown("cylinder_volume", one)) for one in (space.clearance, space.clearance + space.swept)]
+    for name, volume in zip(("tdc", "bdc"), volumes, strict=True):
+        at = float(graph.across(volume))
+        down = np.array([box.top - 6, box.top + box.height])
+        paper.line([at, at], down, style=DASH_DOT, width=0.6)
+        small_text(paper, at, box.top - 17, say(f"drawing.{name}", engine.language))
+    level = box.top - 4
+    spans = (("clearance_volume", 0.0, volumes[0]), ("swept_volume", volumes[0], volumes[1]))
+    for key, start, end in spans:
+        left, right = float(graph.across(start)), float(graph.across(end))
+        middle = (left + right) / 2
+        paper.arrow((middle, level), (left, level), width=0.5)
+        paper.arrow((middle, level), (right, level), width=0.5)
+        paper.text(middle, level - 3, engine.symbol(key), size=8, anchor="middle")

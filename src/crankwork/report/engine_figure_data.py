@@ -2,61 +2,72 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from crankwork.analysis import Array
+from crankwork.analysis import Array, Results
+from crankwork.analysis.diagrams import fine_columns
 from crankwork.analysis.engine_diagrams import EngineDiagrams
+from crankwork.errors import CrankworkError
 from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.figure_data import Drawn, figure_title
+from crankwork.report.figure_data import figure_title
 from crankwork.report.language import displayed, key_unit
 from crankwork.report.summary import results_method
-from crankwork.show.chart import sign
+from crankwork.show.chart import Graph, sign
 from crankwork.show.paper import Paper
 from crankwork.show.scene import Drawing
 
 
 @dataclass(frozen=True)
 class EngineDrawn:
-    """What is drawn of an engine."""
+    """What is drawn of a crank gear or an engine: results, computed finer than in tables, and how they are shown."""
 
-    drawn: Drawn  # What the figures of one cylinder share
-
-    @property
-    def language(self) -> Language:
-        """Language of names, units and numbers."""
-        return self.drawn.language
+    results: Results
+    columns: Mapping[str, Array]  # [SI]
+    degrees: Array  # [deg]
+    language: Language
+    area: float | None  # Of the piston, by which forces are divided [m2]
 
     @property
     def cycle(self) -> float:
         """Length of the cycle. [deg]"""
-        return self.drawn.results.machine.cycle
+        return self.results.machine.cycle
+
+    @property
+    def per_area(self) -> bool:
+        """Whether forces are per piston area."""
+        return self.area is not None
+
+    def values(self, key: str) -> Array:
+        """Return a column in its display unit."""
+        return self.shown(key, self.columns[key])
 
     @cached_property
     def diagrams(self) -> EngineDiagrams:
         """Curves and diagrams of all cylinders."""
-        return EngineDiagrams(self.drawn.results)
+        return EngineDiagrams(self.results)
 
     @property
     def other_pressures(self) -> dict[int, Array]:
         """Gas pressure of cylinders whose gas is not that of the first, by number, at their own crank angle. [MPa]"""
-        machine, degrees = self.drawn.results.machine, self.drawn.degrees
+        machine = self.results.machine
         if machine.engine is None or not machine.engine.gases:
             return {}
-        found = self.diagrams.other_pressures(degrees)
+        found = self.diagrams.other_pressures(self.degrees)
         return {number: self.shown("gas_pressure", one) for number, one in found.items()}
 
     def shown(self, key: str, values: Array | float) -> Array:
         """Return SI values in the display unit of a quantity. [display unit]"""
-        return np.asarray(values) * displayed(key, 1.0, per_area=self.drawn.area)
+        return np.asarray(values) * displayed(key, 1.0, per_area=self.area)
 
     def unit(self, key: str) -> str:
         """Return the display unit of a quantity as the language prints it."""
-        return unit_name(key_unit(key, per_area=self.drawn.per_area), self.language)
+        return unit_name(key_unit(key, per_area=self.per_area), self.language)
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a quantity, between dollar signs."""
@@ -66,6 +77,11 @@ class EngineDrawn:
         """Return the axis title of a quantity: name, symbol, unit."""
         unit = self.unit(key)
         return f"{QUANTITIES[key].label(self.language)} {self.symbol(key)}" + (f", {unit}" if unit else "")
+
+    def name_axes(self, graph: Graph, across: str, up: str) -> None:
+        """Write the titles of both axes."""
+        graph.x_title(self.title(across))
+        graph.y_title(self.title(up))
 
     def named(self, key: str) -> str:
         """Return symbol and name of a quantity for a legend."""
@@ -83,7 +99,16 @@ class EngineDrawn:
 
     def finished(self, name: str, paper: Paper, remark: str = "", *, forces: bool = False) -> Drawing:
         """Return a figure, with the method that made it."""
-        if forces and self.drawn.per_area:
+        if forces and self.per_area:
             remark = "; ".join(one for one in (remark, say("report.per_area", self.language)) if one)
-        sign(paper, results_method(self.drawn.results, self.language), remark)
+        sign(paper, results_method(self.results, self.language), remark)
         return paper.drawing(figure_title(name, self.language), self.language)
+
+
+def engine_drawn(results: Results, language: Language, *, per_area: bool) -> EngineDrawn:
+    """Return what the figures share."""
+    area = results.summary.get("piston_area") if per_area else None
+    if per_area and area is None and "piston_force" in results.columns:
+        raise CrankworkError("forces per piston area need cylinder.bore")
+    fine = fine_columns(results)
+    return EngineDrawn(results, fine.columns, fine.degrees, language, area)

@@ -11,12 +11,15 @@ from crankwork.report.engine_figure_bearings import (
     crankpin_load,
     crankpin_polar,
     crankpin_polar_of_one,
+    crankpin_wear,
     main_journal_polar,
+    main_wear,
     small_end_polar,
 )
 from crankwork.report.engine_figure_construction import brix, tolle
 from crankwork.report.engine_figure_cylinder import (
     crankpin_forces,
+    indicator,
     kinematics,
     piston_forces,
     pressure,
@@ -24,7 +27,6 @@ from crankwork.report.engine_figure_cylinder import (
     torque,
 )
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.engine_figure_indicator import indicator
 from crankwork.report.engine_figure_orders import (
     balance_ellipses,
     balance_orders,
@@ -33,8 +35,7 @@ from crankwork.report.engine_figure_orders import (
     torque_harmonics,
 )
 from crankwork.report.engine_figure_torque import accumulated_torque, crank_speed, excess_work, total_torque
-from crankwork.report.engine_figure_wear import crankpin_wear, main_wear
-from crankwork.report.figure_data import Drawn, kind_of
+from crankwork.report.figure_data import kind_of
 from crankwork.show.chart import Graph
 from crankwork.show.paper import Paper
 from crankwork.show.scene import Drawing
@@ -64,9 +65,8 @@ _LOADS: dict[str, Draw] = {
 _OF_FORCES = ("piston_forces", "rod_forces", "crankpin_forces", "crankpin_polar", *_LOADS)
 
 
-def engine_pictures(drawn: Drawn) -> dict[str, Callable[[], Drawing]]:
+def engine_pictures(engine: EngineDrawn) -> dict[str, Callable[[], Drawing]]:
     """Return what draws each figure of a machine where it is placed."""
-    engine = EngineDrawn(drawn)
     listed = figure_list(engine)
     numbered = {name.rstrip("0123456789") for name in listed}
 
@@ -82,7 +82,7 @@ def engine_pictures(drawn: Drawn) -> dict[str, Callable[[], Drawing]]:
 
 def figure_list(engine: EngineDrawn) -> dict[str, Draw]:
     """Return what draws each figure of a machine."""
-    machine, columns = engine.drawn.results.machine, engine.drawn.columns
+    machine, columns = engine.results.machine, engine.columns
     result = {name: draw for name, (draw, key) in _ONE_CYLINDER.items() if key in columns}
     if machine.engine is None or "crank_torque" not in columns:
         return result
@@ -121,6 +121,6 @@ def _remark(engine: EngineDrawn, kind: str) -> str:
         "small_end_polar": "rod_up",
         "main_journal_polar": "crank_one",
     }
-    if kind == "kinematics" and "piston_velocity_first_order" in engine.drawn.columns:
+    if kind == "kinematics" and "piston_velocity_first_order" in engine.columns:
         return say("drawing.orders", engine.language)
     return say(f"drawing.{frames[kind]}", engine.language) if kind in frames else ""

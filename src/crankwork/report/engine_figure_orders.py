@@ -140,7 +140,7 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     _swatches(paper, texts, fills)
     for panel in (one for one in sizes if one not in panels):
         key = f"free_{panel}"
-        with shown_in(units_of(engine.drawn.results, key, most[panel])):
+        with shown_in(units_of(engine.results, key, most[panel])):
             # of forces that cancel rounding is left
             size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
         free = f"{say(f'drawing.{key}', language)} {engine.symbol(key)}"
@@ -150,7 +150,7 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graphs: dict[str, Graph] = {}
     for at, panel in enumerate(panels):
         key = f"free_{panel}"
-        with shown_in(units_of(engine.drawn.results, key, most[panel])):
+        with shown_in(units_of(engine.results, key, most[panel])):
             bars = [
                 _Bars(kind, {order: float(engine.shown(key, value)) for order, value in some.items()})
                 for kind, some in sizes[panel].items()
@@ -164,7 +164,7 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
 
 def _inertia(engine: EngineDrawn) -> float:
     """Return the largest inertia force of one piston. [N]"""
-    return float(np.max(np.abs(engine.drawn.columns["inertia_force"])))
+    return float(np.max(np.abs(engine.columns["inertia_force"])))
 
 
 def _free(engine: EngineDrawn, panel: str) -> float:
@@ -230,7 +230,7 @@ def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Locus, after: Lo
 
 def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     """Return the amplitudes of the harmonics of the torque of one cylinder and of all as bars over the orders."""
-    columns = engine.drawn.results.listings["torque_harmonics"].columns
+    columns = engine.results.listings["torque_harmonics"].columns
     orders = columns["harmonic_order"].tolist()
     kinds = {"one_cylinder": "harmonic_amplitude", "all_cylinders": "total_harmonic_amplitude"}
     if engine.diagrams.count == 1:

@@ -8,7 +8,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.locale import say
-from crankwork.report.engine_figure_bands import firings
+from crankwork.report.engine_figure_cylinder import firings
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.language import row_name
 from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, limits, over_cycle, sheet, small_text
@@ -124,8 +124,7 @@ def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         mark(graph, name, float(np.degrees(at)), value, sign)
     at = 0.5 * engine.cycle * (0.02 if np.degrees(found.at_largest) > 0.1 * engine.cycle else 1.9)
     _span(graph, at, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
-    graph.x_title(engine.title("crank_angle"))
-    graph.y_title(engine.title("kinetic_energy_change"))
+    engine.name_axes(graph, "crank_angle", "kinetic_energy_change")
     return paper, {"torque": torque, "energy": graph}
 
 
@@ -153,12 +152,12 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     if speed is None:
         raise TypeError("this engine has no moment of inertia that its speed would follow from")
     values = engine.shown("crank_speed", speed.speed(np.radians(engine.diagrams.degrees)))
-    mean = float(engine.shown("speed", engine.drawn.results.solved.speed))
+    mean = float(engine.shown("speed", engine.results.solved.speed))
     rows = [
         Row(engine.named("crank_speed")),
         Row(
             f"{engine.symbol('speed')} – {say('report.mean', language)},"
-            f" {engine.value('speed', engine.drawn.results.solved.speed)}",
+            f" {engine.value('speed', engine.results.solved.speed)}",
             DASHED,
         ),
         Row(f"{engine.named('speed_fluctuation')}, {engine.number(speed.fluctuation, 4)}", width=0.0),
@@ -172,6 +171,5 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     for name, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
         text = f"{engine.symbol('speed')[:-1]}_{name}$ = {engine.value('crank_speed', value, 5)}"
         mark(graph, name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text)
-    graph.x_title(engine.title("crank_angle"))
-    graph.y_title(engine.title("crank_speed"))
+    engine.name_axes(graph, "crank_angle", "crank_speed")
     return paper, {"crank_speed": graph}

@@ -8,8 +8,8 @@ from functools import partial
 from crankwork.analysis import Results
 from crankwork.quantities import Language
 from crankwork.report.comparison_figure import comparison_figure, drawn_keys
+from crankwork.report.engine_figure_data import engine_drawn
 from crankwork.report.engine_figure_list import engine_pictures
-from crankwork.report.figure_data import drawn_from
 from crankwork.report.language import for_readers
 from crankwork.report.linkage_figures import linkage_pictures
 from crankwork.report.turning_figures import turning_pictures
@@ -53,7 +53,7 @@ def _pictures(results: Results, language: Language, *, per_area: bool) -> dict[s
     listed = linkage_pictures if results.machine.turning is None else turning_pictures
     found = listed(results, language)
     if "piston_displacement" in results.columns:
-        found |= engine_pictures(drawn_from(results, language, per_area=per_area))
+        found |= engine_pictures(engine_drawn(results, language, per_area=per_area))
     if results.compared is not None and drawn_keys(results.compared):
         found["comparison"] = partial(comparison_figure, results, results.compared, language, per_area=per_area)
     return found

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 
 from crankwork.analysis import Array, Results
+from crankwork.analysis.chambers import indicators
 from crankwork.analysis.diagrams import Fluctuation
 from crankwork.analysis.moving import moving, reached_angles
 from crankwork.analysis.plans import DriverRates, driver_rates, worked_position
@@ -19,20 +20,20 @@ from crankwork.machine import Machine
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
-from crankwork.report.chambers import chamber_figures
 from crankwork.report.figure_data import figure_title
 from crankwork.report.language import label, symbol
 from crankwork.report.linkage_centrodes import centrodes
-from crankwork.report.linkage_curves import curves
+from crankwork.report.linkage_curves import STYLES, curves
 from crankwork.report.linkage_energy import speed_curve, wittenbauer
 from crankwork.report.linkage_force_figures import force_figure
 from crankwork.report.linkage_lever import lever_figure
-from crankwork.report.linkage_look import Style
+from crankwork.report.linkage_look import PLAIN, Style, axis_title, displayed_values, quantity_of
 from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_plan
 from crankwork.report.linkage_positions import position_plans
-from crankwork.report.linkage_transient import transient_figures
 from crankwork.report.summary import results_method
 from crankwork.report.tables import any_nonzero
+from crankwork.show.chart import Graph, Row, limits, round_ticks, sheet, sign
+from crankwork.show.paper import plain
 from crankwork.show.scene import Drawing
 
 _DENSE_STEP = 2.0
@@ -181,7 +182,7 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictu
     # magnitudes in pins, and apart from them forces of guides, which have a sign
     for kind in ("joint_force", "normal_force"):
         held = any_nonzero((key for key in known if key.partition(".")[0] == kind), known)
-        panels += [held[start : start + _PER_PANEL] for start in range(0, len(held), _PER_PANEL)]
+        panels += _panels(held)
     if panels:
         result["joint_forces"] = partial(
             curves, degrees, known, panels, say("tables.joint_forces", style.language), style
@@ -214,3 +215,62 @@ def _evenness(machine: Machine, degrees: Array, known: Mapping[str, Array], spee
         # without masses the energy stands over one point
         course["wittenbauer"] = partial(wittenbauer, inertia, energy, wanted, degrees, style)
     return course
+
+
+_KINDS = ("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
+
+
+def chamber_figures(
+    results: Results, degrees: Array, known: Mapping[str, Array], style: Style = PLAIN
+) -> dict[str, Callable[[], Drawing]]:
+    """Return the figures of the gas by name; none without chambers."""
+    panels = [keys for kind in _KINDS for keys in _panels([one for one in known if one.partition(".")[0] == kind])]
+    if not panels:
+        return {}
+    return {
+        "indicator": partial(indicator, results, style),
+        "chambers": partial(curves, degrees, known, panels, say("figures.chambers", style.language), style),
+    }
+
+
+def indicator(results: Results, style: Style = PLAIN) -> Drawing:
+    """Return pressure over volume of every chamber."""
+    found = indicators(results)
+    volume, pressure = quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
+    drawn = {
+        name: (displayed_values(volume, one.volume), displayed_values(pressure, one.pressure))
+        for name, one in found.items()
+    }
+    rows = [Row(plain(name), STYLES[number % 4]) for number, name in enumerate(drawn)] if len(drawn) > 1 else []
+    paper, box = sheet(259.0, rows)
+    x, y = (limits(*some, margin=0.05) for some in zip(*drawn.values(), strict=True))
+    graph = Graph(paper, box, x, y, style.language)
+    graph.frame(round_ticks(*x), round_ticks(*y, 10))
+    for number, (name, (across, up)) in enumerate(drawn.items()):
+        # tables of a law over time go by time
+        angles = found[name].degrees * (results.period / 360.0 if results.period else 1.0)
+        graph.curve(name, across, up, STYLES[number % 4], angles=angles)
+    graph.x_title(axis_title(volume, style.language))
+    graph.y_title(axis_title(pressure, style.language))
+    sign(paper, style.method)
+    return paper.drawing(say("figures.indicator", style.language), style.language)
+
+
+def _panels(keys: Sequence[str]) -> list[Sequence[str]]:
+    return [keys[start : start + _PER_PANEL] for start in range(0, len(keys), _PER_PANEL)]
+
+
+_PANELS = (("crank_angle",), ("crank_speed",), ("kinetic_energy", "potential_energy"), ("driving_torque",))
+
+
+def transient_figures(results: Results, style: Style) -> dict[str, Callable[[], Drawing]]:
+    """Return crank angle, speed, energies and torque since a machine was let go; none where it was not."""
+    if "transient" not in results.listings:
+        return {}
+    columns = results.listings["transient"].columns
+    time = columns["time"]
+    panels = [tuple(key for key in panel if key in columns and np.any(columns[key])) for panel in _PANELS]
+    in_time = style._replace(period=float(time[-1]))
+    shown = [panel for panel in panels if panel]
+    title = say("tables.transient", style.language)
+    return {"transient": partial(curves, 360.0 * time / time[-1], columns, shown, title, in_time)}

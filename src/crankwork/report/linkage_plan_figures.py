@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis import Array
 from crankwork.analysis.moving import Moving
 from crankwork.analysis.plans import Kind, Plan, Vector, accelerations, velocities
 from crankwork.locale import say
@@ -98,10 +99,23 @@ def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is sh
 
 def size_of(plan: Plan) -> Size:
     """Return how wide and tall a plan is, in its unit."""
-    longest = max((one.length for one in plan.vectors), default=0.0)
-    seen = [one for one in plan.vectors if one.length > 1e-9 * max(longest, _STILL)]
-    width, height = np.ptp(np.array([[0.0, 0.0], *(end for one in seen for end in (one.start, one.end))]), axis=0)
+    width, height = np.ptp(_places(_seen(plan)), axis=0)
     return float(width), float(height)
+
+
+def _longest(plan: Plan) -> float:
+    return max((one.length for one in plan.vectors), default=0.0)
+
+
+def _seen(plan: Plan) -> list[Vector]:
+    """Return the vectors that are no mere rounding."""
+    least = 1e-9 * max(_longest(plan), _STILL)
+    return [one for one in plan.vectors if one.length > least]
+
+
+def _places(vectors: list[Vector]) -> Array:
+    """Return the pole and the ends of vectors, shape (places, 2)."""
+    return np.array([[0.0, 0.0], *(end for one in vectors for end in (one.start, one.end))])
 
 
 def _scale(size: Size, among: Sequence[Size], room: tuple[float, float]) -> float:
@@ -116,11 +130,7 @@ def _figure(
     plan: Plan, kind: _Kind, degrees: float, style: Style, position: int | None, among: Sequence[Size]
 ) -> Drawing:
     """Draw a plan, and beside it what its vectors and the turning of the links are."""
-    language = style.language
-    longest = max((one.length for one in plan.vectors), default=0.0)
-    seen = [one for one in plan.vectors if one.length > 1e-9 * max(longest, _STILL)]
-    places = np.array([[0.0, 0.0], *(end for one in seen for end in (one.start, one.end))])
-    height = max(size_of(plan)[1], 1e-12)
+    language, seen, size = style.language, _seen(plan), size_of(plan)
     # only beside one plan there is room for a list
     side = here().width - (_BESIDE if position is None else 0.0)
     rows = (
@@ -131,15 +141,16 @@ def _figure(
     # long names stand beside the outermost ends, those of one end together
     ends: dict[tuple[float, ...], str] = {}
     for name, at in plan.nodes.items():
-        place = tuple(np.round(at / max(longest, 1e-12), 3).tolist())
+        place = tuple(np.round(at / max(_longest(plan), 1e-12), 3).tolist())
         ends[place] = f"{ends[place]}, {node_name(name)}" if place in ends else node_name(name)
     beside = max([_MARGIN, *(WIDER * text_width(plain(one), 8.0) + 12 for one in ends.values())])
     high = max(tall(_TALL), _ROW * len(rows))
     room = side - 2 * min(beside, side / 8), max(high - 2 * _MARGIN, _LOWEST)
-    scale = _scale(size_of(plan), among, room)
+    scale = _scale(size, among, room)
     unit = points_per_mm() / scale
-    high = max(float(height) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
+    high = max(max(size[1], 1e-12) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
     paper = Paper(here().width, high)
+    places = _places(seen)
     middle = (places.min(axis=0) + places.max(axis=0)) / 2
     left, bottom = middle[0] - side / 2 / unit, middle[1] - (high + 34) / 2 / unit
     x, y = (left, left + here().width / unit), (bottom, bottom + high / unit)

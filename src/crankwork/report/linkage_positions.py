@@ -86,7 +86,8 @@ def position_plans(
     shown = f"{position_sign(style, f'_{main}')} = {position_text(float(degrees[main]), style)}"
     hand.text(0.97 * hand.width, foot, shown, anchor="end")
     sign(hand, style.method)
-    return hand.drawing(figure_title("position_plans", style.language), style.language)
+    made = hand.drawing(figure_title("position_plans", style.language), style.language)
+    return made._replace(plots=tuple(one._replace(metre=1e3 / paper) for one in made.plots))
 
 
 def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:
@@ -247,7 +248,8 @@ def _texts(sheet: _Sheet, numbered_guides: Container[str]) -> None:
     at = plans[sheet.main]
     named = {letter: drawn.points[name][at] for name, letter in reversed([*drawn.skeleton.letters.items()])
              if name in drawn.points}  # fmt: skip
-    pivots = {drawn.skeleton.letters.get(name, "") for name in drawn.skeleton.pivots}
+    # in their order: that of a set is another one in every process
+    pivots = dict.fromkeys(drawn.skeleton.letters.get(name, "") for name in drawn.skeleton.pivots)
     found = {letter: _beneath(sheet, letter, named[letter]) for letter in pivots if letter in named}
     supports = {letter: place for letter, place in found.items() if place is not None}
     for letter, (x, y) in supports.items():

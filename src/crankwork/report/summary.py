@@ -76,18 +76,7 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     if per_area:
         lines.append(say("report.per_area", language))
     subjects = by_subject(results)
-    rows = aligned(
-        [
-            (
-                label(told_as(key, results), language),
-                symbol(key, language),
-                number(displayed(key, value, per_area=area), language),
-                unit_name(key_unit(key, per_area=per_area), language),
-            )
-            for values in subjects.values()
-            for key, value in values.items()
-        ]
-    )
+    rows = aligned([_row(results, entry, language, area) for values in subjects.values() for entry in values.items()])
     for name, values in subjects.items():
         lines += ["", *([say(f"subjects.{name}", language)] if len(subjects) > 1 else [])]
         lines += rows[: len(values)]
@@ -173,16 +162,18 @@ def description_text(results: Results, language: Language = "en") -> str:
     """Return what a machine file describes, in a few lines."""
     machine, summary = results.machine, results.summary
     keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
-    rows = [
-        (
-            label(told_as(key, results), language),
-            symbol(key, language),
-            number(displayed(key, summary[key]), language),
-            unit_name(key_unit(key), language),
-        )
-        for key in keys
-    ]
+    rows = [_row(results, (key, summary[key]), language) for key in keys]
     return "\n".join([*_headline(machine, summary, language), *aligned(rows)])
+
+
+def _row(
+    results: Results, one: tuple[str, float], language: Language, area: float | None = None
+) -> tuple[str, str, str, str]:
+    """Return name, symbol, value and unit of a single value; `area`: of the piston, to divide by. [m2]"""
+    key, value = one
+    shown = number(displayed(key, value, per_area=area), language)
+    unit = unit_name(key_unit(key, per_area=area is not None), language)
+    return label(told_as(key, results), language), symbol(key, language), shown, unit
 
 
 def _headline(machine: Machine, summary: Mapping[str, float], language: Language) -> list[str]:

@@ -17,7 +17,7 @@ from crankwork.report.figure_data import figure_title
 from crankwork.report.linkage_energy import speed_curve
 from crankwork.report.linkage_look import Style, angle_ticks, axis_title, displayed_values, math_symbol
 from crankwork.report.summary import results_method
-from crankwork.show.chart import Box, Graph, Row, limits, round_ticks, sheet, sign, stretches
+from crankwork.show.chart import WIDE_FIGURES, Box, Graph, Row, limits, round_ticks, sheet, sign, stretches
 from crankwork.show.labels import label_points
 from crankwork.show.paper import Paper, plain, text_width
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
@@ -26,8 +26,8 @@ from crankwork.units import from_si
 _UPPER, _LOWER, _GAP = 216.0, 144.0, 16.0
 _MOST_TICKS = 12
 _MOST_NAMED = 24
-# letters of the work of a loop [pt], and how much wider than ours those of a reader may be
-_NAME, _WIDE = 7.5, 1.3
+# letters of the work of a loop [pt]
+_NAME = 7.5
 
 
 def turning_pictures(results: Results, language: Language) -> dict[str, Callable[[], Drawing]]:
@@ -116,7 +116,7 @@ def _name_loop(graph: Graph, drawn: TurningDiagram, place: tuple[float, float], 
     ends = graph.down(np.array([drawn.torque, drawn.load]))
     upper, lower = ends.min(axis=0), ends.max(axis=0)
     zero = float(graph.down(0.0))
-    middle, length, height = graph.point(*place), _WIDE * text_width(text, _NAME), 1.5 * _NAME
+    middle, length, height = graph.point(*place), WIDE_FIGURES * text_width(text, _NAME), 1.5 * _NAME
     for wide, tall in ((length, height), (height, length)):
         best, found = -math.inf, middle
         for at in x[inside].tolist():

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -19,22 +18,16 @@ from crankwork.kinematics.crank_grid import Array
 Rate = Callable[[Array, Array], Array]
 
 
-class Gauss(NamedTuple):
-    """Gauss points of a panel from 0 to 1: values there -> Legendre coefficients -> integral from the panel's start."""
+def gauss(points: int) -> tuple[Array, Array, Array, Array, Array]:
+    """Return Gauss points of a panel from 0 to 1, their weights, and what turns values there into something else.
 
-    nodes: Array
-    weights: Array
-    to_series: Array
-    to_integral: Array
-    integration: Array  # from values at the points to the integral up to each
-
-
-def gauss(points: int) -> Gauss:
-    """Return the Gauss points of a panel."""
+    Into Legendre coefficients, these into their integral from the panel's start, and values into the integral up to
+    each point.
+    """
     x, w = legendre.leggauss(points)
     to_series = (np.arange(points) + 0.5)[:, None] * legendre.legvander(x, points - 1).T * w
     to_integral = legendre.legint(np.eye(points), lbnd=-1) / 2
-    return Gauss((x + 1) / 2, w / 2, to_series, to_integral, legendre.legvander(x, points) @ to_integral @ to_series)
+    return (x + 1) / 2, w / 2, to_series, to_integral, legendre.legvander(x, points) @ to_integral @ to_series
 
 
 POINTS = 8
@@ -83,16 +76,16 @@ def tails(values: Array) -> Array:
     return np.asarray(series[:, -1] + series[:, -2])
 
 
-def integrate_periodic(rate: Rate, edges: Array, guess: Array, *, positive: bool = False) -> Panels:
+def integrate_periodic(rate: Rate, edges: Array, guess: Array) -> Panels:
     """Return the solution whose last value is its first (hairer_wanner_1996, sec. IV.5, Gauss methods).
 
     `rate`: f(x, y), of arrays of any one shape; it must depend on y; `edges`: panels to begin with, over one period
-    [unit of x], shape (n + 1,); `guess`: values at the edges to begin with [unit of y], shape (n + 1,); `positive`:
-    whether the solution must stay above zero.
+    [unit of x], shape (n + 1,); `guess`: values at the edges to begin with, above zero as all others
+    [unit of y], shape (n + 1,).
     """
     values = guess
     for _ in range(_ROUNDS):
-        solved = _newton(rate, edges, values, positive=positive)
+        solved = _newton(rate, edges, values)
         if not solved.converged:
             return solved
         bad = tails(solved.rate) * np.diff(edges) > TOLERANCE * np.max(np.abs(solved.values))
@@ -103,7 +96,7 @@ def integrate_periodic(rate: Rate, edges: Array, guess: Array, *, positive: bool
     return solved
 
 
-def _newton(rate: Rate, edges: Array, values: Array, *, positive: bool) -> Panels:
+def _newton(rate: Rate, edges: Array, values: Array) -> Panels:
     h, x = np.diff(edges), panel_points(edges)
     y = values[:-1, None] + np.diff(values)[:, None] * NODES
     values = values.copy()
@@ -123,7 +116,7 @@ def _newton(rate: Rate, edges: Array, values: Array, *, positive: bool) -> Panel
         factor = 1 + h * ((slope * by_start) @ WEIGHTS)
         change, multiplier = _closed(added.tolist(), factor.tolist())
         move = own + by_start * change[:-1, None]
-        part = _allowed(y, move, values, change) if positive else 1.0
+        part = _allowed(y, move, values, change)
         held += part < 1
         if held > _MOST_HELD:
             break

@@ -43,7 +43,7 @@ class Extremes(NamedTuple):
 
 @dataclass(frozen=True)
 class Curve:
-    """A quantity over one cycle of the crank, repeated in every cycle. Made by `linear`, `hermite` or `smooth`."""
+    """A quantity over one cycle of the crank, repeated in every cycle. Made by `linear`, `fitted` or `legendre`."""
 
     # Ascending angles between which it is a polynomial; the last is the first, one cycle on, shape (n + 1,) [rad]
     angle: Array
@@ -69,19 +69,6 @@ class Curve:
         real = step > 0
         left, rise = value[:-1][real], np.diff(value)[real] / step[real]
         return cls(np.concatenate([angle[:-1][real], angle[-1:]]), np.stack([left, rise]))
-
-    @classmethod
-    def hermite(cls, angle: ArrayLike, value: ArrayLike, slope: ArrayLike) -> Self:
-        """Return the piecewise cubic with given values and slopes."""
-        angle, value = _checked(angle, value)
-        slope = np.asarray(slope, dtype=float)
-        h = np.diff(angle)
-        if np.any(h <= 0):
-            raise MethodError("angles must ascend; give a quantity with jumps as corners of a broken line")
-        rise = np.diff(value) / h
-        second = (3 * rise - 2 * slope[:-1] - slope[1:]) / h
-        third = (slope[:-1] + slope[1:] - 2 * rise) / h**2
-        return cls(angle, np.stack([value[:-1], slope[:-1], second, third]))
 
     @classmethod
     def fitted(cls, function: Callable[[Array], Array], breaks: ArrayLike, *, width: float = np.pi / 24) -> Self:
@@ -169,11 +156,6 @@ class Curve:
     def mean(self) -> float:
         """Mean over the cycle."""
         return self.integral.growth / self.cycle
-
-    @property
-    def rms(self) -> float:
-        """Root of the mean square over the cycle."""
-        return float(np.sqrt((self * self).mean))
 
     def __add__(self, other: Curve | float) -> Self:
         if not isinstance(other, Curve):

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.locale import Refusal
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import TrueSpeed, excess_work, true_speed
+from crankwork.shaft.fluctuation import excess_work
 
 Way = Literal["energy", "mertsalov", "wittenbauer", "exact"]
 WAYS: tuple[Way, ...] = ("energy", "mertsalov", "wittenbauer", "exact")
@@ -57,81 +56,22 @@ def slope_least(w: Value, delta: Value) -> Value:
     return w**2 / 2 * (1 - delta / 2) ** 2
 
 
-@dataclass(frozen=True)
-class Flywheel:
+class Flywheel(NamedTuple):
     """A flywheel found in one of the four ways."""
 
-    way: Way  # `energy`, `mertsalov`, `wittenbauer` or `exact`
+    way: Way
     inertia: float  # Moment of inertia of the flywheel on the crank; negative where the machine needs none [kg m2]
     excess: float  # Excess work in the sense of this way, which over delta w^2 gives the inertia [J]
-    # Crank angles where this way sees the least and the greatest speed [rad]
-    at_least: float
-    at_largest: float
-    # Fluctuation that the machine really has with it, from its true speed; NaN if the machine would stop [-]
-    fluctuation: float
-    residual: float  # That less the fluctuation asked for [-]
 
 
-@dataclass(frozen=True)
-class MassEnergyCurve:
-    """Wittenbauer's diagram: kinetic energy over reduced moment of inertia, with its two tangents."""
-
-    # Abscissa and ordinate over the crank angle [kg m2], [J]
-    inertia: Curve
-    excess: Curve
-    # Slopes of the tangents [J/(kg m2)]
-    slope_largest: float
-    slope_least: float
-    # Where the tangents cut the axis of ordinates [J]
-    upper: float
-    lower: float
-    # Crank angles where they touch: of the greatest and the least speed [rad]
-    at_upper: float
-    at_lower: float
-
-    @property
-    def origin(self) -> tuple[float, float]:
-        """Where the tangents meet: minus the flywheel's inertia, minus the energy at angle zero. [kg m2], [J]"""
-        x = (self.lower - self.upper) / (self.slope_largest - self.slope_least)
-        return x, self.upper + self.slope_largest * x
-
-
-def mass_energy_curve(inertia: Curve, excess: Curve, slope_largest: float, slope_least: float) -> MassEnergyCurve:
-    """Return the mass-energy curve with its tangents: from above with the one slope, from below with the other.
-
-    Slopes are half the squares of the greatest and the least speed [J/(kg m2)]; the inertia is that without flywheel
-    (wittenbauer_1923; artobolevsky_1988, ch. 16).
-    """
-    above = (excess - inertia * slope_largest).extremes()
-    below = (excess - inertia * slope_least).extremes()
-    return MassEnergyCurve(
-        inertia,
-        excess,
-        slope_largest,
-        slope_least,
-        above.largest,
-        below.least,
-        above.at_largest,
-        below.at_least,
-    )
-
-
-def flywheel(
-    inertia: Curve,
-    torque: Curve,
-    mean_speed: float,
-    fluctuation: float,
-    way: Way = "exact",
-    *,
-    constant_part: float | None = None,
-) -> Flywheel:
+def flywheel(inertia: Curve, torque: Curve, mean_speed: float, fluctuation: float, way: Way = "exact") -> Flywheel:
     """Return the flywheel for a wanted fluctuation of the speed, where all torques depend on the angle alone.
 
-    With its inertia comes the fluctuation that the machine really has. The inertia given is that of the machine without
-    the flywheel, the torque that of engine or load (negative), which a constant torque balances; the mean speed is that
-    of the extremes. The ways are: constant inertia; Mertsalov's, energy of the second group of bodies at mean speed,
-    `constant_part` being what belongs to the first group, by default the least inertia; tangents without the square of
-    the fluctuation; tangents with it, which is Gutyar's exact condition (artobolevsky_1988, ch. 16; wittenbauer_1923).
+    The inertia given is that of the machine without the flywheel, the torque that of engine or load (negative), which a
+    constant torque balances; the mean speed is that of the extremes. The ways are: constant inertia; Mertsalov's,
+    energy of the second group of bodies at mean speed, the first having the least inertia; tangents without the square
+    of the fluctuation; tangents with it, which is Gutyar's exact condition (artobolevsky_1988, ch. 16;
+    wittenbauer_1923).
 
     T_0 + A(phi) = (J_f + J(phi)) w^2 / 2 stays below the line of slope w_max^2 / 2 and above that of slope
     w_min^2 / 2 in the plane of J and A, and touches both. With a and b the ordinates where they cut the axis,
@@ -142,17 +82,14 @@ def flywheel(
     check_fluctuation(fluctuation, mean_speed)
     excess = excess_work(torque)
     if way == "energy":
-        found, upper, lower = excess.work, excess.extremes.at_largest, excess.extremes.at_least
-        less = inertia.mean
+        found, less = excess.work, inertia.mean
     else:
-        diagram = mass_energy_curve(inertia, excess.curve, *_slopes(way, mean_speed, fluctuation))
-        found, upper, lower = diagram.upper - diagram.lower, diagram.at_upper, diagram.at_lower
-        less = 0.0
-        if way == "mertsalov":
-            less = inertia.extremes().least if constant_part is None else constant_part
-    size = float(inertia_for_fluctuation(found, fluctuation, mean_speed)) - less
-    got = _fluctuation_with(inertia + size, torque, mean_speed)
-    return Flywheel(way, size, found, lower, upper, got, got - fluctuation)
+        largest, least = _slopes(way, mean_speed, fluctuation)
+        found = (excess.curve - inertia * largest).extremes().largest - (
+            (excess.curve - inertia * least).extremes().least
+        )
+        less = inertia.extremes().least if way == "mertsalov" else 0.0
+    return Flywheel(way, float(inertia_for_fluctuation(found, fluctuation, mean_speed)) - less, found)
 
 
 def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
@@ -173,31 +110,6 @@ def _slopes(way: Way, w: float, delta: float) -> tuple[float, float]:
             return float(wittenbauer_slope_largest(w, delta)), float(wittenbauer_slope_least(w, delta))
         case _:
             return float(slope_largest(w, delta)), float(slope_least(w, delta))
-
-
-def _fluctuation_with(inertia: Curve, torque: Curve, mean_speed: float) -> float:
-    try:
-        return _turning(inertia, torque, mean_speed).fluctuation
-    except MethodError:
-        return float("nan")
-
-
-def _turning(inertia: Curve, torque: Curve, mean_speed: float) -> TrueSpeed:
-    if inertia.extremes().least <= 0:
-        raise MethodError(Refusal("inertia_negative"))
-    return true_speed(inertia, torque, mean_speed)
-
-
-def flywheels(
-    inertia: Curve, torque: Curve, mean_speed: float, fluctuation: float, *, constant_part: float | None = None
-) -> tuple[Flywheel, ...]:
-    """Return the flywheel in all four ways, side by side.
-
-    `inertia` and `torque`: reduced moment of inertia without flywheel, torque over the angle [kg m2], [N m];
-    `mean_speed` and `fluctuation`: mean of the extreme speeds; their difference over it [rad/s]; `constant_part`: for
-    Mertsalov: what of the inertia belongs to the bodies that turn with the crank [kg m2].
-    """
-    return tuple(flywheel(inertia, torque, mean_speed, fluctuation, way, constant_part=constant_part) for way in WAYS)
 
 
 @formula("work_per_cycle", "khurmi_gupta_2005, ch. 16")

@@ -28,17 +28,10 @@ def breakdown_slip(s_n: Value, lam_m: Value) -> Value:
     return s_n * (lam_m + np.sqrt(lam_m**2 - 1))
 
 
-@formula("breakdown_slip", "chilikin_sandler_1981, ch. 2")
-def breakdown_slip_full(s_n: Value, lam_m: Value, a_r: Value) -> Value:
-    """Slip of the greatest torque, with the resistance of the stator."""
-    d = 2 * a_r * s_n * (lam_m - 1)
-    return s_n * (lam_m + np.sqrt(lam_m**2 - 1 + d)) / (1 - d)
-
-
 @formula("motor_torque", "chilikin_sandler_1981, ch. 2")
-def kloss_torque(M_k: Value, s_k: Value, a_r: Value, slip: Value) -> Value:
-    """Torque of an asynchronous motor by the full Kloss formula; with a_r zero it is the simplified one."""
-    return 2 * M_k * (1 + a_r * s_k) * slip * s_k / (slip**2 + s_k**2 + 2 * a_r * s_k**2 * slip)
+def kloss_torque(M_k: Value, s_k: Value, slip: Value) -> Value:
+    """Torque of an asynchronous motor by the simplified formula of Kloss."""
+    return 2 * M_k * slip * s_k / (slip**2 + s_k**2)
 
 
 class Motor(Protocol):
@@ -56,8 +49,6 @@ class AsynchronousMotor:
     breakdown_torque: float  # Greatest torque as a motor [N m]
     breakdown_slip: float  # Slip at which it occurs [-]
     synchronous_speed: float  # Speed without load [rad/s]
-    # Resistance of the stator over that of the rotor; zero for the simplified formula [-]
-    resistance_ratio: float = 0.0
 
     @classmethod
     def of_catalogue(
@@ -68,12 +59,8 @@ class AsynchronousMotor:
         *,
         frequency: float = 50.0,
         pole_pairs: int = 2,
-        resistance_ratio: float = 0.0,
     ) -> Self:
-        """Return the motor of a line of a catalogue.
-
-        `resistance_ratio`: resistance of the stator over that of the rotor.
-        """
+        """Return the motor of a line of a catalogue."""
         w_0 = float(synchronous_speed(frequency, pole_pairs, math.pi))
         if not 0 < rated_speed < w_0 or overload <= 1:
             raise MethodError(
@@ -86,14 +73,8 @@ class AsynchronousMotor:
                 )
             )
         s_n = 1 - rated_speed / w_0
-        if 2 * resistance_ratio * s_n * (overload - 1) >= 1:
-            raise MethodError(
-                f"with a resistance ratio of {resistance_ratio:g} and a rated slip of {s_n:g} the torque never "
-                f"reaches {overload:g} times the rated one; take a smaller ratio"
-            )
         rated = rated_power / rated_speed
-        s_k = float(breakdown_slip_full(s_n, overload, resistance_ratio))
-        return cls(overload * rated, s_k, w_0, resistance_ratio)
+        return cls(overload * rated, float(breakdown_slip(s_n, overload)), w_0)
 
     def torque(self, speed: ArrayLike) -> Array:
         """Return the torque on its own shaft.
@@ -101,22 +82,7 @@ class AsynchronousMotor:
         `speed`: speed of its shaft [rad/s], shape (..., n).
         """
         slip = 1 - np.asarray(speed) / self.synchronous_speed
-        return np.asarray(kloss_torque(self.breakdown_torque, self.breakdown_slip, self.resistance_ratio, slip))
-
-
-@dataclass(frozen=True)
-class LinearMotor:
-    """The working branch of a motor as a straight line, or a direct-current motor with shunt or separate excitation."""
-
-    stiffness: float  # Torque per speed below that without load [N m s/rad]
-    no_load_speed: float  # Speed without load [rad/s]
-
-    def torque(self, speed: ArrayLike) -> Array:
-        """Return the torque on its own shaft.
-
-        `speed`: speed of its shaft [rad/s], shape (..., n).
-        """
-        return np.asarray(self.stiffness * (self.no_load_speed - np.asarray(speed)))
+        return np.asarray(kloss_torque(self.breakdown_torque, self.breakdown_slip, slip))
 
 
 @dataclass(frozen=True)

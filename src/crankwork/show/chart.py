@@ -22,7 +22,7 @@ LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
 _FOOT_ROW = 9.0
 # from an axis to its numbers, with what is free between them and the title [pt]; figures of readers' fonts are wider
-_CLEAR, _WIDE_FIGURES = 15.0, 1.3
+_CLEAR, WIDE_FIGURES = 15.0, 1.3
 # largest numbers of axes that need no power of ten
 _SHORT = 0.01, 1e5
 # The styles of rows of a legend that explain an open circle, a dot, and an arrow.
@@ -191,7 +191,7 @@ class Graph:
             for value, at in zip(y_ticks, down, strict=True):
                 text = self._number(value, 1)
                 self.paper.text(left - 6, at + 3, text, size=_TICK, anchor="end")
-                self._numbers = max(self._numbers, _WIDE_FIGURES * text_width(text, _TICK))
+                self._numbers = max(self._numbers, WIDE_FIGURES * text_width(text, _TICK))
         ticks = [x_ticks.tolist(), y_ticks.tolist()]
         self._frame |= {
             "ticks": ticks,

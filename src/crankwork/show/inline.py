@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.show.alt import described
+from crankwork.show.chart import stretches
 from crankwork.show.moving import MovingDrawing
 from crankwork.show.moving_svg import film_body
 from crankwork.show.paper import marked
@@ -36,7 +37,11 @@ def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str
 
     `marks`: a class for each item, empty for most, by which the page finds what becomes of it.
     """
-    angles = {curve: one for plot in drawing.plots for curve, one in plot.angles.items()}
+    angles = {
+        name: [one[part] for part in stretches(np.isfinite(sum(plot.curves[name])))]
+        for plot in drawing.plots
+        for name, one in plot.angles.items()
+    }
     sizes = Counter(_hundredths(round(100 * one.height / CAP_HEIGHT)) for one in drawing.items if isinstance(one, Text))
     usual = max(sizes, key=lambda size: sizes[size], default="3")
     writer = _InlineWriter(drawing.height, angles, usual)
@@ -74,7 +79,7 @@ class _InlineWriter(SvgWriter):
     _SPACES = _JOIN = ""
     _SLANTED = ' class="di"'
 
-    def __init__(self, height: float, angles: Mapping[str, Array], usual: str = "") -> None:
+    def __init__(self, height: float, angles: Mapping[str, list[Array]], usual: str = "") -> None:
         super().__init__(height, look_of("print"))
         self._angles, self._kind, self._usual = angles, "", usual
 
@@ -87,7 +92,9 @@ class _InlineWriter(SvgWriter):
         if item.fill is not None and item.name in _FILLED:
             return super()._line(item._replace(name="", kind=pen_of(item.kind)._replace(colour=f"var(--{item.name})")))
         kept = self._kept.get(id(item.points), np.ones(len(item.points), dtype=bool))
-        angles, at = self._angles.get(item.name), ""
+        # of a curve with gaps, those of its next part
+        every, at = self._angles.get(item.name), ""
+        angles = every.pop(0) if every else None
         if angles is not None and len(angles) == len(kept):
             kept = _with_places(kept, item.points, angles)
             at = f' data-at="{_apart(angles[kept])}"'
@@ -169,6 +176,21 @@ def _html(run: Run) -> str:
     text = html.escape(run.text)
     shifted = {-1: f"<sub>{text}</sub>", 0: text, 1: f"<sup>{text}</sup>"}[run.shift]
     return f"<i>{shifted}</i>" if run.is_slanted else shifted
+
+
+def frame_data(plot: Plot) -> dict[str, Any]:
+    """Return what a page draws the frame of a graph anew by, in other scales."""
+    return {key: plot.frame[key] for key in ("ticks", "labels", "powers")} if plot.frame else {}
+
+
+def frame_marks(drawing: Drawing) -> list[str]:
+    """Return marks by which a page finds the frames of graphs."""
+    marks = [""] * len(drawing.items)
+    for at, plot in enumerate(drawing.plots):
+        if plot.frame:
+            first, last = plot.frame["items"]
+            marks[first:last] = [f"frame {at}"] * (last - first)
+    return marks
 
 
 def figure_data(drawing: Drawing) -> dict[str, Any]:

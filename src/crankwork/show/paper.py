@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,20 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language
 from crankwork.show import scene
 from crankwork.show.place import LARGER, MM, here, letters
-from crankwork.show.scene import CAP_HEIGHT, SOLID, Circle, Drawing, Hatch, Item, Pen, Plot, Polyline, Style, Text
+from crankwork.show.scene import (
+    CAP_HEIGHT,
+    SOLID,
+    Circle,
+    Drawing,
+    Hatch,
+    Item,
+    Pen,
+    Plot,
+    Polyline,
+    Style,
+    Text,
+    flowed,
+)
 
 BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
 # letters of a reader may be wider than our table has them
@@ -61,14 +75,7 @@ def text_width(text: str, size: float) -> float:
 
 def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
     """Return a text on as many lines as it needs."""
-    lines: list[str] = []
-    for word in text.split(" "):
-        joined = f"{lines[-1]} {word}" if lines else word
-        if lines and text_width(joined, size) <= width:
-            lines[-1] = joined
-        else:
-            lines.append(word)
-    return tuple(lines)
+    return tuple(flowed(text.split(" "), " ", width, partial(text_width, size=size)))
 
 
 def _grey(colour: str) -> float:

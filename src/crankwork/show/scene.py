@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -156,7 +156,8 @@ class Plot(NamedTuple):
     `over`: key of the quantity across, if that is what tables go by; `angles`: crank angles [deg] of the points of
     curves that stand over something else, by the names of their lines; `curves`: what they show, in the units of the
     scales, by the same names; `titles`: of the axes, by `x` and `y`; `frame`: its `ticks` across and upward, which of
-    them have numbers, powers of ten that these lack, and its `items` from one to another.
+    them have numbers, powers of ten that these lack, and its `items` from one to another; `metre`: how long it is where
+    joints of a linkage stand to scale. [mm]
     """
 
     box: Box
@@ -167,6 +168,7 @@ class Plot(NamedTuple):
     curves: Mapping[str, tuple[Array, Array]]
     titles: Mapping[str, str]
     frame: Mapping[str, Any] = {}
+    metre: float = 0.0
 
 
 class Drawing(NamedTuple):
@@ -189,19 +191,6 @@ def rectangle(box: Box, kind: LineKind = "thin", fill: float | None = None) -> P
     """Return the sides of a rectangle."""
     corners = [(box.left, box.bottom), (box.right, box.bottom), (box.right, box.top), (box.left, box.top)]
     return Polyline(np.array(corners), kind, closed=True, fill=fill)
-
-
-def arrow(start: ArrayLike, end: ArrayLike, kind: LineKind = "thin", *, head: float = 3.0) -> list[Item]:
-    """Return a line with a head at its end, left out where the line is shorter than two heads. [mm]"""
-    tail, tip = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-    length = float(np.hypot(*(tip - tail)))
-    if length < 1e-9:
-        return []
-    head = min(head, length / 2)
-    along = (tip - tail) / length
-    across = np.array([-along[1], along[0]]) * head / 6
-    foot = tip - head * along
-    return [line(tail, foot, kind), Polyline(np.array([tip, foot + across, foot - across]), closed=True, fill=0.0)]
 
 
 class Run(NamedTuple):
@@ -274,6 +263,18 @@ def _ems(text: str) -> float:
             ems += 0.05 if "Ѐ" <= one <= "ӿ" else 0.0
             width += ems * (INDEX if run.shift else 1.0)
     return width
+
+
+def flowed(texts: Sequence[str], between: str, room: float, width: Callable[[str], float] = text_width) -> list[str]:
+    """Return texts joined to rows that fit into a room."""
+    rows: list[str] = []
+    for one in texts:
+        joined = f"{rows[-1]}{between}{one}" if rows else one
+        if rows and width(joined) <= room:
+            rows[-1] = joined
+        else:
+            rows.append(one)
+    return rows
 
 
 def moved(item: Item, right: float, up: float, larger: float = 1.0) -> Item:

@@ -46,11 +46,7 @@ class Addition(NamedTuple):
         """Return what it is called: a part of its own by its words, a table of the file by what that means."""
         if self.name in _TABLES:
             return say(f"fields.file.{self.name}", language)
-        return (
-            say(f"studio.add_{self.name}", language, of=self.of)
-            if self.of
-            else say(f"studio.add_{self.name}", language)
-        )
+        return say(f"studio.add_{self.name}", language, of=self.of)
 
 
 def additions(description: Description, results: Results | None) -> list[Addition]:
@@ -83,7 +79,7 @@ def _of_linkage(values: Mapping[str, Any], results: Results | None) -> Iterator[
     yield Addition("masses", "", dict(_masses(values)))
     for link in list(links)[::-1]:
         torque = f"{_round(_FORCE * size, 1):g} N*m"
-        yield Addition("torque", link, {"loads[]": {"kind": "torque", "link": link, "torque": [f"-{torque}"]}})
+        yield Addition("torque", link, {"loads[]": {"kind": "torque", "link": link, "torque": f"-{torque}"}})
     for point in moving[::-1]:
         force = {"kind": "force", "point": point, "x": "0 N", "y": f"-{_FORCE:g} N"}
         yield Addition("force", point, {"loads[]": force})
@@ -217,7 +213,7 @@ def _motor(values: Mapping[str, Any], results: Results | None) -> dict[str, Any]
     return {
         "rated_power": f"{next((one for one in _POWERS if one >= power), 1000):g} kW",
         "rated_speed": f"{_RATED_SPEED:g} rpm", "overload": 2.2, "pole_pairs": 2,
-        "ratio": _round(_RATED_SPEED / (speed * 30 / math.pi), 3),
+        "ratio": _round(_RATED_SPEED / float(from_si(speed, "rpm")), 3),
     }  # fmt: skip
 
 

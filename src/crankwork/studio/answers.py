@@ -35,13 +35,16 @@ from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
 from crankwork.show.alt import described
 from crankwork.show.formats import FORMATS
-from crankwork.show.inline import inline_film, inline_svg
+from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
+from crankwork.show.moving import MovingDrawing
 from crankwork.studio.additions import additions, with_addition
 from crankwork.studio.ahead import ahead
 from crankwork.studio.form import form, stated_text
-from crankwork.studio.handles import handles
+from crankwork.studio.full_turn import full_turn
+from crankwork.studio.handles import dyads, handles
 from crankwork.studio.pmks import from_pmks, is_pmks
-from crankwork.studio.sketch import redrawn, sketched
+from crankwork.studio.reach import reached
+from crankwork.studio.sketch import measured, missing, redrawn, sketched, swapped
 from crankwork.studio.trials import tried
 from crankwork.units import shown_in
 
@@ -51,44 +54,47 @@ _PLACE = re.compile(r"^.{0,400}?:(\d+): ", re.DOTALL)
 
 
 class Studio:
-    """What one page of the studio asks for; it keeps the results of the text that was told last, and nothing else.
+    """What one page of the studio asks for; it keeps the results of the text that was told last, and nothing else."""
 
-    `name` and `folder`: of the file that it was opened with; `reads`: whether files that a text names may be read.
-    """
-
-    def __init__(self, language: Language, name: str = "", folder: Path | None = None, *, reads: bool = False) -> None:
+    def __init__(self, language: Language, path: Path | None = None, *, reads: bool = False) -> None:
         self.language: Language = language
-        self._name, self._folder, self._reads = name, folder, reads
+        self._path, self._reads = path, reads or path is not None
         self._text: str | None = None
         self._results: Results | None = None
         self._read: tuple[str, Description] | None = None
+
+    def stand(self, path: Path | None, *, reads: bool) -> None:
+        """Let the next text stand in a file, or in none; `reads`: whether it may name files all the same."""
+        if path != self._path:
+            # what it names lies elsewhere
+            self._path, self._text, self._read = path, None, None
+        self._reads = reads or path is not None
 
     def answer(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Return what is answered to what a page asks for."""
         asks: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
             "show": self._show, "set": self._set, "without": self._without, "template": self._template,
             "shared": self._shared, "sketch": self._sketch, "explain": self._explain, "add": self._add,
-            "ahead": self._ahead,
+            "ahead": self._ahead, "reach": self._reach, "missing": self._missing, "swap": self._swap,
         }  # fmt: skip
         try:
             return asks[asked["do"]](asked)
         except CrankworkError as error:
             return {"refusals": self._told(error)}
 
-    def export(self, text: str, name: str, *, reads: bool = False) -> bytes:
+    def export(self, text: str, name: str) -> bytes:
         """Return the machine of a text as a file: its name says as what."""
-        self._reads = self._reads or reads
         return _written(self._computed(text), name, self.language)
 
-    def _check_files(self, description: Description, *, reads: bool) -> None:
-        if not (reads or self._reads) and (named := _files(description)):
+    def _check_files(self, description: Description) -> None:
+        if not self._reads and (named := _files(description)):
             raise CrankworkError(Refusal("studio_files", names=named))
 
     def tried(self, asked: Mapping[str, Any], told: Callable[[float], None]) -> dict[str, Any]:
         """Return what is found over ranges of numbers, or of designs drawn from them."""
         try:
             description = self._fresh(asked["text"])
-            self._check_files(description, reads=bool(asked.get("reads")))
+            self._check_files(description)
             return tried(description, asked, self.language, told)
         except CrankworkError as error:
             return {"refusals": self._told(error)}
@@ -100,7 +106,6 @@ class Studio:
             description = self._described(text)
         except CrankworkError as error:
             return {"refusals": self._told(error)}
-        self._reads = self._reads or bool(asked.get("reads"))
         found: dict[str, Any] = {"refusals": []}
         if not asked.get("held"):
             groups = form(description, self.language)
@@ -113,9 +118,10 @@ class Studio:
             return {**found, "additions": self._additions(description, None), "refusals": self._told(error)}
         with shown_in(results.machine.units):
             if asked.get("held"):
-                return found | self._drawn(results, asked.get("figures") or (), held=True)
+                return found | self._held(results, asked)
             found["additions"] = self._additions(description, results)
-            return {**found, **self._seen(results, asked.get("figures"))}
+            needed = full_turn(description, results, found["handles"], self.language)
+            return {**found, **self._seen(results, asked.get("figures")), "turn": needed}
 
     def _additions(self, description: Description, results: Results | None) -> list[tuple[str, str]]:
         return [(one.key, one.told(self.language)) for one in additions(description, results)]
@@ -131,7 +137,8 @@ class Studio:
     def _without(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Take a field out, and show what comes of it."""
         description = self._fresh(asked["text"])
-        del description[asked["key"]]
+        # of a point both coordinates go
+        del description[asked["key"].removesuffix("[1]").removesuffix("[2]")]
         text = description.dump()
         return {"text": text, **self._show({**asked, "text": text})}
 
@@ -154,6 +161,15 @@ class Studio:
                 before = {}
             text = redrawn(self._fresh(asked["text"]), before, self._described(text).values)
         return {"text": text, **self._show({**asked, "text": text})}
+
+    def _swap(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Put a dyad together the other way, and show what comes of it."""
+        text = swapped(self._fresh(asked["text"]), asked["key"], self._computed(asked["text"]).machine)
+        return {"text": text, **self._show({**asked, "text": text})}
+
+    def _missing(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what a sketch is as far as it goes, and what was typed of its next link."""
+        return {"missing": missing(asked, self.language), "measured": measured(asked["typed"], self.language)}
 
     def _add(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Add what was chosen, and show what comes of it with a diagram that was not there before."""
@@ -185,6 +201,11 @@ class Studio:
             columns = page_data(results, {}, None, self.language)["columns"]
             return {"memories": Memories(results, self.language, place, columns).of([key]), "key": key}
 
+    def _reach(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what a number reaches."""
+        results = self._computed(asked["text"])
+        return {"reach": reached(results, self._fresh(asked["text"]), asked["key"], self.language), "key": asked["key"]}
+
     def _described(self, text: str) -> Description:
         """Return a text as it is read, which nobody changes; of the same text once."""
         if self._read is None or text != self._read[0]:
@@ -192,15 +213,16 @@ class Studio:
         return self._read[1]
 
     def _fresh(self, text: str) -> Description:
+        name = str(self._path or "text")
         if len(text.encode("utf-8", "replace")) > files.MAX_MACHINE_FILE:
-            raise CrankworkError(Refusal("path_large_kb", path=self._name or "text", size=files.MAX_MACHINE_FILE >> 10))
-        return Description(text, self._name or "text", folder=self._folder)
+            raise CrankworkError(Refusal("path_large_kb", path=name, size=files.MAX_MACHINE_FILE >> 10))
+        return Description(text, name, folder=self._path and self._path.parent)
 
     def _computed(self, text: str) -> Results:
         """Return the results of a text, of the same text once."""
         if self._results is None or text != self._text:
             description = self._described(text)
-            self._check_files(description, reads=False)
+            self._check_files(description)
             self._results = analyse(description.machine())
             self._text = text
         return self._results
@@ -208,7 +230,6 @@ class Studio:
     def _ahead(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Return what calculates a page while a number is held, nothing where no browser can."""
         text, names = asked["text"], asked.get("figures") or ()
-        self._reads = self._reads or bool(asked.get("reads"))
         try:
             results, description = self._computed(text), self._described(text)
             found, steps = ahead(results, description, asked["key"], names, self.language)
@@ -216,29 +237,37 @@ class Studio:
             return {}
         return {"ahead": found, "steps": steps}
 
-    def _drawn(self, results: Results, wanted: Collection[str], *, held: bool = False) -> dict[str, Any]:
-        """Return the machine, and the figures that are wanted; while a number is `held` no more than is seen."""
+    def _held(self, results: Results, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what of results does not follow a number that is held: figures, and the machine if it is asked for."""
+        film = film_of(results, language=self.language) if asked.get("machine") else None
+        found = self._drawn(results, asked.get("figures") or (), film, only_read=True)
+        return found if film is None else found | {"film": inline_film(film, "machine")}
+
+    def _drawn(
+        self, results: Results, wanted: Collection[str], film: MovingDrawing | None, *, only_read: bool = False
+    ) -> dict[str, Any]:
+        """Return the figures that are wanted, and what a page keeps of results."""
         shown = drawings(results, language=self.language, only=set(wanted))
-        film = film_of(results, language=self.language, forces=not held)
-        data = page_data(results, shown, film, self.language, only_read=held)
+        data = page_data(results, shown, film, self.language, only_read=only_read)
         for name, one in shown.items():
             data["figures"][name]["told"] = described(one)
-        figures = {name: inline_svg(one, name, one.title) for name, one in shown.items()}
-        chosen = () if film is None or held else controls(film, self.language)
-        return {
-            "data": data, "figures": figures,
-            "film": "" if film is None else inline_film(film, "machine") + "".join(chosen),
-        }  # fmt: skip
+            for k, plot in enumerate(one.plots):
+                data["figures"][name]["plots"][k] |= frame_data(plot)
+        figures = {name: inline_svg(one, name, one.title, frame_marks(one)) for name, one in shown.items()}
+        return {"data": data, "figures": figures}
 
     def _seen(self, results: Results, wanted: Collection[str] | None) -> dict[str, Any]:
         """Return what is seen of results: the machine, the figures that are wanted, single values."""
         language = self.language
         names = figure_names(results, language)
-        found = self._drawn(results, _first(names) if wanted is None else wanted)
+        film = film_of(results, language=language, forces=True)
+        found = self._drawn(results, _first(names) if wanted is None else wanted, film)
+        found["film"] = "" if film is None else inline_film(film, "machine") + "".join(controls(film, language))
         found["data"]["tables"] = tables(results, found["data"], language)
         warning = warning_text(results, language)
         return {
             **found, "title": results.machine.title, "method": results_method(results, language),
+            "dyads": dyads(results.machine) if results.machine.linkage else [],
             "names": {name: figure_title(name, language) for name in names},
             "values": "".join(values(results, results.memory, language)),
             "notices": [notice_text(one.code, one.values, language) for one in results.notices],

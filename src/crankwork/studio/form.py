@@ -9,15 +9,18 @@ from typing import Any
 from crankwork.description.document import Description
 from crankwork.description.kinds import Choice, Flag, Measure, Number, Quantity, Reader, Text
 from crankwork.description.machine_file import entry_at, file_keys, steps_of
-from crankwork.description.schema import By, Key, NumberOr, Table, WordOr
+from crankwork.description.schema import By, Key, ListOf, NameOr, NumberOr, Table, WordOr
 from crankwork.description.written import toml
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language
+from crankwork.study.sought import single_kind
 from crankwork.units import EXAMPLES, from_si
 
 _NUMBER = re.compile(r"\s*[+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?\s*")
 _COMMA = re.compile(r"(\s*[+-]?[0-9]+),([0-9]+)(?![0-9.,])")
 _THOUSANDS = 3
+# of a point, by the number of the entry
+_AXES = {"1]": "x", "2]": "y"}
 _LEAVES = (Quantity, Number, NumberOr, WordOr, Choice, Flag, Text)
 
 
@@ -26,7 +29,7 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
     values = description.values
     kinds = file_keys(values)
     groups: dict[str, dict[str, Any]] = {}
-    for key in description:
+    for key in _keys(description, kinds):
         path, table, entry = _place(kinds, key)
         means = _meaning(kinds, path, language)
         fresh = {"path": path, "means": means, "label": _label(path, means, language), "rows": [], "more": []}
@@ -37,6 +40,18 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
         if isinstance(table, Table):
             group["more"] = list(_more(table, path, stated, language))
     return list(groups.values())
+
+
+def _keys(description: Description, kinds: Table) -> Iterator[str]:
+    """Yield the keys of fields: those of the file that say what the machine is, of a point those of its coordinates."""
+    for key in description:
+        match _kind(kinds, key), description[key]:
+            case _ if key == "format":
+                pass
+            case ((ListOf(Quantity(), 2, 2) | NameOr(ListOf(Quantity(), 2, 2))), [_, _]):
+                yield from (f"{key}[{number}]" for number in (1, 2))
+            case _:
+                yield key
 
 
 def _place(kinds: Table, key: str) -> tuple[str, object, Key | None]:
@@ -70,9 +85,11 @@ def _row(description: Description, key: str, table: object, entry: Key | None, l
     """Return a field: its key, name, meaning, what stands in it, and how it may be changed."""
     name, stated = key.rpartition(".")[2], description[key]
     kind = entry.kind if entry else _kind(file_keys(description.values), key)
-    written = stated if isinstance(stated, str) else toml(stated)
+    name, at, number = name.partition("[")
     means = table.meaning(name, language) if isinstance(table, Table) else ""
-    row: dict[str, Any] = {"key": key, "name": name, "label": _label(name, means, language), "value": written}
+    axis = f", {_AXES[number]}" if at else ""
+    row: dict[str, Any] = {"key": key, "name": name + axis, "label": _label(name, means, language) + axis,
+                           "value": _written(kind, stated)}  # fmt: skip
     if means:
         row["means"] = means
     match kind:
@@ -85,20 +102,27 @@ def _row(description: Description, key: str, table: object, entry: Key | None, l
     return row
 
 
+def _written(kind: object, stated: object) -> str:
+    """Return what stands in a field: texts as they are, with commas where there are several."""
+    if isinstance(kind, ListOf) and isinstance(kind.entry, Text) and isinstance(stated, list):
+        names = list(map(str, stated))
+        if not any("," in one for one in names):
+            return ", ".join(names)
+    return stated if isinstance(stated, str) else toml(stated)
+
+
 def _slid(kind: object, stated: object) -> dict[str, Any]:
     """Return what a slider of a field goes by: its number and unit, and what the number may be."""
-    parts = [getattr(kind, name, None) for name in ("quantity", "number")] if isinstance(kind, NumberOr) else [kind]
-    for one in parts:
-        match one, stated:
-            case Quantity(), str():
-                found = one.read(stated, "", Reader())
-                if isinstance(found, Measure):
-                    low, high = (float(from_si(end, found.unit)) for end in (one.low, one.high))
-                    return {"number": float(from_si(found.value, found.unit)), "unit": found.unit,
-                            "after": _after(stated), "low": low, "high": high}  # fmt: skip
-            case Number(), int() | float() if not isinstance(stated, bool):
-                whole = {"whole": True} if one.whole else {}
-                return {"number": float(stated), "unit": "", "after": "", "low": one.low, "high": one.high, **whole}
+    match single_kind(kind, stated), stated:
+        case Quantity() as of, str():
+            found = of.read(stated, "", Reader())
+            if isinstance(found, Measure):
+                low, high = (float(from_si(end, found.unit)) for end in (of.low, of.high))
+                return {"number": float(from_si(found.value, found.unit)), "unit": found.unit,
+                        "after": _after(stated), "low": low, "high": high}  # fmt: skip
+        case Number() as of, int() | float() if not isinstance(stated, bool):
+            whole = {"whole": True} if of.whole else {}
+            return {"number": float(stated), "unit": "", "after": "", "low": of.low, "high": of.high, **whole}
     return {}
 
 
@@ -164,10 +188,12 @@ def stated_text(description: Description, key: str, typed: str, language: Langua
 
     A number alone has the unit that stood there, and a comma is a decimal one, unless it may set thousands apart.
     """
-    kind = _kind(file_keys(description.values), key)
+    kind = single_kind(_kind(file_keys(description.values), key), description.get(key))
     if isinstance(kind, Text):
         return typed
-    if isinstance(kind, Quantity | Number | NumberOr):
+    if isinstance(kind, ListOf) and isinstance(kind.entry, Text) and not typed.lstrip().startswith("["):
+        return [one.strip() for one in typed.split(",")]
+    if isinstance(kind, Quantity | Number):
         comma = _COMMA.match(typed)
         if comma and description.get("decimal_mark") != "," and (language != "en" or len(comma[2]) != _THOUSANDS):
             typed = f"{comma[1]}.{comma[2]}{typed[comma.end() :]}"

@@ -1,9 +1,13 @@
-"""Which dimensions of a drawing are dragged: the field that states each, and the parts that move with its ends."""
+"""What is dragged of a drawing: dimensions by the field that states each, and dyads, which go on in two ways."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
+
+from crankwork.machine import Machine
+from crankwork.mechanism.dyads import RPR, RRP, RRR
 
 
 class Handle(NamedTuple):
@@ -44,3 +48,30 @@ def _of_linkage(values: Mapping[str, Any]) -> Iterator[Handle]:
         joins = link.get("joins", []) if isinstance(link, Mapping) else []
         if len(joins) > 1:
             yield Handle(f"links.{name}.length", f"joint.{joins[0]}", f"joint.{joins[1]}")
+
+
+def dyads(machine: Machine) -> list[dict[str, Any]]:
+    """Return the dyads that go together in two ways: their branch, their parts, where they change it.
+
+    `at`: the joint at which links come into line; `ends`: what it hangs on; `others`: what turns with a lever.
+    """
+    mechanism, drawn, found = machine.mechanism, machine.drawn, list[dict[str, Any]]()
+    for index, one in enumerate(mechanism.dyads):
+        parts: dict[str, Any]
+        match one:
+            case RRR():
+                parts = {"kind": "RRR", "name": one.point, "ends": [one.joint_a, one.joint_b], "at": one.point,
+                         "links": [one.link_a, one.link_b]}  # fmt: skip
+            case RRP(guide_link=""):
+                parts = {"kind": "RRP", "name": one.slider, "ends": [one.joint], "at": one.slider, "links": [one.link],
+                         "way": [math.cos(one.guide_angle), -math.sin(one.guide_angle)]}  # fmt: skip
+            case RPR():
+                others = [name for name in drawn.member(one.link).points if name != one.pivot]
+                parts = {"kind": "RPR", "name": one.link, "ends": [one.pivot], "at": one.joint, "links": [one.link],
+                         "others": others}  # fmt: skip
+            case _:
+                continue
+        passage = mechanism.passages.get(index)
+        changes = [] if passage is None else [float(at) for at in passage.changes]
+        found.append({**parts, "branch": one.branch, "changes": changes})
+    return found

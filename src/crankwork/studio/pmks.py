@@ -87,9 +87,13 @@ def _machine(word: str, language: Language) -> str:
     links = dict(found for found in map(_link, takewhile(bool, fields)) if found is not None)
     forces = [_force(one) for one in takewhile(bool, fields)]
     unit, force_unit, inertia_unit = (of[_number(kinds[at])] for of, at in ((_UNITS, 0), (_FORCES, 2), (_INERTIAS, 0)))
+    links, merged = _welded(joints, links)
     pins = {key: _pin(key, joints, links.values()) for key, one in joints.items() if not one.flags & _SLIDES}
     parts = {key: one.joints for key, one in links.items() if not one.is_piston and not _stands(one, pins)}
-    driver = next((key for key, one in joints.items() if one.flags & _DRIVES), "")
+    drivers = [key for key, one in joints.items() if one.flags & _DRIVES]
+    if len(drivers) > 1:
+        raise CrankworkError(Refusal("pmks_inputs", names=", ".join(joints[key].name or key for key in drivers)))
+    driver = next(iter(drivers), "")
     driving = next((key for key, one in parts.items() if driver in one), "")
     if driver not in pins or not pins[driver].ground or not driving:
         raise CrankworkError(Refusal("pmks_no_input"))
@@ -109,13 +113,40 @@ def _machine(word: str, language: Language) -> str:
             table |= {"mass": f"{links[key].mass:g} kg", "inertia": f"{links[key].inertia:g} {inertia_unit}",
                       "centre": _place(frames[key], links[key].centre, unit)}  # fmt: skip
     for one in forces:
-        tables[one.link].setdefault("points", {})[one.name] = _place(frames[one.link], one.start, unit)
+        link = merged.get(one.link, one.link)
+        tables[link].setdefault("points", {})[one.name] = _place(frames[link], one.start, unit)
     turning = ", ".join(one.name for one in forces if one.is_local)
     head = f"# {say('studio.pmks_turning', language, names=turning)}\n" if turning else ""
     text = told_apart({"title": say("studio.pmks", language)} | values)
     for one in forces:
         text = with_entry(text, "loads", _load(one, force_unit))
     return head + text
+
+
+def _welded(joints: Mapping[str, _Joint], links: Mapping[str, _Link]) -> tuple[dict[str, _Link], dict[str, str]]:
+    """Return links of which those that meet in a welded joint are one, and what became of the others by their keys."""
+    found, merged = dict(links), dict[str, str]()
+    for key, joint in joints.items():
+        first, *others = [name for name, one in found.items() if key in one.joints] or [""]
+        if not joint.flags & _WELDED or any(found[name].is_piston for name in (first, *others) if name):
+            continue
+        for name in others:
+            found[first] = _as_one(found[first], found.pop(name))
+            merged = {old: first if new == name else new for old, new in merged.items()} | {name: first}
+    return found, merged
+
+
+def _as_one(one: _Link, other: _Link) -> _Link:
+    """Return two links as one, with the mass of both about the centre of both."""
+    joints = list(dict.fromkeys([*one.joints, *other.joints]))
+    if (one.mass, one.inertia) == (other.mass, other.inertia) == _UNWEIGHED:
+        return one._replace(joints=joints)
+    mass = one.mass + other.mass
+    # what has no mass has its centre anywhere
+    share = other.mass / mass if mass else 0.5
+    x, y = (a + share * (b - a) for a, b in zip(one.centre, other.centre, strict=True))
+    about = sum(part.inertia + part.mass * math.dist(part.centre, (x, y)) ** 2 for part in (one, other))
+    return one._replace(joints=joints, mass=mass, centre=(x, y), inertia=about)
 
 
 def _joint(text: str) -> tuple[str, _Joint]:

@@ -29,9 +29,11 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from crankwork import files
 from crankwork.browser import script
+from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
 from crankwork.locale import LANGUAGES, Language, Refusal, say, told
 from crankwork.studio.answers import Studio
+from crankwork.studio.recent import Recent, named, recent
 from crankwork.studio.shell import shell, styles
 from crankwork.studio.trials import StoppedError
 
@@ -39,6 +41,7 @@ HOST = "127.0.0.1"
 # what one message may hold: a machine file, escaped, and what is asked of it [bytes]
 _LONGEST = 1 << 20
 _COOKIE = "crankwork"
+_FIRST = "four-bar"
 # for how long after the last page has gone the server waits for one to come back [s]
 _LINGERS = 3.0
 # scripts of calculations that are kept at most
@@ -51,11 +54,10 @@ _log = logging.getLogger(__name__)
 
 
 class Opening(NamedTuple):
-    """What the studio begins with: a text, the file it stands in if there is one, whether it may name others."""
+    """What the studio begins with: a text, or a template where there is none, and the file that it stands in."""
 
-    text: str
+    text: str = ""
     path: Path | None = None
-    reads: bool = False
 
 
 class Rooms:
@@ -65,8 +67,8 @@ class Rooms:
         self.opening, self.language, self.lingers = opening, language, lingers
         self.token, self.port = secrets.token_urlsafe(24), 0
         self.pages, self.left = 0, time.monotonic()
-        # of the file as it was read or written here last
-        self.seen = _digest(opening.text) if opening.path else ""
+        # files that were opened here
+        self.paths = {str(opening.path)} if opening.path else set()
         # what pages calculate with, by its digest; they fetch it at once
         self.steps: dict[str, str] = {}
 
@@ -79,52 +81,64 @@ class Rooms:
         """Whether the last page has been gone for a while."""
         return not self.lingers and self.pages == 0 and time.monotonic() - self.left > _LINGERS
 
-    def studio(self, language: Language) -> Studio:
-        """Return what answers one page."""
-        path = self.opening.path
-        return Studio(language, str(path or ""), path.parent if path else None, reads=self.opening.reads)
+    def first(self, language: Language) -> dict[str, Any]:
+        """Return what a page begins with."""
+        text, path = self.opening
+        if path is not None:
+            # another page may have saved it meanwhile
+            text = _on_disk(path) or text
+        seen = recent(None if path is None else Recent(str(path)))
+        return {"text": text or template(_FIRST, language), "path": str(path or ""), "recent": named(seen)}
+
+    def place(self, asked: Mapping[str, Any]) -> Path | None:
+        """Return the file that a page says its text stands in, if it was opened here or before."""
+        path = asked.get("path")
+        if not path or not isinstance(path, str):
+            return None
+        is_known = path in self.paths or any(one == (path, None) for one in recent())
+        return Path(path) if is_known else None
+
+    def again(self, name: str) -> dict[str, Any]:
+        """Return a machine that was opened before, with its file where it stands in one."""
+        one = next((one for one in recent() if one.name == name), None)
+        if one is None:
+            raise CrankworkError(Refusal("recent_none", name=name[:200]))
+        text, path = one.text, ""
+        if text is None:
+            text, path = files.read_text(name, advice=Refusal("check_recent")), name
+            self.paths.add(path)
+        return {"text": text, "path": path, "recent": named(recent(one))}
 
     def save(self, asked: dict[str, Any]) -> dict[str, Any]:
-        """Write the text into its file, unless somebody else has changed that."""
-        path, text = self.opening.path, asked["text"]
+        """Write the text into its file, unless somebody else has changed that; keep one that stands in none."""
+        path, text = self.place(asked), asked["text"]
         if path is None:
-            raise CrankworkError(Refusal("studio_no_file"))
-        if self.changed() and not asked.get("anyway"):
-            return {"conflict": str(path)}
+            return {"handed": True, "recent": named(recent(Recent(asked["name"], text)))}
+        if not asked.get("anyway") and (found := _on_disk(path)) != asked["kept"]:
+            return {"gone": True} if found is None else {"conflict": str(path)}
         files.write_files({path: text.encode()}, overwrite=True)
-        self.seen = _digest(text)
         return {"saved": str(path)}
 
     def script(self, steps: str) -> str:
         """Keep a script for the page that was told of it, and return its name."""
-        name = _digest(steps)[:32]
+        name = hashlib.sha256(steps.encode()).hexdigest()[:32]
         self.steps = dict([*self.steps.items(), (name, steps)][-_SCRIPTS:])
         return name
 
-    def changed(self) -> bool:
-        """Return whether the file is not as it was read or written here last."""
-        return bool(self.seen) and _digest(self._on_disk() or "") != self.seen
-
-    def disk(self, *, take: bool) -> dict[str, Any]:
-        """Return whether somebody else has changed the file, or what stands in it, which is known then."""
-        text = self._on_disk()
+    def disk(self, asked: dict[str, Any]) -> dict[str, Any]:
+        """Return whether somebody else has changed the file, or what stands in it."""
+        text = _on_disk(self.place(asked))
         if text is None:
             return {"gone": True}
-        if not take:
-            return {"changed": self.changed()}
-        self.seen = _digest(text)
-        return {"text": text}
-
-    def _on_disk(self) -> str | None:
-        """Return what stands in the file, None where it has gone."""
-        try:
-            return files.read_text(self.opening.path or "")
-        except CrankworkError:
-            return None
+        return {"text": text} if asked.get("take") else {"changed": text != asked["kept"]}
 
 
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+def _on_disk(path: Path | None) -> str | None:
+    """Return what stands in a file, None where it has gone."""
+    try:
+        return None if path is None else files.read_text(path)
+    except CrankworkError:
+        return None
 
 
 class _Guard:
@@ -218,9 +232,9 @@ async def _export(rooms: Rooms, asked: Request) -> Response:
     if isinstance(wanted, HTTPStatus):
         return PlainTextResponse("", wanted)
     language = _language(asked, rooms.language)
-    studio = rooms.studio(language)
+    studio = Studio(language, rooms.place(wanted), reads=bool(wanted.get("reads")))
     try:
-        found = await run_in_threadpool(studio.export, wanted["text"], wanted["name"], reads=bool(wanted.get("reads")))
+        found = await run_in_threadpool(studio.export, wanted["text"], wanted["name"])
     except CrankworkError as error:
         return PlainTextResponse(told(error.args[0], language), HTTPStatus.UNPROCESSABLE_ENTITY)
     return _sealed(found, "application/octet-stream", **{"Content-Disposition": "attachment"})
@@ -246,7 +260,7 @@ async def _trial(rooms: Rooms, asked: Request) -> Response:
     wanted = await _posted(asked, {"text": str, "over": dict})
     if isinstance(wanted, HTTPStatus):
         return PlainTextResponse("", wanted)
-    studio = rooms.studio(_language(asked, rooms.language))
+    studio = Studio(_language(asked, rooms.language), rooms.place(wanted), reads=bool(wanted.get("reads")))
     return StreamingResponse(_lines(studio, wanted), media_type="application/x-ndjson")
 
 
@@ -287,9 +301,9 @@ async def _talk(rooms: Rooms, socket_: WebSocket) -> None:
     await socket_.accept()
     rooms.pages += 1
     language = _language(socket_, rooms.language)
-    studio = rooms.studio(language)
+    studio = Studio(language)
     try:
-        await _send(socket_, {"text": rooms.opening.text, "path": str(rooms.opening.path or "")})
+        await _send(socket_, await run_in_threadpool(rooms.first, language))
         while True:
             asked = _asked(await socket_.receive_text())
             if asked is None:
@@ -311,7 +325,9 @@ _FIELDS: dict[str, dict[str, type]] = {
     "show": {"text": str}, "set": {"text": str, "fields": dict}, "without": {"text": str, "key": str},
     "explain": {"text": str, "key": str}, "add": {"text": str, "key": str}, "ahead": {"text": str, "key": str},
     "template": {"name": str}, "shared": {"word": str}, "sketch": {"pins": list, "links": list},
-    "save": {"text": str}, "disk": {},
+    "missing": {"pins": list, "links": list, "typed": list},
+    "reach": {"text": str, "key": str}, "swap": {"text": str, "key": str},
+    "save": {"text": str, "kept": str, "name": str}, "disk": {"kept": str}, "recent": {"name": str},
 }  # fmt: skip
 
 
@@ -343,7 +359,10 @@ def _answer(rooms: Rooms, studio: Studio, asked: dict[str, Any]) -> dict[str, An
             case "save":
                 return rooms.save(asked)
             case "disk":
-                return rooms.disk(take=bool(asked.get("take")))
+                return rooms.disk(asked)
+            case "recent":
+                return rooms.again(asked["name"])
+        studio.stand(rooms.place(asked), reads=bool(asked.get("reads")))
         found = studio.answer(asked)
         return {**found, "steps": rooms.script(found["steps"])} if "steps" in found else found
     except CrankworkError as error:

@@ -37,6 +37,9 @@ def shell(language: Language) -> str:
         f'<aside id="explanation" tabindex="-1" hidden aria-label="{html.escape(say("page.explanation", language))}">',
         f'<button aria-label="{html.escape(say("page.close", language))}">×</button><div class="body"></div></aside>',
         "</main>",
+        f'<dialog id="commands" aria-label="{_said("commands", language)}"><input role="combobox" aria-expanded="true"',
+        f' aria-controls="found" aria-autocomplete="list" aria-label="{_said("commands", language)}">',
+        f'<ul id="found" role="listbox" aria-label="{_said("commands", language)}"></ul></dialog>',
         '<p id="told" role="status" class="unseen"></p>',
         '<script src="studio.js"></script></body></html>\n',
     ])  # fmt: skip
@@ -60,8 +63,11 @@ def _header(language: Language) -> list[str]:
     )
     return [
         '<header><h1 id="title">crankwork</h1>',
+        f'<button id="all" aria-keyshortcuts="/" title="{_said("commands", language)}: /">',
+        f'<kbd aria-hidden="true">/</kbd> <span>{_said("commands", language)}</span></button>',
         f'<select id="template" aria-label="{_said("template", language)}">',
-        f'<option value="">{_said("template", language)}</option>{templates}</select>',
+        f'<option value="">{_said("template", language)}</option><optgroup label="{_said("recent", language)}" hidden>',
+        f'</optgroup><optgroup label="{_said("examples", language)}">{templates}</optgroup></select>',
         f'<label class="button" tabindex="-1">{_said("open", language)}',
         '<input id="open" type="file" accept=".toml,.txt,.pmks,text/plain"></label>',
         *(_button(name, language) for name in ("save", "undo", "redo", "share", "pin")),
@@ -76,7 +82,7 @@ def _left(language: Language) -> list[str]:
     tabs = "".join(
         f'<button role="tab" id="{name}-tab" aria-controls="{name}" aria-selected="{chosen}">'
         f"{_said(name, language)}</button>"
-        for name, chosen in (("form", 'true" aria-keyshortcuts="/" title="/'), ("text", "false"))
+        for name, chosen in (("form", "true"), ("text", "false"))
     )
     return [
         f'<section id="description" aria-label="{_said("description", language)}"><div role="tablist">{tabs}</div>',
@@ -91,6 +97,7 @@ def _middle(language: Language) -> list[str]:
     return [
         f'<section id="machine" aria-label="{html.escape(say("page.machine", language))}">',
         '<div id="film"></div><output id="chip" hidden></output>',
+        '<p id="turn" hidden></p>',
         f'<p class="hint">{_said("hint", language)}</p></section>',
     ]
 

@@ -11,7 +11,7 @@ from crankwork import units
 from crankwork.description.document import stated_value
 from crankwork.description.kinds import Measure, Number, Quantity, Reader, shown
 from crankwork.description.machine_file import entry_at, file_keys, steps_of
-from crankwork.description.schema import NameOr, NumberOr, Table, nearest_name
+from crankwork.description.schema import ListOf, NameOr, NumberOr, Table, nearest_name
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
@@ -86,6 +86,8 @@ def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has 
     """Return the kind of numbers that a field holds where it may hold something else too."""
     if isinstance(kind, NameOr):
         kind = kind.other
+    if isinstance(kind, ListOf) and kind.may_be_one and isinstance(now, str):
+        kind = kind.entry
     if isinstance(kind, NumberOr):
         return kind.quantity if isinstance(now, str) else kind.number
     return kind

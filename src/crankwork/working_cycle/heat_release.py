@@ -14,15 +14,12 @@ import numpy as np
 
 from crankwork.formula.known import Found, Known, absent
 from crankwork.formula.worked import Worked
-from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.piston import piston_motion
-from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.kinematics.crank_grid import Array
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.cycle import quadrature
 from crankwork.loads.indicator import IndicatorDiagram, Segment, VolumeAt
 from crankwork.loads.monotone import hermite
 from crankwork.loads.pressure import at_angle, remembered_pressure
-from crankwork.method import EXACT, Method
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.calculated_cycle import Calculated
 from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas, volume_when
@@ -59,25 +56,6 @@ class HeatReleaseResult:
     trace: HeatReleaseTrace  # The closed period point by point
     # Work and heat to the walls taken once more from the diagram, and what the first law leaves with them [J]
     again: Mapping[str, float]
-
-
-def cylinder_volumes(
-    lengths: SliderCrank, bore: float, clearance: float, method: Method = EXACT
-) -> tuple[VolumeAt, VolumeAt]:
-    """Return the volume of a cylinder and its derivative as functions of the crank angle.
-
-    [deg] -> [m3] and [deg] -> [m3/rad].
-    """
-    area = float(gas_formulas.piston_area(method.pi, bore))
-
-    def volume_at(degrees: Array) -> Array:
-        x = piston_motion(lengths, CrankGrid.from_degrees(degrees), method).piston.position
-        return np.asarray(gas_formulas.cylinder_volume(clearance, area, x))
-
-    def volume_rate_at(degrees: Array) -> Array:
-        return np.asarray(area * piston_motion(lengths, CrankGrid.from_degrees(degrees), method).piston.position_1)
-
-    return volume_at, volume_rate_at
 
 
 def heat_release(

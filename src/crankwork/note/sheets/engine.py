@@ -11,11 +11,10 @@ from crankwork.analysis import Results
 from crankwork.locale import say
 from crankwork.note.sheets.packing import Picture
 from crankwork.note.sheets.sheet import Paper, Sheet, sheets_with
-from crankwork.note.sheets.text import text_block
+from crankwork.note.sheets.table import text_block
 from crankwork.quantities import Language
-from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_data import EngineDrawn, engine_drawn
 from crankwork.report.engine_figure_list import engine_pictures
-from crankwork.report.figure_data import drawn_from
 from crankwork.report.summary import results_method
 from crankwork.show.scene import Drawing
 
@@ -43,8 +42,8 @@ def engine_sheets(results: Results, language: Language, paper: Paper, *, per_are
     """Yield the sheets of an engine, or of a crank gear, as far as its figures are known."""
     if "piston_displacement" not in results.columns:
         return
-    drawn = drawn_from(results, language, per_area=per_area)
-    known = engine_pictures(drawn)
+    engine = engine_drawn(results, language, per_area=per_area)
+    known = engine_pictures(engine)
     if "total_torque" in known:
         known.pop("torque")
     for name, (title, kinds) in _SHEETS.items():
@@ -52,18 +51,18 @@ def engine_sheets(results: Results, language: Language, paper: Paper, *, per_are
             Picture(key, draw) for kind in kinds for key, draw in known.items() if key.rstrip("_0123456789") == kind
         ]
         if name == "engine-motion":
-            pictures.append(Picture("data", partial(_data, EngineDrawn(drawn))))
+            pictures.append(Picture("data", partial(_data, engine)))
         yield from sheets_with(name, say(title, language), pictures, paper, language)
 
 
 def _data(engine: EngineDrawn) -> Drawing:
     """Draw what the engine is, in rows."""
-    summary, language = engine.drawn.results.summary, engine.language
+    summary, language = engine.results.summary, engine.language
     known = {key: float(summary[key]) for key in _DATA if summary.get(key) is not None}
     entries = [
         f"{engine.symbol(key)} = {engine.value(key, value)}"
         for key, value in known.items()
         if np.isfinite(value) and (value or key != "offset")
     ]
-    entries.append(f"{say('report.method', language)}: {results_method(engine.drawn.results, language)}")
+    entries.append(f"{say('report.method', language)}: {results_method(engine.results, language)}")
     return text_block(entries, say("headings.data", language), language)

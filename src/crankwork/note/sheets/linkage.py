@@ -13,7 +13,6 @@ from crankwork.analysis.plans import accelerations, driver_rates, velocities
 from crankwork.analysis.skeleton import skeleton
 from crankwork.locale import say
 from crankwork.mechanism.structure import structure
-from crankwork.note.sheets.grid import in_grid
 from crankwork.note.sheets.linkage_tables import (
     Positions,
     Scales,
@@ -25,7 +24,7 @@ from crankwork.note.sheets.linkage_tables import (
     scales_table,
     structure_block,
 )
-from crankwork.note.sheets.packing import Picture
+from crankwork.note.sheets.packing import Picture, in_grid
 from crankwork.note.sheets.sheet import Paper, Sheet, sheets_with
 from crankwork.quantities import Language
 from crankwork.report.figure_data import kind_of

@@ -15,8 +15,7 @@ from crankwork.analysis.skeleton import Skeleton, numbered
 from crankwork.locale import decimal, say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import Structure
-from crankwork.note.sheets.table import Column, numbers, table
-from crankwork.note.sheets.text import text_block
+from crankwork.note.sheets.table import Column, numbers, table, text_block
 from crankwork.quantities import Language
 from crankwork.report.language import called, symbol
 from crankwork.report.linkage_look import Style, displayed_values, math_symbol, position_text, quantity_of

@@ -13,7 +13,7 @@ import numpy as np
 from crankwork.errors import CrankworkError
 from crankwork.locale import say
 from crankwork.note.sheets.packing import Fit, Layout, Picture, packed
-from crankwork.note.sheets.text import text_block
+from crankwork.note.sheets.table import text_block
 from crankwork.note.sheets.title_block import (
     TitleBlock,
     corner_cell,
@@ -106,13 +106,6 @@ class Sheet(NamedTuple):
         box = self.paper.box
         plots = tuple(plot for one in self.figures for plot in one.drawing.plots)
         return Drawing(self.title, self.language, box.width, box.height, self.items, plots)
-
-    @property
-    def filled(self) -> float:
-        """Which share of the paper in the frame, but for the title block, figures cover."""
-        field, block = self.paper.frame, self.paper.reserved
-        covered = sum(one.ink.width * one.ink.height for one in self.figures)
-        return covered / (field.width * field.height - block.width * block.height)
 
     def figure(self, name: str) -> Fit:
         """Return a figure by its name."""

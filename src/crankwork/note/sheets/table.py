@@ -5,15 +5,16 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.locale import decimal
 from crankwork.quantities import Language
-from crankwork.show.paper import WIDER, Paper, text_width
+from crankwork.show.paper import WIDER, Paper, fitted_lines, text_width
 from crankwork.show.place import here
-from crankwork.show.scene import Drawing
+from crankwork.show.scene import Drawing, flowed
 
 _ROW, _PAD, _BETWEEN, _DIGITS = 13.0, 4.0, 8.0, 4
 _THICK, _THIN = 1.0, 0.4
@@ -94,3 +95,19 @@ def _draw(
     for column, left, width in zip(columns, sides, widths, strict=False):
         for at, text in enumerate((column.head, *column.cells)):
             hand.text(left + width / 2, levels[at] + row / 2 + 0.22 * _ROW, text, size=size, anchor="middle")
+
+
+def text_block(entries: list[str], title: str, language: Language) -> Drawing:
+    """Return entries in rows, as many as fit beside each other."""
+    size, row = 8.5, 14.0
+    # letters of a reader may be wider
+    width = 0.82 * here().width
+    rows = [
+        line
+        for one in flowed(entries, ";   ", width, partial(text_width, size=size))
+        for line in fitted_lines(one, size, width)
+    ]
+    hand = Paper(here().width, row * len(rows))
+    for at, text in enumerate(rows):
+        hand.text(0.0, row * (at + 0.7), text, size=size)
+    return hand.drawing(title, language)

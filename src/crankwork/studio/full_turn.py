@@ -1,0 +1,59 @@
+"""What a crank that turns back needs to turn fully: the least change of one length."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from crankwork.analysis import Results
+from crankwork.analysis.full_turn import full_turn_bounds
+from crankwork.description.document import Description
+from crankwork.errors import CrankworkError
+from crankwork.locale import Language, say
+from crankwork.locale.numbers import number
+from crankwork.mechanism.mechanism import Crank
+from crankwork.units import from_si
+
+_DIGITS = 3
+# of what is found between dense positions
+_ROUNDING = 1e-6
+
+
+def full_turn(
+    description: Description, results: Results, handles: Iterable[Mapping[str, Any]], language: Language
+) -> dict[str, str] | None:
+    """Return what a crank that turns back needs to turn fully, where the change of one length is enough."""
+    way, mechanism = results.machine.way, results.machine.mechanism
+    if way is None or way.is_whole or not isinstance(mechanism.driver, Crank):
+        return None
+    stated = {one["key"]: one for one in handles}
+    choices = []
+    for bound in full_turn_bounds(mechanism):
+        one = stated.get(bound.key)
+        if one is None or one["power"] != 1:
+            continue
+        value = _rounded(float(from_si(bound.length, one["unit"])), bound.sign)
+        if value > 0:
+            choices.append((abs(value / one["number"] - 1), bound, f"{value:g} {one['unit']}", value))
+    for _, bound, written, value in sorted(choices):
+        try:
+            other = description.machine([f"{bound.key}={written}"])
+        except CrankworkError:
+            continue
+        if other.way is None or other.way.is_whole:
+            name = bound.key.rpartition(".")[0].removeprefix("links.")
+            name = bound.key if name.isdigit() else name
+            shown = f"{number(value, language)} {stated[bound.key]['unit']}"
+            ends = {key: number(round(at, 1), language) for key, at in (("start", way.start), ("end", way.end))}
+            text = say("studio.full_turn", language, name=name, sign=bound.sign, value=shown, **ends)
+            return {"key": bound.key, "value": written, "text": text, "use": say("studio.use", language, value=shown)}
+    return None
+
+
+def _rounded(value: float, sign: str) -> float:
+    """Return a bound with few digits, on the side where it holds."""
+    step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) + 1 - _DIGITS)
+    parts = value / step
+    whole = math.ceil(parts - _ROUNDING * abs(parts)) if sign == "≥" else math.floor(parts + _ROUNDING * abs(parts))
+    return round(whole * step, 12)

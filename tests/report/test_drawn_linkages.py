@@ -1,0 +1,231 @@
+"""The moving drawing of a linkage, link by link: joints, blocks, numbers, gas between pistons."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crankwork import analyse, read, read_machine
+from crankwork.analysis.skeleton import skeleton
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.machine import Machine
+from crankwork.mechanism.description import linkage_from
+from crankwork.mechanism.mechanism import slider_crank
+from crankwork.mechanism.structure import structure
+from crankwork.report.drawing import drawn, moving_drawing
+from crankwork.show.moving_svg import moving_svg
+from crankwork.show.scene import Polyline, extent
+from linkages import LINKAGES, SHAPER
+
+ROOT = Path(__file__).parents[2]
+FRAMES = 24
+
+
+@pytest.fixture(params=LINKAGES, name="linkage")
+def _linkage(request):
+    return LINKAGES[request.param]
+
+
+def _film(linkage, **options):
+    return moving_drawing(linkage, frames=FRAMES, **options)
+
+
+def _parts(film, kind):
+    """Return the parts of a kind by the rest of their names."""
+    return {one.name.partition(".")[2]: one for one in film.parts if one.name.startswith(f"{kind}.")}
+
+
+def _corners(part, frame):
+    (outline,) = part.at(frame if len(part.shift) > 1 else 0)
+    return outline.points
+
+
+def test_joints_are_where_the_motion_says(linkage):
+    film, shape = _film(linkage), skeleton(linkage)
+    moving = linkage_motion(linkage, CrankGrid.from_degrees(np.arange(FRAMES + 1) * 360 / FRAMES))
+    joints = _parts(film, "joint")
+    pivot = next(name for name, at in shape.pivots.items() if at == linkage.crank.pivot)
+    centre, pin = joints[pivot].shift, joints[linkage.crank.pin].shift
+    scale = np.hypot(*(pin - centre).T).mean() / linkage.crank.radius
+    expected = {name: at for name, at in moving.points.items() if name in shape.letters and name not in shape.pivots}
+    assert joints.keys() == {*expected, *shape.pivots}
+    for name, point in expected.items():
+        place = np.column_stack([point.x.position, point.y.position]) - linkage.crank.pivot
+        np.testing.assert_allclose(joints[name].shift - centre, scale * place, atol=1e-6)
+
+
+def test_links_keep_their_length_and_end_in_their_joints(linkage):
+    film, shape = _film(linkage), skeleton(linkage)
+    joints = {name: np.broadcast_to(one.shift, (FRAMES + 1, 2)) for name, one in _parts(film, "joint").items()}
+    for name, link in _parts(film, "link").items():
+        member = shape.member(name.rpartition(".")[0])
+        for frame in (0, 5, 11, 20):
+            nodes = _corners(link, frame)
+            ends = [one for one in member.points if np.hypot(*(nodes - joints[one][frame]).T).min() < 1e-6]
+            assert len(ends) >= min(1, len(member.points)), name
+            assert np.hypot(*(nodes[1] - nodes[0])) == pytest.approx(
+                np.hypot(*np.diff(_corners(link, 0)[:2], axis=0)[0])
+            )
+
+
+def test_every_link_is_drawn_and_numbered(linkage):
+    film, shape = _film(linkage), skeleton(linkage)
+    names = [one.name.split(".") for one in film.parts]
+    assert {one.name for one in shape.members} <= {one[1] for one in names if one[0] in {"link", "slot", "block"}}
+    written = [one.items[0].text for one in _parts(film, "text").values()]
+    assert sorted(int(one) for one in written if one.isdecimal()) == list(range(len(shape.members) + 1))
+
+
+def test_blocks_stay_in_their_slots(linkage):
+    film, shape = _film(linkage), skeleton(linkage)
+    slots = {name.rpartition(".")[0]: one for name, one in _parts(film, "slot").items()}
+    for name, block in _parts(film, "block").items():
+        guide = shape.member(name).guide
+        if guide.link:
+            slot = slots[guide.link]
+            turn = np.radians(slot.turn)
+            along = np.sum((block.shift - slot.shift) * np.column_stack([np.cos(turn), np.sin(turn)]), axis=1)
+            assert np.all(np.abs(along) < 0.96 * slot.items[0].points[:, 0].max())
+
+
+def test_nothing_leaves_the_picture(linkage):
+    film = _film(linkage)
+    for frame in range(0, FRAMES, 5):
+        drawn = film.still(frame)
+        for one in map(extent, drawn.items):
+            assert one.left >= 0
+            assert one.bottom >= 0
+            assert one.right <= drawn.width
+            assert one.top <= drawn.height
+
+
+def test_a_drawing_is_small_quick_to_read_and_the_same_every_time(linkage):
+    text = moving_svg(_film(linkage))
+    assert text == moving_svg(_film(linkage))
+    assert len(text) < 70_000
+
+
+def test_numbers_follow_the_formula_of_structure():
+    found, _ = structure(linkage_from(SHAPER)[0])
+    members = skeleton(LINKAGES["described shaper"], found.links).members
+    assert {one.name: one.number for one in members} == {"crank": 1, "lever": 2, "link": 3, "block": 4, "ram": 5}
+    machine = Machine(LINKAGES["described shaper"], 10.0, linkage=linkage_from(SHAPER)[0])
+    assert "4 – block" in _film(machine).about
+
+
+def test_points_keep_the_names_of_the_owner_and_catalog_points_get_letters():
+    assert skeleton(LINKAGES["class III"]).letters == {name: name for name in "OABCDEF"}
+    letters = skeleton(LINKAGES["slotted press"]).letters
+    assert list(letters.values()) == ["O", "A", "B", "C", "D", "S2", "S3"]
+    assert set(skeleton(slider_crank(0.05, 0.2)).letters.values()) == {"O", "A", "B"}
+
+
+@pytest.mark.parametrize("name", ["opposed-pistons", "beta-stirling", "double-acting-steam"])
+def test_gas_of_a_linkage_ends_at_its_pistons_and_heads(name):
+    """The pistons move as their linkage says, the gas between them is as long as its volume says."""
+    results = analyse(read_machine((ROOT / "examples" / f"{name}.toml").read_text("utf-8")))
+    film = moving_drawing(results)
+    assert "block" in {one.name.partition(".")[0] for one in film.parts}
+    pistons, gases = _parts(film, "block"), _parts(film, "gas")
+    assert gases.keys() == results.machine.chambers.keys()
+    for chamber, one in gases.items():
+        faces = results.machine.chambers[chamber].faces
+        turn = math.radians(one.turn[0])
+        along = np.array([math.cos(turn), math.sin(turn)])
+        ends = [one.shift @ along, one.shift @ along + one.stretch]
+        sides = []
+        for face in faces:
+            body = pistons[face.slider]
+            length = np.ptp(body.items[0].points[:, 0]) / 2
+            sides += [body.shift @ along - length, body.shift @ along + length]
+            assert np.ptp(body.items[0].points[:, 1]) == pytest.approx(np.ptp(one.items[0].points[:, 1]))
+        for end in ends:
+            touches = min(np.abs(end - side).max() for side in sides)
+            # within a thousandth of a millimetre at every frame, or a head that stands
+            assert touches < 1e-3 or (len(faces) == 1 and np.ptp(end) < 1e-3)
+        pressure = results.columns_at(film.angles % 360, [f"gas_pressure.{chamber}"])[f"gas_pressure.{chamber}"]
+        assert np.all(np.diff(one.tint[np.argsort(pressure)]) > -1e-9)
+
+
+@pytest.mark.parametrize("name", ["opposed-pistons", "beta-stirling", "double-acting-steam", "atkinson"])
+def test_gas_of_a_linkage_is_darker_the_higher_its_pressure_in_all_its_chambers(name):
+    """Of every still: what is filled between pistons, by the pressure that its chamber has at that angle."""
+    results = analyse(read_machine((ROOT / "examples" / f"{name}.toml").read_text("utf-8")))
+    film = moving_drawing(results)
+    keys = [f"gas_pressure.{one}" for one in results.machine.chambers]
+    columns = results.columns_at(np.mod(film.angles[:-1], results.machine.cycle), keys)
+    seen = []
+    for frame in range(0, film.frames, 3):
+        fills = [one.fill for one in film.still(frame).items if isinstance(one, Polyline) and one.name == "gas"]
+        seen += zip((columns[key][frame] for key in keys), fills, strict=True)
+    fill = np.array(sorted(seen))[:, 1]
+    assert np.all(np.diff(fill) < 1e-9)
+    assert np.ptp(fill) > 0.5
+    assert not any("flash" in one.name for one in film.parts)
+
+
+def test_a_piston_with_gas_on_both_sides_has_a_rod_and_a_crosshead():
+    film = moving_drawing(analyse(read(ROOT / "examples" / "double-acting-steam.toml")))
+    parts = {one.name: one for one in film.parts}
+    piston, head, rod, joint = (
+        parts[name] for name in ("block.piston", "crosshead.piston", "link.piston.1", "joint.B")
+    )
+    np.testing.assert_allclose(head.shift, joint.shift, atol=1e-9)
+    apart = np.hypot(*(piston.shift - joint.shift).T)
+    assert np.ptp(apart) < 1e-9
+    # no farther than the rod reaches, and the crosshead clear of the cylinder
+    assert np.ptp(rod.items[0].points[:, 0]) == pytest.approx(apart[0] - np.ptp(piston.items[0].points[:, 0]) / 2)
+    cover = max(
+        one.points[:, 0].max() for one in film.ground.items if isinstance(one, Polyline) and one.kind == "thick"
+    )
+    assert head.shift[:, 0].min() + head.items[0].points[:, 0].min() > cover
+
+
+DRAWN = ("opposed-pistons", "excavator-boom", "atkinson", "andrews-squeezer", "knuckle-press", "double-acting-steam",
+         "press-geometry", "press-start", "parallelogram")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_numbers_stand_beside_their_links(name):
+    """Those of all links are there; at most angles no other link is nearer."""
+    machine = read(ROOT / "examples" / f"{name}.toml")
+    film = moving_drawing(analyse(machine))
+    found, _ = structure(machine.linkage)
+    numbers = {str(at): link for at, link in enumerate(found.links, start=1)}
+    texts = {one.items[0].text: one for one in film.parts if one.name.startswith("text.")}
+    assert texts.keys() >= numbers.keys()
+    for text, link in numbers.items():
+        wrong = []
+        for frame in range(film.frames):
+            (letters,) = texts[text].at(frame if len(texts[text].shift) > 1 else 0)
+            at = np.array([letters.place[0], letters.place[1] + letters.height / 2])
+            apart = {}
+            for one in film.parts:
+                kind, _, of = one.name.partition(".")
+                if kind in ("link", "block", "crosshead", "slot"):
+                    of = of.rpartition(".")[0] if kind in ("link", "slot") else of
+                    near = min(_distance(at, item) for item in one.at(frame if len(one.shift) > 1 else 0))
+                    apart[of] = min(near, apart.get(of, math.inf))
+            own = apart.pop(link)
+            wrong.append(own > min(apart.values()) + 1.0)
+        assert np.mean(wrong) < 0.34, (text, link, np.mean(wrong))
+
+
+def _distance(at, item):
+    """Return how far a point is from the lines of an item, nothing within what is filled. [mm]"""
+    points = np.vstack([item.points, item.points[:1]]) if item.closed else item.points
+    start, way = points[:-1], np.diff(points, axis=0)
+    share = np.clip(np.sum((at - start) * way, axis=1) / np.maximum(np.sum(way**2, axis=1), 1e-12), 0, 1)
+    return float(np.hypot(*(start + share[:, None] * way - at).T).min())
+
+
+def test_the_scale_of_large_forces_is_told_in_kilonewtons():
+    results = analyse(read(ROOT / "examples" / "excavator-boom.toml"))
+    told = re.search(r"= ([\d.]+) (k?N)/mm", drawn(results, "svg", "print", 1.0, forces=True).decode())
+    assert told[2] == "kN"
+    assert float(told[1]) == 10

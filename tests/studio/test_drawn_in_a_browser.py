@@ -1,0 +1,226 @@
+"""A linkage as a person draws it in the studio."""
+
+from __future__ import annotations
+
+from tests.studio.hands import begin_drawing, draw_slider_crank, field, settled, source
+
+
+def canvas(page):
+    page.locator("#draw").click()
+    # what is missing stands below, and takes its room
+    settled(page)
+    matrix = "one => { const { a, e, f } = one.getScreenCTM(); return [a, e, f]; }"
+    scale, left, top = page.locator("svg.sketch").evaluate(matrix)
+    return lambda x, y: (left + x * scale, top + y * scale)
+
+
+def draw_four_bar(page):
+    at = canvas(page)  # the first action
+    for x, y in ((60, 120), (60, 90), (140, 60)):  # three more
+        page.mouse.click(*at(x, y))
+        settled(page)
+    page.mouse.dblclick(*at(150, 120))  # the fifth
+    page.wait_for_function("() => document.getElementById('source').value.includes('radius = \"30 mm\"')")
+    settled(page)
+
+
+def test_a_four_bar_is_drawn_in_six_actions_and_moves(seen):
+    page = seen(reduced_motion="no-preference")
+    draw_four_bar(page)
+    assert "[positions]" in source(page)
+    assert page.locator("#film [data-part]").count() > 0
+    before = page.locator("#shown").inner_text()
+    page.wait_for_function("before => document.getElementById('shown').textContent !== before", arg=before)
+    at = canvas(page)
+    assert page.locator("svg.sketch circle").count() == 4
+    page.mouse.move(*at(100, 75))
+    page.mouse.down()
+    page.mouse.move(*at(95, 45), steps=3)
+    page.mouse.up()
+    page.wait_for_function("() => document.getElementById('source').value.includes('points')")
+    settled(page)
+    assert page.locator('#film [data-part="joint.D"]').count() == 1
+    at = canvas(page)
+    page.mouse.move(*at(140, 60))
+    page.mouse.down()
+    page.mouse.move(*at(140, 50), steps=3)
+    page.mouse.up()
+    page.wait_for_function("() => document.getElementById('source').value.includes('\"89.4 mm\"')")
+    settled(page)
+    assert page.locator("#undo").get_attribute("title") == "Draw"
+
+
+def test_what_was_drawn_goes_and_comes_with_its_entry_of_the_history(seen):
+    page = seen()
+    before = source(page)
+    draw_four_bar(page)
+    page.locator("#undo").click()
+    settled(page)
+    assert source(page) == before
+    canvas(page)
+    # the machine of the template was not drawn
+    assert page.locator("svg.sketch circle").count() == 0
+    page.locator("#redo").click()
+    settled(page)
+    assert "[positions]" in source(page)
+    page.reload()
+    page.wait_for_selector(".figures svg")
+    settled(page)
+    canvas(page)
+    assert page.locator("svg.sketch circle").count() == 4
+    assert page.locator("#refusals li").count() == 0
+
+
+def test_a_slider_crank_is_drawn_by_keys_alone(seen):
+    page = seen()
+    draw_slider_crank(page)
+    assert 'radius = "25 mm"' in source(page)
+    assert page.locator("#refusals li").count() == 0
+    assert page.locator("#film [data-part]").count() > 0
+
+
+def test_what_is_missing_of_a_drawing_is_said(seen):
+    page = seen()
+    at = canvas(page)
+    for x, y in ((60, 120), (60, 90), (120, 60), (160, 80)):
+        page.mouse.click(*at(x, y))
+    page.mouse.dblclick(*at(180, 120))
+    page.wait_for_selector("#refusals li")
+    assert "2 degrees of freedom" in page.locator("#refusals li").inner_text()
+    assert page.locator("svg.sketch circle").count() == 5
+
+
+def test_digits_set_the_length_of_the_next_link(seen):
+    page = seen()
+    at = canvas(page)
+    page.mouse.click(*at(60, 120))
+    page.mouse.move(*at(60, 95))
+    page.keyboard.type("32,5")
+    settled(page)
+    assert "32,5 mm" in page.locator("#chip").inner_text()
+    for x, y in ((60, 95), (140, 60)):
+        page.mouse.click(*at(x, y))
+        settled(page)
+    page.mouse.dblclick(*at(150, 120))
+    page.wait_for_function("() => document.getElementById('source').value.includes('[positions]')")
+    assert 'radius = "32.5 mm"' in source(page)
+
+
+def test_a_chain_goes_on_from_a_pin_keeps_what_was_typed_and_a_mass_comes_with_its_place(seen):
+    page = seen()
+    draw_four_bar(page)
+    field(page, "crank.speed").fill("300 rpm")
+    field(page, "crank.speed").press("Enter")
+    settled(page)
+    at = canvas(page)
+    page.mouse.click(*at(140, 60))
+    page.mouse.click(*at(200, 60))
+    page.mouse.dblclick(*at(210, 120))
+    page.wait_for_function("() => document.getElementById('source').value.includes('\\n5 = ')")
+    settled(page)
+    assert '"300 rpm"' in source(page)
+    assert page.locator("#refusals li").count() == 0
+    assert page.locator('#film [data-part^="link."]').count() == 5
+    page.get_by_label("Add a field ... links.2", exact=True).select_option("links.2.mass")
+    settled(page)
+    assert page.locator("#refusals li").count() == 0
+    torques = page.locator("#add option[value=torques]"), page.locator('.figures [data-name="torques"]')
+    assert sum(one.count() for one in torques) == 1
+
+
+def beside(page):
+    return page.locator("#chip").inner_text()
+
+
+def below(page):
+    settled(page)
+    return page.locator(".missing").inner_text()
+
+
+def test_a_four_bar_with_a_coupler_point_takes_six_actions_and_says_what_each_will_do(seen):
+    page = seen()
+    at = canvas(page)  # the first action
+    page.mouse.move(*at(60, 120))
+    assert beside(page) == "click: a pin on the ground, where the driving link begins"
+    page.mouse.click(*at(60, 120))
+    page.mouse.move(*at(60, 90))
+    assert beside(page) == "click: link O 30.0 mm ∠ 90°; double-click: its end on the ground"
+    page.mouse.click(*at(60, 90))
+    assert below(page) == "W = 1 · I(0,1)"
+    page.mouse.click(*at(140, 60))
+    assert below(page) == "W = 2 · let B slide (S), or go on to a further pin"
+    page.mouse.move(*at(100, 75))
+    assert beside(page) == "drag: a point of this link; click: go on from it"
+    page.mouse.down()  # the fifth
+    page.mouse.move(*at(95, 45), steps=3)
+    page.mouse.up()
+    page.mouse.move(*at(60, 120))
+    assert beside(page) == "click: join O; the chain ends there"
+    page.mouse.dblclick(*at(150, 120))  # the sixth
+    page.wait_for_function("() => document.getElementById('source').value.includes('radius = \"30 mm\"')")
+    settled(page)
+    assert page.locator("#refusals li").count() == 0
+    assert page.locator("#film [data-part^='joint.']").count() == 5
+
+
+def test_a_four_bar_with_a_coupler_point_is_drawn_by_keys_with_typed_lengths_and_directions(seen):
+    page = seen()
+    begin_drawing(page)
+    for length, angle, end in (("3 cm", "90", "Enter"), ("85,4", "20.5 deg", "Enter")):
+        page.keyboard.type(length)
+        page.keyboard.press("Tab")
+        page.keyboard.type(angle)
+        page.keyboard.press(end)
+        settled(page)
+    for key in ["ArrowLeft"] * 8 + ["ArrowUp"] * 2 + ["p"]:
+        page.keyboard.press(key)
+    page.keyboard.type("60.8")
+    page.keyboard.press("Tab")
+    page.keyboard.type("-80")
+    assert beside(page).startswith("B: 60.8 mm ∠ -80°")
+    page.keyboard.press("Control+Enter")
+    page.wait_for_function("() => document.getElementById('source').value.includes('radius')")
+    settled(page)
+    text = source(page)
+    assert all(one in text for one in ('radius = "30 mm"', 'length = "85.4 mm"', 'length = "60.8 mm"', "points"))
+    assert page.locator("#refusals li").count() == 0
+
+
+def test_what_is_typed_wrongly_is_refused_beside_the_pointer_and_stays(seen):
+    page = seen()
+    at = canvas(page)
+    page.mouse.click(*at(60, 120))
+    page.mouse.move(*at(60, 95))
+    page.keyboard.type("-3")
+    settled(page)
+    assert beside(page) == 'O: -3 mm · "-3 mm" is out of range; write at least "0.001 mm" and at most "100000 mm"'
+    page.keyboard.press("Enter")
+    assert page.locator("svg.sketch circle").count() == 1
+    page.keyboard.press("Escape")
+    page.keyboard.type("1,7 cm")
+    page.keyboard.press("Enter")
+    settled(page)
+    assert page.locator("svg.sketch circle").count() == 2
+    assert page.locator("svg.sketch line.link").get_attribute("y2") == "103"
+
+
+def test_a_chain_goes_on_from_the_middle_of_a_link_and_other_links_keep_their_names(seen):
+    page = seen()
+    draw_four_bar(page)
+    at = canvas(page)
+    page.mouse.click(*at(100, 75))
+    page.mouse.click(*at(110, 40))
+    page.mouse.dblclick(*at(180, 40))
+    page.wait_for_function("() => document.getElementById('source').value.includes('\\n5 = ')")
+    settled(page)
+    assert page.locator("#refusals li").count() == 0
+    assert "points = { D = [" in source(page)
+    page.get_by_label("Add a field ... links.5", exact=True).select_option("links.5.mass")
+    settled(page)
+    at = canvas(page)
+    page.mouse.move(*at(150, 120))
+    page.keyboard.press("Delete")
+    page.wait_for_function("() => !document.getElementById('source').value.includes('\\n3 = ')")
+    settled(page)
+    assert '\n5 = { joins = ["E", "F"]' in source(page)
+    assert "mass" in source(page).split("\n5 = ")[1].split("\n")[0]
