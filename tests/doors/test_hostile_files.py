@@ -34,13 +34,20 @@ HOSTILE: dict[str, tuple[bytes, str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("data", "answered"), HOSTILE.values(), ids=HOSTILE)
-def test_a_hostile_file_is_refused_at_once(crankwork, check_mistakes, data, answered) -> None:
+def _spent(crankwork, data):
+    """Return the processor time that a file takes, and the answer. [s]"""
     Path("my.toml").write_bytes(data)
     started = time.process_time()
     answer = crankwork("check", "my.toml")
-    # what is read takes half a second, and four times that while coverage is measured
-    assert time.process_time() - started < (1.0 if "parts" in answered else 5.0)
+    return time.process_time() - started, answer
+
+
+@pytest.mark.parametrize(("data", "answered"), HOSTILE.values(), ids=HOSTILE)
+def test_a_hostile_file_is_refused_at_once(crankwork, check_mistakes, data, answered) -> None:
+    ordinary = min(_spent(crankwork, template("engine").encode())[0] for _ in range(3))
+    spent, answer = _spent(crankwork, data)
+    # an ordinary file takes a hundredth of a second, more where coverage is measured or the machine is shared
+    assert spent < ordinary * (20 if "parts" in answered else 150)
     check_mistakes(answer)
     assert answered in answer.err, answer.err[:2000]
     assert len(answer.err) < 20_000

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import inspect
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -383,12 +384,17 @@ class Values(dict[str, Any]):
 
     def made(self, kind: Callable[..., Made], **others: Any) -> Made:  # noqa: ANN401 - each field has its own type
         """Return an object that has these values in SI in fields of the same names, and `others`."""
-        own = {name: self.si(name) for name in inspect.signature(kind).parameters if name in self.table.keys}
+        own = {name: self.si(name) for name in _fields_of(kind) if name in self.table.keys}
         return kind(**{**own, **others})
 
     def but(self, **changes: Any) -> Values:  # noqa: ANN401 - each kind has its own type
         """Return these values with others in their place."""
         return Values({**self, **changes}, self.table)
+
+
+@functools.cache
+def _fields_of(kind: Callable[..., Any]) -> tuple[str, ...]:
+    return tuple(inspect.signature(kind).parameters)
 
 
 def _degrees(angle: Measure) -> float:
