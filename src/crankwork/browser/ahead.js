@@ -1,4 +1,5 @@
 // What the studio calculates by itself while a number is held: asked for before the first move, and drawn at each.
+import { Between } from "./between.js";
 import { FollowingFigure } from "./following.js";
 import { Joints } from "./joints.js";
 import { Lines } from "./lines.js";
@@ -14,8 +15,8 @@ import { Live } from "./sliders.js";
  */
 
 /**
- * What is bound while a number is held: the calculation, its curves, figures that follow, joints of the machine.
- * @typedef {{live: Live, lines: Lines, figures: FollowingFigure[], joints: Joints | undefined, degrees: number}} Bound
+ * What is bound while a number is held: the calculation, its curves, figures that follow, joints of the machine or films of it.
+ * @typedef {{live: Live, lines: Lines, figures: FollowingFigure[], joints: Joints | undefined, films: Between, degrees: number}} Bound
  */
 
 // numbers that are kept ready
@@ -28,7 +29,7 @@ export class Ahead {
    * @param {{beside: (key: string) => string, ask: (key: string, beside: string) => void,
    *   bound: (name: string, bind: (cursor: import("./cursor.js").Cursor) => void) => void,
    *   figure: (name: string, ahead: any, columns: Record<string, import("./numbers.js").Column>) => FollowingFigure | undefined,
-   *   film: () => import("./machine.js").Film | undefined, cursor: () => import("./cursor.js").Cursor | undefined}} page
+   *   film: () => import("./machine.js").Film | undefined, filmed: (drawn: string, film: import("./machine.js").FilmData) => void, cursor: () => import("./cursor.js").Cursor | undefined}} page
    */
   constructor(page) {
     this.page = page;
@@ -84,16 +85,19 @@ export class Ahead {
     }
     if (this.held?.ready !== ready) this.hold(ready);
     const { data, behind, stays } = ready.ahead;
-    const { live, lines, figures, joints, degrees } = /** @type {{ready: Ready, bound: Bound}} */ (this.held).bound;
+    const { live, lines, figures, joints, films, degrees } = /** @type {{ready: Ready, bound: Bound}} */ (this.held).bound;
     const [field] = data.sliders.fields;
-    if (!live.take([Number(number) * field.scale + field.origin])) return undefined;
+    const value = Number(number) * field.scale + field.origin;
+    if (!live.take([value])) return undefined;
     for (const one of figures) {
       if (live.moved) one.follow(lines);
       else one.back();
     }
     const cursor = this.page.cursor();
     if (joints && cursor) joints.draw(cursor.at * degrees);
-    return { figures: behind, machine: stays };
+    const film = stays ? films.at(value) : undefined;
+    if (film) this.page.filmed(film.drawn, film.film);
+    return { figures: behind, machine: stays && !film };
   }
 
   /**
@@ -115,7 +119,8 @@ export class Ahead {
     const drawn = Object.keys(figures).filter((name) => !behind.includes(name)).flatMap((name) => this.page.figure(name, ready.ahead, columns) ?? []);
     const joints = film && sliders.joints ? new Joints(film, live, sliders.joints) : undefined;
     this.page.bound("joints", (cursor) => joints && cursor.follow(() => joints.draw(cursor.at * degrees)));
-    this.held = { ready, bound: { live, lines: new Lines(live.calculation, degrees), figures: drawn.filter((one) => one.follows), joints, degrees } };
+    const films = new Between(ready.ahead.films);
+    this.held = { ready, bound: { live, films, lines: new Lines(live.calculation, degrees), figures: drawn.filter((one) => one.follows), joints, degrees } };
   }
 
   /**

@@ -55,7 +55,8 @@ export class Lines {
     const { x, y, level } = /** @type {import("./curves.js").Made} */ (curve.made);
     if (level) {
       const value = calculation.values[calculation.data.values[level[0]]] * level[1];
-      return { x: curve.values().x, y: [value, value], angles: undefined };
+      const { x: across } = curve.values();
+      return { x: across, y: across.map(() => value), angles: undefined };
     }
     const angles = curve.home.angles ?? [];
     const [first, last] = plot.over ? [angles[0] * degrees, angles[angles.length - 1] * degrees] : [angles[0], angles[angles.length - 1]];

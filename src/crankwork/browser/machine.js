@@ -10,8 +10,8 @@
 
 /**
  * A film: crank angle of each frame, how many degrees a unit of the cursor is, whether the crank turns fully; values of
- * parts, or in brackets the number of a track: hundredths by their second differences.
- * @typedef {{angles: number[], degrees: number, turns: boolean, seconds: number, tracks: string[],
+ * parts, or in brackets the number of a track: its values, or hundredths by their second differences.
+ * @typedef {{angles: number[], degrees: number, turns: boolean, seconds: number, tracks: (string | number[])[],
  *   parts: Record<string, Record<string, number | [number]>>}} FilmData
  */
 
@@ -112,9 +112,11 @@ function along(track, frame, usual) {
 
 /**
  * Return the values of a track.
- * @param {string} packed
+ * @param {string | number[]} packed
+ * @returns {number[]}
  */
-function smooth(packed) {
+export function smooth(packed) {
+  if (Array.isArray(packed)) return packed;
   let [step, sum] = [0, 0];
   return packed.split(" ").map((one) => (sum += step += Number(one)) / 100);
 }

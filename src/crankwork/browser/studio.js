@@ -101,6 +101,7 @@ class StudioPage {
         return frame ? this.figure(frame, name, found, columns) : undefined;
       },
       film: () => this.film,
+      filmed: (drawn, film) => this.filmed(drawn, film),
       cursor: () => this.cursor,
     });
     this.bind();
@@ -349,22 +350,30 @@ class StudioPage {
    */
   drawHeld(answer) {
     const columns = columnsOf(answer.data);
-    const before = room("film").querySelector("svg");
-    if (before && !this.sketch && answer.film) {
-      const view = before.getAttribute("viewBox") ?? "";
-      const focused = before === document.activeElement;
-      before.outerHTML = answer.film;
-      const svg = /** @type {SVGSVGElement} */ (room("film").querySelector("svg"));
-      // what is seen stands still under the pointer
-      svg.setAttribute("viewBox", view);
-      this.bound("machine", (cursor) => (this.film = new Film(svg, answer.data.film, cursor)));
-      this.walk.take(focused);
-      if (/** @type {HTMLInputElement | null} */ (document.getElementById("traces"))?.checked) this.film?.trace();
-    }
+    if (answer.film) this.filmed(answer.film, answer.data.film);
     for (const one of /** @type {NodeListOf<HTMLElement>} */ (room("diagrams").querySelectorAll(".figures > figure"))) {
       const name = one.dataset.name ?? "";
       if (answer.figures[name]) this.figure(one, name, answer, columns);
     }
+  }
+
+  /**
+   * Show the machine as it is while a number is held.
+   * @param {string} drawn
+   * @param {import("./machine.js").FilmData} film
+   */
+  filmed(drawn, film) {
+    const before = room("film").querySelector("svg");
+    if (!before || this.sketch) return;
+    const view = before.getAttribute("viewBox") ?? "";
+    const focused = before === document.activeElement;
+    before.outerHTML = drawn;
+    const svg = /** @type {SVGSVGElement} */ (room("film").querySelector("svg"));
+    // what is seen stands still under the pointer
+    svg.setAttribute("viewBox", view);
+    this.bound("machine", (cursor) => (this.film = new Film(svg, film, cursor)));
+    this.walk.take(focused);
+    if (/** @type {HTMLInputElement | null} */ (document.getElementById("traces"))?.checked) this.film?.trace();
   }
 
   /** @param {Answer} answer */

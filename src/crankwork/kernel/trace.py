@@ -365,6 +365,9 @@ class Trace:
             return End(angle, angle, angle)
         of_twins = [one.value or 0.0 for one in self._designs.twins(place.node)]
         low, high = min(of_twins), max(of_twins)
+        if high - low <= _SAME * high:
+            # made of what differs, and there all the same
+            return End(low, low, low)
         spare = _BEYOND * (high - low) + _LEAST_BEYOND
         end = End(place.value, low - spare, high + spare, self.value(place))
         self._ends[end.value.at if end.value else -1] = end, np.array(of_twins)

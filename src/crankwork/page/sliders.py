@@ -194,7 +194,7 @@ class Live:
 
     def _curve(self, name: str, plots: Sequence[Plot]) -> dict[str, Any]:
         x, y = ([one.curves[name][axis] for one in plots] for axis in (0, 1))
-        if all(len(one) == 2 and one[0] == one[1] for one in y):
+        if all(len(one) > 1 and np.ptp(one) == 0 for one in y):
             level = self._single([float(one[0]) for one in y])
             return {"level": level} if level else {}
         if plots[0].over:

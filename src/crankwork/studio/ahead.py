@@ -11,13 +11,16 @@ from crankwork.locale import Language
 from crankwork.note.live import page_data
 from crankwork.page.document import follow
 from crankwork.page.sliders import FAINT, Live
+from crankwork.report.drawing import film_of
 from crankwork.report.language import in_own_units
 from crankwork.show.alt import described
-from crankwork.show.inline import inline_svg
-from crankwork.study.sliders import moved
+from crankwork.show.inline import inline_film, inline_svg
+from crankwork.study.sliders import around, moved
 
 # of a number, how far from it the designs lie that tell what follows it
 _NEAR = 0.02
+# of it, how far from it the machine is filmed: nearer to each other towards the ends, as polynomials ask for
+_FILMED = (-0.25, -0.177, 0.0, 0.177, 0.25)
 
 
 @in_own_units
@@ -26,7 +29,7 @@ def ahead(
 ) -> tuple[dict[str, Any], str]:
     """Return what is drawn anew of figures when a number is moved, what stays behind, and the steps of the calculation.
 
-    `behind`: figures that cannot follow, or only in part; `stays`: whether the machine does.
+    `behind`: figures that cannot follow, or only in part; `stays`: whether the machine does, which goes by `films`.
     """
     made = moved(description, [key], (), results, _NEAR)
     live = Live(made, language, names)
@@ -39,4 +42,14 @@ def ahead(
         name: inline_svg(one, name, one.title, marks[name]) for name, one in live.drawn.items() if name not in behind
     }
     found = {"unit": made.sliders[0].unit, "behind": behind, "stays": stays, "data": data, "figures": figures}
-    return found, steps
+    films = around(description, key, results, _FILMED) if stays else {}
+    return {**found, "films": [_filmed(value, one, language) for value, one in films.items()]}, steps
+
+
+def _filmed(value: float, results: Results, language: Language) -> dict[str, Any]:
+    """Return the machine of a number as a page plays it."""
+    film = film_of(results, language=language)
+    if film is None:
+        return {"value": value, "drawn": "", "film": {"parts": {}}}
+    data = page_data(results, {}, film, language, only_read=True)
+    return {"value": value, "drawn": inline_film(film, "machine"), "film": data["film"]}

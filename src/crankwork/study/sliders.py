@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -78,6 +79,21 @@ def moved(
             continue
         return Moved(tuple(sliders), np.array([*rows, row]), (*found, results))
     return Moved(tuple(sliders), np.array(rows), tuple(found))
+
+
+def around(description: Description, key: str, stated: Results, shares: Sequence[float]) -> dict[float, Results]:
+    """Return the results of machines in which one number is larger or smaller by some shares of it, by what it is. [SI]
+
+    In the order of the shares; none where there is no such machine, and for none the stated one.
+    """
+    number, *_ = _range(description.values_with(()), key, _AROUND)
+    machines, found = _Machines(description, (), [number], stated), dict[float, Results]()
+    for share in shares:
+        value = float(machines.now[0] * (1 + share))
+        if number.low <= value <= number.high:
+            with suppress(CrankworkError):
+                found[value] = machines.results(np.array([value])) if share else stated
+    return found
 
 
 def _range(values: dict[str, object], text: str, around: float) -> tuple[Sought, float, float]:
