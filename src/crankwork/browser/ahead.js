@@ -1,5 +1,5 @@
 // What the studio calculates by itself while a number is held: asked for before the first move, and drawn at each.
-import { Between } from "./between.js";
+import { Between, weightsOf } from "./between.js";
 import { FollowingFigure } from "./following.js";
 import { Joints } from "./joints.js";
 import { Lines } from "./lines.js";
@@ -15,8 +15,9 @@ import { Live } from "./sliders.js";
  */
 
 /**
- * What is bound while a number is held: the calculation, its curves, figures that follow, joints of the machine or films of it.
- * @typedef {{live: Live, lines: Lines, figures: FollowingFigure[], joints: Joints | undefined, films: Between, degrees: number}} Bound
+ * What is bound while a number is held: the calculation, its curves, figures that may follow and those that do, joints of the
+ * machine or films of it.
+ * @typedef {{live: Live, lines: Lines, every: Record<string, FollowingFigure>, figures: FollowingFigure[], joints: Joints | undefined, films: Between, degrees: number}} Bound
  */
 
 // numbers that are kept ready
@@ -85,19 +86,26 @@ export class Ahead {
     }
     if (this.held?.ready !== ready) this.hold(ready);
     const { data, behind, stays } = ready.ahead;
-    const { live, lines, figures, joints, films, degrees } = /** @type {{ready: Ready, bound: Bound}} */ (this.held).bound;
+    const { bound } = /** @type {{ready: Ready, bound: Bound}} */ (this.held);
+    const { live, lines, figures, joints, films, degrees } = bound;
     const [field] = data.sliders.fields;
     const value = Number(number) * field.scale + field.origin;
     if (!live.take([value])) return undefined;
-    for (const one of figures) {
+    const weights = weightsOf(ready.ahead.values, value);
+    lines.weights = weights ?? [];
+    // what the server has drawn once is drawn by it until the number is let go
+    if (!weights) bound.figures = figures.filter((one) => !one.between);
+    for (const one of bound.figures) {
       if (live.moved) one.follow(lines);
       else one.back();
     }
     const cursor = this.page.cursor();
     if (joints && cursor) joints.draw(cursor.at * degrees);
-    const film = stays ? films.at(value) : undefined;
+    const film = stays && films.fits && weights ? films.at(weights) : undefined;
     if (film) this.page.filmed(film.drawn, film.film);
-    return { figures: behind, machine: stays && !film };
+    const followed = new Set(bound.figures);
+    const left = Object.keys(bound.every).filter((name) => bound.every[name].between && !followed.has(bound.every[name]));
+    return { figures: [...behind, ...left], machine: stays && !film };
   }
 
   /**
@@ -116,11 +124,16 @@ export class Ahead {
     const film = this.page.film();
     const degrees = film?.data.degrees ?? 1;
     const live = new Live(sliders, /** @type {Steps} */ (ready.steps), columns);
-    const drawn = Object.keys(figures).filter((name) => !behind.includes(name)).flatMap((name) => this.page.figure(name, ready.ahead, columns) ?? []);
+    /** @type {Record<string, FollowingFigure>} */
+    const every = {};
+    for (const name of Object.keys(figures)) {
+      const one = behind.includes(name) ? undefined : this.page.figure(name, ready.ahead, columns);
+      if (one?.follows) every[name] = one;
+    }
     const joints = film && sliders.joints ? new Joints(film, live, sliders.joints) : undefined;
     this.page.bound("joints", (cursor) => joints && cursor.follow(() => joints.draw(cursor.at * degrees)));
     const films = new Between(ready.ahead.films);
-    this.held = { ready, bound: { live, films, lines: new Lines(live.calculation, degrees), figures: drawn.filter((one) => one.follows), joints, degrees } };
+    this.held = { ready, bound: { live, films, lines: new Lines(live.calculation, degrees), every, figures: Object.values(every), joints, degrees } };
   }
 
   /**

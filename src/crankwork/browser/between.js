@@ -1,12 +1,9 @@
-// The machine between films of it: drawn anew for a number that was not filmed, by polynomials through those that were.
+// What lies between machines that were calculated, by polynomials through them: curves, and the machine as it moves.
 import { smooth } from "./machine.js";
 
 /** @typedef {import("./machine.js").FilmData} FilmData */
 
-/**
- * A film of a machine that differs from others in one number.
- * @typedef {{value: number, drawn: string, film: FilmData}} Filmed
- */
+/** A film of a machine. @typedef {{drawn: string, film: FilmData}} Filmed */
 
 /** What is written, and the numbers in it by film. @typedef {{words: string[], numbers: number[][]}} Written */
 
@@ -15,48 +12,48 @@ const NUMBERS = /-?(?:\d+\.?\d*|\.\d+)/g;
 // where a part stands that a film says nothing of
 const USUAL = /** @type {Record<string, number>} */ ({ stretch: 1, tint: 1 });
 
+/**
+ * Return what each of some values weighs in a polynomial through them, nothing beyond them.
+ * @param {number[]} values rising
+ * @param {number} at
+ * @returns {number[] | undefined}
+ */
+export function weightsOf(values, at) {
+  if (values.length < 3 || !(at >= values[0] && at <= values[values.length - 1])) return undefined;
+  return values.map((one, k) => values.reduce((product, other, j) => (j === k ? product : (product * (at - other)) / (one - other)), 1));
+}
+
+/**
+ * Return the sum of rows, each weighed.
+ * @param {ArrayLike<number>[]} rows
+ * @param {number[]} weights
+ * @returns {number[]}
+ */
+export function mixed(rows, weights) {
+  return Array.from(rows[0], (_, k) => rows.reduce((sum, row, j) => sum + weights[j] * row[k], 0));
+}
+
 export class Between {
-  /**
-   * @param {Filmed[]} films in the order of their numbers
-   */
+  /** @param {Filmed[]} films in the order of their numbers */
   constructor(films) {
     this.films = films;
-    this.values = films.map(({ value }) => value);
-    /** What weighs each film beside the others. */
-    this.own = this.values.map((one, k) => 1 / this.values.reduce((product, other, j) => (j === k ? product : product * (one - other)), 1));
-    const pieces = films.map(({ drawn }) => drawn.match(PIECES) ?? []);
+    const pieces = films.map(({ drawn }) => drawn?.match(PIECES) ?? []);
+    this.parts = Object.keys(films[0]?.film?.parts ?? {});
     /** Whether the films show the same things. */
-    this.fits = films.length > 2 && pieces.every((one) => one.length === pieces[0].length);
+    this.fits = films.length > 2 && pieces.every((one) => one.length && one.length === pieces[0].length)
+      && films.every(({ film }) => film?.angles.length === films[0].film.angles.length && this.parts.every((name) => film.parts[name]));
+    this.known = films.map(({ film }) => film?.tracks.map(smooth) ?? []);
     this.pieces = this.fits ? pieces[0].map((_, k) => written(pieces.map((one) => one[k]))) : [];
-    this.parts = Object.keys(films[0]?.film.parts ?? {});
-    this.fits &&= films.every(({ film }) => film.angles.length === films[0].film.angles.length && this.parts.every((name) => film.parts[name]));
   }
 
   /**
-   * Return what each film weighs at a number, nothing beyond them.
-   * @param {number} value
-   * @returns {number[] | undefined}
+   * Return the machine where films weigh so much.
+   * @param {number[]} weights
+   * @returns {Filmed}
    */
-  weights(value) {
-    const { values } = this;
-    if (!this.fits || !(value >= values[0] && value <= values[values.length - 1])) return undefined;
-    if (values.includes(value)) return values.map((one) => Number(one === value));
-    const every = values.map((one, k) => this.own[k] / (value - one));
-    const sum = every.reduce((a, b) => a + b);
-    return every.map((one) => one / sum);
-  }
-
-  /**
-   * Return the machine as a film of a number would show it, nothing where it lies beyond those that were filmed.
-   * @param {number} value
-   * @returns {{drawn: string, film: FilmData} | undefined}
-   */
-  at(value) {
-    const weights = this.weights(value);
-    if (!weights) return undefined;
+  at(weights) {
     const nearest = weights.indexOf(Math.max(...weights));
-    const mixed = (/** @type {number[]} */ of) => of.reduce((sum, one, k) => sum + weights[k] * one, 0);
-    const drawn = this.pieces.map((one) => (Array.isArray(one) ? one[nearest] : rewritten(one, mixed)));
+    const drawn = this.pieces.map((one) => (Array.isArray(one) ? one[nearest] : rewritten(one, weights)));
     return { drawn: drawn.join(""), film: this.tracked(weights) };
   }
 
@@ -66,8 +63,8 @@ export class Between {
    * @returns {FilmData}
    */
   tracked(weights) {
-    this.tracks ??= this.films.map(({ film }) => film.tracks.map(smooth));
-    const known = this.tracks;
+    const known = this.known;
+    const { angles } = this.films[0].film;
     /** @type {number[][]} */
     const tracks = [];
     /** @type {Map<string, number>} */
@@ -81,8 +78,7 @@ export class Between {
         const mark = JSON.stringify(values);
         if (!places.has(mark)) {
           places.set(mark, tracks.length);
-          const of = values.map((one, k) => (Array.isArray(one) ? known[k][one[0]] : one));
-          tracks.push(this.films[0].film.angles.map((_, frame) => of.reduce((/** @type {number} */ sum, one, k) => sum + weights[k] * (Array.isArray(one) ? one[frame] : one), 0)));
+          tracks.push(mixed(values.map((one, k) => (Array.isArray(one) ? known[k][one[0]] : angles.map(() => one))), weights));
         }
         return [key, [places.get(mark)]];
       }))];
@@ -142,12 +138,12 @@ function shortened(pieces) {
 /**
  * Return a piece with other numbers.
  * @param {Written} piece
- * @param {(of: number[]) => number} mixed
+ * @param {number[]} weights
  */
-function rewritten({ words, numbers }, mixed) {
+function rewritten({ words, numbers }, weights) {
   let text = words[0];
   numbers.forEach((of, k) => {
-    const number = String(Number(mixed(of).toFixed(3)));
+    const number = String(Number(mixed(of.map((one) => [one]), weights)[0].toFixed(3)));
     // what stood apart by its sign or its point alone
     text += (/[\d.]$/.test(text) && !number.startsWith("-") ? " " : "") + number + words[k + 1];
   });

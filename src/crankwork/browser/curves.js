@@ -2,17 +2,19 @@
 import { firstFrom, significant } from "./numbers.js";
 
 /**
- * A curve that follows the sliders: columns across and upward, or the single value where it is level, each with a factor.
- * @typedef {{x?: [string, number], y?: [string, number], level?: [string, number]}} Made
+ * A curve that follows the sliders: columns across and upward, or the single value where it is level, each with a factor;
+ * or its points in machines that it lies between, across the same or one for each, and their crank angles.
+ * @typedef {{x?: [string, number], y?: [string, number], level?: [string, number],
+ *   between?: {x: number[][], y: number[][], at: number[]}}} Made
  */
 
 /**
  * A graph on a drawing: left, top, width and height [mm], ends of its scales, what stands across, titles of its axes;
  * where it follows sliders its curves, ticks, which of these have numbers, and powers of ten that the numbers lack;
- * of a plan of positions what stands upon joints.
+ * of a plan of positions what stands upon joints; numbers in the legend.
  * @typedef {{box: [number, number, number, number], x: [number, number], y: [number, number], over: string,
  *   t: [string, string], curves?: Record<string, Made>, ticks?: [number[], number[]], labels?: [boolean, boolean],
- *   powers?: [number, number], upon?: import("./plans.js").Upon}} Plot
+ *   powers?: [number, number], upon?: import("./plans.js").Upon, told?: import("./following.js").Told[]}} Plot
  */
 
 export class Curve {

@@ -2,9 +2,15 @@
 import { Figure } from "./figure.js";
 import { Frame, span } from "./frame.js";
 import { ghostsOf } from "./pins.js";
+import { printed } from "./numbers.js";
 import { Plans } from "./plans.js";
 
 /** @typedef {import("./numbers.js").Column} Column */
+
+/**
+ * A number in a legend: row, number, key of the single value it is, factor and what is added that take this to its unit.
+ * @typedef {[number, string, string, number, number]} Told
+ */
 
 export class FollowingFigure extends Figure {
   /**
@@ -20,6 +26,7 @@ export class FollowingFigure extends Figure {
       const group = /** @type {SVGGElement | null} */ (svg.querySelector(`g.frame[class$=" ${k}"]`));
       return group ? new Frame(group, plot) : undefined;
     });
+    this.told = data.plots.flatMap(({ told: rows }) => (rows ?? []).flatMap((row) => toldIn(svg, row)));
     this.plans = data.plots.flatMap(({ upon }) => (upon ? [new Plans(svg, upon)] : []));
     /** Curves of variants that are pinned. @type {import("./pins.js").Ghost[]} */
     this.ghosts = [];
@@ -62,6 +69,11 @@ export class FollowingFigure extends Figure {
     if (this.moving.length) this.draw();
   }
 
+  /** Whether any of it lies between machines. */
+  get between() {
+    return this.curves.some((one) => one.made?.between);
+  }
+
   /** Whether any of it follows the sliders. */
   get follows() {
     return this.plans.length > 0 || this.curves.some((one) => one.made);
@@ -72,6 +84,7 @@ export class FollowingFigure extends Figure {
     for (const one of this.frames) one?.back();
     for (const one of this.curves) if (one.plot) one.back();
     for (const one of this.plans) one.back();
+    for (const one of this.told) one.back();
     this.stand();
   }
 
@@ -90,8 +103,30 @@ export class FollowingFigure extends Figure {
       for (const { one, x, y, angles } of drawn) one.through(x, y, angles);
     });
     for (const one of this.plans) one.follow(lines.calculation);
+    for (const one of this.told) one.write(lines.calculation);
     this.settle();
   }
+}
+
+/**
+ * Return where a legend has a number, and what writes it.
+ * @param {SVGSVGElement} svg
+ * @param {Told} row
+ */
+function toldIn(svg, [row, stated, key, factor, added]) {
+  const legend = svg.querySelectorAll("[data-curve=legend] + *")[row];
+  if (!legend) return [];
+  const walker = document.createTreeWalker(legend, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const node = /** @type {Text} */ (walker.currentNode);
+    const text = node.data;
+    if (!text.includes(stated)) continue;
+    const write = (/** @type {import("./calculation.js").Calculation} */ { values, data }) => {
+      node.data = text.replace(stated, printed(Number((values[data.values[key]] * factor + added).toPrecision(4)), 9));
+    };
+    return [{ write, back: () => (node.data = text) }];
+  }
+  return [];
 }
 
 /**

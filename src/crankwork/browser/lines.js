@@ -1,12 +1,14 @@
 // Curves of diagrams as the calculation has them: the nodes that are drawn, over the crank angle or over each other.
+import { mixed } from "./between.js";
 
 /** @typedef {import("./curves.js").Curve} Curve */
 /** @typedef {import("./curves.js").Plot} Plot */
 
 // points of a curve at most
 const MOST = 481;
-// of degrees, what is the same
+// of degrees, what is the same; of those that a curve tells by tenths
 const SAME = 1e-6;
+const NEAR_END = 0.1;
 
 export class Lines {
   /**
@@ -22,6 +24,8 @@ export class Lines {
     const by = [1, 3, 5, gaps].find((one) => gaps % one === 0 && panels * (gaps / one + 1) <= MOST) ?? gaps;
     this.places = Array.from({ length: panels * count }, (_, k) => k).filter((k) => (k % count) % by === 0);
     this.angles = this.places.map((k) => calculation.degrees[k]);
+    /** What machines weigh that other curves lie between. @type {number[]} */
+    this.weights = [];
     /** Which nodes are drawn between two crank angles. @type {Map<string, {inside: number[], at: number[], isCut: boolean}>} */
     this.known = new Map();
   }
@@ -52,7 +56,16 @@ export class Lines {
    */
   of(curve, plot) {
     const { calculation, degrees } = this;
-    const { x, y, level } = /** @type {import("./curves.js").Made} */ (curve.made);
+    const { x, y, level, between } = /** @type {import("./curves.js").Made} */ (curve.made);
+    if (between) {
+      const across = between.x.length === 1 ? between.x[0] : mixed(between.x, this.weights);
+      const found = { x: across, y: mixed(between.y, this.weights), angles: plot.over ? across : between.at };
+      const { at } = between;
+      const [first, last] = [curve.home.angles?.[0] ?? -Infinity, curve.home.angles?.at(-1) ?? Infinity];
+      // a curve with gaps is drawn by its parts
+      const inside = (/** @type {number[]} */ of) => (at.length ? of.filter((_, k) => at[k] > first - NEAR_END && at[k] < last + NEAR_END) : of);
+      return { x: inside(found.x), y: inside(found.y), angles: inside(found.angles) };
+    }
     if (level) {
       const value = calculation.values[calculation.data.values[level[0]]] * level[1];
       const { x: across } = curve.values();

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +15,8 @@ from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Language, Refusal
+from crankwork.locale.numbers import number
+from crankwork.page.between import Between, number_in_legend
 from crankwork.page.joints import is_label, joints_of, upon_joints
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.drawing import film_of
@@ -73,9 +75,18 @@ class Moved(NamedTuple):
 class Live:
     """What of a page follows its sliders."""
 
-    def __init__(self, moved: Moved, language: Language, only: Collection[str] | None = None) -> None:
-        """`only`: the names of the figures that are seen, of which none is drawn beside them."""
-        self._moved, self._results = moved, moved.results
+    def __init__(
+        self,
+        moved: Moved,
+        language: Language,
+        only: Collection[str] | None = None,
+        around: Mapping[float, Results] | None = None,
+    ) -> None:
+        """`only`: the names of the figures that are seen, of which none is drawn beside them.
+
+        `around`: results by the one number that is moved; curves that are not calculated go between those of these.
+        """
+        self._moved, self._results, self._language = moved, moved.results, language
         self.memories = [dict(one.memory) for one in self._results]
         stated = self._results[0]
         self._angles_at, self._cycle = type(stated.grid).from_degrees, stated.machine.cycle
@@ -88,6 +99,9 @@ class Live:
             raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in moved.sliders]))
         self._drawings = [drawings(one, language=language, only=only) for one in self._results]
         self.drawn = self._drawings[0]
+        self._between = Between(
+            list(around or ()), [drawings(one, language=language, only=only) for one in (around or {}).values()]
+        )
         # arrows of forces take room upon the paper, and move nothing
         self._films = [film_of(one, language=language) for one in self._results]
         self._shown = film_of(self._results[0], language=language, forces=True)
@@ -145,7 +159,8 @@ class Live:
         there = [one for one in every if one is not None]
         if len(there) == len(every) and all(one.plots and one.plots[0].metre for one in there):
             return self._upon(there)
-        plots = [self._plot(at, there) for at in range(len(drawn.plots))] if len(there) == len(every) else []
+        others = self._between.drawings(name)
+        plots = [self._plot(at, there, others) for at in range(len(drawn.plots))] if len(there) == len(every) else []
         signs = [Counter(map(_signed, one.items)) for one in there[1:]]
         staying = _staying(there)
         is_same = [
@@ -160,6 +175,9 @@ class Live:
             if is_same[at] or (isinstance(item, Polyline) and item.name in live):
                 continue
             is_legend = isinstance(before, Polyline) and before.name == "legend"
+            if is_legend and live and (told := self._told(at, there)):
+                plots[0].setdefault("told", []).append(told)
+                continue
             is_curve = isinstance(item, Polyline) and item.name
             marks[at] = FAINT if is_legend or is_curve or not live else GONE
         following = {f"frame {at}" for at, one in enumerate(plots) if one["curves"]}
@@ -179,15 +197,19 @@ class Live:
         ]
         return [{"curves": {}, "upon": upon}], marks, differs
 
-    def _plot(self, at: int, drawn: Sequence[Drawing]) -> dict[str, Any]:
-        """Return the curves of a graph that follow, by name, each with what stands across and upward."""
+    def _plot(self, at: int, drawn: Sequence[Drawing], others: Sequence[Drawing]) -> dict[str, Any]:
+        """Return the curves of a graph that follow, by name, each with what stands across and upward.
+
+        `others`: the same drawing of the machines around.
+        """
         plots = [one.plots[at] for one in drawn if at < len(one.plots)]
         found: dict[str, Any] = {"curves": {}}
         if len(plots) < len(drawn):
             return found
         for name in plots[0].curves:
             if all(name in one.curves for one in plots):
-                of = self._curve(name, plots)
+                x = self._moved.designs[: len(plots), 0]
+                of = self._curve(name, plots) or self._between.curve(name, at, x, plots, others)
                 if of:
                     found["curves"][name] = of
         return found | frame_data(plots[0])
@@ -210,6 +232,16 @@ class Live:
             return {}
         across, up = (self._column(name, degrees, of) for of in (x, y))
         return {"x": across, "y": up} if across and up else {}
+
+    def _told(self, at: int, drawn: Sequence[Drawing]) -> list[Any]:
+        """Return the row of a legend that an item is, the number in it, and the single value that it is everywhere."""
+        row, numbers = number_in_legend(at, drawn) or (0, [])
+        for key in self._singles if numbers else ():
+            values = [float(f"{displayed(key, one[key].value):.4g}") for one in self.memories]
+            if [number(one, self._language, digits=9) for one in values] == numbers:
+                self._used[key] = None
+                return [row, numbers[0], key, *scale(key)]
+        return []
 
     def _single(self, values: Sequence[float]) -> list[Any]:
         """Return the single value that a level stands at in all designs, and by what it is multiplied."""

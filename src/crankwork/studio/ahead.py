@@ -19,8 +19,8 @@ from crankwork.study.sliders import around, moved
 
 # of a number, how far from it the designs lie that tell what follows it
 _NEAR = 0.02
-# of it, how far from it the machine is filmed: nearer to each other towards the ends, as polynomials ask for
-_FILMED = (-0.25, -0.177, 0.0, 0.177, 0.25)
+# of it, where machines lie that others are drawn between: nearer to each other towards the ends, as polynomials ask for
+_AROUND = (-0.25, -0.177, 0.0, 0.177, 0.25)
 
 
 @in_own_units
@@ -29,10 +29,12 @@ def ahead(
 ) -> tuple[dict[str, Any], str]:
     """Return what is drawn anew of figures when a number is moved, what stays behind, and the steps of the calculation.
 
-    `behind`: figures that cannot follow, or only in part; `stays`: whether the machine does, which goes by `films`.
+    `behind`: figures that cannot follow, or only in part; `stays`: whether the machine does.
+    What is not calculated goes between `films`, and curves, of machines with other `values` of the number.
     """
     made = moved(description, [key], (), results, _NEAR)
-    live = Live(made, language, names)
+    others = around(description, key, results, _AROUND)
+    live = Live(made, language, names, others)
     data = page_data(results, live.drawn, None, language, only_read=True)
     marks, steps, stays = follow(live, results, data)
     behind = [name for name, one in data["figures"].items() if one.pop("filed", False) or FAINT in marks[name]]
@@ -42,14 +44,14 @@ def ahead(
         name: inline_svg(one, name, one.title, marks[name]) for name, one in live.drawn.items() if name not in behind
     }
     found = {"unit": made.sliders[0].unit, "behind": behind, "stays": stays, "data": data, "figures": figures}
-    films = around(description, key, results, _FILMED) if stays else {}
-    return {**found, "films": [_filmed(value, one, language) for value, one in films.items()]}, steps
+    films = [_filmed(one, language) for one in others.values()] if stays else []
+    return {**found, "values": list(others), "films": films}, steps
 
 
-def _filmed(value: float, results: Results, language: Language) -> dict[str, Any]:
-    """Return the machine of a number as a page plays it."""
+def _filmed(results: Results, language: Language) -> dict[str, Any]:
+    """Return a machine as a page plays it."""
     film = film_of(results, language=language)
     if film is None:
-        return {"value": value, "drawn": "", "film": {"parts": {}}}
+        return {}
     data = page_data(results, {}, film, language, only_read=True)
-    return {"value": value, "drawn": inline_film(film, "machine"), "film": data["film"]}
+    return {"drawn": inline_film(film, "machine"), "film": data["film"]}
