@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from crankwork.kinematics.crank_grid import Array
+from crankwork.analysis import Array
 from crankwork.show.scene import Drawing, Plot, Polyline, Text, runs, seen_of_each
 
 _NUMBER = re.compile(r"−?\d+(?:[.,]\d+)?")
