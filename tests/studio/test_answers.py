@@ -238,6 +238,9 @@ def test_no_question_reads_a_file_before_that_is_allowed():
         ("stephenson-six-bar", "links.coupler.length", ["points", "position_plans"], [], False),
         ("engine", "rod.length", ["indicator"], [], True),
         ("petrol-four", "piston.mass", ["piston_forces"], [], False),
+        ("petrol-four", "rod.ratio", ["indicator", "torque", "crankpin_polar", "main_wear"], ["main_wear"], True),
+        # of the same look on paper, since all of it grows alike
+        ("slider-crank", "crank.radius", ["tolle"], ["tolle"], False),
     ],
 )
 def test_what_a_page_calculates_itself_and_what_stays_behind(name, key, figures, behind, stays):

@@ -8,7 +8,7 @@ import { Plans } from "./plans.js";
 /** @typedef {import("./numbers.js").Column} Column */
 
 /**
- * A number in a legend: row, number, key of the single value it is, factor and what is added that take this to its unit.
+ * A number in a legend: row, number, key of the single value it is, if any, factor and what is added that take this to its unit.
  * @typedef {[number, string, string, number, number]} Told
  */
 
@@ -122,7 +122,8 @@ function toldIn(svg, [row, stated, key, factor, added]) {
     const text = node.data;
     if (!text.includes(stated)) continue;
     const write = (/** @type {import("./calculation.js").Calculation} */ { values, data }) => {
-      node.data = text.replace(stated, printed(Number((values[data.values[key]] * factor + added).toPrecision(4)), 9));
+      const value = values[data.values[key]] * factor + added;
+      node.data = text.replace(stated, key ? printed(Number(value.toPrecision(4)), 9) : "…");
     };
     return [{ write, back: () => (node.data = text) }];
   }

@@ -6,6 +6,8 @@ import { mixed } from "./between.js";
 
 // points of a curve at most
 const MOST = 481;
+// of a column, how far from its line a node is seen
+const SEEN = 2e-3;
 // of degrees, what is the same; of those that a curve tells by tenths
 const SAME = 1e-6;
 const NEAR_END = 0.1;
@@ -73,10 +75,39 @@ export class Lines {
     }
     const angles = curve.home.angles ?? [];
     const [first, last] = plot.over ? [angles[0] * degrees, angles[angles.length - 1] * degrees] : [angles[0], angles[angles.length - 1]];
-    const { inside, at, isCut } = this.between(first, last);
+    const { inside, at, isCut } = this.bent(this.between(first, last), [x, y]);
     const up = this.column(y, inside, isCut, last);
     const across = x ? this.column(x, inside, isCut, last) : degrees === 1 ? at : at.map((one) => one / degrees);
     return { x: across, y: up, angles: plot.over ? across : at };
+  }
+
+  /**
+   * Return nodes with those between them where a column bends away from the line between two.
+   * @param {{inside: number[], at: number[], isCut: boolean}} nodes
+   * @param {([string, number] | undefined)[]} made
+   */
+  bent(nodes, made) {
+    const { calculation } = this;
+    const { degrees } = calculation;
+    const { inside } = nodes;
+    /** @type {Set<number>} */
+    const more = new Set();
+    for (const one of made) {
+      if (!one) continue;
+      const values = calculation.nodesOf(calculation.data.columns[one[0]]);
+      const within = SEEN * (inside.reduce((most, k) => Math.max(most, values[k]), -Infinity) - inside.reduce((least, k) => Math.min(least, values[k]), Infinity));
+      for (let j = 1; j < inside.length; j += 1) {
+        const [a, b] = [inside[j - 1], inside[j]];
+        const rate = (values[b] - values[a]) / (degrees[b] - degrees[a] || 1);
+        for (let k = a + 1; k < b; k += 1) {
+          if (Math.abs(values[k] - values[a] - rate * (degrees[k] - degrees[a])) > within) more.add(k);
+        }
+      }
+    }
+    if (!more.size) return nodes;
+    const every = [...inside, ...more].sort((a, b) => a - b);
+    const at = every.map((k) => degrees[k]);
+    return { inside: every, at: nodes.isCut ? [...at, nodes.at[nodes.at.length - 1]] : at, isCut: nodes.isCut };
   }
 
   /**

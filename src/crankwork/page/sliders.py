@@ -24,7 +24,7 @@ from crankwork.report.figures import drawings
 from crankwork.report.language import displayed
 from crankwork.show.inline import frame_data, frame_marks
 from crankwork.show.moving import MovingDrawing
-from crankwork.show.scene import Arc, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
+from crankwork.show.scene import Arc, Box, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
 from crankwork.units import to_si
 
 # of its size, how far what is drawn may be from a column that it is taken for
@@ -163,9 +163,11 @@ class Live:
         plots = [self._plot(at, there, others) for at in range(len(drawn.plots))] if len(there) == len(every) else []
         signs = [Counter(map(_signed, one.items)) for one in there[1:]]
         staying = _staying(there)
+        scaled = _scaled(there)
         is_same = [
-            (isinstance(item, Polyline) and item.name in staying) or all(one[_signed(item)] > 0 for one in signs)
-            for item in drawn.items
+            (isinstance(item, Polyline) and item.name in staying)
+            or (not scaled[at] and all(one[_signed(item)] > 0 for one in signs))
+            for at, item in enumerate(drawn.items)
         ]
         differs = len(there) < len(every) or not all(is_same)
         live = {curve for one in plots for curve in one["curves"]}
@@ -241,7 +243,8 @@ class Live:
             if [number(one, self._language, digits=9) for one in values] == numbers:
                 self._used[key] = None
                 return [row, numbers[0], key, *scale(key)]
-        return []
+        # of a figure between machines it is left out
+        return [row, numbers[0], "", 0.0, 0.0] if numbers and len(self._between.values) else []
 
     def _single(self, values: Sequence[float]) -> list[Any]:
         """Return the single value that a level stands at in all designs, and by what it is multiplied."""
@@ -357,6 +360,25 @@ def _is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
         and list(map(_signed, one.items)) == list(map(_signed, others[name].items))
         for name, one in own.items()
     )
+
+
+def _scaled(drawn: Sequence[Drawing]) -> list[bool]:
+    """Return which items stand within graphs whose scales differ: the same on paper, they say something else."""
+    plots = list(zip(*(one.plots for one in drawn), strict=False))
+    boxes = [one[0].box for one in plots if len({(each.x, each.y) for each in one}) > 1]
+    frames = frame_marks(drawn[0])
+    return [not frame and _is_within(item, boxes) for frame, item in zip(frames, drawn[0].items, strict=True)]
+
+
+def _is_within(item: Item, boxes: Iterable[Box]) -> bool:
+    match item:
+        case Text(place=place):
+            x, y = place
+        case Circle(centre=centre) | Arc(centre=centre):
+            x, y = centre
+        case Polyline(points=points) | Hatch(points=points):
+            x, y = (np.min(points, axis=0) + np.max(points, axis=0)) / 2
+    return any(0 <= x - one.left <= one.width and 0 <= y - one.bottom <= one.height for one in boxes)
 
 
 def _staying(drawn: Sequence[Drawing]) -> set[str]:
