@@ -308,6 +308,36 @@ def test_what_was_typed_is_there_after_a_reload(seen):
     assert field(page, "crank.speed").input_value() == "333 rpm"
 
 
+WITH = "word => document.getElementById('notice').textContent.includes(word)"
+
+
+def test_a_studio_that_was_started_again_is_told_from_one_that_does_not_answer_and_nothing_typed_is_lost(
+    browser, start, tmp_path
+):
+    context = browser.new_context(reduced_motion="reduce")
+    page, left = context.new_page(), context.new_page()
+    with start(tmp_path) as one:
+        page.goto(f"{one.address}?token={one.token}")
+        page.wait_for_selector(".figures svg")
+        left.goto(one.address)
+        left.wait_for_selector(".figures svg")
+    page.wait_for_function(WITH, arg="does not answer")
+    assert page.locator("#notice button").first.inner_text() == "Share"
+    for key, value in (("crank.speed", "333 rpm"), ("crank.radius", "61 mm")):
+        field(page, key).fill(value)
+        field(page, key).press("Enter")
+    with start(tmp_path, "--port", re.search(r":(\d+)/", one.address)[1]) as again:
+        page.wait_for_function(WITH, arg="started again")
+        page.goto(f"{again.address}?token={again.token}&lang=ru")
+        page.wait_for_selector(".figures svg")
+        page.wait_for_function("() => document.getElementById('source').value.includes('333 rpm')")
+        settled(page)
+        assert '"61 mm"' in source(page)
+        assert page.locator("#notice").is_hidden()
+        left.locator("#notice").wait_for(state="hidden")
+    context.close()
+
+
 # rooms with more across than they show
 WIDER = """() => [...document.querySelectorAll("html, header, #bar, main > section, #form")]
   .filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.id || one.tagName)"""

@@ -13,7 +13,7 @@ import { choose, Film } from "./machine.js";
 import { columnsOf, fixed } from "./numbers.js";
 import { changed, curvesOf, differs, MOST_PINS } from "./pins.js";
 import { Sketch } from "./sketch.js";
-import { Talk } from "./talk.js";
+import { Talk, UNKNOWN } from "./talk.js";
 import { Trial } from "./trial.js";
 import { Walk } from "./walk.js";
 
@@ -107,7 +107,7 @@ class StudioPage {
     this.bind();
     document.documentElement.classList.add("live");
     const now = () => this.document();
-    this.talk = new Talk(now, (answer, question) => this.heard(answer, question), "waits", (open) => this.notice(open ? "" : this.words.lost));
+    this.talk = new Talk(now, (answer, question) => this.heard(answer, question), "waits", (state) => this.answers(state));
     // what is asked for ahead keeps nobody waiting
     this.aside = new Talk(now, (answer, question) => question && this.ahead.heard(String(question.key), String(question.beside), answer), "prepares");
   }
@@ -163,6 +163,15 @@ class StudioPage {
     }
   }
 
+  /**
+   * Say that nothing is answered, and how what stands here comes to where it is.
+   * @param {import("./talk.js").State} state
+   */
+  answers(state) {
+    if (state === "lost") this.notice(this.words.lost, this.words.share, () => room("share").click());
+    else this.notice(state === "open" ? "" : this.words.restarted);
+  }
+
   /** Say in the title what stands here, and whether it is as it was saved. */
   headed() {
     const { editing } = this;
@@ -178,7 +187,8 @@ class StudioPage {
   keep() {
     const { text, path, files, entries, at } = this.editing;
     const first = Math.max(0, at - 30);
-    const kept = { text, path, files, entries: entries.slice(first, at + 1), wanted: this.wanted, pins: this.pins, language: document.documentElement.lang };
+    const waiting = [this.talk.asked, ...this.talk.waiting].filter((one) => one?.named);
+    const kept = { text, path, files, entries: entries.slice(first, at + 1), waiting, wanted: this.wanted, pins: this.pins, language: document.documentElement.lang };
     try {
       sessionStorage.setItem("studio", JSON.stringify(kept));
     } catch {
@@ -192,13 +202,16 @@ class StudioPage {
     const kept = JSON.parse(sessionStorage.getItem("studio") ?? "null");
     if (!kept?.text) return false;
     // where nothing was done yet, another language begins anew
-    if (kept.entries.length < 2 && kept.language !== document.documentElement.lang) return false;
+    const isUntouched = kept.text === kept.entries[0]?.text && !kept.waiting?.length;
+    if (isUntouched && kept.entries.length < 2 && kept.language !== document.documentElement.lang) return false;
     Object.assign(this, { wanted: kept.wanted, pins: kept.pins });
     Object.assign(this.editing, { entries: kept.entries, at: kept.entries.length - 1, path: kept.path, files: kept.files, drawn: kept.entries.at(-1)?.drawn });
     this.editing.take(kept.text);
     this.editing.commit(this.words.text);
     this.listPins();
     this.show();
+    // what nobody answered yet
+    for (const one of kept.waiting ?? []) this.talk.ask({ ...one, of: this.opened });
     return true;
   }
 
@@ -736,7 +749,7 @@ class StudioPage {
     if (answer.ok) {
       this.notice("");
       this.download(name, await answer.blob());
-    } else this.notice(await answer.text());
+    } else this.notice(answer.status === UNKNOWN ? this.words.restarted : await answer.text());
   }
 
   /** Return the text as one word, as the command line opens it. */
@@ -843,6 +856,7 @@ class StudioPage {
       else return;
       event.preventDefault();
     });
+    addEventListener("pagehide", () => this.keep());
     addEventListener("focus", () => this.editing.path && this.talk.ask({ do: "disk", kept: this.editing.kept }));
     document.addEventListener("paste", (event) => {
       const word = event.clipboardData?.getData("text").trim() ?? "";

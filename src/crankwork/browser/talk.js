@@ -5,19 +5,25 @@
 
 // what the server takes [bytes]; a machine file is far shorter
 const LONGEST_MESSAGE = 1_000_000;
+/** What is answered to a page that has the token of a server before. */
+export const UNKNOWN = 401;
+
+/** Answered, by nobody, or by a server that does not know this page. @typedef {"open" | "lost" | "restarted"} State */
 
 export class Talk {
   /**
    * @param {() => {text: string, path: string, reads: boolean}} now what a question is asked of when it goes out
    * @param {(answer: Answer, question: Question | undefined) => void} heard
    * @param {string} name of what it says of itself at the page: whether something is under way
-   * @param {(open: boolean) => void} [state]
+   * @param {(state: State) => void} [state] hears whether it is answered, each time that this changes
    */
   constructor(now, heard, name, state) {
     this.now = now;
     this.heard = heard;
     this.name = name;
     this.state = state;
+    /** @type {State} */
+    this.stands = "open";
     this.number = 0;
     /** @type {Question | undefined} */
     this.asked = undefined;
@@ -29,14 +35,26 @@ export class Talk {
   open() {
     const { protocol, host, search } = location;
     this.socket = new WebSocket(`${protocol === "https:" ? "wss" : "ws"}://${host}/talk${search}`);
-    this.socket.addEventListener("open", () => this.state?.(true));
+    this.socket.addEventListener("open", () => this.told("open"));
     this.socket.addEventListener("message", (event) => this.answered(JSON.parse(event.data)));
     this.socket.addEventListener("close", () => {
-      this.state?.(false);
       if (this.asked) this.waiting.unshift(this.asked);
       this.asked = undefined;
       setTimeout(() => this.open(), 1000);
+      if (this.state) void this.lost();
     });
+  }
+
+  /** Say why nothing is answered: a socket does not tell what refused it, a page does. */
+  async lost() {
+    const answer = await fetch("/", { method: "HEAD" }).catch(() => undefined);
+    if (this.socket?.readyState !== WebSocket.OPEN) this.told(answer?.status === UNKNOWN ? "restarted" : "lost");
+  }
+
+  /** @param {State} state */
+  told(state) {
+    if (state !== this.stands) this.state?.(state);
+    this.stands = state;
   }
 
   /**
