@@ -167,6 +167,11 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
         raise _unwritable(folder, error) from None
 
 
+def is_there(path: str | Path) -> bool:
+    """Return whether there is such a file."""
+    return Path(path).is_file()
+
+
 def kept(name: str, text: str) -> Path | None:
     """Return where a text is kept between runs of the program, written if it is not there; None if it cannot be.
 

@@ -231,6 +231,10 @@ def test_diagrams_are_chosen_pinned_and_compared(seen):
     page.locator("#pins button").first.click()
     settled(page)
     assert field(page, "crank.speed").input_value() == "100 rpm"
+    assert page.locator("#pins button").count() == 2
+    # of another machine they say nothing
+    begin(page, "engine")
+    assert page.locator("#pins button").count() == 0
 
 
 def test_the_last_diagram_taken_away_stays_away(seen):

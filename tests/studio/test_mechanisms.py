@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import re
+
 import pytest
 
 import crankwork
-from crankwork.description.machine_file import template
+from crankwork.description.machine_file import template, template_names
 from crankwork.locale import told
 from crankwork.studio.answers import Studio
 
@@ -203,3 +206,30 @@ def test_a_slider_crank_that_is_drawn_in_its_change_point_has_the_branch_that_is
     drawn["pins"][2]["slides"] = 0
     found = Studio("en").answer(drawn)
     assert [(one["kind"], one["branch"]) for one in found["dyads"]] == [("RRP", 1)]
+
+
+def test_a_force_begins_along_the_way_of_its_point():
+    drawn = sketch({"1": "OA", "2": "AB"})
+    at = {"O": (60, 120), "A": (60, 95), "B": (140, 120)}
+    drawn["pins"] = [one | dict(zip("xy", at[one["name"]], strict=True)) for one in drawn["pins"]]
+    drawn["pins"][2]["slides"] = 0
+    text = Studio("en").answer(drawn)["text"]
+    forces = {}
+    for point in "AB":
+        added = Studio("en").answer({"do": "add", "text": text, "key": f"force:{point}", "figures": []})["text"]
+        forces[point] = crankwork.Description(added)["loads[1]"]
+    assert {key: (one["x"], one["y"]) for key, one in forces.items()} == {
+        "A": ("0 N", "-100 N"),
+        "B": ("-100 N", "0 N"),
+    }
+
+
+@pytest.mark.parametrize("language", ["ru", "vi"])
+def test_fields_are_called_by_words_not_cut_at_a_bracket(language):
+    """What may be a point or two numbers is called a point."""
+    found = []
+    for name in template_names():
+        rows = Studio(language).answer({"do": "show", "text": template(name), "figures": []})["form"]
+        found += re.findall(r'"label": "([^"]*)"', json.dumps(rows, ensure_ascii=False))
+    assert len(found) > 50
+    assert not [one for one in found if ("[" in one[:-1] and not one.endswith("]")) or one.endswith((" или", " hoặc"))]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from tests.studio.hands import begin, field, settled, source
+from tests.studio.test_answers import EXAMPLES
 from tests.studio.test_server import talked
 
 from crankwork import cli
@@ -129,6 +130,10 @@ def test_a_file_that_was_opened_before_is_opened_again_and_saved(seen, start, tm
         settled(page)
         page.select_option("#template", title)
         page.wait_for_function("text => document.getElementById('source').value === text", arg=text)
+        # what is gone is offered no more
+        page.reload()
+        page.wait_for_selector(".figures svg")
+        assert options.all_text_contents() == [title]
 
 
 def test_a_file_that_another_page_saved_is_read_as_it_is_now(seen, start, tmp_path):
@@ -146,3 +151,14 @@ def test_a_file_that_another_page_saved_is_read_as_it_is_now(seen, start, tmp_pa
         page.locator("#save").click()
         page.wait_for_function("() => document.getElementById('notice').textContent.startsWith('Saved')")
         assert '"78 rpm"' in path.read_text("utf-8")
+
+
+def test_what_a_machine_lacks_has_no_room(seen, start, tmp_path):
+    path = tmp_path / "press.toml"
+    path.write_text(next(one for one in EXAMPLES if one.stem == "press").read_text("utf-8"), encoding="utf-8")
+    with start(tmp_path, str(path)) as one:
+        page = seen(one)
+        settled(page)
+        # neither checks nor a mechanism
+        assert "0/0" not in page.locator("#results").inner_text()
+        assert page.locator("#film").is_hidden()

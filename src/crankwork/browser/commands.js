@@ -9,10 +9,12 @@ export class Commands {
   /**
    * @param {HTMLDialogElement} room
    * @param {Record<string, string>} words
+   * @param {() => Command[]} more what nothing on the page offers
    */
-  constructor(room, words) {
+  constructor(room, words, more) {
     this.room = room;
     this.words = words;
+    this.more = more;
     this.input = /** @type {HTMLInputElement} */ (room.querySelector("input"));
     this.list = /** @type {HTMLElement} */ (room.querySelector("ul"));
     /** @type {Command[]} */
@@ -35,7 +37,7 @@ export class Commands {
    */
   open(of = "") {
     const parts = (/** @type {string} */ name) => name.split(/[^\p{L}\p{N}_]+/u);
-    const every = commandsOf(this.words);
+    const every = [...commandsOf(this.words), ...this.more()];
     const own = of ? every.filter(({ name }) => parts(name).includes(of)) : [];
     this.every = own.length ? own : every;
     this.input.value = "";

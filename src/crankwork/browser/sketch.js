@@ -42,8 +42,8 @@ export class Sketch {
     this.part = 0;
     /** @type {Measured | undefined} */
     this.measured = undefined;
-    /** What is to be done once it is known what was typed. @type {"" | "click" | "end"} */
-    this.waits = "";
+    /** What is to be done once it is known what was typed, and where the pointer was. @type {{what: "click" | "end", at: number[]}[]} */
+    this.waits = [];
     /** The link that is pressed, from which a point is drawn off. @type {Link | undefined} */
     this.pressed = undefined;
     /** When and where was pressed last. */
@@ -96,11 +96,14 @@ export class Sketch {
   heard(answer, typed) {
     this.missing.textContent = answer.missing ?? "";
     if (String(typed) === String(this.typed)) this.measured = answer.measured ?? {};
-    const { waits } = this;
-    if (waits && this.measured) {
-      this.waits = "";
-      if (waits === "end") this.end();
-      else this.click();
+    if (this.measured) {
+      const waited = this.waits;
+      this.waits = [];
+      for (const { what, at } of waited) {
+        this.at = at;
+        if (what === "end") this.end();
+        else this.click();
+      }
     }
     this.draw();
   }
@@ -206,7 +209,7 @@ export class Sketch {
    * @param {"click" | "end"} what
    */
   waitsFor(what) {
-    if (!this.measured) this.waits = what;
+    if (!this.measured) this.waits.push({ what, at: this.at });
     return !this.measured || Boolean(this.measured.refusal);
   }
 
@@ -214,7 +217,7 @@ export class Sketch {
   forget() {
     this.typed = ["", ""];
     this.part = 0;
-    this.waits = "";
+    this.waits = [];
   }
 
   /** Return the number of a link that no link ever had. */

@@ -78,7 +78,7 @@ class StudioPage {
       },
       said: (text) => this.chip(text),
     });
-    this.commands = new Commands(room("commands"), this.words);
+    this.commands = new Commands(room("commands"), this.words, () => (this.seen.dyads ?? []).map((/** @type {{name: string}} */ { name }) => ({ name: this.swapped(name), act: () => this.swap(name) })));
     this.walk = new Walk(room("film"), this.words, {
       film: () => this.film,
       handles: () => this.seen.handles ?? [],
@@ -259,6 +259,12 @@ class StudioPage {
     this.show();
   }
 
+  /** Let all variants go: of another machine they say nothing. */
+  unpin() {
+    this.pins = [];
+    this.listPins();
+  }
+
   /**
    * @param {Answer} answer
    * @param {Question | undefined} question
@@ -278,7 +284,10 @@ class StudioPage {
     if (question?.do === "disk") return this.disk(answer);
     if (question?.do === "recent") {
       if (answer.text === undefined) this.notice(answer.refusals?.[0]?.text ?? "");
-      else this.open(answer.text, this.words.open, answer.path);
+      else {
+        this.unpin();
+        this.open(answer.text, this.words.open, answer.path);
+      }
       return;
     }
     if (answer.long) return this.refused([{ key: "", line: 0, text: this.words.long }]);
@@ -288,6 +297,7 @@ class StudioPage {
       return;
     }
     if (answer.text !== undefined) this.editing.take(answer.text);
+    if (["template", "shared"].includes(question?.do ?? "") && answer.text !== undefined) this.unpin();
     if (question?.do === "sketch" && answer.data) this.drawing(false);
     if (question?.named) this.editing.commit(String(question.named), String(question.slid ?? ""));
     if (answer.form) this.form.show(answer.form, answer.additions ?? []);
@@ -539,7 +549,7 @@ class StudioPage {
     const [met, all] = answer.checks;
     own.innerHTML = answer.values;
     const head = document.createElement("p");
-    head.textContent = `${answer.method} · ${this.words.checks} ${met}/${all}`;
+    head.textContent = [answer.method, ...(all ? [`${this.words.checks} ${met}/${all}`] : [])].join(" · ");
     own.prepend(head);
     for (const text of told.slice(0, answer.doubt ? 1 : 0)) own.prepend(Object.assign(document.createElement("p"), { className: "doubt", textContent: text }));
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (own.querySelectorAll("[data-key]"))) {
@@ -760,6 +770,19 @@ class StudioPage {
     return `crankwork:${btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
   }
 
+  /** @param {string} joint */
+  swapped(joint) {
+    return this.words.swapped.replace("{joint}", joint);
+  }
+
+  /**
+   * Put the links together the other way at a joint.
+   * @param {string} joint
+   */
+  swap(joint) {
+    this.talk.ask({ do: "swap", key: joint, of: this.opened, figures: this.wanted, reads: this.reads, named: this.swapped(joint) });
+  }
+
   pin() {
     if (!this.seen.data) return;
     const pinned = { text: this.editing.text, fields: this.fields(), summary: this.seen.summary, curves: curvesOf(this.drawnFigures.values()) };
@@ -840,10 +863,7 @@ class StudioPage {
       }
       if (event.key === "Escape") this.unlight();
       const dyad = event.key.toLowerCase() === "b" && !inField && !this.sketch ? this.drag.meant() : undefined;
-      if (!(event.ctrlKey || event.metaKey) && dyad) {
-        const named = this.words.swapped.replace("{joint}", dyad.name);
-        this.talk.ask({ do: "swap", key: dyad.name, of: this.opened, figures: this.wanted, reads: this.reads, named });
-      }
+      if (!(event.ctrlKey || event.metaKey) && dyad) this.swap(dyad.name);
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
       const typing = /** @type {HTMLElement} */ (event.target).matches("textarea, input:not([type=range])");
@@ -909,6 +929,7 @@ class StudioPage {
       const text = (await file?.text()) ?? "";
       if (SHARED.test(text.trim())) this.take({ do: "shared", word: text });
       else if (file) {
+        this.unpin();
         this.open(text, file.name);
         this.talk.ask({ do: "save", kept: "", name: file.name });
       }

@@ -27,6 +27,8 @@ _RATED_SPEED = 1430.0
 # a steel bar 25 mm square [kg/m]
 _BAR = 5.0
 _FORCE = 100.0
+# of a way, what is none across it
+_ALONE = 1e-6
 _TABLES = ("motor", "flywheel", "transient", "piston", "cylinder", "gas", "engine", "bearings", "balance")
 
 
@@ -81,7 +83,8 @@ def _of_linkage(values: Mapping[str, Any], results: Results | None) -> Iterator[
         torque = f"{_round(_FORCE * size, 1):g} N*m"
         yield Addition("torque", link, {"loads[]": {"kind": "torque", "link": link, "torque": f"-{torque}"}})
     for point in moving[::-1]:
-        force = {"kind": "force", "point": point, "x": "0 N", "y": f"-{_FORCE:g} N"}
+        x, y = (f"-{_FORCE:g} N", "0 N") if _goes_across(results, point) else ("0 N", f"-{_FORCE:g} N")
+        force = {"kind": "force", "point": point, "x": x, "y": y}
         yield Addition("force", point, {"loads[]": force})
     for point in moving[::-1]:
         near = {name for one in parts if point in (held := [*_points(one), one.get("pivot")]) for name in held}
@@ -106,6 +109,14 @@ def _of_linkage(values: Mapping[str, Any], results: Results | None) -> Iterator[
     if results is not None:
         for point in moving[::-1]:
             yield from _dyads(values, results, point, unit)
+
+
+def _goes_across(results: Results | None, point: str) -> bool:
+    """Return whether a point moves along the x axis alone, so that no force upon it along y does any work."""
+    if results is None or f"point_x.{point}" not in results:
+        return False
+    x, y = (float(np.ptp(results[f"point_{axis}.{point}"])) for axis in "xy")
+    return y < _ALONE * x
 
 
 def _masses(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

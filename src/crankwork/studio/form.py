@@ -128,7 +128,7 @@ def _slid(kind: object, stated: object) -> dict[str, Any]:
 
 def _label(name: str, means: str, language: Language) -> str:
     """Return what a field is called: its own word where that is of the language, what it means elsewhere, shortly."""
-    first = re.split(r"[;:(,]| – ", means)[0].strip()
+    first = re.split(r"[;:(,]| – | \S+ \[", means)[0].strip()
     return first if first[:1].isalpha() and language != "en" else name
 
 

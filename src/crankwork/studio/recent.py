@@ -34,8 +34,9 @@ def recent(opened: Recent | None = None) -> list[Recent]:
 
 
 def named(found: list[Recent]) -> list[list[str]]:
-    """Return what a page shows of machines: their names, and the folders of those that stand in files."""
-    return [[one.name, "" if one.text is not None else str(Path(one.name).parent)] for one in found]
+    """Return what a page shows of machines: their names, and the folders of files that are there."""
+    there = [one for one in found if one.text is not None or files.is_there(one.name)]
+    return [[one.name, "" if one.text is not None else str(Path(one.name).parent)] for one in there]
 
 
 def _is_kept(one: Recent) -> bool:
