@@ -40,15 +40,16 @@ export class Talk {
     this.socket.addEventListener("close", () => {
       if (this.asked) this.waiting.unshift(this.asked);
       this.asked = undefined;
-      setTimeout(() => this.open(), 1000);
-      if (this.state) void this.lost();
+      this.told(this.stands === "open" ? "lost" : this.stands);
+      setTimeout(() => this.again(), 1000);
     });
   }
 
-  /** Say why nothing is answered: a socket does not tell what refused it, a page does. */
-  async lost() {
-    const answer = await fetch("/", { method: "HEAD" }).catch(() => undefined);
-    if (this.socket?.readyState !== WebSocket.OPEN) this.told(answer?.status === UNKNOWN ? "restarted" : "lost");
+  /** Try again; a socket does not tell what refused it, a page does. */
+  async again() {
+    const answer = this.state && (await fetch("/", { method: "HEAD" }).catch(() => undefined));
+    if (answer?.status === UNKNOWN) this.told("restarted");
+    this.open();
   }
 
   /** @param {State} state */
