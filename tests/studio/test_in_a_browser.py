@@ -274,9 +274,17 @@ def test_a_value_is_explained_when_clicked(seen):
 
 def test_a_machine_is_exported_shared_and_opened_again(seen, tmp_path):
     page = seen(permissions=["clipboard-read", "clipboard-write"])
-    with page.expect_download() as download:
-        page.select_option("#export", "tables.xlsx")
-    assert Path(download.value.path()).read_bytes().startswith(b"PK")
+    # diagrams that are seen too
+    for name, start in (("tables.xlsx", b"PK"), ("links.svg", b"<svg"), ("links.png", b"\x89PNG")):
+        with page.expect_download() as download:
+            page.select_option("#export", name)
+        assert download.value.suggested_filename == name
+        assert (
+            Path(download.value.path())
+            .read_bytes()
+            .removeprefix(b'<?xml version="1.0" encoding="UTF-8"?>\n')
+            .startswith(start)
+        )
     page.locator("#share").click()
     page.wait_for_selector("#notice:not([hidden])")
     word = page.evaluate("navigator.clipboard.readText()")

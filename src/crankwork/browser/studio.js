@@ -488,6 +488,13 @@ class StudioPage {
     const add = /** @type {HTMLSelectElement} */ (room("add"));
     const others = Object.entries(answer.names).filter(([name]) => !names.includes(name));
     add.replaceChildren(new Option(this.words.add, ""), ...others.map(([name, title]) => new Option(String(title), name)));
+    const files = room("export");
+    for (const one of files.querySelectorAll("optgroup")) one.remove();
+    for (const name of names) {
+      const group = Object.assign(document.createElement("optgroup"), { label: answer.names[name] });
+      group.append(...(files.dataset.formats ?? "").split(" ").map((ending) => new Option(`${name}.${ending}`)));
+      files.append(group);
+    }
   }
 
   /**

@@ -9,6 +9,7 @@ from crankwork.browser import style
 from crankwork.description.machine_file import template_names, template_title
 from crankwork.locale import LANGUAGES, Language, say, texts
 from crankwork.note.live import bar, look
+from crankwork.show.formats import FORMATS
 
 # names of languages in themselves
 _OWN = {"en": "English", "ru": "Русский", "vi": "Tiếng Việt"}
@@ -72,7 +73,7 @@ def _header(language: Language) -> list[str]:
         '<input id="open" type="file" accept=".toml,.txt,.pmks,text/plain"></label>',
         *(_button(name, language) for name in ("save", "undo", "redo", "share", "pin")),
         f'<span id="pins"></span><button id="draw" aria-pressed="false">{_said("draw", language)}</button>',
-        f'<select id="export" aria-label="{_said("export", language)}">',
+        f'<select id="export" aria-label="{_said("export", language)}" data-formats="{" ".join(FORMATS)}">',
         f'<option value="">{_said("export", language)}</option>{exports}</select>',
         f'<select id="language" aria-label="{_said("language", language)}">{spoken}</select></header>',
     ]
