@@ -27,8 +27,6 @@ _RATED_SPEED = 1430.0
 # a steel bar 25 mm square [kg/m]
 _BAR = 5.0
 _FORCE = 100.0
-# of a way, what is none across it
-_ALONE = 1e-6
 _TABLES = ("motor", "flywheel", "transient", "piston", "cylinder", "gas", "engine", "bearings", "balance")
 
 
@@ -112,11 +110,11 @@ def _of_linkage(values: Mapping[str, Any], results: Results | None) -> Iterator[
 
 
 def _goes_across(results: Results | None, point: str) -> bool:
-    """Return whether a point moves along the x axis alone, so that no force upon it along y does any work."""
+    """Return whether a point goes farther across than up, so that a force along x does the work."""
     if results is None or f"point_x.{point}" not in results:
         return False
     x, y = (float(np.ptp(results[f"point_{axis}.{point}"])) for axis in "xy")
-    return y < _ALONE * x
+    return x > y
 
 
 def _masses(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

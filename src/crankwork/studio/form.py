@@ -88,9 +88,9 @@ def _row(description: Description, key: str, table: object, entry: Key | None, l
     name, at, number = name.partition("[")
     means = table.meaning(name, language) if isinstance(table, Table) else ""
     axis = f", {_AXES[number]}" if at else ""
-    row: dict[str, Any] = {"key": key, "name": name + axis, "label": _label(name, means, language) + axis,
-                           "value": _written(kind, stated)}  # fmt: skip
-    if means:
+    label = _label(name, means, language)
+    row: dict[str, Any] = {"key": key, "name": name + axis, "label": label + axis, "value": _written(kind, stated)}
+    if means and means != label:
         row["means"] = means
     match kind:
         case Choice():

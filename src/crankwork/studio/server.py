@@ -366,7 +366,9 @@ def _answer(rooms: Rooms, studio: Studio, asked: dict[str, Any]) -> dict[str, An
         found = studio.answer(asked)
         return {**found, "steps": rooms.script(found["steps"])} if "steps" in found else found
     except CrankworkError as error:
-        return {"refusals": [{"text": told(error.args[0], studio.language), "key": "", "line": 0}]}
+        # a file that has gone is offered no more
+        offered = {"recent": named(recent())} if asked["do"] == "recent" else {}
+        return {"refusals": [{"text": told(error.args[0], studio.language), "key": "", "line": 0}], **offered}
     except Exception:  # noqa: BLE001 - whatever fails in one calculation is told, and the page lives on
         _log.exception("an answer failed")
         return {"refusals": [{"text": say("studio.failed", studio.language), "key": "", "line": 0}]}
