@@ -94,7 +94,9 @@ def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
     free = [name for name, count in owners.items() if count == 1 and name not in fixed and name not in slides]
     free = [name for name in free if name != pin]
     centres = tuple(name for name in free if name in massive)
-    members = tuple(one._replace(points=tuple(p for p in one.points if p not in centres)) for one in members)
+    # one that the file names is a point of its link too
+    unnamed = [one for one in centres if "." in one or one in _CATALOG]
+    members = tuple(one._replace(points=tuple(p for p in one.points if p not in unnamed)) for one in members)
     couplers = tuple(name for name in free if name not in massive)
     return Skeleton(members, fixed, couplers, centres, point_letters(mechanism, members, centres), pin)
 
