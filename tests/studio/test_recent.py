@@ -149,6 +149,17 @@ def test_a_file_that_another_page_saved_is_read_as_it_is_now(seen, start, tmp_pa
         page.locator("#save").click()
         page.wait_for_function("() => document.getElementById('notice').textContent.startsWith('Saved')")
         assert '"78 rpm"' in path.read_text("utf-8")
+        # a text that is no machine is saved and said to be none; one that is longer than any is neither
+        text = page.locator("#source")
+        page.locator("#text-tab").click()
+        text.fill("[[[[")
+        page.wait_for_selector("#refusals li")
+        settled(page)
+        page.locator("#save").click()
+        page.wait_for_function("() => document.getElementById('notice').textContent.includes('no machine yet')")
+        assert path.read_text("utf-8") == "[[[["
+        text.evaluate("one => { one.value = '#'.repeat(7e6); one.dispatchEvent(new Event('input')); }")
+        page.wait_for_function("() => document.querySelector('#refusals li')?.textContent.includes('longer than any')")
 
 
 def test_what_a_machine_lacks_has_no_room(seen, start, tmp_path):

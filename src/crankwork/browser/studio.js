@@ -189,11 +189,13 @@ class StudioPage {
     const first = Math.max(0, at - 30);
     const waiting = [this.talk.asked, ...this.talk.waiting].filter((one) => one?.named);
     const kept = { text, path, files, entries: entries.slice(first, at + 1), waiting, wanted: this.wanted, pins: this.pins, language: document.documentElement.lang };
-    try {
-      sessionStorage.setItem("studio", JSON.stringify(kept));
-    } catch {
-      // there is no room for the steps
-      sessionStorage.setItem("studio", JSON.stringify({ ...kept, files: path ? { [path]: files[path] } : {}, entries: [], pins: [] }));
+    // where there is no room for the steps without them, and nothing of what is longer than any machine
+    for (const one of [kept, { ...kept, files: path ? { [path]: files[path] } : {}, entries: [], pins: [] }]) {
+      try {
+        return sessionStorage.setItem("studio", JSON.stringify(one));
+      } catch {
+        continue;
+      }
     }
   }
 
@@ -604,6 +606,7 @@ class StudioPage {
     // it has the wider side to stand on
     chip.style.left = at ? (isRight ? "auto" : `${at.x - left + 14}px`) : "";
     chip.style.right = at && isRight ? `${right - at.x + 14}px` : "";
+    chip.style.maxWidth = at ? `${(isRight ? at.x - left : right - at.x) - 20}px` : "";
     chip.style.top = at ? `${at.y - top + 14}px` : "";
   }
 
@@ -647,7 +650,8 @@ class StudioPage {
   saved(answer, question) {
     if (answer.saved) {
       this.editing.keep(question.base ?? "", answer.saved);
-      this.notice(`${this.words.saved} ${answer.saved}`);
+      const isRefused = room("refusals").childElementCount > 0;
+      this.notice(`${this.words.saved} ${answer.saved}${isRefused ? `; ${this.words.saved_refused}` : ""}`);
       setTimeout(() => room("notice").textContent?.startsWith(this.words.saved) && this.notice(""), 4000);
     } else if (answer.gone) this.disk(answer);
     else if (answer.conflict) {
