@@ -365,8 +365,8 @@ class Trace:
             return End(angle, angle, angle)
         of_twins = [one.value or 0.0 for one in self._designs.twins(place.node)]
         low, high = min(of_twins), max(of_twins)
-        if high - low <= _SAME * high:
-            # made of what differs, and there all the same
+        if self._designs.fields.shape[1] == 1 and high - low <= _SAME * high:
+            # made of the one number that differs, and there all the same
             return End(low, low, low)
         spare = _BEYOND * (high - low) + _LEAST_BEYOND
         end = End(place.value, low - spare, high + spare, self.value(place))
