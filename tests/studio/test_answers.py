@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import crankwork
 from crankwork.description.machine_file import template, template_names
 from crankwork.errors import CrankworkError
+from crankwork.page import sliders
 from crankwork.studio import answers
 from crankwork.studio.answers import Studio, opened_share, shared
 from crankwork.studio.trials import StoppedError
@@ -252,6 +254,25 @@ def test_what_a_page_calculates_itself_and_what_stays_behind(name, key, figures,
     assert ahead["figures"].keys() == set(figures) - set(behind)
     assert found["steps"].startswith("var steps=")
     assert len(ahead["data"]["sliders"]["values"]) > 5
+
+
+def test_scales_that_differ_by_rounding_are_the_same(monkeypatch):
+    own, drawn = sliders.drawings, []
+
+    def nudged(*told, **more):
+        found = own(*told, **more)
+        drawn.append(found)
+        if len(drawn) == 1:
+            return found
+        return {
+            name: one._replace(plots=tuple(plot._replace(y=tuple(np.nextafter(plot.y, 9))) for plot in one.plots))
+            for name, one in found.items()
+        }
+
+    monkeypatch.setattr(sliders, "drawings", nudged)
+    asked = {"do": "ahead", "text": template("four-bar"), "key": "crank.speed", "figures": ["reduced_inertia"]}
+    assert Studio("en").answer(asked)["ahead"]["behind"] == []
+    assert len(drawn) > 2
 
 
 @pytest.mark.parametrize("machine", [False, True])

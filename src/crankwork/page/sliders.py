@@ -365,9 +365,15 @@ def _is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
 def _scaled(drawn: Sequence[Drawing]) -> list[bool]:
     """Return which items stand within graphs whose scales differ: the same on paper, they say something else."""
     plots = list(zip(*(one.plots for one in drawn), strict=False))
-    boxes = [one[0].box for one in plots if len({(each.x, each.y) for each in one}) > 1]
+    # by more than rounding
+    boxes = [own.box for own, *others in plots if not all(_is_near_scale(own, one) for one in others)]
     frames = frame_marks(drawn[0])
     return [not frame and _is_within(item, boxes) for frame, item in zip(frames, drawn[0].items, strict=True)]
+
+
+def _is_near_scale(one: Plot, other: Plot) -> bool:
+    ends, others = np.array([one.x, one.y]), np.array([other.x, other.y])
+    return bool(np.all(np.abs(ends - others) <= _SAME_PLACE * np.abs(ends[:, :1] - ends[:, 1:])))
 
 
 def _is_within(item: Item, boxes: Iterable[Box]) -> bool:
