@@ -22,6 +22,8 @@ export class Cursor {
     this.followers = [];
     /** Whether it runs by itself; whoever moves it by hand stops it first. */
     this.runs = false;
+    /** Whether a click holds it, so that no pointer in passing moves it. */
+    this.fixed = false;
     /** What stops it. */
     this.stop = () => {};
   }

@@ -81,6 +81,7 @@ export class Figure {
   }
 
   draw() {
+    this.layer?.classList.toggle("fixed", this.cursor.fixed);
     this.data.plots.forEach((plot, k) => {
       const line = this.lines?.[k];
       if (!line) return;
@@ -146,14 +147,26 @@ export class Figure {
     const at = this.place(event);
     const [width, height] = [this.home[2], this.home[3]];
     this.tell(at.x >= 0 && at.x <= width && at.y >= 0 && at.y <= height);
+    const isPassing = event.type === "pointermove";
     // a machine that runs is not stopped in passing
-    if (this.cursor.runs && event.type === "pointermove") return;
+    if (isPassing && (this.cursor.runs || (this.cursor.fixed && !event.buttons))) return;
+    const angle = this.angleAt(at);
+    if (angle === undefined) return;
+    const before = this.cursor.at;
+    this.cursor.snap(angle);
+    if (isPassing) return;
+    this.cursor.fixed = !this.cursor.fixed || this.cursor.at !== before;
+    this.cursor.move(this.cursor.at);
+  }
+
+  /**
+   * Return the crank angle that is meant at a place of the paper, if any.
+   * @param {DOMPoint} at
+   */
+  angleAt(at) {
     const plot = this.data.plots.find(({ box: [left, top, wide, tall] }) => at.x >= left && at.x <= left + wide && at.y >= top && at.y <= top + tall);
-    if (plot?.over) {
-      this.cursor.snap(plot.x[0] + ((at.x - plot.box[0]) / plot.box[2]) * (plot.x[1] - plot.x[0]));
-      return;
-    }
-    let [best, angle] = [NEAR, NaN];
+    if (plot?.over) return plot.x[0] + ((at.x - plot.box[0]) / plot.box[2]) * (plot.x[1] - plot.x[0]);
+    let [best, angle] = [NEAR, /** @type {number | undefined} */ (undefined)];
     for (const curve of this.moving) {
       if (curve.plot?.over || !curve.angles) continue;
       for (let k = 0; k < curve.x.length; k += 1) {
@@ -161,7 +174,7 @@ export class Figure {
         if (apart < best) [best, angle] = [apart, curve.angles[k]];
       }
     }
-    if (!Number.isNaN(angle)) this.cursor.snap(angle);
+    return angle;
   }
 
   /**
