@@ -194,3 +194,16 @@ def test_any_change_means_what_was_asked_and_keeps_every_comment(data):
         span = Places(before).pairs.get(key)
         if span is not None and "\n" not in before[span.start : span.end]:
             assert [one for one in comments(before) if one not in comments(d.dump())] == []
+
+
+def test_what_stands_where_a_table_belongs_has_no_values():
+    with pytest.raises(UnknownKeyError):
+        Description("crank = 1")["crank.speed"]
+
+
+def test_a_setting_reaches_as_deep_as_a_file_does():
+    description = Description("[chambers.cylinder.points.c]\npressure = '2 MPa'\n")
+    laid = description.values_with(["chambers.cylinder.points.c.pressure=1.9 MPa"])
+    assert laid["chambers"]["cylinder"]["points"]["c"]["pressure"] == "1.9 MPa"
+    with pytest.raises(CrankworkError):
+        description.values_with([f"{'.'.join('abcdefghi')}=1"])

@@ -114,6 +114,45 @@ def test_what_is_refused_is_told_as_the_command_line_tells_it(typed, language, t
 
 
 @pytest.mark.parametrize(
+    ("name", "key", "value"),
+    [
+        ("four-bar", "crank", 1), ("four-bar", "links", 0), ("four-bar", "links.rocker", "x"),
+        ("four-bar", "links.coupler.points", -1), ("four-bar", "links.coupler.joins", []), ("four-bar", "sliders", [1]),
+        ("four-bar", "fixed_points", [["0 mm", "0 mm"]]), ("four-bar", "crank.pin", ["a", "b"]),
+        ("four-bar", "crank.pivot", {"a": 1}), ("slider-crank", "rod", 0), ("press", "sliders.ram.pin", {}),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize(
+    "asks", [{"do": "show"}, {"do": "set", "fields": {"title": "x"}}, {"do": "add", "key": "masses:"}]
+)
+def test_what_no_key_may_state_is_refused_as_the_command_line_refuses_it(name, key, value, asks):
+    description = crankwork.Description(template(name))
+    description[key] = value
+    with pytest.raises(crankwork.InputError) as error:
+        description.machine()
+    found = Studio("en").answer({**asks, "text": description.dump(), "figures": None})
+    told = [one["text"].partition(": ")[2] for one in found["refusals"]]
+    assert told == [one.partition(": ")[2] for one in error.value.lines()]
+
+
+def test_a_length_without_a_space_is_a_length():
+    text = template("four-bar").replace('"62.5 mm"', '"62.5mm"').replace('"112.5 mm"', '"112.5mm"')
+    found = Studio("en").answer({"do": "show", "text": text, "figures": []})
+    assert found["refusals"] == []
+    offered = dict(found["additions"])
+    for key in ("masses:", "links:B", "friction:"):
+        if key in offered:
+            assert Studio("en").answer({"do": "add", "text": text, "key": key, "figures": []})["refusals"] == []
+
+
+def test_what_a_machine_has_not_is_refused_in_words():
+    studio = Studio("en")
+    for asks in ({"do": "swap", "key": "B"}, {"do": "set", "fields": {".".join("a" * 300): "1"}}):
+        found = studio.answer({**asks, "text": template("slider-crank"), "figures": []})
+        assert found["refusals"][0]["text"], asks
+
+
+@pytest.mark.parametrize(
     ("name", "kinds"),
     [("press", {"motor", "friction", "torque", "spring", "links"}), ("slider-crank", {"gas", "flywheel"})],
 )
@@ -347,7 +386,14 @@ def test_designs_are_swept_and_the_best_is_named():
 
 
 @pytest.mark.parametrize(
-    "asked", [{"over": {"crank.radius": "60..40 mm"}}, {"over": {}}, {"over": {"x": "1..2"}, "count": "9e9"}]
+    "asked",
+    [
+        {"over": {"crank.radius": "60..40 mm"}},
+        {"over": {}},
+        {"over": {"x": "1..2"}, "count": "9e9"},
+        {"over": {"crank.radius": "40..60 mm"}, "count": "9" * 5000},
+        {"text": "crank = 1", "over": {"crank.speed": "1..2 rpm"}},
+    ],
 )
 def test_what_cannot_be_tried_is_refused_in_words(asked):
     found = Studio("en").tried({"text": template("slider-crank"), **asked}, lambda _: None)

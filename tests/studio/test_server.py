@@ -72,6 +72,22 @@ def test_a_socket_is_opened_to_its_own_page_alone(started):
         assert "four-bar" in json.loads(socket.recv())["text"].lower()
 
 
+def test_half_a_letter_is_answered_as_any_other(started):
+    own, text = started.address.rstrip("/"), template("four-bar")
+    with talked(started) as socket:
+        socket.recv()
+        for n, asks in enumerate(({"do": "explain", "key": "\ud800"}, {"do": "set", "fields": {"title": "\ud800"}})):
+            socket.send(json.dumps({"n": n, "text": text, **asks}))
+            assert json.loads(socket.recv())["n"] == n
+    assert asked(started, "/export", "POST", json.dumps({"text": text, "name": "\ud800.svg"}), Origin=own)[0] == 422
+    body = json.dumps({"text": text, "over": {"\ud800": "1..2"}})
+    status, _, told = asked(started, "/trial", "POST", body, Origin=own)
+    assert status == 200
+    assert "refusals" in json.loads(told.splitlines()[-1])["found"]
+    body = json.dumps({"text": text, "over": {}, "objectives": [1]})
+    assert asked(started, "/trial", "POST", body, Origin=own)[0] == 400
+
+
 def test_the_page_may_run_no_text_as_script_and_ask_nobody(started):
     _, headers, _ = asked(started, "/")
     policy = headers["content-security-policy"]

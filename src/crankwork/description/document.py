@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from crankwork import files
 from crankwork.description.machine_file import (
     Setting,
+    are_readable,
     entry_at,
     file_keys,
     lay,
@@ -128,6 +129,11 @@ class Description:
         """What the file states, as nested tables and lists; a copy."""
         return copy.deepcopy(self._values)
 
+    @property
+    def is_readable(self) -> bool:
+        """Whether all that it states is of the kind that its keys ask for, although it may be no machine yet."""
+        return are_readable(self.values)
+
     def dump(self) -> str:
         """Return the text, with the comments of whoever wrote it."""
         return self._text
@@ -169,7 +175,7 @@ def stated_value(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - wha
         table = _at(table, step)
     found = _at(table, last)
     if found is None and isinstance(kind, Table) and isinstance(last, str):
-        return kind.written_default(last, Values(table or {}, kind))
+        return kind.written_default(last, Values(table if isinstance(table, Mapping) else {}, kind))
     return found
 
 

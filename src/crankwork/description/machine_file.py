@@ -98,6 +98,12 @@ def read_machine(
     )
 
 
+def are_readable(values: dict[str, Any]) -> bool:
+    """Return whether all that a file states is of the kind that its keys ask for."""
+    reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
+    return file_keys(values).read(values, "", reader) is not None and not reader.problems
+
+
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
     """Return the machine of the values, or None after complaints."""
     if isinstance(found := values.get("format"), int) and found > FORMATS[-1]:
@@ -258,7 +264,7 @@ def _setting(text: str) -> Setting:
     """Return the setting that `KEY=VALUE` means, its value as TOML reads it or as the plain text it is."""
     key, sign, value = (part.strip() for part in text.partition("="))
     names = key.split(".")
-    if not sign or not all(_STEP.fullmatch(name) for name in names) or len(names) > 4:
+    if not sign or not all(_STEP.fullmatch(name) for name in names) or len(names) > _MAX_PARTS:
         raise CrankworkError(Refusal("setting_form", setting=_printable(text[:60])))
     if len(value) > files.MAX_LINE:
         raise CrankworkError(Refusal("setting_long", setting=_printable(key[:60])))
@@ -297,8 +303,9 @@ def lay(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
 
 def steps_of(key: str) -> Iterator[str | int]:
     """Yield names, and the numbers of entries of lists, that lead to a key such as `loads[2].stiffness`."""
-    for part in key.split("."):
-        if not _STEP.fullmatch(part):
+    parts = key.split(".")
+    for part in parts:
+        if not _STEP.fullmatch(part) or len(parts) > _MAX_PARTS:
             raise UnknownKeyError(Refusal("key_form", key=_printable(key[:60])))
         name, *entries = part.replace("]", "").split("[")
         yield name

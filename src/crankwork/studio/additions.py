@@ -11,7 +11,7 @@ import numpy as np
 
 from crankwork.analysis import Results
 from crankwork.description.document import Description
-from crankwork.description.kinds import Quantity, Reader
+from crankwork.description.kinds import Measure, Quantity, Reader
 from crankwork.description.machine_file import file_keys, parse, template, template_names
 from crankwork.description.schema import Table
 from crankwork.description.written import with_entry
@@ -51,6 +51,8 @@ class Addition(NamedTuple):
 
 def additions(description: Description, results: Results | None) -> list[Addition]:
     """Return what may be added to a machine; what needs its motion or torque only where it has results."""
+    if results is None and not description.is_readable:
+        return []
     values = description.values
     is_linkage = "chambers" in file_keys(values).keys
     found = [*(_of_linkage(values, results) if is_linkage else ()), *_sections(values, results)]
@@ -277,18 +279,24 @@ def _is_joint(values: Mapping[str, Any], name: str) -> bool:
 
 def _size(crank: Mapping[str, Any]) -> tuple[float, str]:
     """Return the radius of the crank, and the unit that it is stated in [m]"""
-    stated = str(crank.get("radius", ""))
-    return _si(stated) or 0.1, _unit(stated) if _si(stated) else "mm"
+    stated = crank.get("radius")
+    return _si(stated) or 0.1, _unit(stated)
 
 
-def _unit(stated: str) -> str:
-    return stated.rpartition(" ")[2]
+def _read(stated: object, dimension: str) -> Measure | None:
+    return Quantity((dimension,), -1e6, 1e6).read(stated, "", Reader(decimal_comma=True))
+
+
+def _unit(stated: object) -> str:
+    """Return the unit in which a length is stated."""
+    found = _read(stated, "length")
+    return found.unit if found else "mm"
 
 
 def _si(stated: object, dimension: str = "length") -> float:
     """Return a stated number in SI, 0 where there is none."""
-    found = Quantity((dimension,), -1e6, 1e6).read(stated, "", Reader(decimal_comma=True))
-    return 0.0 if found is None else found.value
+    found = _read(stated, dimension)
+    return found.value if found else 0.0
 
 
 def _round(number: float, digits: int) -> float:

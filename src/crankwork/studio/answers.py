@@ -107,9 +107,9 @@ class Studio:
         except CrankworkError as error:
             return {"refusals": self._told(error)}
         found: dict[str, Any] = {"refusals": []}
-        if not asked.get("held"):
-            groups = form(description, self.language)
-            found |= {"form": groups, "handles": handles(description.values, groups)}
+        groups = () if asked.get("held") else form(description, self.language)
+        if groups:
+            found["form"] = groups
         if not self._reads and (named := _files(description)):
             return {**found, "named": named}
         try:
@@ -119,7 +119,10 @@ class Studio:
         with shown_in(results.machine.units):
             if asked.get("held"):
                 return found | self._held(results, asked)
-            found["additions"] = self._additions(description, results)
+            found |= {
+                "additions": self._additions(description, results),
+                "handles": handles(description.values, groups),
+            }
             needed = full_turn(description, results, found["handles"], self.language)
             return {**found, **self._seen(results, asked.get("figures")), "turn": needed}
 

@@ -247,11 +247,12 @@ async def _posted(asked: Request, fields: Mapping[str, type]) -> dict[str, Any] 
         data += part
         if len(data) > _LONGEST:
             return HTTPStatus.REQUEST_ENTITY_TOO_LARGE
-    try:
-        found = json.loads(data)
-    except (ValueError, RecursionError):
-        return HTTPStatus.BAD_REQUEST
-    is_sound = isinstance(found, dict) and all(isinstance(found.get(name), kind) for name, kind in fields.items())
+    found = _read(data)
+    is_sound = (
+        isinstance(found, dict)
+        and isinstance(found.get("objectives", {}), dict)
+        and all(isinstance(found.get(name), kind) for name, kind in fields.items())
+    )
     return found if is_sound else HTTPStatus.BAD_REQUEST
 
 
@@ -331,12 +332,17 @@ _FIELDS: dict[str, dict[str, type]] = {
 }  # fmt: skip
 
 
-def _asked(message: str) -> dict[str, Any] | None:
-    """Return what a message asks for, None where it makes no sense."""
+def _read(message: str | bytes) -> Any:  # noqa: ANN401 - whatever was sent
+    """Return what a message states, None where it makes no sense; half a letter, which nobody writes, becomes `?`."""
     try:
-        found = json.loads(message)
+        return json.loads(json.dumps(json.loads(message), ensure_ascii=False).encode("utf-8", "replace"))
     except (ValueError, RecursionError):
         return None
+
+
+def _asked(message: str) -> dict[str, Any] | None:
+    """Return what a message asks for, None where it makes no sense."""
+    found = _read(message)
     if not isinstance(found, dict) or not isinstance(found.get("n"), int):
         return None
     wanted = _FIELDS.get(found["do"]) if isinstance(found.get("do"), str) else None

@@ -146,7 +146,8 @@ def _idle(stated: Description, *kinds: str) -> list[str]:
 
 def swapped(stated: Description, name: str, machine: Machine) -> str:
     """Return a machine file in which a dyad goes together the other way."""
-    now = next((one["branch"] for one in dyads(machine) if one["name"] == name), None)
+    known = dyads(machine) if machine.linkage else []
+    now = next((one["branch"] for one in known if one["name"] == name), None)
     if now is None:
         raise CrankworkError(Refusal("branch_absent", name=name[:60], known=", ".join(stated.get("branch", {}))))
     stated[f"branch.{name}"] = -now

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -43,7 +44,7 @@ def _swept(
     from crankwork.study.study_file import read_study  # noqa: PLC0415
 
     ends = {key: dict(zip(("from", "to"), ends_of(text), strict=True)) for key, text in over.items()}
-    if not str(asked["count"]).isdecimal():
+    if not re.fullmatch("[0-9]{1,9}", str(asked["count"])):
         raise CrankworkError(Refusal("whole_range", value=str(asked["count"])[:20], low="1", high="1000000"))
     text = document({
         "machine": "machine.toml",
