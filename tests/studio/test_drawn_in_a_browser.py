@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+
+import pytest
 from tests.studio.hands import begin_drawing, draw_slider_crank, field, settled, source
 
 
@@ -9,6 +12,10 @@ def canvas(page):
     page.locator("#draw").click()
     # what is missing stands below, and takes its room
     settled(page)
+    return canvas_of(page)
+
+
+def canvas_of(page):
     matrix = "one => { const { a, e, f } = one.getScreenCTM(); return [a, e, f]; }"
     scale, left, top = page.locator("svg.sketch").evaluate(matrix)
     return lambda x, y: (left + x * scale, top + y * scale)
@@ -233,3 +240,56 @@ def test_a_chain_goes_on_from_the_middle_of_a_link_and_other_links_keep_their_na
     settled(page)
     assert '\n5 = { joins = ["E", "F"]' in source(page)
     assert "mass" in source(page).split("\n5 = ")[1].split("\n")[0]
+
+
+def test_the_driving_link_ends_in_no_slider_and_letters_are_no_length(seen):
+    page = seen()
+    text = source(page)
+    begin_drawing(page)
+    page.keyboard.type("50")
+    page.keyboard.press("Enter")
+    settled(page)
+    assert beside(page).endswith("a slider belongs at a further pin")
+    page.keyboard.press("s")
+    settled(page)
+    assert page.locator("svg.sketch circle").count() == 2
+    assert source(page) == text
+    page.keyboard.type("abc")
+    settled(page)
+    assert beside(page).startswith('A: abc · "abc"')
+    page.keyboard.press("Enter")
+    assert page.locator("svg.sketch circle").count() == 2
+    page.keyboard.press("Escape")
+    # what goes beyond the paper makes it larger
+    page.keyboard.type("300")
+    page.keyboard.press("Tab")
+    page.keyboard.type("10")
+    page.keyboard.press("Enter")
+    settled(page)
+    assert page.locator("svg.sketch").evaluate(
+        "one => { const { x, y, width, height } = one.viewBox.baseVal;"
+        " return [...one.querySelectorAll('circle')].every(({ cx, cy }) => cx.baseVal.value > x"
+        " && cx.baseVal.value < x + width && cy.baseVal.value > y && cy.baseVal.value < y + height); }"
+    )
+
+
+def test_a_drawing_that_is_taken_up_again_has_the_lengths_of_now(seen):
+    page = seen()
+    draw_four_bar(page)
+    before = source(page)
+    field(page, "links.2.length").fill("95 mm")
+    field(page, "links.2.length").press("Enter")
+    settled(page)
+    text = source(page)
+    assert text != before
+    canvas(page)
+    ends = page.locator("svg.sketch line.link").evaluate_all(
+        "all => all.map((one) => ['x1', 'y1', 'x2', 'y2'].map((at) => one[at].baseVal.value))"
+    )
+    assert [math.dist(one[:2], one[2:]) for one in ends[:2]] == pytest.approx([30, 95], abs=1e-4)
+    at = canvas_of(page)
+    page.mouse.move(*at(100, 75))
+    assert beside(page)
+    page.locator("#draw").click()
+    settled(page)
+    assert source(page) == text

@@ -455,6 +455,31 @@ def test_what_was_opened_from_elsewhere_is_not_saved_over_the_file(seen, start, 
         assert path.read_text("utf-8") == mine
 
 
+def test_a_file_that_somebody_else_changes_is_told_at_once_and_may_be_taken(seen, start, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(template("four-bar"), encoding="utf-8")
+    with start(tmp_path, str(path)) as one:
+        page = seen(one)
+        field(page, "crank.speed").fill("90 rpm")
+        field(page, "crank.speed").press("Enter")
+        settled(page)
+        theirs = template("slider-crank")
+        path.write_text(theirs, encoding="utf-8")
+        page.wait_for_function(WITH, arg="the file has changed on disk")
+        page.locator("#title").click()
+        page.keyboard.press("Control+s")
+        page.wait_for_function(WITH, arg="since it was read here")
+        assert path.read_text("utf-8") == theirs
+        page.get_by_role("button", name="Take what is there").click()
+        page.wait_for_function("() => document.getElementById('title').textContent.startsWith('Slider')")
+        settled(page)
+        assert source(page) == theirs
+        # one entry of the history, to what stood here
+        page.locator("#undo").click()
+        settled(page)
+        assert '"90 rpm"' in source(page)
+
+
 def test_what_is_typed_while_an_answer_is_under_way_stays(seen):
     page = seen()
     begin(page, "whole-engine")

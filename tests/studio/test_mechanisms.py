@@ -156,13 +156,13 @@ output = { joins = ["F", "E"], length = "45 mm" }
 @pytest.mark.parametrize(
     ("text", "needs", "value"),
     [
-        # b + c >= a + g, and the crank at most as much shorter than the frame as the others differ
-        (FOUR_BAR.format(crank=30, coupler=60, rocker=40, frame=90), "coupler ≥ 80 mm", "80 mm"),
-        (FOUR_BAR.format(crank=30, coupler=40.5, rocker=70, frame=91), "rocker ≥ 80.5 mm", "80.5 mm"),
-        (FOUR_BAR.format(crank=60, coupler=70, rocker=50, frame=60), "crank ≤ 40 mm", "40 mm"),
-        (SLIDER_CRANK, "rod ≥ 40 mm", "40 mm"),
-        (INVERTED, "crank ≤ 30 mm", "30 mm"),
-        (SIX_BAR, "link ≥ 80 mm", "80 mm"),
+        # b + c > a + g, and the crank shorter than the frame by more than the others differ; else links come into line
+        (FOUR_BAR.format(crank=30, coupler=60, rocker=40, frame=90), "coupler ≥ 80.1 mm", "80.1 mm"),
+        (FOUR_BAR.format(crank=30, coupler=40.5, rocker=70, frame=91), "rocker ≥ 80.6 mm", "80.6 mm"),
+        (FOUR_BAR.format(crank=60, coupler=70, rocker=50, frame=60), "crank ≤ 39.9 mm", "39.9 mm"),
+        (SLIDER_CRANK, "rod ≥ 40.1 mm", "40.1 mm"),
+        (INVERTED, "crank ≤ 29.9 mm", "29.9 mm"),
+        (SIX_BAR, "link ≥ 80.1 mm", "80.1 mm"),
     ],
     ids=["coupler", "rocker", "crank", "slider-crank", "inverted", "six-bar"],
 )

@@ -9,6 +9,8 @@ import { fixed } from "./numbers.js";
 const SPACE = "http://www.w3.org/2000/svg";
 const WIDE = 240;
 const TALL = 180;
+// from what is drawn to the edge of the paper, where that grows [mm]
+const EDGE = 25;
 // how near a pin is meant [mm]
 const NEAR_PIN = 5;
 // what is moved less is clicked [mm]
@@ -54,7 +56,9 @@ export class Sketch {
     this.carried = undefined;
     this.from = this.at;
     this.svg = document.createElementNS(SPACE, "svg");
-    this.svg.setAttribute("viewBox", `0 0 ${WIDE} ${TALL}`);
+    /** The paper: left, top, width and height. [mm] */
+    this.paper = [0, 0, WIDE, TALL];
+    this.svg.setAttribute("viewBox", this.paper.join(" "));
     this.svg.setAttribute("class", "drawing sketch");
     this.svg.setAttribute("role", "application");
     this.svg.setAttribute("aria-label", words.sketch);
@@ -84,8 +88,22 @@ export class Sketch {
   /** Draw what has changed, and ask what it is. */
   changed() {
     this.measured = undefined;
+    this.fit();
     this.draw();
     this.tells.asked(this.pins, this.links, this.typed);
+  }
+
+  /** Let the paper grow until all that is drawn is on it. */
+  fit() {
+    const [left, top, width, height] = this.paper;
+    const x = [this.at[0], ...this.pins.map((one) => one.x)];
+    const y = [this.at[1], ...this.pins.map((one) => one.y)];
+    const isOn = Math.min(...x) >= left && Math.max(...x) <= left + width && Math.min(...y) >= top && Math.max(...y) <= top + height;
+    if (isOn) return;
+    const [start, end] = [Math.min(left, ...x.map((one) => one - EDGE)), Math.max(left + width, ...x.map((one) => one + EDGE))];
+    const [high, low] = [Math.min(top, ...y.map((one) => one - EDGE)), Math.max(top + height, ...y.map((one) => one + EDGE))];
+    this.paper = [start, high, end - start, low - high];
+    this.svg.setAttribute("viewBox", this.paper.join(" "));
   }
 
   /**
@@ -278,13 +296,14 @@ export class Sketch {
     if (moves[event.key]) {
       this.at = this.at.map((one, k) => one + moves[event.key][k]);
       if (this.carried) [this.carried.x, this.carried.y] = this.at;
+      this.fit();
     } else if (this.carried && /^(m|enter|escape)$/i.test(event.key)) this.lay(event.key === "Escape");
     else if (pin && !this.last && /^m$/i.test(event.key)) [this.carried, this.from] = [pin, [pin.x, pin.y]];
     else if (event.key === "Enter") {
       const ends = event.ctrlKey || (pin && pin === this.last && !this.isTyped);
       if (!ends || (!this.isTyped && pin !== this.last)) this.click();
       if (ends) this.end();
-    } else if (this.last && this.types(event)) this.changed();
+    } else if (this.last && this.types(event, pin)) this.changed();
     else if (event.key === "Delete" && pin && !this.last) this.without(pin);
     else if (["Escape", "Backspace", "Delete"].includes(event.key) || (event.ctrlKey && event.key === "z")) this.back();
     else if (pin && /^[gs]$/i.test(event.key)) this.change(pin, event.key.toLowerCase());
@@ -307,16 +326,18 @@ export class Sketch {
   }
 
   /**
-   * Take a key as part of a length or a direction; return whether it is one.
+   * Take a key as part of a length or a direction, a letter too that does nothing else; return whether it is one.
    * @param {KeyboardEvent} event
+   * @param {Pin | undefined} pin where the cross stands
    */
-  types({ key, ctrlKey, metaKey, shiftKey }) {
+  types({ key, ctrlKey, metaKey, shiftKey }, pin) {
     const { typed, part } = this;
     if (ctrlKey || metaKey) return false;
+    const acts = (pin && /^[gs]$/i.test(key)) || (this.links.length > 0 && /^p$/i.test(key));
     if (this.isTyped && key === "Tab" && !shiftKey) this.part = 1 - part;
     else if (this.isTyped && key === "Escape") this.forget();
     else if (this.isTyped && key === "Backspace") typed[part] = typed[part].slice(0, -1);
-    else if (key.length === 1 && (this.isTyped || this.part || /[\d.,+-]/.test(key))) typed[part] += key;
+    else if (key.length === 1 && (this.isTyped || this.part || (!acts && /[\p{L}\d.,+-]/u.test(key)))) typed[part] += key;
     else return false;
     return true;
   }
@@ -327,6 +348,7 @@ export class Sketch {
    * @param {string} kind
    */
   change(pin, kind) {
+    if (kind === "s" && this.drives(pin)) return;
     if (kind === "g") pin.ground = !pin.ground;
     else {
       const [origin] = this.pins;
@@ -337,6 +359,14 @@ export class Sketch {
     if (this.last && kind === "s") return this.finish();
     this.changed();
     if (!this.last) this.tells.drawn(this.pins, this.links);
+  }
+
+  /**
+   * Return whether a pin ends the first link, which drives and turns about the other end.
+   * @param {Pin} pin
+   */
+  drives(pin) {
+    return this.links.length > 0 && this.links[0].pins.includes(pin.name);
   }
 
   /**
@@ -386,7 +416,7 @@ export class Sketch {
     }
     if (!near && this.nearLink()) return words.sketch_point;
     if (!last) return near ? words.sketch_on : words.sketch_begin;
-    if (near) return near === last ? words.sketch_go : words.sketch_join.replace("{of}", near.name);
+    if (near) return near === last ? (this.drives(near) ? words.sketch_drives : words.sketch_go) : words.sketch_join.replace("{of}", near.name);
     const [x, y] = [this.at[0] - last.x, last.y - this.at[1]];
     const of = `${last.name} ${fixed(Math.hypot(x, y), 1)} mm ∠ ${fixed((Math.atan2(y, x) * 180) / Math.PI, 0)}°`;
     return words.sketch_link.replace("{of}", of);

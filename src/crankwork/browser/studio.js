@@ -32,6 +32,10 @@ function room(id) {
 // a machine as one word, of ours or of PMKS+
 const SHARED = /^(crankwork:\S+|(https?:\/\/\S*\?)?[\w-]{1,4}\.[\w,-]+\.[\w,-]+\.\w+\.\w+,\S+)$/;
 
+// between looks at the file on disk, and until it is said that something is under way [ms]
+const LOOKS = 2000;
+const PATIENCE = 700;
+
 class StudioPage {
   constructor() {
     /** @type {Record<string, string>} */
@@ -47,6 +51,10 @@ class StudioPage {
     /** @type {Answer} */
     this.seen = {};
     this.reads = false;
+    /** What was told of the file on disk. */
+    this.onDisk = "";
+    /** Whether the machine ran before a reload. @type {boolean | undefined} */
+    this.ran = undefined;
     /** How many machines were opened. */
     this.opened = 0;
     /** What follows the cursor, by where it stands. @type {Map<string, import("./cursor.js").Follower[]>} */
@@ -109,7 +117,12 @@ class StudioPage {
     const now = () => this.document();
     this.talk = new Talk(now, (answer, question) => this.heard(answer, question), "waits", (state) => this.answers(state));
     // what is asked for ahead keeps nobody waiting
-    this.aside = new Talk(now, (answer, question) => question && this.ahead.heard(String(question.key), String(question.beside), answer), "prepares");
+    this.aside = new Talk(now, (answer, question) => {
+      if (question?.do === "disk") this.watched(answer, question);
+      else if (question) this.ahead.heard(String(question.key), String(question.beside), answer);
+    }, "prepares");
+    setInterval(() => this.watch(), LOOKS);
+    setTimeout(() => !this.seen.data && !room("refusals").childElementCount && room("notice").hidden && this.notice(this.words.working), PATIENCE);
   }
 
   /** What every question is asked of: the text, the file that it stands in, whether it may name others. */
@@ -168,7 +181,7 @@ class StudioPage {
    * @param {import("./talk.js").State} state
    */
   answers(state) {
-    if (state === "lost") this.notice(this.words.lost, this.words.share, () => room("share").click());
+    if (state === "lost") this.notice(this.words.lost, [this.words.share, () => room("share").click()]);
     else this.notice(state === "open" ? "" : this.words.restarted);
   }
 
@@ -188,7 +201,7 @@ class StudioPage {
     const { text, path, files, entries, at } = this.editing;
     const first = Math.max(0, at - 30);
     const waiting = [this.talk.asked, ...this.talk.waiting].filter((one) => one?.named);
-    const kept = { text, path, files, entries: entries.slice(first, at + 1), waiting, wanted: this.wanted, pins: this.pins, language: document.documentElement.lang };
+    const kept = { text, path, files, entries: entries.slice(first, at + 1), waiting, wanted: this.wanted, pins: this.pins, runs: this.cursor?.runs, language: document.documentElement.lang };
     // where there is no room for the steps without them, and nothing of what is longer than any machine
     for (const one of [kept, { ...kept, files: path ? { [path]: files[path] } : {}, entries: [], pins: [] }]) {
       try {
@@ -206,7 +219,7 @@ class StudioPage {
     // where nothing was done yet, another language begins anew
     const isUntouched = kept.text === kept.entries[0]?.text && !kept.waiting?.length;
     if (isUntouched && kept.entries.length < 2 && kept.language !== document.documentElement.lang) return false;
-    Object.assign(this, { wanted: kept.wanted, pins: kept.pins });
+    Object.assign(this, { wanted: kept.wanted, pins: kept.pins, ran: kept.runs });
     Object.assign(this.editing, { entries: kept.entries, at: kept.entries.length - 1, path: kept.path, files: kept.files, drawn: kept.entries.at(-1)?.drawn });
     this.editing.take(kept.text);
     this.editing.commit(this.words.text);
@@ -305,6 +318,7 @@ class StudioPage {
     if (answer.form) this.form.show(answer.form, answer.additions ?? []);
     if (answer.added?.length) this.form.field(answer.added[0])?.focus();
     this.refused(answer.refusals ?? []);
+    if (room("notice").textContent?.startsWith(this.words.working)) this.notice("");
     this.named(answer.named);
     document.body.classList.toggle("stale", !answer.data);
     if (answer.data && question?.held) this.drawHeld(answer);
@@ -340,19 +354,19 @@ class StudioPage {
    */
   named(names) {
     if (!names?.length) return;
-    this.notice(`${this.words.named} ${names.join(", ")}`, this.words.allow, () => {
+    const allow = () => {
       this.reads = true;
       this.show();
-    });
+    };
+    this.notice(`${this.words.named} ${names.join(", ")}`, [this.words.allow, allow]);
   }
 
   /**
-   * Say something above all, with one way out.
+   * Say something above all, with the ways out.
    * @param {string} text
-   * @param {string} way
-   * @param {() => void} go
+   * @param {...[string, () => void]} ways
    */
-  notice(text, way = "", go = () => {}) {
+  notice(text, ...ways) {
     const place = room("notice");
     place.hidden = !text;
     place.textContent = text;
@@ -365,7 +379,7 @@ class StudioPage {
       });
       return button;
     };
-    if (way) add(way, go);
+    for (const [name, act] of ways) add(name, act);
     add("×", () => {}).setAttribute("aria-label", this.words.dismiss);
   }
 
@@ -429,7 +443,7 @@ class StudioPage {
     const same = cursor && String(cursor.stops) === String(found.stops);
     if (!cursor || !same) {
       const was = cursor?.at;
-      const runs = cursor?.runs;
+      const runs = cursor ? cursor.runs : this.ran;
       cursor?.stop();
       const own = room("bar");
       own.innerHTML = this.barText;
@@ -655,7 +669,7 @@ class StudioPage {
       setTimeout(() => room("notice").textContent?.startsWith(this.words.saved) && this.notice(""), 4000);
     } else if (answer.gone) this.disk(answer);
     else if (answer.conflict) {
-      this.notice(`${answer.conflict}: ${this.words.conflict}`, this.words.anyway, () => this.save(true));
+      this.notice(`${answer.conflict}: ${this.words.conflict}`, [this.words.reread, () => this.reread()], [this.words.anyway, () => this.save(true)]);
     } else if (answer.handed) {
       // what the server does not know as a file is handed over
       if (this.editing.path) this.hand();
@@ -666,8 +680,31 @@ class StudioPage {
   disk(answer) {
     const { path } = this.editing;
     if (answer.text !== undefined) this.open(answer.text, this.words.reread, path);
-    else if (answer.gone) this.notice(`${path}: ${this.words.gone}`, this.words.save, () => this.save(true));
-    else if (answer.changed) this.notice(`${path}: ${this.words.changed}`, this.words.reread, () => this.talk.ask({ do: "disk", take: true, kept: this.editing.kept }));
+    else if (answer.gone) this.notice(`${path}: ${this.words.gone}`, [this.words.save, () => this.save(true)]);
+    else if (answer.changed) this.notice(`${path}: ${this.words.changed}`, [this.words.reread, () => this.reread()]);
+  }
+
+  /** Take what stands in the file now. */
+  reread() {
+    this.talk.ask({ do: "disk", take: true, kept: this.editing.kept });
+  }
+
+  /** Look whether somebody else has changed the file; what was told of it once is not told again. */
+  watch() {
+    const { path, kept } = this.editing;
+    if (path && !document.hidden && this.aside.idle) this.aside.ask({ do: "disk", kept });
+  }
+
+  /**
+   * Hear of the file, unless it was saved from here meanwhile.
+   * @param {Answer} answer
+   * @param {Question} question
+   */
+  watched(answer, question) {
+    if (question.kept !== this.editing.kept || this.talk.asked?.do === "save") return;
+    const state = answer.gone ? "gone" : answer.changed ? "changed" : "";
+    if (state !== this.onDisk) this.disk(answer);
+    this.onDisk = state;
   }
 
   /**
@@ -677,7 +714,8 @@ class StudioPage {
   drawing(begins) {
     room("draw").setAttribute("aria-pressed", String(begins));
     this.hint.hidden = false;
-    this.hint.textContent = begins ? this.words.sketch : `${this.words.hint} ${this.editing.drawn ? this.words.sketch_again : ""}`;
+    const isNew = begins && !this.editing.drawn && Boolean(this.film);
+    this.hint.textContent = begins ? `${isNew ? `${this.words.sketch_new} ` : ""}${this.words.sketch}` : `${this.words.hint} ${this.editing.drawn ? this.words.sketch_again : ""}`;
     if (!begins) {
       this.sketch = undefined;
       this.chip("");
@@ -686,6 +724,7 @@ class StudioPage {
     }
     this.motion?.stop();
     this.film = undefined;
+    if (this.editing.drawn) this.editing.drawn.pins = standing(this.editing.drawn.pins, this.seen.places ?? {});
     const ask = (/** @type {any} */ pins, /** @type {any} */ links) => {
       const before = this.editing.drawn;
       // what goes on there changes in place
@@ -947,6 +986,21 @@ class StudioPage {
       open.value = "";
     });
   }
+}
+
+/**
+ * Return pins where the machine of now has them, the first of them on the ground where it was drawn. [mm]
+ * @param {import("./sketch.js").Pin[]} pins
+ * @param {Record<string, [number, number]>} places
+ */
+function standing(pins, places) {
+  const origin = pins.find(({ name, ground }) => ground && places[name]);
+  if (!origin) return pins;
+  const [x, y] = places[origin.name];
+  return pins.map((one) => {
+    const at = places[one.name];
+    return at ? { ...one, x: origin.x + at[0] - x, y: origin.y - at[1] + y } : one;
+  });
 }
 
 new StudioPage();

@@ -71,6 +71,11 @@ export class Talk {
     this.next();
   }
 
+  /** Whether nothing is under way. */
+  get idle() {
+    return !this.asked && !this.waiting.length;
+  }
+
   next() {
     document.body.dataset[this.name] = String(Boolean(this.asked || this.waiting.length));
     if (this.asked || this.socket?.readyState !== WebSocket.OPEN) return;

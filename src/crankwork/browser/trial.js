@@ -47,7 +47,11 @@ export class Trial {
       line.append(field, over);
       return line;
     });
-    const goals = this.tells.values().flatMap(([key, name]) => [
+    const values = this.tells.values();
+    const names = values.map(([, name]) => name);
+    // what is called alike is told apart by its key
+    const apart = values.map(([key, name]) => [key, names.indexOf(name) === names.lastIndexOf(name) ? name : `${name} (${key})`]);
+    const goals = apart.flatMap(([key, name]) => [
       /** @type {[string, string]} */ ([`minimise ${key}`, words.least.replace("{of}", name)]),
       /** @type {[string, string]} */ ([`maximise ${key}`, words.most.replace("{of}", name)]),
     ]);

@@ -216,7 +216,7 @@ class Studio:
         return self._read[1]
 
     def _fresh(self, text: str) -> Description:
-        name = str(self._path or "text")
+        name = _shown(self._path) if self._path else "text"
         if len(text.encode("utf-8", "replace")) > files.MAX_MACHINE_FILE:
             raise CrankworkError(Refusal("path_large_kb", path=name, size=files.MAX_MACHINE_FILE >> 10))
         return Description(text, name, folder=self._path and self._path.parent)
@@ -270,7 +270,7 @@ class Studio:
         warning = warning_text(results, language)
         return {
             **found, "title": results.machine.title, "method": results_method(results, language),
-            "dyads": dyads(results.machine) if results.machine.linkage else [],
+            "dyads": dyads(results.machine) if results.machine.linkage else [], "places": _places(results),
             "names": {name: figure_title(name, language) for name in names},
             "values": "".join(values(results, results.memory, language)),
             "notices": [notice_text(one.code, one.values, language) for one in results.notices],
@@ -294,6 +294,16 @@ class Studio:
         return [{"text": text, "key": "", "line": int(at[1]) if at else 0}]
 
 
+def _places(results: Results) -> dict[str, tuple[float, float]]:
+    """Return where the joints of a linkage stand in the first row. [mm]"""
+    if not results.machine.linkage:
+        return {}
+    ground = {name: tuple(at) for name, at in results.machine.drawn.ground.items()}
+    keys = {key.partition(".")[2] for key in results.columns if key.startswith("point_x.")}
+    moving = {name: tuple(float(results.columns[f"point_{axis}.{name}"][0]) for axis in "xy") for name in keys}
+    return {name: (round(1e3 * x, 6), round(1e3 * y, 6)) for name, (x, y) in (ground | moving).items()}
+
+
 def _first(names: Sequence[str]) -> list[str]:
     """Return the figures that are seen before any was chosen: curves sooner than constructions."""
     return sorted(names, key=lambda name: name.endswith(("plan", "plans", "lever", "centrodes", "brix", "tolle")))[:3]
@@ -302,6 +312,11 @@ def _first(names: Sequence[str]) -> list[str]:
 def _scale(key: str, language: Language) -> tuple[float, str]:
     """Return the factor by which a difference of a value is shown, and its unit."""
     return displayed(key, 1.0) - displayed(key, 0.0), unit_name(key_unit(key), language)
+
+
+def _shown(path: Path) -> str:
+    """Return a path as whoever stands in this folder would type it."""
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def _files(description: Description) -> list[str]:

@@ -52,8 +52,9 @@ def full_turn(
 
 
 def _rounded(value: float, sign: str) -> float:
-    """Return a bound with few digits, on the side where it holds."""
+    """Return a bound with few digits, on the side where it holds; at the bound itself links come into line."""
     step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) + 1 - _DIGITS)
     parts = value / step
-    whole = math.ceil(parts - _ROUNDING * abs(parts)) if sign == "≥" else math.floor(parts + _ROUNDING * abs(parts))
+    slack = _ROUNDING * abs(parts)
+    whole = math.floor(parts + slack) + 1 if sign == "≥" else math.ceil(parts - slack) - 1
     return round(whole * step, 12)

@@ -59,8 +59,10 @@ def sketched(asked: Mapping[str, Any], language: Language) -> str:
 
 
 def _driving(pins: Mapping[str, Pin], links: Mapping[str, Sequence[str]]) -> str | None:
-    """Return the link that drives: the first with two pins, one of them on the ground."""
-    pairs = ((name, one) for name, one in links.items() if len(one) == 2)
+    """Return the link that drives: the first with two pins, one of them on the ground, neither of which slides."""
+    pairs = (
+        (name, one) for name, one in links.items() if len(one) == 2 and all(pins[end].slides is None for end in one)
+    )
     return next((name for name, (start, end) in pairs if pins[start].ground != pins[end].ground), None)
 
 
