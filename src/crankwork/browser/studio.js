@@ -119,6 +119,7 @@ class StudioPage {
     // what is asked for ahead keeps nobody waiting
     this.aside = new Talk(now, (answer, question) => {
       if (question?.do === "disk") this.watched(answer, question);
+      else if (question?.do === "show") this.redrawn(answer, Number(question.pinned));
       else if (question) this.ahead.heard(String(question.key), String(question.beside), answer);
     }, "prepares");
     setInterval(() => this.watch(), LOOKS);
@@ -224,6 +225,7 @@ class StudioPage {
     this.editing.take(kept.text);
     this.editing.commit(this.words.text);
     this.listPins();
+    if (kept.language !== document.documentElement.lang) this.redraw(0);
     this.show();
     // what nobody answered yet
     for (const one of kept.waiting ?? []) this.talk.ask({ ...one, of: this.opened });
@@ -840,6 +842,29 @@ class StudioPage {
     this.keep();
     this.listPins();
     this.draw(this.seen);
+  }
+
+  /**
+   * Ask for a variant in the words of this language, by which its curves find their graphs.
+   * @param {number} pinned
+   */
+  redraw(pinned) {
+    if (this.pins[pinned]) this.aside.ask({ do: "show", text: this.pins[pinned].text, figures: this.wanted, pinned });
+    else if (this.seen.data) this.draw(this.seen);
+  }
+
+  /**
+   * @param {Answer} answer
+   * @param {number} pinned
+   */
+  redrawn({ data, figures }, pinned) {
+    const columns = data ? columnsOf(data) : {};
+    const drawn = Object.entries(figures ?? {}).map(([name, text]) => {
+      const svg = /** @type {SVGSVGElement} */ (Object.assign(document.createElement("div"), { innerHTML: text }).querySelector("svg"));
+      return new FollowingFigure(svg, data.figures[name], columns, data.axis, new Cursor(columns[data.axis].values));
+    });
+    if (data) this.pins[pinned].curves = curvesOf(drawn);
+    this.redraw(pinned + 1);
   }
 
   /** What the form has now, by key. @returns {Record<string, string>} */
