@@ -24,7 +24,7 @@ export class Sketch {
    * @param {HTMLElement} room
    * @param {Record<string, string>} words
    * @param {{drawn: (pins: Pin[], links: Link[]) => void, asked: (pins: Pin[], links: Link[], typed: string[]) => void,
-   *   said: (text: string, at: DOMPoint | undefined) => void}} tells
+   *   said: (text: string, at: DOMPoint | undefined, up: boolean) => void}} tells
    * @param {Set<string>} taken names that the file has
    */
   constructor(room, words, tells, taken) {
@@ -441,7 +441,8 @@ export class Sketch {
     const cross = mark("path", { d: `M${x - 3} ${y}h6M${x} ${y - 3}v6`, class: "cross" });
     this.svg.replaceChildren(...lines, ...pins, cross);
     const matrix = this.svg.getScreenCTM();
-    this.tells.said(this.tell(), matrix ? new DOMPoint(x, y).matrixTransform(matrix) : undefined);
+    // what is drawn from stays to be seen
+    this.tells.said(this.tell(), matrix ? new DOMPoint(x, y).matrixTransform(matrix) : undefined, this.last !== undefined && this.last.y > y);
   }
 }
 

@@ -611,19 +611,22 @@ class StudioPage {
    * Say something above the machine, or beside a place on the screen.
    * @param {string} text
    * @param {DOMPoint} [at]
+   * @param {boolean} [up] whether above that place
    */
-  chip(text, at) {
+  chip(text, at, up) {
     const chip = room("chip");
     chip.hidden = !text;
     chip.textContent = text;
-    const { left, top, width, right } = room("machine").getBoundingClientRect();
+    const { left, top, width, right, bottom } = room("machine").getBoundingClientRect();
     const isRight = at !== undefined && at.x - left > width / 2;
     chip.classList.toggle("beside", Boolean(at));
     // it has the wider side to stand on
     chip.style.left = at ? (isRight ? "auto" : `${at.x - left + 14}px`) : "";
     chip.style.right = at && isRight ? `${right - at.x + 14}px` : "";
     chip.style.maxWidth = at ? `${(isRight ? at.x - left : right - at.x) - 20}px` : "";
-    chip.style.top = at ? `${at.y - top + 14}px` : "";
+    const isUp = at !== undefined && up && at.y - top > chip.offsetHeight + 14;
+    chip.style.top = at ? (isUp ? "auto" : `${at.y - top + 14}px`) : "";
+    chip.style.bottom = at && isUp ? `${bottom - at.y + 14}px` : "";
   }
 
   /** Return the names that links and pins of the file have. */
@@ -736,7 +739,7 @@ class StudioPage {
     const tells = {
       drawn: ask,
       asked: (/** @type {any} */ pins, /** @type {any} */ links, /** @type {string[]} */ typed) => this.talk.ask({ do: "missing", ...structuredClone({ pins, links, typed }) }),
-      said: (/** @type {string} */ text, /** @type {DOMPoint | undefined} */ at) => this.chip(text, at),
+      said: (/** @type {string} */ text, /** @type {DOMPoint | undefined} */ at, /** @type {boolean} */ up) => this.chip(text, at, up),
     };
     this.sketch = new Sketch(room("film"), this.words, tells, this.editing.drawn ? this.taken() : new Set());
     if (this.editing.drawn) this.sketch.take(structuredClone(this.editing.drawn.pins), structuredClone(this.editing.drawn.links));

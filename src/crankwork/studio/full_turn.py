@@ -11,7 +11,7 @@ from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.description.document import Description
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language, say
-from crankwork.locale.numbers import number
+from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.mechanism import Crank
 from crankwork.units import from_si
 
@@ -44,7 +44,7 @@ def full_turn(
         if other.way is None or other.way.is_whole:
             name = bound.key.rpartition(".")[0].removeprefix("links.")
             name = bound.key if name.isdigit() else name
-            shown = f"{number(value, language)} {stated[bound.key]['unit']}"
+            shown = f"{number(value, language)} {unit_name(stated[bound.key]['unit'], language)}"
             ends = {key: number(round(at, 1), language) for key, at in (("start", way.start), ("end", way.end))}
             text = say("studio.full_turn", language, name=name, sign=bound.sign, value=shown, **ends)
             return {"key": bound.key, "value": written, "text": text, "use": say("studio.use", language, value=shown)}
