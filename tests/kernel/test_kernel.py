@@ -262,6 +262,21 @@ def test_laws_that_end_elsewhere_are_refused():
         Designs(memories, np.array([[1.0], [1.1], [1.2]]), ["y"])
 
 
+def test_of_two_extremes_the_worse_one_is_chosen_for_each_design():
+    description = crankwork.Description(crankwork.template("crank-shaper"))
+    radii = [0.050, 0.049, 0.051, 0.055, 0.090]
+    analyses = [crankwork.analyse(description.machine([f"crank.radius={one * 1000:g} mm"])) for one in radii]
+    keys = ["pressure_angle_max.D", "transmission_angle_min.D"]
+    kernel = Kernel(
+        [one.memory for one in analyses[:3]], np.array(radii[:3])[:, None], keys, CrankGrid.from_degrees,
+        cycle=360.0, is_for_few=True,
+    )  # fmt: skip
+    expected = [[one.summary[key] for one in analyses] for key in keys]
+    # far from the designs that were traced the ram leans the other way
+    assert expected[0][0] == expected[0][2] < expected[0][3]
+    assert kernel(np.array([radii])).values == pytest.approx(np.array(expected), abs=1e-9)
+
+
 def test_two_equal_ways_of_writing_are_one_operation():
     graph = Graph()
     a, b = graph.input(0), graph.input(1)

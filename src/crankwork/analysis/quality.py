@@ -9,7 +9,7 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from crankwork.analysis.solved import Notice
-from crankwork.formula.known import Found, Known
+from crankwork.formula.known import Found, Known, Use, chosen
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics import transmission as angles
 from crankwork.kinematics.crank_grid import Array
@@ -83,6 +83,10 @@ def quality_of(over: OverCycle) -> tuple[dict[str, Known], tuple[Notice, ...]]:
         else:
             worse = largest if largest.value >= -least.value else -least
             pressure = _in_line(worse, angles.pressure_of_sine, math.pi / 2).named(f"pressure_angle_max.{name}")
+            if isinstance(pressure.node, Use):
+                # with other numbers it is the other one
+                either = angles.pressure_of_sine(chosen(largest + least, largest, -least))
+                pressure = Known(Use(pressure.node.formula, pressure.node.inputs, either), pressure.key)
             result[pressure.key] = pressure
             found = {"min": angles.transmission_of_pressure(pressure)}
             result[f"transmission_angle_min.{name}"] = found["min"]

@@ -54,13 +54,16 @@ class OfAngle(Node):
 
 
 class Use(Node):
-    """A formula with its operands; plain numbers among them are constants of the analysis."""
+    """A formula with its operands; plain numbers among them are constants of the analysis.
 
-    __slots__ = ("formula", "inputs")
+    `retold`: the same value for any numbers, where an operand is the one of several that counts with these numbers.
+    """
 
-    def __init__(self, formula: Formula, inputs: tuple[Known | float, ...]) -> None:
+    __slots__ = ("formula", "inputs", "retold")
+
+    def __init__(self, formula: Formula, inputs: tuple[Known | float, ...], retold: Known | None = None) -> None:
         self.value, self.operands = _value(formula.function, inputs)
-        self.formula, self.inputs = formula, inputs
+        self.formula, self.inputs, self.retold = formula, inputs, retold
 
 
 class Arithmetic(Node):

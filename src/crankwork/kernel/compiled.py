@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork import files
-from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, breaks_of, in_order
+from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, Use, breaks_of, in_order
 from crankwork.kernel.arrays import Arrays
 from crankwork.kernel.gradient import Gradient
 from crankwork.kernel.graph import Value, number
@@ -230,7 +230,7 @@ def _of_cycle(known: Known, value: Value) -> Value:
 
 
 def _told(node: Node) -> Sequence[Known]:
-    return (node.retold,) if isinstance(node, Found) and node.retold is not None else node.operands
+    return (node.retold,) if isinstance(node, Found | Use) and node.retold is not None else node.operands
 
 
 def _reduced(knowns: Iterable[Known]) -> list[Known]:

@@ -152,6 +152,8 @@ class Designs:
                 return (*node.operands, *(one for one in places if isinstance(one, Known)))
             case Found(by=by, retold=retold) if by is not None:
                 return (*node.operands, by) if retold is None else (retold,)
+            case Use(retold=retold) if retold is not None:
+                return (retold,)
         return node.operands
 
     def told(self, node: Pieces) -> Known:
@@ -269,8 +271,8 @@ class Trace:
         """Return what is to be made at the same angle before a node is."""
         if node.value is not None and not self._designs.differs[id(node)]:
             return ()
-        if isinstance(node, Pieces) and node.retold is not None:
-            return (self._designs.told(node),)
+        if isinstance(node, Pieces | Use) and node.retold is not None:
+            return self._designs.made_of(node)
         return () if isinstance(node, Delayed | Found) else node.operands
 
     def _once(self, known: Known, shift: float, fixed: float | None) -> None:
@@ -292,6 +294,8 @@ class Trace:
         match node:
             case Given():
                 return self._designs.followed(node, self.graph)
+            case Use(retold=retold) if retold is not None:
+                return self._as_value(of(retold))
             case Use() | Arithmetic():
                 function = node.formula.function if isinstance(node, Use) else node.function
                 return self._as_value(function(*map(of, node.inputs)))
