@@ -94,3 +94,12 @@ def test_a_triangle_that_turns_as_one_body_needs_no_torque_that_changes_sign():
     # rounding of J' all the way round, and none of it a change from driving to braking
     assert 0 < results.summary["dynamic_torque_max"] < 1e-9
     assert len(breaks_of([results.memory["driving_torque"]], 360.0)) == 2
+
+
+def test_an_extreme_that_is_nothing_beside_its_column_is_printed_as_nothing():
+    press = crankwork.Description(crankwork.template("toggle-press"))
+    # nothing acts on the way back
+    results = crankwork.analyse(press.machine(["fixed_points.E[2]=160 mm"]))
+    assert 0 < results.summary["static_torque_min"] < 1e-11
+    assert summary_without_rounding(results)["static_torque_min"] == 0
+    assert summary_without_rounding(results)["static_torque_max"] == results.summary["static_torque_max"] > 100

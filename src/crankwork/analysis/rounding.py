@@ -46,14 +46,20 @@ def without_rounding(columns: Mapping[str, Array], speed: float) -> dict[str, Ar
 
 
 def summary_without_rounding(results: Results) -> dict[str, float]:
-    """Return the single values, the extremes of what is nothing all over the cycle as zero."""
-    summary, sizes = dict(results.summary), _sizes(results.columns, results.machine.speed)
+    """Return the single values, as zero those extremes that are nothing beside their column or its quantity."""
+    limits = rounding_of_extremes(results)
+    return {key: 0.0 if abs(value) <= limits.get(key, 0.0) else value for key, value in results.summary.items()}
+
+
+def rounding_of_extremes(results: Results) -> dict[str, float]:
+    """Return of the extremes of columns by key what of each is rounding."""
+    summary, sizes, found = results.summary, _sizes(results.columns, results.machine.speed), dict[str, float]()
     for column in results.columns:
         kind, dot, name = column.partition(".")
         ends = [key for end in ("max", "min") if (key := f"{kind}_{end}{dot}{name}") in summary]
-        if _is_rounding(kind, max((abs(summary[key]) for key in ends), default=0.0), sizes):
-            summary |= dict.fromkeys(ends, 0.0)
-    return summary
+        size = max([sizes.get(kind, 0.0), *(abs(summary[key]) for key in ends)])
+        found |= dict.fromkeys(ends, _ROUNDING * size)
+    return found
 
 
 def _sizes(columns: Mapping[str, Array], speed: float) -> dict[str, float]:
