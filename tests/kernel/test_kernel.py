@@ -277,6 +277,16 @@ def test_of_two_extremes_the_worse_one_is_chosen_for_each_design():
     assert kernel(np.array([radii])).values == pytest.approx(np.array(expected), abs=1e-9)
 
 
+def test_the_mean_of_what_is_nothing_but_for_rounding_is_nothing():
+    description = crankwork.Description(crankwork.template("slider-crank"))
+    analyses = [crankwork.analyse(description.machine([f"crank.radius={one} mm"])) for one in (50, 49, 51)]
+    radii = np.array([[0.050, 0.049, 0.051]])
+    memories = [one.memory for one in analyses]
+    kernel = Kernel(memories, radii.T, ["mean_torque"], CrankGrid.from_degrees, cycle=360.0, is_for_few=True)
+    assert analyses[0].summary["mean_torque"] == 0
+    assert not kernel(np.array([[0.050, 0.045, 0.060]])).values.any()
+
+
 def test_two_equal_ways_of_writing_are_one_operation():
     graph = Graph()
     a, b = graph.input(0), graph.input(1)

@@ -222,6 +222,18 @@ def test_curves_stand_where_the_analysis_has_them_in_scales_that_hold_them(opene
                 assert min(abs(one - wanted) for one in found) < 0.012 * abs(up[-1][0] - up[0][0]) * 1e3
 
 
+def test_the_mean_of_what_is_nothing_but_for_rounding_is_nothing(opened):
+    mean = """(order) => {
+      const cycle = new Cycle([0, 90, 200, 360], live.nodes, live.weights);
+      const column = Float64Array.from(cycle.degrees, (one) => 1e3 * Math.sin((one * Math.PI) / 180) ** order);
+      return cycle.reduced(["mean"], [column]);
+    }""".replace("live.", "data.calculation.")
+    read = "const data = JSON.parse(await unfolded(document.getElementById('data').textContent)).sliders;"
+    page = opened("four-bar")
+    means = [page.evaluate(f"async () => {{ {read} return ({mean})({order}); }}") for order in (1, 2)]
+    assert means == [0, pytest.approx(500, abs=1e-9)]
+
+
 def test_sliders_are_moved_by_keys_and_boxes_take_numbers(opened):
     page = opened("four-bar", "ru")
     slider, box, tell = page.locator('[data-field="1"]'), page.locator('[data-box="1"]'), page.locator("#told")

@@ -102,8 +102,12 @@ export class Cycle {
     switch (word) {
       case "integral":
         return this.integral(column);
-      case "mean":
-        return (root ? this.integralOfRoot(smooth) : this.integral(column)) / this.length;
+      case "mean": {
+        const mean = (root ? this.integralOfRoot(smooth) : this.integral(column)) / this.length;
+        const size = column.reduce((most, one) => Math.max(most, Math.abs(one)), 0);
+        // what rounding leaves of nothing is nothing
+        return Math.abs(mean) <= PLATEAU * size ? 0 : mean;
+      }
       case "range": {
         const work = this.work(column);
         return this.largest(work, 1).value + this.largest(work, -1).value;

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from crankwork.kernel.graph import Value
 from crankwork.kernel.plan import Level
-from crankwork.kernel.reductions import Even, Exact, Peaks
+from crankwork.kernel.reductions import PLATEAU, Even, Exact, Peaks
 from crankwork.kernel.source import Source
 
 Array = NDArray[np.float64]
@@ -89,8 +89,12 @@ class Block:
             case "procedure":
                 return np.asarray(self._by_procedure(one)[int(one.detail.split()[2])])
             case "mean" | "integral":
-                integral = self._integral[self._row_of[one.operands[0].at]]
-                return np.asarray(integral / (self.cycle if one.detail == "mean" else 1.0))
+                row = self._row_of[one.operands[0].at]
+                if one.detail == "integral":
+                    return np.asarray(self._integral[row])
+                mean = self._integral[row] / self.cycle
+                # what rounding leaves of nothing is nothing
+                return np.where(np.abs(mean) <= PLATEAU * np.abs(self._columns[row]).max(axis=0), 0.0, mean)
             case "range" | "tangents":
                 up, down = self.range(one)
                 return np.asarray(up.peaks.value[0] + down.peaks.value[0])

@@ -16,7 +16,7 @@ from crankwork.kernel.grid import Grid, Polynomials
 Array = NDArray[np.float64]
 
 # of equal values, whatever rounding says, the first counts
-_PLATEAU = 1e-13
+PLATEAU = 1e-13
 _STEPS = 8
 _EQUAL = 8 * float(np.finfo(float).eps)
 # of the size of a column, what the mean of a root may miss
@@ -178,7 +178,7 @@ class Exact:
         rise = np.abs(series[:, :, 1:]).sum(axis=2)
         is_high = series[:, :, 0] + rise >= (top - rounding)[:, part_of]
         # where it is level but for rounding its first node is as good as any
-        is_level = rise <= (_PLATEAU * size)[:, part_of]
+        is_level = rise <= (PLATEAU * size)[:, part_of]
         inner = np.pad(values, ((0, 0), (0, 0), (1, 1), (0, 0)), constant_values=-np.inf)
         is_peak = (values >= inner[:, :, :-2]) & (values >= inner[:, :, 2:]) & (is_high & ~is_level)[:, :, None]
         is_peak[:, :, 0] |= is_high & is_level
@@ -198,7 +198,7 @@ class Exact:
         np.maximum.at(best, of, found)
         angle = self._of(self._middle, panel, lane) + self._of(self._half, panel, lane) * u
         with np.errstate(invalid="ignore"):
-            is_best = found >= (best - _PLATEAU * (np.abs(best) + best - least))[of]
+            is_best = found >= (best - PLATEAU * (np.abs(best) + best - least))[of]
         first = np.full(top.shape, np.inf)
         np.minimum.at(first, tuple(one[is_best] for one in of), angle[is_best])
         is_first = is_best & (angle == first[of])

@@ -244,6 +244,8 @@ class Trace:
         self._made: dict[tuple[int, float | None, float], Value] = {}
         self._by_angle = ByAngle(self.graph)
         self._waves: dict[tuple[str, float], _Wave] = {}
+        # keys that were looked at and are the same in every design
+        self.steady: set[str] = set()
 
     def compiling(self, keys: Iterable[str]) -> list[str]:
         """Return those of some keys that compile, that designs differ in, and that need loops and extremes alone.
@@ -257,7 +259,9 @@ class Trace:
                 value = self.value(self._designs.memories[0][key])
             except NotCompiledError:
                 continue
-            if value.by_design and not any(map(_needs_more, values_in_order([value]))):
+            if not value.by_design:
+                self.steady.add(key)
+            elif not any(map(_needs_more, values_in_order([value]))):
                 found.append(key)
         return found
 
