@@ -295,6 +295,36 @@ def test_what_a_page_calculates_itself_and_what_stays_behind(name, key, figures,
     assert len(ahead["data"]["sliders"]["values"]) > 5
 
 
+@pytest.mark.parametrize(
+    ("name", "key", "filed", "live"),
+    [
+        # nothing acts on the way back: where the least torque stands is rounding
+        ("toggle-press", "fixed_points.E[2]", ["static_torque_min_angle"], ["pressure_angle_max.D"]),
+        # the same 2 % away, as long as the weights are less than the force of the press
+        ("press", "crank.speed", ["joint_force_max_angle.O"], ["dynamic_torque_max"]),
+    ],
+)
+def test_values_that_may_be_others_elsewhere_are_no_live_ones(name, key, filed, live):
+    found = Studio("en").answer({"do": "ahead", "text": template(name), "key": key, "figures": []})
+    told = found["ahead"]["data"]["sliders"]
+    assert set(filed) <= set(told["filed"])
+    assert not set(filed) & told["values"].keys()
+    assert set(live) <= told["values"].keys()
+
+
+def test_steps_are_believed_as_far_as_there_are_machines():
+    def trusted(name, key):
+        found = Studio("en").answer({"do": "ahead", "text": template(name), "key": key, "figures": []})["ahead"]
+        (field,) = found["data"]["sliders"]["fields"]
+        return pytest.approx(np.array(found["trusted"]) / field["now"], abs=1e-6)
+
+    # of a longer crank the mechanism no longer turns
+    assert trusted("four-bar", "crank.radius") == [0.5, 1.25]
+    # the diagram still closes, for larger numbers it does not
+    assert trusted("engine", "gas.points.e.pressure") == [0.5, 1.5]
+    assert trusted("slider-crank", "crank.radius") == [0.5, 2.0]
+
+
 def test_scales_that_differ_by_rounding_are_the_same(monkeypatch):
     own, drawn = sliders.drawings, []
 

@@ -161,3 +161,18 @@ def test_a_legend_follows_and_a_number_slid_beyond_the_machines_around_is_asked_
     assert drawn.inner_html() != inside
     page.locator('[data-slides="rod.length"]').dispatch_event("change")
     settled(page)
+
+
+def test_a_number_held_beyond_the_last_machine_is_asked_for(seen):
+    page = seen()
+    page.select_option("#template", "engine")
+    page.wait_for_selector('[data-name="kinematics"]')
+    settled(page)
+    page.locator('[data-slides="gas.points.e.pressure"]').hover()
+    page.wait_for_function("() => document.body.dataset.prepares === 'false'")
+    page.wait_for_function("() => globalThis.steps")
+    assert page.locator("#told").text_content() == ""
+    page.evaluate(HELD, ["gas.points.e.pressure", 1.0])
+    settled(page)
+    # what was calculated of it here would not say so
+    assert "does not close" in page.locator("#told").text_content()

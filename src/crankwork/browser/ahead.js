@@ -90,7 +90,8 @@ export class Ahead {
     const { live, lines, figures, joints, films, degrees } = bound;
     const [field] = data.sliders.fields;
     const value = Number(number) * field.scale + field.origin;
-    if (!live.take([value])) return undefined;
+    const [low, high] = ready.ahead.trusted;
+    if (value < low || value > high || !live.take([value])) return undefined;
     const weights = weightsOf(ready.ahead.values, value);
     lines.weights = weights ?? [];
     // what the server has drawn once is drawn by it until the number is let go

@@ -12,10 +12,10 @@ const FAR = 1e-6;
 
 /**
  * Of each field what it is in the file [SI], and what takes a number in its unit to SI; the calculation; factors that
- * take columns to their units, factor and what is added of single values, columns that cannot be calculated, which of the further
- * crank angles are those of the tables, joints of a linkage.
+ * take columns to their units, factor and what is added of single values, and what of them is rounding [SI], keys that cannot be
+ * calculated, which of the further crank angles are those of the tables, joints of a linkage.
  * @typedef {{fields: {now: number, scale: number, origin: number}[], calculation: CalculationData,
- *   columns: Record<string, number>, values: Record<string, [number, number]>, filed: string[], rows: number[],
+ *   columns: Record<string, number>, values: Record<string, [number, number, number]>, filed: string[], rows: number[],
  *   joints?: import("./joints.js").JointsData}} SlidersData
  */
 
@@ -56,8 +56,9 @@ export class Live {
     document.documentElement.classList.toggle("moved", this.moved);
     for (const { one, text } of this.shown) {
       const key = one.dataset.value ?? "";
-      const [factor, added] = data.values[key];
-      one.textContent = this.moved ? printed(calculation.values[data.calculation.values[key]] * factor + added) : text;
+      const [factor, added, rounding] = data.values[key];
+      const value = calculation.values[data.calculation.values[key]];
+      one.textContent = this.moved ? printed((Math.abs(value) <= rounding ? 0 : value) * factor + added) : text;
     }
     return true;
   }

@@ -91,9 +91,11 @@ def follow(live: Live, results: Results, data: dict[str, Any]) -> tuple[dict[str
     marks = {name: _followed(live, name, one) for name, one in data["figures"].items()}
     moves, joints = live.machine()
     columns = {key: scale(key)[0] for key in data["columns"] if live.follows(key)}
-    values = {key: scale(key) for key in results.summary if live.follows(key)}
-    filed = [key for key in (*data["columns"], *results.summary) if live.differs(key) and not live.follows(key)]
+    followed = [key for key in results.summary if live.follows(key)]
     found, steps = live.data()
+    # of which some were found wrong
+    values = {key: live.value_data(key) for key in followed if live.follows(key)}
+    filed = [key for key in (*data["columns"], *results.summary) if live.differs(key) and not live.follows(key)]
     data["sliders"] = {**found, "columns": columns, "values": values, "filed": filed}
     if joints is not None:
         data["sliders"]["joints"] = joints

@@ -7,11 +7,13 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis import Array, Results
+from crankwork.analysis.rounding import rounding_of_extremes
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Delayed, Found, Given, Known, in_order
-from crankwork.kernel.compiled import CONVERGED, Kernel
+from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Language, Refusal
@@ -30,6 +32,8 @@ from crankwork.units import to_si
 # of its size, how far what is drawn may be from a column that it is taken for
 _SAME = 1e-9
 _SAME_PLACE = 1e-6
+# what polynomials may leave out of a design that a browser takes
+_FOLLOWED = 1e-6
 # where tables of designs are compared [deg]
 _LOOKED = 7.0
 # millimetres that nobody sees
@@ -81,10 +85,12 @@ class Live:
         language: Language,
         only: Collection[str] | None = None,
         around: Mapping[float, Results] | None = None,
+        further: Mapping[float, Results] | None = None,
     ) -> None:
         """`only`: the names of the figures that are seen, of which none is drawn beside them.
 
         `around`: results by the one number that is moved; curves that are not calculated go between those of these.
+        `further`: more of them, that what is calculated is compared with too.
         """
         self._moved, self._results, self._language = moved, moved.results, language
         self.memories = [dict(one.memory) for one in self._results]
@@ -107,6 +113,14 @@ class Live:
         self._shown = film_of(self._results[0], language=language, forces=True)
         self._replayed: dict[tuple[int, bytes], Array] = {}
         self._used: dict[str, None] = {}
+        # what more than single values hangs on, and single values that are not calculated right everywhere
+        self._relied: set[str] = set()
+        self._wrong: set[str] = set()
+        self._compared = [*moved.results, *(around or {}).values(), *(further or {}).values()]
+        beyond = np.array([*(around or {}), *(further or {})])[:, None]
+        self._at = np.concatenate([moved.designs, beyond]) if beyond.size else moved.designs
+        limits = [rounding_of_extremes(one) for one in self._compared]
+        self._rounding = {key: max(one.get(key, 0.0) for one in limits) for key in limits[0]}
 
     def _new_trace(self) -> Trace:
         looked = np.arange(0.0, self._cycle, _LOOKED)
@@ -120,19 +134,45 @@ class Live:
         return ""
 
     def differs(self, key: str) -> bool:
-        """Return whether designs differ in a column or a single value, or some have none."""
-        values = [one.columns.get(key, one.summary.get(key)) for one in self._results]
+        """Return whether designs may differ in a column or a single value, or some have none."""
+        if key in self._trace.steady:
+            # but for rounding
+            return False
+        values = [one.columns.get(key, one.summary.get(key)) for one in self._compared]
         if any(one is None for one in values):
             return True
         stated, *others = (np.asarray(one) for one in values)
-        return any(not np.array_equal(stated, one, equal_nan=True) for one in others)
+        if any(not np.array_equal(stated, one, equal_nan=True) for one in others):
+            return True
+        known = self.memories[0].get(key)
+        if known is None:
+            return False
+        # an extreme at the same place in these may stand elsewhere in others
+        try:
+            return self._designs.differs[id(known.node)]
+        except KeyError:
+            return True
 
     def follows(self, key: str) -> bool:
         """Return whether a column or a single value is calculated in the browser, and remember that it is wanted."""
         if key not in self._columns and key not in self._singles:
             return False
+        if key in self._wrong or self._is_nowhere(key):
+            return False
         self._used[key] = None
         return True
+
+    def _is_nowhere(self, key: str) -> bool:
+        """Return whether a place is that of an extreme which is rounding: it may be anywhere."""
+        kind, dot, name = key.partition(".")
+        of = f"{kind.removesuffix('_angle').removesuffix('_time')}{dot}{name}"
+        return of != key and any(
+            abs(one.summary.get(of, np.inf)) <= self._rounding.get(of, 0.0) for one in self._compared
+        )
+
+    def value_data(self, key: str) -> list[float]:
+        """Return what takes a single value to its display unit, and what of it is rounding."""
+        return [*scale(key), self._rounding.get(key, 0.0)]
 
     def nodes(self, knowns: Iterable[Known]) -> list[str]:
         """Return names under which what lies between keys is calculated, empty for what is not."""
@@ -149,6 +189,7 @@ class Live:
             names.append(name)
         live = set(self._trace.compiling(one for one in names if one))
         self._used |= dict.fromkeys(one for one in names if one in live)
+        self._relied |= live
         return [one if one in live else "" for one in names]
 
     def figure(self, name: str) -> tuple[list[dict[str, Any]], list[str], bool]:
@@ -241,7 +282,7 @@ class Live:
         for key in self._singles if numbers else ():
             values = [float(f"{displayed(key, one[key].value):.4g}") for one in self.memories]
             if [number(one, self._language, digits=9) for one in values] == numbers:
-                self._used[key] = None
+                self._rely(key)
                 return [row, numbers[0], key, *scale(key)]
         # of a figure between machines it is left out
         return [row, numbers[0], "", 0.0, 0.0] if numbers and len(self._between.values) else []
@@ -255,9 +296,13 @@ class Live:
             of = np.array([one[key].value for one in self.memories])
             factor = (of @ wanted) / (of @ of) if of.any() else 0.0
             if np.max(np.abs(factor * of - wanted)) <= _SAME * np.max(np.abs(wanted)):
-                self._used[key] = None
+                self._rely(key)
                 return [key, factor]
         return []
+
+    def _rely(self, key: str) -> None:
+        self._used[key] = None
+        self._relied.add(key)
 
     def _column(self, name: str, degrees: Sequence[Array], values: Sequence[Array]) -> list[Any]:
         """Return the column that a curve shows in all designs, and by what it is multiplied."""
@@ -327,22 +372,37 @@ class Live:
             every = more
 
     def _check(self, kernel: Kernel) -> None:
-        """Refuse a calculation that gives something else than the analyses of the designs it follows to the end."""
-        found = kernel(self._moved.designs.T)
-        whole = found.left_out <= CONVERGED
-        for key, values in zip(self._used, found.values, strict=True):
-            known = [one[key] for one in self.memories]
-            if known[0].varies:
-                continue
-            expected = np.array([one.value for one in known])
-            # a place where a column is flat is known to the root of its digits
-            is_place = "angle" in known[0].key or "time_ratio" in known[0].key
-            # the mean of a column may be no more than its rounding
-            of = known[0].node.operands if isinstance(known[0].node, Found) else ()
-            columns = [self._results[0].columns.get(one.key, 0.0) for one in of]
-            size = max(float(np.max(np.abs(one))) for one in (expected, *columns, _SAME))
-            if not np.all(np.abs(values - expected)[whole] <= (_SAME_PLACE if is_place else _SAME) * size):
-                raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in self._moved.sliders]))
+        """Find what is something else than in analyses, of designs that are followed; refuse it where curves are it."""
+        found = kernel(self._at.T)
+        whole, left_out = found.left_out <= _FOLLOWED, np.maximum(found.left_out, _SAME)
+        self._wrong = {
+            key
+            for key, values in zip(self._used, found.values, strict=True)
+            if not self.memories[0][key].varies and not self._is_right(key, values[whole], whole, left_out[whole])
+        }
+        if self._wrong & self._relied:
+            raise CrankworkError(Refusal("slider_nothing", keys=[one.key for one in self._moved.sliders]))
+
+    def _is_right(self, key: str, values: Array, whole: NDArray[np.bool_], left_out: Array) -> bool:
+        """Return whether a single value is that of the analyses of some designs."""
+        known = self.memories[0][key]
+        count = len(self.memories)
+        every = [one.get(key) for one in (*self.memories, *(one.memory for one in self._compared[count:]))]
+        if key.startswith("#"):
+            # what lies between keys is known of those that were traced alone
+            every, values, left_out = every[:count], values[: whole[:count].sum()], left_out[: whole[:count].sum()]
+        if any(one is None for one in every):
+            return False
+        expected = np.array([one.value for one in every if one is not None])[whole[: len(every)]]
+        # a place where a column is flat is known to the root of its digits
+        is_place = "angle" in known.key or "time_ratio" in known.key
+        # the mean of a column may be no more than its rounding
+        of = known.node.operands if isinstance(known.node, Found) else ()
+        columns = [self._results[0].columns.get(one.key, 0.0) for one in of]
+        size = max(float(np.max(np.abs(one), initial=0.0)) for one in (expected, *columns, _SAME))
+        return bool(
+            np.all(np.abs(values - expected) <= np.maximum(_SAME_PLACE if is_place else _SAME, left_out) * size)
+        )
 
 
 def scale(key: str) -> list[float]:

@@ -10,7 +10,7 @@ from crankwork.description.document import Description
 from crankwork.locale import Language
 from crankwork.note.live import page_data
 from crankwork.page.document import follow
-from crankwork.page.sliders import FAINT, Live
+from crankwork.page.sliders import FAINT, Live, Slider
 from crankwork.report.drawing import film_of
 from crankwork.report.language import in_own_units
 from crankwork.show.alt import described
@@ -21,6 +21,9 @@ from crankwork.study.sliders import around, moved
 _NEAR = 0.02
 # of it, where machines lie that others are drawn between: nearer to each other towards the ends, as polynomials ask for
 _AROUND = (-0.25, -0.177, 0.0, 0.177, 0.25)
+# and machines that nobody draws, to the ends of its slider
+_FURTHER = (-0.5, 0.5, 1.0)
+_ROUNDING = 1e-9
 
 
 @in_own_units
@@ -34,7 +37,8 @@ def ahead(
     """
     made = moved(description, [key], (), results, _NEAR)
     others = around(description, key, results, _AROUND)
-    live = Live(made, language, names, others)
+    further = around(description, key, results, _FURTHER)
+    live = Live(made, language, names, others, further)
     data = page_data(results, live.drawn, None, language, only_read=True)
     marks, steps, stays = follow(live, results, data)
     behind = [name for name, one in data["figures"].items() if one.pop("filed", False) or FAINT in marks[name]]
@@ -43,9 +47,30 @@ def ahead(
     figures = {
         name: inline_svg(one, name, one.title, marks[name]) for name, one in live.drawn.items() if name not in behind
     }
-    found = {"unit": made.sliders[0].unit, "behind": behind, "stays": stays, "data": data, "figures": figures}
+    trusted = _trusted(made.sliders[0], [*others, *further])
+    found = {
+        "unit": made.sliders[0].unit,
+        "trusted": trusted,
+        "behind": behind,
+        "stays": stays,
+        "data": data,
+        "figures": figures,
+    }
     films = [_filmed(one, language) for one in others.values()] if stays else []
     return {**found, "values": list(others), "films": films}, steps
+
+
+def _trusted(slider: Slider, there: Collection[float]) -> tuple[float, float]:
+    """Return between which numbers the steps are believed: as far as there are machines one after another. [SI]"""
+    ends, now = [slider.low, slider.high], slider.now
+    for way in (-1, 1):
+        for share in sorted((one for one in (*_AROUND, *_FURTHER) if one * way > 0), key=abs):
+            value, end = now * (1 + share), int(share * now > 0)
+            if value not in there or abs(ends[end] - now) < _NEAR * abs(now) * (1 - _ROUNDING):
+                break
+            ends[end] = value
+    spare = _ROUNDING * max(map(abs, ends))
+    return ends[0] - spare, ends[1] + spare
 
 
 def _filmed(results: Results, language: Language) -> dict[str, Any]:
