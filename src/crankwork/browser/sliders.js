@@ -2,9 +2,6 @@
 import { Calculation } from "./calculation.js";
 import { printed } from "./numbers.js";
 
-// of columns, what polynomials may leave out where a machine hardly moves any more
-const FAR = 1e-6;
-
 /** @typedef {import("./calculation.js").CalculationData} CalculationData */
 /** @typedef {import("./calculation.js").Steps} Steps */
 /** @typedef {import("./figure.js").Figure} Figure */
@@ -13,9 +10,10 @@ const FAR = 1e-6;
 /**
  * Of each field what it is in the file [SI], and what takes a number in its unit to SI; the calculation; factors that
  * take columns to their units, factor and what is added of single values, and what of them is rounding [SI], keys that cannot be
- * calculated, which of the further crank angles are those of the tables, joints of a linkage.
+ * calculated, which of the further crank angles are those of the tables, what polynomials may leave out where a machine hardly
+ * moves any more, joints of a linkage.
  * @typedef {{fields: {now: number, scale: number, origin: number}[], calculation: CalculationData,
- *   columns: Record<string, number>, values: Record<string, [number, number, number]>, filed: string[], rows: number[],
+ *   columns: Record<string, number>, values: Record<string, [number, number, number]>, filed: string[], rows: number[], far: number,
  *   joints?: import("./joints.js").JointsData}} SlidersData
  */
 
@@ -46,7 +44,7 @@ export class Live {
     const { calculation, data } = this;
     calculation.run(design);
     const finite = (/** @type {number} */ row) => Number.isFinite(calculation.values[row]);
-    if (calculation.leftOut > FAR || !Object.keys(data.values).every((key) => finite(data.calculation.values[key]))) return false;
+    if (calculation.leftOut > data.far || !Object.keys(data.values).every((key) => finite(data.calculation.values[key]))) return false;
     this.design = design;
     this.moved = design.some((one, k) => one !== data.fields[k].now);
     for (const [key, factor] of Object.entries(data.columns)) {

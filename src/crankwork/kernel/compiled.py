@@ -19,6 +19,7 @@ from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, Use,
 from crankwork.kernel.arrays import Arrays
 from crankwork.kernel.gradient import Gradient
 from crankwork.kernel.graph import Value, number
+from crankwork.kernel.graph import in_order as values_in_order
 from crankwork.kernel.grid import Edges, Grid, between, closed, divided, even, lobatto, nodes_between
 from crankwork.kernel.plan import Plan
 from crankwork.kernel.reduced import Block, Reduced
@@ -56,8 +57,8 @@ class Kernel:
     crank angles are looked at; otherwise extremes and integrals are those of polynomials between the breaks of laws, as
     in an analysis. With `parts` largest and least values in so many parts of the cycle are found too; `is_for_few`:
     carried out with arrays, where compiling takes longer than the few designs that are asked for. Columns among the
-    keys are kept, at `rows` too [deg], for what carries the plan out elsewhere.
-    `NotCompiledError` says why a calculation cannot be compiled.
+    keys are kept, at `rows` too [deg], for what carries the plan out elsewhere. `enough`: what polynomials may
+    leave out. `NotCompiledError` says why a calculation cannot be compiled.
     """
 
     def __init__(  # noqa: PLR0913 - designs, what is wanted of them, and where it is looked at
@@ -73,6 +74,7 @@ class Kernel:
         parts: int = 0,
         is_for_few: bool = False,
         rows: Array | None = None,
+        enough: float = CONVERGED,
     ) -> None:
         designs = Designs(memories, fields, keys)
         self.fields = fields.shape[1]
@@ -115,7 +117,7 @@ class Kernel:
             self._reduced = Reduced(self.source, self._exact or Even(grid), parts)
             self.keys = tuple(outputs)
             # looked at with arrays, so that only what is taken is compiled
-            if steps or float(np.max(self(fields.T).left_out)) <= CONVERGED:
+            if steps or float(np.max(self(fields.T).left_out)) <= enough:
                 break
         self._module = compiled(self.source.text) if is_compiled else None
 
@@ -150,6 +152,21 @@ class Kernel:
         taking = [None if one is None else Taking(one, self.plan.grid, edges) for one in blocks]
         values = [self._of_output(one, store[:, 0]) for key, one in self.plan.outputs.items() if key]
         return np.array(values), self._gradient(store, taking)
+
+    def left_out_of(self, designs: Array) -> Array:
+        """Return what polynomials leave out of the columns that each single value follows from, shape (keys, n)."""
+        count = designs.shape[1]
+        store, kept = self._stores(count)
+        store[: self.fields] = designs
+        self._arrays.designs(0, store)
+        blocks = self._levels(store, kept, count)[1]
+        left = dict[int, Array]()
+        for one in values_in_order(self.plan.outputs.values()):
+            own = np.max([np.zeros(count), *(left[of.at] for of in one.operands)], axis=0)
+            if one.kind == "reduction" and one.detail != "column" and (block := blocks[one.level - 1]) is not None:
+                own = np.maximum(own, block.left_out_of(one))
+            left[one.at] = own
+        return np.array([left[one.at] for key, one in self.plan.outputs.items() if key])
 
     @cached_property
     def _gradient(self) -> Gradient:

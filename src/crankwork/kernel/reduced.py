@@ -74,7 +74,8 @@ class Block:
         # a root has a corner where it vanishes, and its square has none
         self._is_root = is_root = np.array([one.kind == "sqrt" for one in reduced.values()])
         self._smooth = np.where(is_root[:, None, None], self._columns**2, self._columns)
-        self.left_out: Array = reductions.left_out(self._smooth).max(axis=0)
+        self._left_out = reductions.left_out(self._smooth)
+        self.left_out: Array = self._left_out.max(axis=0)
         self.cycle = np.radians(source.plan.grid.cycle)
         self._integral = reductions.integrals(self._columns)
         if is_root.any() and any(one.detail == "mean" for one in every):
@@ -110,6 +111,10 @@ class Block:
         if not isinstance(self.reductions, Exact):
             raise TypeError("evenly spaced angles are not followed")
         return self.reductions
+
+    def left_out_of(self, one: Value) -> Array:
+        """Return what polynomials leave out of the columns of a reduction, shape (lanes,)."""
+        return np.asarray(self._left_out[[self._row_of[of.at] for of in _looked_at(one)]].max(axis=0))
 
     def is_root(self, column: Value) -> bool:
         """Return whether of a column the square is looked at."""

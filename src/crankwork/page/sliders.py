@@ -13,7 +13,7 @@ from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding import rounding_of_extremes
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Delayed, Found, Given, Known, in_order
-from crankwork.kernel.compiled import Kernel
+from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Language, Refusal
@@ -98,7 +98,10 @@ class Live:
         self._angles_at, self._cycle = type(stated.grid).from_degrees, stated.machine.cycle
         self._designs = Designs(self.memories, moved.designs, ())
         self._trace = self._new_trace()
-        keys = self._trace.compiling(self.memories[0])
+        self._compared = [*moved.results, *(around or {}).values(), *(further or {}).values()]
+        # reductions of columns that polynomials follow in every design
+        self._converged: set[int] = set()
+        keys = self._followed(self._trace.compiling(self.memories[0]))
         self._columns = [key for key in keys if self.memories[0][key].varies]
         self._singles = [key for key in keys if not self.memories[0][key].varies]
         if not keys:
@@ -116,7 +119,6 @@ class Live:
         # what more than single values hangs on, and single values that are not calculated right everywhere
         self._relied: set[str] = set()
         self._wrong: set[str] = set()
-        self._compared = [*moved.results, *(around or {}).values(), *(further or {}).values()]
         beyond = np.array([*(around or {}), *(further or {})])[:, None]
         self._at = np.concatenate([moved.designs, beyond]) if beyond.size else moved.designs
         limits = [rounding_of_extremes(one) for one in self._compared]
@@ -125,6 +127,28 @@ class Live:
     def _new_trace(self) -> Trace:
         looked = np.arange(0.0, self._cycle, _LOOKED)
         return Trace(self._designs, self._angles_at, looked, is_shifted=True)
+
+    def _followed(self, keys: Sequence[str]) -> list[str]:
+        """Return those of some keys for which polynomials follow all columns that their extremes and means are of.
+
+        Steps and what is nothing but rounding are followed in no design, so that they would tell of none whether it is
+        there; where a level column has its extreme, rounding tells otherwise in another calculation.
+        """
+        reductions = {key: self._trace.reductions(self.memories[0][key]) for key in keys}
+        unsure = [key for key in keys if not reductions[key] <= self._converged]
+        if unsure:
+            kernel = Kernel(
+                self.memories, self._moved.designs, unsure, self._angles_at, cycle=self._cycle,
+                is_for_few=True, enough=_FOLLOWED,
+            )  # fmt: skip
+            designs = self._moved.designs.T
+            for key, values, left in zip(unsure, kernel(designs).values, kernel.left_out_of(designs), strict=True):
+                whole = left <= CONVERGED
+                slack = np.full(whole.sum(), _SAME)
+                is_right = self.memories[0][key].varies or self._is_right(key, values[whole], whole, slack)
+                if is_right and np.all(left <= _FOLLOWED):
+                    self._converged |= reductions[key]
+        return [key for key in keys if reductions[key] <= self._converged]
 
     def name(self, slider: Slider) -> str:
         """Return the key of the quantity that a field is, if a formula takes it."""
@@ -187,7 +211,7 @@ class Live:
             for memory, twin in zip(self.memories, twins, strict=True):
                 memory[name] = Known(twin, known.key)
             names.append(name)
-        live = set(self._trace.compiling(one for one in names if one))
+        live = set(self._followed(self._trace.compiling(one for one in names if one)))
         self._used |= dict.fromkeys(one for one in names if one in live)
         self._relied |= live
         return [one if one in live else "" for one in names]
@@ -357,7 +381,7 @@ class Live:
             origin, end = (float(to_si(at, one.unit)) if one.unit else at for at in (0.0, 1.0))
             fields.append({"now": one.now, "scale": end - origin, "origin": origin})
         places = np.searchsorted(rows, stated.grid.degrees - _SAME).tolist()
-        return {"fields": fields, "calculation": script.data, "rows": places}, script.text
+        return {"fields": fields, "calculation": script.data, "rows": places, "far": _FOLLOWED}, script.text
 
     def _rows(self, rows: Array) -> Array:
         """Return crank angles of the tables, and those that other cylinders have there. [deg]"""
@@ -387,7 +411,9 @@ class Live:
         """Return whether a single value is that of the analyses of some designs."""
         known = self.memories[0][key]
         count = len(self.memories)
-        every = [one.get(key) for one in (*self.memories, *(one.memory for one in self._compared[count:]))]
+        every = [one.get(key) for one in (*self.memories, *(one.memory for one in self._compared[count:]))][
+            : whole.size
+        ]
         if key.startswith("#"):
             # what lies between keys is known of those that were traced alone
             every, values, left_out = every[:count], values[: whole[:count].sum()], left_out[: whole[:count].sum()]
