@@ -240,6 +240,21 @@ def test_the_mean_of_what_is_nothing_but_for_rounding_is_nothing(opened):
     assert means == [0, pytest.approx(500, abs=1e-9)]
 
 
+def test_curves_of_one_name_in_graphs_side_by_side_follow_each_its_own_or_are_pale(opened):
+    page = opened("V8")
+    loads = page.locator("[data-figure=main_journal_polar] path[data-curve=load]")
+    before = loads.evaluate_all("all => all.map((one) => [one.getAttribute('d'), one.dataset.at ?? ''])")
+    assert len(before) == 5
+    assert all(at for _, at in before)
+    move(page, 0, 300)
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    after = loads.evaluate_all("all => all.map((one) => [one.getAttribute('d'), Boolean(one.closest('.faint'))])")
+    assert sum(not is_faint for _, is_faint in after) >= 3
+    for (was, _), (now, is_faint) in zip(before, after, strict=True):
+        assert "NaN" not in now
+        assert (was == now) == is_faint
+
+
 def test_sliders_are_moved_by_keys_and_boxes_take_numbers(opened):
     page = opened("four-bar", "ru")
     slider, box, tell = page.locator('[data-field="1"]'), page.locator('[data-box="1"]'), page.locator("#told")

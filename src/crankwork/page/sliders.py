@@ -235,11 +235,14 @@ class Live:
             for at, item in enumerate(drawn.items)
         ]
         differs = len(there) < len(every) or not all(is_same)
-        live = {curve for one in plots for curve in one["curves"]}
+        # graphs side by side have curves of one name
+        live = [(made["curves"], plot.box) for made, plot in zip(plots, drawn.plots, strict=False) if made["curves"]]
         marks = [""] * len(drawn.items)
         for at, item in enumerate(drawn.items):
             before = drawn.items[at - 1] if at else None
-            if is_same[at] or (isinstance(item, Polyline) and item.name in live):
+            if is_same[at] or (
+                isinstance(item, Polyline) and _is_within(item, (box for curves, box in live if item.name in curves))
+            ):
                 continue
             is_legend = isinstance(before, Polyline) and before.name == "legend"
             if is_legend and live and (told := self._told(at, there)):

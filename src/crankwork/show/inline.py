@@ -37,11 +37,12 @@ def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str
 
     `marks`: a class for each item, empty for most, by which the page finds what becomes of it.
     """
-    angles = {
-        name: [one[part] for part in stretches(np.isfinite(sum(plot.curves[name])))]
-        for plot in drawing.plots
-        for name, one in plot.angles.items()
-    }
+    # graphs side by side have curves of one name, drawn in the order of these
+    angles = dict[str, list[Array]]()
+    for plot in drawing.plots:
+        for curve, one in plot.angles.items():
+            parts = stretches(np.isfinite(sum(plot.curves[curve])))
+            angles.setdefault(curve, []).extend(one[part] for part in parts)
     sizes = Counter(_hundredths(round(100 * one.height / CAP_HEIGHT)) for one in drawing.items if isinstance(one, Text))
     usual = max(sizes, key=lambda size: sizes[size], default="3")
     writer = _InlineWriter(drawing.height, angles, usual)
