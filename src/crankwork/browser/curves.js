@@ -37,7 +37,8 @@ export class Curve {
     const plot = this.plot;
     if (path.dataset.at) {
       let sum = 0;
-      this.angles = path.dataset.at.split(" ").map((step) => (sum += Math.round(10 * Number(step))) / 10);
+      const steps = path.dataset.at.match(/[a-z]|[^a-z ]+/g) ?? [];
+      this.angles = steps.map((step) => (sum += step < "a" ? Math.round(10 * Number(step)) : 10 * (step.charCodeAt(0) - 96)) / 10);
     } else if (plot?.over) {
       this.angles = x.map((one) => plot.x[0] + ((one - plot.box[0]) / plot.box[2]) * (plot.x[1] - plot.x[0]));
     }

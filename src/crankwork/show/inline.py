@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import re
+import string
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
@@ -26,6 +27,7 @@ from crankwork.show.theme import KINDS, Theme, curve_kind, fill_colours, look_of
 _UNSEEN = 0.05
 # of a place told by its crank angle, between points of the curve [mm]
 _MISPLACED = 0.3
+_LETTERS = {10 * (at + 1): letter for at, letter in enumerate(string.ascii_lowercase)}
 _QUOTED = re.compile(r"""="([^"\s=<>`'/&]+)"(?=[ >])""")
 _FILLED = fill_colours("print")
 # a number with a point ends where another point begins
@@ -240,9 +242,11 @@ def _with_places(kept: NDArray[np.bool_], points: Array, angles: Array) -> NDArr
 
 
 def _apart(angles: Array) -> str:
-    """Return angles as what each adds to the one before, to tenths of a degree."""
+    """Return angles as what each adds to the one before, to tenths of a degree; a to z are whole degrees up to 26."""
     steps = np.diff(np.rint(angles * 10).astype(int), prepend=0).tolist()
-    return " ".join(str(one // 10) if one % 10 == 0 else str(one / 10).removeprefix("0") for one in steps)
+    told = (_LETTERS.get(one) or f" {one // 10 if one % 10 == 0 else str(one / 10).removeprefix('0')}" for one in steps)
+    # only numbers stand apart from each other
+    return re.sub("(?<=[a-z]) ", "", "".join(told)).strip()
 
 
 _GREYS = "".join(f"--g{one}:color-mix(in srgb,var(--ground) {5 * one}%,var(--ink));" for one in range(1, 20))
