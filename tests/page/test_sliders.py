@@ -34,6 +34,10 @@ PALE = {
     "parallelogram": ((EXAMPLES / "parallelogram.toml").read_text("utf-8"), ("crank.speed",)),
     "parallelogram's mass": ((EXAMPLES / "parallelogram.toml").read_text("utf-8"), ("links.coupler.centre[1]",)),
 }
+# a jump of the pressure stands at a row of the tables
+JUMP = {
+    "steam": ((EXAMPLES / "double-acting-steam.toml").read_text("utf-8"), ("chambers.head.pieces[2].exponent",)),
+}
 # settings that are compared with analyses, which take their time
 SETTINGS = {"engine": 200, "four-bar": 200, "V8": 8, "six-bar": 30, "spark-engine": 40}
 # what polynomials may leave out where extremes are to be exact
@@ -59,14 +63,14 @@ MOVE = """([at, value]) => {
 
 @cache
 def described(name):
-    text = (MACHINES | PALE)[name][0]
+    text = (MACHINES | PALE | JUMP)[name][0]
     return crankwork.Description(text if "\n" in text else crankwork.template(text))
 
 
 @cache
 def live(name):
     description = described(name)
-    return moved(description, (MACHINES | PALE)[name][1], (), crankwork.analyse(description.machine()))
+    return moved(description, (MACHINES | PALE | JUMP)[name][1], (), crankwork.analyse(description.machine()))
 
 
 def results(name, shown):
@@ -238,6 +242,15 @@ def test_the_mean_of_what_is_nothing_but_for_rounding_is_nothing(opened):
     page = opened("four-bar")
     means = [page.evaluate(f"async () => {{ {read} return ({mean})({order}); }}") for order in (1, 2)]
     assert means == [0, pytest.approx(500, abs=1e-9)]
+
+
+def test_a_row_at_a_jump_follows_the_law_that_an_analysis_takes_there(opened):
+    expected = results("steam", [1.1])
+    (found,) = opened("steam").evaluate(CALCULATED, [[1.1]])
+    assert {"joint_force.O", "driving_torque"} <= found["columns"].keys()
+    for key, column in found["columns"].items():
+        wanted = expected[key]
+        assert column == pytest.approx(wanted.tolist(), rel=1e-9, abs=1e-9 * np.max(np.abs(wanted))), key
 
 
 def test_curves_of_one_name_in_graphs_side_by_side_follow_each_its_own_or_are_pale(opened):

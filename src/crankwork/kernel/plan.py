@@ -99,8 +99,16 @@ class Plan:
         for panel, middle in enumerate(self.grid.middles):
             is_moving = bool(self.grid.moves[panel])
             panels.setdefault((is_moving, *(self._laws_at(one, middle) for one in used)), []).append(panel)
-        for (is_moving, *laws), of in panels.items():
-            angles = np.flatnonzero(np.isin(self.grid.panel, of))
+        nodes = self.grid.nodes
+        places = {of: np.flatnonzero(np.isin(self.grid.panel[:nodes], some)) for of, some in panels.items()}
+        # a row of tables beside a jump follows the law that an analysis takes there, whichever ends the panel
+        rows: dict[tuple[Any, ...], list[int]] = {}
+        for at in range(nodes, self.grid.degrees.size):
+            is_moving, degrees = bool(self.grid.moves[self.grid.panel[at]]), float(self.grid.degrees[at])
+            rows.setdefault((is_moving, *(self._laws_at(one, degrees) for one in used)), []).append(at)
+        for of in dict.fromkeys([*places, *rows]):
+            is_moving, *laws = of
+            angles = np.array([*places.get(of, ()), *rows.get(of, ())], dtype=np.intp)
             chosen = {one.at: law for one, law in zip(used, laws, strict=True)}
             resolved = self._with_laws(columns, chosen, is_moving=is_moving)
             roots = [resolved[one.at] for one in columns]

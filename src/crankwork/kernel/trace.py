@@ -47,6 +47,8 @@ Array = NDArray[np.float64]
 
 # How far a number given may be from what follows of a field, of its size.
 _SAME = 1e-12
+# How far the ends of a law may be from each other in two designs where they stay. [deg]
+_SAME_END = 1e-9
 # How far a direction may be from that of the stated design for its half turns to be the same. [rad]
 _NEAR_DIRECTION = 1.0
 
@@ -206,7 +208,7 @@ def _are_alike(one: Node, other: Node) -> bool:
         case Delayed(by=a, cycle=c), Delayed(by=b, cycle=d):
             return (a, c) == (b, d)
         case Pieces(), Pieces():
-            return one.retold is not None or _plain(one.places) == _plain(other.places)
+            return one.retold is not None or _end_alike(_plain(one.places), _plain(other.places))
         case Procedure(function=f, part=a), Procedure(function=g, part=b):
             return f == g and a == b
         case Harmonic(order=a, part=b), Harmonic(order=c, part=d):
@@ -218,6 +220,14 @@ def _are_alike(one: Node, other: Node) -> bool:
 
 def _plain(inputs: Iterable[Known | float]) -> list[float | None]:
     return [None if isinstance(one, Known) else float(one) for one in inputs]
+
+
+def _end_alike(ends: list[float | None], others: list[float | None]) -> bool:
+    """Return whether laws end at the same crank angles, but for rounding, or where the design puts them. [deg]"""
+    return len(ends) == len(others) and all(
+        a is b is None or (a is not None and b is not None and abs(a - b) <= _SAME_END)
+        for a, b in zip(ends, others, strict=True)
+    )
 
 
 def _needs_more(value: Value) -> bool:

@@ -89,7 +89,9 @@ class StatedDiagram(NamedTuple):
             for end, law in told.laws(segment):
                 if segment.start + _SAME_ANGLE < plain(end) < segment.end + _SAME_ANGLE:
                     laws.append(law)
-                    ends.append(end)
+                    # which law a row beside a jump follows is told by its last digit
+                    is_there = not isinstance(end, Known) and abs(end - segment.end) < _SAME_ANGLE
+                    ends.append(segment.end if is_there else end)
                 elif plain(end) > segment.end:
                     # cut where the cycle ends
                     laws.append(law)
