@@ -447,6 +447,15 @@ def test_what_cannot_be_moved_is_refused(asked, told):
         moved(description, asked, (), live("engine").results[0])
 
 
+@pytest.mark.parametrize("name", ["excavator-boom", "parallelogram"])
+def test_what_moves_rows_of_tables_alone_is_refused(name):
+    description = crankwork.Description((EXAMPLES / f"{name}.toml").read_text("utf-8"))
+    stated = crankwork.analyse(description.machine())
+    one = moved(description, ["table.step"], (), stated)
+    with pytest.raises(crankwork.CrankworkError, match="a browser cannot calculate"):
+        written(stated, "en", None, one)
+
+
 def test_a_slider_stops_where_the_machine_does_and_says_why():
     crank = live("four-bar").sliders[0]
     assert crank.high < 1.5 * crank.now

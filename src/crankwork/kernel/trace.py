@@ -269,9 +269,11 @@ class Trace:
                 value = self.value(self._designs.memories[0][key])
             except NotCompiledError:
                 continue
+            every = list(values_in_order([value]))
             if not value.by_design:
                 self.steady.add(key)
-            elif not any(map(_needs_more, values_in_order([value]))):
+            # a column that is kept is one of each design, whether or not it follows from what designs state
+            elif any(one.kind == "input" for one in every) and not any(map(_needs_more, every)):
                 found.append(key)
         return found
 
