@@ -13,7 +13,7 @@ WRONG = {
     "set without value": (("--set", "rod.ratio"), "--set rod.ratio: write --set KEY=VALUE, like --set rod.ratio=0.25"),
     "set without key": (("--set", "=1"), "--set =1: write --set KEY=VALUE"),
     "set with a dot too many": (("--set", "rod..ratio=1"), "--set rod..ratio=1: write --set KEY=VALUE"),
-    "set too deep": (("--set", "a.b.c.d.e=1"), "--set a.b.c.d.e=1: write --set KEY=VALUE"),
+    "set too deep": (("--set", "a.b.c.d.e.f.g.h.i=1"), "--set a.b.c.d.e.f.g.h.i=1: write --set KEY=VALUE"),
     "set below a value": (("--set", "crank.radius.x=1"), "--set crank.radius.x: radius is not a table in this file"),
     "set in a list": (("--set", "gas.pieces.law=1"), "--set gas.pieces.law: pieces is not a table in this file"),
     "set beyond a list": (("--set", "gas.pieces[9].law=1"), "--set gas.pieces[9].law: there is no entry 9"),

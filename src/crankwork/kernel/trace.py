@@ -279,8 +279,7 @@ class Trace:
 
     def reductions(self, known: Known) -> frozenset[int]:
         """Return the places in the graph of what a value has of whole columns."""
-        every = values_in_order([self.value(known)])
-        return frozenset(one.at for one in every if one.kind == "reduction")
+        return frozenset(one.at for one in values_in_order([self.value(known)]) if one.kind == "reduction")
 
     def value(self, known: Known, *, shift: float = 0.0, fixed: float | None = None) -> Value:
         """Return the value of what is remembered, at angles larger by some degrees or at one angle. [deg]"""

@@ -18,6 +18,7 @@ from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Language, Refusal
 from crankwork.locale.numbers import number
+from crankwork.page.alike import is_same_film, is_within, scaled, signed, staying
 from crankwork.page.between import Between, number_in_legend
 from crankwork.page.joints import is_label, joints_of, upon_joints
 from crankwork.quantities import QUANTITIES, base_key
@@ -25,8 +26,7 @@ from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
 from crankwork.report.language import displayed
 from crankwork.show.inline import frame_data, frame_marks
-from crankwork.show.moving import MovingDrawing
-from crankwork.show.scene import Arc, Box, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
+from crankwork.show.scene import Drawing, Plot, Polyline
 from crankwork.units import to_si
 
 # of its size, how far what is drawn may be from a column that it is taken for
@@ -36,10 +36,6 @@ _SAME_PLACE = 1e-6
 _FOLLOWED = 1e-6
 # where tables of designs are compared [deg]
 _LOOKED = 7.0
-# millimetres that nobody sees
-_UNSEEN = 1e-3
-# of parts that move, in millimetres and degrees
-_UNSEEN_MOVE = 0.05
 # rows that are calculated for the tables at most
 _MOST_ROWS = 1000
 # of an item: hidden, or faint, where sliders have moved
@@ -226,12 +222,11 @@ class Live:
             return self._upon(there)
         others = self._between.drawings(name)
         plots = [self._plot(at, there, others) for at in range(len(drawn.plots))] if len(there) == len(every) else []
-        signs = [Counter(map(_signed, one.items)) for one in there[1:]]
-        staying = _staying(there)
-        scaled = _scaled(there)
+        signs = [Counter(map(signed, one.items)) for one in there[1:]]
+        lines, is_scaled = staying(there), scaled(there)
         is_same = [
-            (isinstance(item, Polyline) and item.name in staying)
-            or (not scaled[at] and all(one[_signed(item)] > 0 for one in signs))
+            (isinstance(item, Polyline) and item.name in lines)
+            or (not is_scaled[at] and all(one[signed(item)] > 0 for one in signs))
             for at, item in enumerate(drawn.items)
         ]
         differs = len(there) < len(every) or not all(is_same)
@@ -241,7 +236,7 @@ class Live:
         for at, item in enumerate(drawn.items):
             before = drawn.items[at - 1] if at else None
             if is_same[at] or (
-                isinstance(item, Polyline) and _is_within(item, (box for curves, box in live if item.name in curves))
+                isinstance(item, Polyline) and is_within(item, (box for curves, box in live if item.name in curves))
             ):
                 continue
             is_legend = isinstance(before, Polyline) and before.name == "legend"
@@ -364,7 +359,7 @@ class Live:
     def machine(self) -> tuple[bool, dict[str, Any] | None]:
         """Return whether the machine moves otherwise in other designs, and how its joints follow if they do."""
         films = [one for one in self._films if one is not None]
-        if all(_is_same_film(films[0], one) for one in films[1:]) and len(films) in (0, len(self._films)):
+        if all(is_same_film(films[0], one) for one in films[1:]) and len(films) in (0, len(self._films)):
             return False, None
         shown = [one for one in (self._shown,) if one is not None]
         joints = joints_of([*shown, *films[1:]], self._results)
@@ -442,81 +437,3 @@ def scale(key: str) -> list[float]:
     """Return what takes a value to its display unit: a factor, and what is added."""
     origin = displayed(key, 0.0)
     return [displayed(key, 1.0) - origin, origin]
-
-
-def _is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
-    """Return whether nobody sees a difference between two films."""
-    own, others = ({one.name: one for one in each.parts} for each in (film, other))
-    return own.keys() == others.keys() and all(
-        one.track.shape == others[name].track.shape
-        and bool(np.all(np.abs(one.track - others[name].track) < _UNSEEN_MOVE))
-        and list(map(_signed, one.items)) == list(map(_signed, others[name].items))
-        for name, one in own.items()
-    )
-
-
-def _scaled(drawn: Sequence[Drawing]) -> list[bool]:
-    """Return which items stand within graphs whose scales differ: the same on paper, they say something else."""
-    plots = list(zip(*(one.plots for one in drawn), strict=False))
-    # by more than rounding
-    boxes = [own.box for own, *others in plots if not all(_is_near_scale(own, one) for one in others)]
-    frames = frame_marks(drawn[0])
-    return [not frame and _is_within(item, boxes) for frame, item in zip(frames, drawn[0].items, strict=True)]
-
-
-def _is_near_scale(one: Plot, other: Plot) -> bool:
-    ends, others = np.array([one.x, one.y]), np.array([other.x, other.y])
-    return bool(np.all(np.abs(ends - others) <= _SAME_PLACE * np.abs(ends[:, :1] - ends[:, 1:])))
-
-
-def _is_within(item: Item, boxes: Iterable[Box]) -> bool:
-    match item:
-        case Text(place=place):
-            x, y = place
-        case Circle(centre=centre) | Arc(centre=centre):
-            x, y = centre
-        case Polyline(points=points) | Hatch(points=points):
-            x, y = (np.min(points, axis=0) + np.max(points, axis=0)) / 2
-    return any(0 <= x - one.left <= one.width and 0 <= y - one.bottom <= one.height for one in boxes)
-
-
-def _staying(drawn: Sequence[Drawing]) -> set[str]:
-    """Return the names of curves that are the same in every design but for rounding, which thins them otherwise."""
-    found, moving = set[str](), set[str]()
-    for plots in zip(*(one.plots for one in drawn), strict=False):
-        for name, curve in plots[0].curves.items():
-            others = [one.curves.get(name, ()) for one in plots[1:]]
-            is_same = all(len(one) == 2 and _are_near(curve, one) for one in others)
-            (found if is_same else moving).add(name)
-    return found - moving
-
-
-def _are_near(one: Sequence[Array], other: Sequence[Array]) -> bool:
-    """Return whether two curves are the same line; extremes may add points to either."""
-    (x, y), (across, up) = map(np.asarray, one), map(np.asarray, other)
-    shared, others = np.isin(x, across), np.isin(across, x)
-    if shared.sum() == others.sum() and 2 * shared.sum() > max(x.size, across.size):
-        x, y, across, up = x[shared], y[shared], across[others], up[others]
-    if x.shape != across.shape:
-        return False
-    near = [_SAME_PLACE * np.max(np.abs(of[np.isfinite(of)]), initial=0.0) for of in (x, y)]
-    return np.allclose(x, across, rtol=0, atol=near[0]) and np.allclose(y, up, rtol=0, atol=near[1], equal_nan=True)
-
-
-def _signed(item: Item) -> tuple[Any, ...]:
-    """Return what tells an item from others that look otherwise."""
-
-    def rounded(of: Any) -> bytes:  # noqa: ANN401 - numbers
-        return (np.rint(np.asarray(of, dtype=float) / _UNSEEN) + 0.0).tobytes()
-
-    match item:
-        case Polyline():
-            return "line", rounded(item.points), item.kind, item.fill, item.name
-        case Text():
-            return "text", rounded(item.place), item.text, item.angle
-        case Circle():
-            return "circle", rounded((*item.centre, item.radius)), item.fill
-        case Arc():
-            return "arc", rounded((*item.centre, item.radius, item.start, item.end))
-        case Hatch():
-            return "hatch", rounded(item.points)
