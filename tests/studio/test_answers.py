@@ -313,8 +313,9 @@ def test_values_that_may_be_others_elsewhere_are_no_live_ones(name, key, filed, 
 
 
 def test_steps_are_believed_as_far_as_there_are_machines():
-    def trusted(name, key):
-        found = Studio("en").answer({"do": "ahead", "text": template(name), "key": key, "figures": []})["ahead"]
+    def trusted(name, key, **reach):
+        asked = {"do": "ahead", "text": template(name), "key": key, "figures": [], **reach}
+        found = Studio("en").answer(asked)["ahead"]
         (field,) = found["data"]["sliders"]["fields"]
         return pytest.approx(np.array(found["trusted"]) / field["now"], abs=1e-6)
 
@@ -323,6 +324,9 @@ def test_steps_are_believed_as_far_as_there_are_machines():
     # the diagram still closes, for larger numbers it does not
     assert trusted("engine", "gas.points.e.pressure") == [0.5, 1.5]
     assert trusted("slider-crank", "crank.radius") == [0.5, 2.0]
+    # to the ends of the slider, where the page tells them
+    assert trusted("four-bar", "crank.speed", low="90 rpm", high="400 rpm") == [0.75, 4.0]
+    assert trusted("four-bar", "crank.speed", low="90 kg", high="400 rpm") == [0.5, 2.0]
 
 
 def test_scales_that_differ_by_rounding_are_the_same(monkeypatch):

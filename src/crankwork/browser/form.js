@@ -176,6 +176,15 @@ export class Form {
   }
 
   /**
+   * Return from where to where the slider of a field goes, as written.
+   * @param {string} key
+   */
+  reach(key) {
+    const slider = /** @type {HTMLInputElement | null} */ (this.room.querySelector(`[data-slides="${CSS.escape(key)}"]`));
+    return slider ? { low: `${slider.min}${slider.dataset.after ?? ""}`, high: `${slider.max}${slider.dataset.after ?? ""}` } : {};
+  }
+
+  /**
    * @param {Row} row
    * @param {boolean} fresh
    */

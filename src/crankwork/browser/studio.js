@@ -102,7 +102,7 @@ class StudioPage {
     });
     this.ahead = new Ahead({
       beside: (key) => this.beside(key),
-      ask: (key, beside) => this.aside.ask({ do: "ahead", text: this.seen.from, key, beside, figures: this.wanted }),
+      ask: (key, beside) => this.aside.ask({ do: "ahead", text: this.seen.from, key, beside, figures: this.wanted, ...this.form.reach(key) }),
       bound: (name, bind) => this.bound(name, bind),
       figure: (name, found, columns) => {
         const frame = /** @type {HTMLElement | null} */ (room("diagrams").querySelector(`.figures > [data-name="${name}"]`));

@@ -25,8 +25,8 @@ if not _config.CPU_NAME and _features.get("avx512f"):
 _numba: Any = njit
 _asked = {"fastmath": {"contract"}, "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 once = _numba(**_asked)
-# called by nothing but what is compiled
-inside = _numba(no_cpython_wrapper=True, **_asked)
+# called by nothing but what is compiled, and put there: of two that are called alike, one may round otherwise
+inside = _numba(no_cpython_wrapper=True, forceinline=True, **_asked)
 
 
 def _kept(**more: bool) -> Any:  # noqa: ANN401

@@ -15,29 +15,39 @@ from crankwork.report.drawing import film_of
 from crankwork.report.language import in_own_units
 from crankwork.show.alt import described
 from crankwork.show.inline import inline_film, inline_svg
-from crankwork.study.sliders import around, moved
+from crankwork.study.sliders import around, ends, moved
 
 # of a number, how far from it the designs lie that tell what follows it
 _NEAR = 0.02
 # of it, where machines lie that others are drawn between: nearer to each other towards the ends, as polynomials ask for
 _AROUND = (-0.25, -0.177, 0.0, 0.177, 0.25)
-# and machines that nobody draws, to the ends of its slider
-_FURTHER = (-0.5, 0.5, 1.0)
+# and one that nobody draws, on the way to the ends of its slider, and where those are unless the page tells
+_FURTHER, _ENDS = 0.5, (-0.5, 1.0)
 _ROUNDING = 1e-9
 
 
 @in_own_units
 def ahead(
-    results: Results, description: Description, key: str, names: Collection[str], language: Language
+    results: Results,
+    description: Description,
+    key: str,
+    names: Collection[str],
+    language: Language,
+    reach: tuple[str, str] | None = None,
 ) -> tuple[dict[str, Any], str]:
     """Return what is drawn anew of figures when a number is moved, what stays behind, and the steps of the calculation.
 
+    `reach`: from where to where its slider goes, as written.
     `behind`: figures that cannot follow, or only in part; `stays`: whether the machine does.
     What is not calculated goes between `films`, and curves, of machines with other `values` of the number.
     """
     made = moved(description, [key], (), results, _NEAR)
-    others = around(description, key, results, _AROUND)
-    further = around(description, key, results, _FURTHER)
+    now = made.sliders[0].now
+    near = [now * (1 + share) for share in _AROUND]
+    low, high = (reach and ends(description, key, *reach)) or [now * (1 + share) for share in _ENDS]
+    far = [one for one in (low, now * (1 + _FURTHER), high) if low <= one <= high and one not in near]
+    others = around(description, key, results, near)
+    further = around(description, key, results, far)
     live = Live(made, language, names, others, further)
     data = page_data(results, live.drawn, None, language, only_read=True)
     marks, steps, stays = follow(live, results, data)
@@ -47,7 +57,7 @@ def ahead(
     figures = {
         name: inline_svg(one, name, one.title, marks[name]) for name, one in live.drawn.items() if name not in behind
     }
-    trusted = _trusted(made.sliders[0], [*others, *further])
+    trusted = _trusted(made.sliders[0], [*near, *far], {*others, *further})
     found = {
         "unit": made.sliders[0].unit,
         "trusted": trusted,
@@ -60,17 +70,17 @@ def ahead(
     return {**found, "values": list(others), "films": films}, steps
 
 
-def _trusted(slider: Slider, there: Collection[float]) -> tuple[float, float]:
+def _trusted(slider: Slider, asked: Collection[float], there: Collection[float]) -> tuple[float, float]:
     """Return between which numbers the steps are believed: as far as there are machines one after another. [SI]"""
-    ends, now = [slider.low, slider.high], slider.now
-    for way in (-1, 1):
-        for share in sorted((one for one in (*_AROUND, *_FURTHER) if one * way > 0), key=abs):
-            value, end = now * (1 + share), int(share * now > 0)
-            if value not in there or abs(ends[end] - now) < _NEAR * abs(now) * (1 - _ROUNDING):
+    reached, now = [slider.low, slider.high], slider.now
+    outwards = sorted(asked, key=lambda one: abs(one - now))
+    for end in (0, 1):
+        for value in (one for one in outwards if (one > now if end else one < now)):
+            if value not in there or abs(reached[end] - now) < _NEAR * abs(now) * (1 - _ROUNDING):
                 break
-            ends[end] = value
-    spare = _ROUNDING * max(map(abs, ends))
-    return ends[0] - spare, ends[1] + spare
+            reached[end] = value
+    spare = _ROUNDING * max(map(abs, reached))
+    return reached[0] - spare, reached[1] + spare
 
 
 def _filmed(results: Results, language: Language) -> dict[str, Any]:

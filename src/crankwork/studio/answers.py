@@ -233,9 +233,10 @@ class Studio:
     def _ahead(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Return what calculates a page while a number is held, nothing where no browser can."""
         text, names = asked["text"], asked.get("figures") or ()
+        low, high = str(asked.get("low", "")), str(asked.get("high", ""))
         try:
             results, description = self._computed(text), self._described(text)
-            found, steps = ahead(results, description, asked["key"], names, self.language)
+            found, steps = ahead(results, description, asked["key"], names, self.language, (low, high))
         except CrankworkError:
             return {}
         return {"ahead": found, "steps": steps}

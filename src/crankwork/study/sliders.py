@@ -81,18 +81,24 @@ def moved(
     return Moved(tuple(sliders), np.array(rows), tuple(found))
 
 
-def around(description: Description, key: str, stated: Results, shares: Sequence[float]) -> dict[float, Results]:
-    """Return the results of machines in which one number is larger or smaller by some shares of it, by what it is. [SI]
+def ends(description: Description, key: str, low: str, high: str) -> list[float]:
+    """Return between which values a number goes, as written; nothing where it may not, or is not between them. [SI]"""
+    with suppress(CrankworkError):
+        return list(_range(description.values_with(()), f"{key}={low}..{high}", _AROUND)[1:])
+    return []
 
-    In the order of the shares; none where there is no such machine, and for none the stated one.
+
+def around(description: Description, key: str, stated: Results, values: Sequence[float]) -> dict[float, Results]:
+    """Return the results of machines with other values of one number, by what it is. [SI]
+
+    In the order of the values; none where there is no such machine, and for the value that is stated the stated one.
     """
     number, *_ = _range(description.values_with(()), key, _AROUND)
     machines, found = _Machines(description, (), [number], stated), dict[float, Results]()
-    for share in shares:
-        value = float(machines.now[0] * (1 + share))
+    for value in values:
         if number.low <= value <= number.high:
             with suppress(CrankworkError):
-                found[value] = machines.results(np.array([value])) if share else stated
+                found[value] = stated if value == machines.now[0] else machines.results(np.array([value]))
     return found
 
 
