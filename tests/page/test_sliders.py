@@ -14,6 +14,7 @@ import pytest
 import crankwork
 from crankwork.locale.numbers import number
 from crankwork.page.document import page as written
+from crankwork.page.sliders import Live
 from crankwork.report.language import displayed
 from crankwork.study.sliders import moved
 from crankwork.units import to_si
@@ -251,6 +252,17 @@ def test_a_row_at_a_jump_follows_the_law_that_an_analysis_takes_there(opened):
     for key, column in found["columns"].items():
         wanted = expected[key]
         assert column == pytest.approx(wanted.tolist(), rel=1e-9, abs=1e-9 * np.max(np.abs(wanted))), key
+
+
+def test_a_curve_is_not_taken_for_another_that_it_equals_in_the_designs_compared():
+    description = crankwork.Description(crankwork.template("toggle-press"))
+    one = moved(description, ["fixed_points.O[1]"], (), crankwork.analyse(description.machine()))
+    followed = Live(one, "en")
+    # beyond change points the lower lever parts from the upper one
+    levers = {name: made for plot in followed.figure("links")[0] for name, made in plot["curves"].items()}
+    assert levers["link_angular_velocity.upper"]["y"][0] == "link_angular_velocity.upper"
+    assert "link_angular_velocity.lower" not in levers
+    assert followed.figure("sliders")[0] == []
 
 
 def test_curves_of_one_name_in_graphs_side_by_side_follow_each_its_own_or_are_pale(opened):

@@ -271,10 +271,15 @@ class Live:
         found: dict[str, Any] = {"curves": {}}
         if len(plots) < len(drawn):
             return found
+        # what comes to the same as another column where it was looked may part from it elsewhere
+        memory = self.memories[0]
+        own = {name for name in plots[0].curves if name in memory and memory[name].varies}
+        lost = {name for name in own if name not in self._columns and self.differs(name)}
         for name in plots[0].curves:
             if all(name in one.curves for one in plots):
                 x = self._moved.designs[: len(plots), 0]
-                of = self._curve(name, plots) or self._between.curve(name, at, x, plots, others)
+                is_known = name not in lost and (name in own or not lost)
+                of = (self._curve(name, plots) if is_known else {}) or self._between.curve(name, at, x, plots, others)
                 if of:
                     found["curves"][name] = of
         return found | frame_data(plots[0])
