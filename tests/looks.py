@@ -43,8 +43,14 @@ def box_of(item: Text) -> Box:
 
 def _is_through(lines: np.ndarray, box: Box) -> np.ndarray:
     """Return which straight lines, shape (n, 4), enter a box."""
-    start, way = lines[:, :2], lines[:, 2:] - lines[:, :2]
     low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
+    start, end = lines[:, :2], lines[:, 2:]
+    near = ~(((start <= low) & (end <= low)) | ((start >= high) & (end >= high))).any(axis=1)
+    if not near.all():
+        found = np.zeros(len(lines), dtype=bool)
+        found[near] = _is_through(lines[near], box)
+        return found
+    way = end - start
     with np.errstate(divide="ignore", invalid="ignore"):
         one, other = (low - start) / way, (high - start) / way
     inside = (start > low) & (start < high)

@@ -54,7 +54,7 @@ joint_force_max.B = "minimise"
 
 @pytest.mark.parametrize("text", [STUDY, *(path.read_text("utf-8") for path in STUDY_FILES)])
 def test_studies_follow_their_schema(text) -> None:
-    jsonschema.validate(tomllib.loads(text), STUDIES)
+    jsonschema.Draft202012Validator(STUDIES).validate(tomllib.loads(text))
 
 
 @pytest.mark.parametrize(
@@ -76,7 +76,7 @@ def test_what_studies_are_refused_for_their_schema_refuses_too(old, new) -> None
 
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 def test_templates_and_examples_follow_the_schema_and_the_reader(text) -> None:
-    jsonschema.validate(tomllib.loads(text), SCHEMA)
+    jsonschema.Draft202012Validator(SCHEMA).validate(tomllib.loads(text))
     assert read_machine(text).title
 
 

@@ -74,6 +74,12 @@ def live(name):
     return moved(description, (MACHINES | PALE | JUMP)[name][1], (), crankwork.analyse(description.machine()))
 
 
+@cache
+def document(name, language):
+    one = live(name)
+    return written(one.results[0], language, None, one).decode()
+
+
 def results(name, shown):
     settings = [f"{one.key}={at!r} {one.unit}" for one, at in zip(live(name).sliders, shown, strict=True)]
     return crankwork.analyse(described(name).machine(settings))
@@ -85,8 +91,7 @@ def opened(browser, tmp_path_factory):
 
     def open_page(name, language="en", change=lambda text: text, **look):
         path = folder / f"{name}-{language}-{len(contexts)}.html"
-        one = live(name)
-        path.write_bytes(change(written(one.results[0], language, None, one).decode()).encode())
+        path.write_bytes(change(document(name, language)).encode())
         context = browser.new_context(**{"reduced_motion": "reduce", "viewport": {"width": 1300, "height": 900}} | look)
         contexts.append(context)
         page = context.new_page()
