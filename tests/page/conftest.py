@@ -18,6 +18,7 @@ from crankwork.note.contents import note_of, written_note
 from crankwork.note.options import NoteOptions
 from crankwork.page.document import page as written
 from crankwork.quantities import Language
+from page.slid import document
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -75,3 +76,28 @@ def opened(browser: Browser, pages: Callable[[str, Language], Path]) -> Generato
     assert failed == []
     assert all(url.startswith("file:") for url in asked)
     assert len(asked) == len(contexts)
+
+
+@pytest.fixture
+def slid(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Generator[Callable[..., Page]]:
+    """Open a page with sliders; nothing may be asked for, and no script may fail."""
+    folder, contexts, asked, failed = tmp_path_factory.mktemp("sliders"), [], [], []
+
+    def open_page(name: str, language: Language = "en", change: Callable[[str], str] = str, **look: object) -> Page:
+        path = folder / f"{name}-{language}-{len(contexts)}.html"
+        path.write_bytes(change(document(name, language)).encode())
+        context = browser.new_context(**{"reduced_motion": "reduce", "viewport": {"width": 1300, "height": 900}} | look)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("pageerror", lambda error: failed.append(str(error)))
+        page.on("console", lambda message: failed.append(message.text))
+        page.goto(path.as_uri())
+        page.wait_for_selector("html.live")
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert failed == []
+    assert all(url.startswith("file:") for url in asked)

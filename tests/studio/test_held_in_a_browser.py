@@ -30,6 +30,17 @@ STANDING = """all => all.filter((one) => one.getAttribute("d").split("M").length
 # how far down a diagram its curves go [mm]
 LEAST = """name => Math.max(...[...document.querySelectorAll(`[data-name="${name}"] path[data-curve]`)]
   .filter((one) => one.dataset.curve !== "legend").map((one) => one.getBBox()).map((box) => box.y + box.height))"""
+RATIO = """() => {
+  const part = (one) => document.querySelector(`#film [data-part="joint.${one}"]`);
+  const [o, a, b] = ["O", "A", "B"].map((one) => part(one).transform.baseVal.consolidate().matrix);
+  return Math.hypot(a.e - o.e, a.f - o.f) / Math.hypot(b.e - a.e, b.f - a.f);
+}"""
+MOVED = """value => {
+  const slider = document.querySelector('[data-slides="crank.radius"]');
+  slider.value = value;
+  slider.dispatchEvent(new Event("input"));
+  return document.body.dataset.waits;
+}"""
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 
 
@@ -177,3 +188,20 @@ def test_a_number_held_beyond_the_last_machine_is_asked_for(seen):
     assert page.evaluate(HELD, ["crank.radius", 0.06]) == "true"
     slider.dispatch_event("change")
     settled(page)
+
+
+def test_a_machine_that_is_held_again_stands_upon_its_own_paper(seen):
+    page = seen()
+    page.locator('[data-slides="crank.radius"]').hover()
+    ready = "() => document.body.dataset.prepares === 'false' && globalThis.steps"
+    page.wait_for_function(ready)
+    for held, waits in ((75, "false"), (50, "false"), (45, None)):
+        if waits:
+            page.wait_for_function(ready)
+        asked = page.evaluate(MOVED, held)
+        assert waits in (asked, None)
+        page.wait_for_function("() => document.body.dataset.waits === 'false'")
+        assert page.evaluate(RATIO) == pytest.approx(held / 175, rel=3e-3)
+        page.locator('[data-slides="crank.radius"]').dispatch_event("change")
+        settled(page)
+        assert page.evaluate(RATIO) == pytest.approx(held / 175, rel=3e-3)

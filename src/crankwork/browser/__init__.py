@@ -11,6 +11,8 @@ _IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+)\.js";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=class|function|const)", re.MULTILINE)
 _COMMENT = re.compile(r"^\s*//.*\n|/\*\*(?:[^*]|\*(?!/))*\*/\s*", re.MULTILINE)
 _INDENT = re.compile(r"^\s+", re.MULTILINE)
+# around marks of a style sheet, and after the name of what is set
+_SPACE = re.compile(r"\s*([{};,])\s*|(?<=[\w-])(:) ")
 
 
 def script(entry: str) -> str:
@@ -37,7 +39,7 @@ def _in_order(entry: str) -> Iterator[str]:
 
 def style(*names: str) -> str:
     """Return style sheets as one."""
-    return "".join(_INDENT.sub("", read_resource("browser", f"{name}.css")) for name in names)
+    return "".join(_SPACE.sub(r"\1\2", read_resource("browser", f"{name}.css")) for name in names)
 
 
 def modules() -> list[str]:

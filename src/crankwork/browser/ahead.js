@@ -10,8 +10,13 @@ import { Live } from "./sliders.js";
 /** @typedef {import("./talk.js").Answer} Answer */
 
 /**
- * A number that may be held: what the file says beside it, what was answered, the steps of its calculation.
- * @typedef {{beside: string, ahead: any, steps: Steps | undefined}} Ready
+ * What is asked for: a number, what the file says beside it, the whole file.
+ * @typedef {{key: string, beside: string, from: string}} Wanted
+ */
+
+/**
+ * A number that may be held: what was answered, and the steps of its calculation.
+ * @typedef {Wanted & {ahead: any, steps: Steps | undefined}} Ready
  */
 
 /**
@@ -27,15 +32,18 @@ const POOR = 40;
 
 export class Ahead {
   /**
-   * @param {{beside: (key: string) => string, ask: (key: string, beside: string) => void,
+   * @param {{beside: (key: string) => string, from: () => string, ask: (key: string, number: number) => void,
    *   bound: (name: string, bind: (cursor: import("./cursor.js").Cursor) => void) => void,
    *   figure: (name: string, ahead: any, columns: Record<string, import("./numbers.js").Column>) => FollowingFigure | undefined,
-   *   film: () => import("./machine.js").Film | undefined, filmed: (drawn: string, film: import("./machine.js").FilmData) => void, cursor: () => import("./cursor.js").Cursor | undefined}} page
+   *   film: (isStated?: boolean) => import("./machine.js").Film | undefined, filmed: (drawn: string, film: import("./machine.js").FilmData) => void, cursor: () => import("./cursor.js").Cursor | undefined}} page
    */
   constructor(page) {
     this.page = page;
     /** @type {Map<string, Ready>} */
     this.ready = new Map();
+    /** What was asked for and not answered yet, by its number. @type {Map<number, Wanted>} */
+    this.asked = new Map();
+    this.number = 0;
     /** The number that is held, and what is bound to it. @type {{ready: Ready, bound: Bound} | undefined} */
     this.held = undefined;
   }
@@ -45,28 +53,35 @@ export class Ahead {
    * @param {string} key
    */
   prepare(key) {
-    const beside = this.page.beside(key);
-    if (!beside || this.ready.get(key)?.beside === beside) return;
-    this.ready.delete(key);
-    this.ready.set(key, { beside, ahead: undefined, steps: undefined });
-    for (const old of [...this.ready.keys()].slice(0, -MOST_READY)) this.ready.delete(old);
-    this.page.ask(key, beside);
+    const wanted = { key, beside: this.page.beside(key), from: this.page.from() };
+    const last = [...this.asked.values()].pop();
+    if (!wanted.beside || [this.ready.get(key), last].some((one) => one && isFor(one, wanted))) return;
+    this.number += 1;
+    this.asked.set(this.number, wanted);
+    this.page.ask(key, this.number);
   }
 
   /**
    * Take what was asked for; its script comes from the server, since no text may become one here.
-   * @param {string} key
-   * @param {string} beside
+   * @param {number} number
    * @param {Answer} answer
    */
-  heard(key, beside, answer) {
-    const ready = this.ready.get(key);
-    if (ready?.beside !== beside || !answer.ahead) return;
+  heard(number, answer) {
+    const asked = this.asked.get(number);
+    // what was asked before it and has no answer gave way to it
+    for (const one of this.asked.keys()) if (one <= number) this.asked.delete(one);
+    if (!asked) return;
+    const take = (/** @type {Steps | undefined} */ steps) => {
+      this.ready.delete(asked.key);
+      this.ready.set(asked.key, { ...asked, ahead: answer.ahead, steps });
+      for (const old of [...this.ready.keys()].slice(0, -MOST_READY)) this.ready.delete(old);
+    };
+    if (!answer.ahead) return take(undefined);
     const script = document.createElement("script");
     script.src = `steps/${answer.steps}.js`;
     script.addEventListener("load", () => {
       script.remove();
-      Object.assign(ready, { ahead: answer.ahead, steps: /** @type {{steps?: Steps}} */ (globalThis).steps });
+      take(/** @type {{steps?: Steps}} */ (globalThis).steps);
     });
     document.head.append(script);
   }
@@ -84,7 +99,9 @@ export class Ahead {
       this.prepare(key);
       return undefined;
     }
-    if (this.held?.ready !== ready) this.hold(ready);
+    const isOfNow = ready.from === this.page.from();
+    if (!isOfNow) this.prepare(key);
+    if (this.held?.ready !== ready) this.hold(ready, isOfNow);
     const { data, behind, stays } = ready.ahead;
     const { bound } = /** @type {{ready: Ready, bound: Bound}} */ (this.held);
     const { live, lines, figures, joints, films, degrees } = bound;
@@ -106,14 +123,15 @@ export class Ahead {
     if (film) this.page.filmed(film.drawn, film.film);
     const followed = new Set(bound.figures);
     const left = Object.keys(bound.every).filter((name) => bound.every[name].between && !followed.has(bound.every[name]));
-    return { figures: [...behind, ...left], machine: stays && !film };
+    return { figures: [...behind, ...left], machine: (stays && !film) || Boolean(data.sliders.joints && !joints) };
   }
 
   /**
    * Let figures, values and the machine follow a number.
    * @param {Ready} ready
+   * @param {boolean} isOfNow whether it was asked of the file as it stands
    */
-  hold(ready) {
+  hold(ready, isOfNow) {
     const { data, figures, behind } = ready.ahead;
     const { sliders } = data;
     for (const one of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#results [data-key]"))) {
@@ -122,7 +140,8 @@ export class Ahead {
       one.closest("tr")?.classList.toggle("filed", sliders.filed.includes(key));
     }
     const columns = columnsOf(data);
-    const film = this.page.film();
+    // joints stand upon the paper of the machine that was asked of
+    const film = this.page.film(isOfNow && Boolean(sliders.joints));
     const degrees = film?.data.degrees ?? 1;
     const live = new Live(sliders, /** @type {Steps} */ (ready.steps), columns);
     /** @type {Record<string, FollowingFigure>} */
@@ -131,7 +150,7 @@ export class Ahead {
       const one = behind.includes(name) ? undefined : this.page.figure(name, ready.ahead, columns);
       if (one?.follows) every[name] = one;
     }
-    const joints = film && sliders.joints ? new Joints(film, live, sliders.joints) : undefined;
+    const joints = film && sliders.joints && isOfNow ? new Joints(film, live, sliders.joints) : undefined;
     this.page.bound("joints", (cursor) => joints && cursor.follow(() => joints.draw(cursor.at * degrees)));
     const films = new Between(ready.ahead.films);
     this.held = { ready, bound: { live, films, lines: new Lines(live.calculation, degrees), every, figures: Object.values(every), joints, degrees } };
@@ -152,11 +171,31 @@ export class Ahead {
     return found.filter(({ angle }) => angle < POOR).sort((one, other) => one.angle - other.angle)[0];
   }
 
-  /** Leave what is drawn to what the server has answered. */
+  /**
+   * Return whether a figure, or else the machine, is drawn here, so that no answer to an earlier move may take its place.
+   * @param {string} [figure]
+   */
+  draws(figure) {
+    const bound = this.held?.bound;
+    return Boolean(figure === undefined ? bound?.joints : bound?.figures.includes(bound.every[figure]));
+  }
+
+  /** Leave what is drawn to what the server has answered; return the number that was held. */
   release() {
-    if (!this.held) return;
+    if (!this.held) return "";
+    const { key } = this.held.ready;
     this.held = undefined;
     this.page.bound("joints", () => {});
     document.documentElement.classList.remove("moved");
+    return key;
   }
+}
+
+/**
+ * Return whether two are asked of the same.
+ * @param {Wanted} one
+ * @param {Wanted} other
+ */
+function isFor(one, other) {
+  return one.key === other.key && one.beside === other.beside && one.from === other.from;
 }

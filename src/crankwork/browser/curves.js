@@ -28,7 +28,9 @@ export class Curve {
     const { x, y } = points(path.getAttribute("d") ?? "");
     this.x = x;
     this.y = y;
-    this.plot = plots.find((plot) => holds(plot.box, x, y));
+    const [around, ...within] = plots.filter((plot) => holds(plot.box, x, y));
+    // a graph may stand within another
+    this.plot = within.find(({ box }) => contains(box, x, y)) ?? around;
     this.d = path.getAttribute("d") ?? "";
     this.home = { x, y, angles: /** @type {number[] | undefined} */ (undefined) };
     this.made = this.plot?.curves?.[this.name];
@@ -138,6 +140,16 @@ function points(d) {
     y.push(y[y.length - 1] + numbers[k + 1]);
   }
   return { x, y };
+}
+
+/**
+ * Return whether all of a curve lies in a box.
+ * @param {number[]} box
+ * @param {number[]} x
+ * @param {number[]} y
+ */
+function contains([left, top, width, height], x, y) {
+  return x.every((one) => one > left - 1 && one < left + width + 1) && y.every((one) => one > top - 1 && one < top + height + 1);
 }
 
 /**

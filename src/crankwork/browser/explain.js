@@ -9,8 +9,8 @@ import { firstFrom, fixed, nearest, printed, told, unpacked } from "./numbers.js
  * A value that is remembered: symbol, name, formula in MathML, words in place of one, value as text or by rows, what it
  * was made of; the column of the tables that has it, and its numbers at other rows; laws with the angles where they end; another column with how much earlier, within which cycle; the angle
  * where it was found; where it is given, and the source of its formula.
- * `m`: where the calculation has it, what takes it to its unit, and that unit.
- * @typedef {{s?: string, m?: [string, number, number, string], n?: string, f?: number, w?: string, t?: string, c?: Packed, o?: number[], p?: [number, number][],
+ * `m`: where the calculation has it, what takes it to its unit, and that unit; `z`: the single value that is the angle where it is found.
+ * @typedef {{s?: string, m?: [string, number, number, string], n?: string, f?: number, w?: string, t?: string, c?: Packed, o?: number[], p?: [number, number][], z?: string,
  *   k?: string, e?: [number, number][], y?: [number, number], a?: number, g?: string, q?: number}} Memory
  */
 
@@ -119,9 +119,22 @@ export class Explanation {
     if (words) found.push(element("p", words, "words"));
     const list = document.createElement("ul");
     if (node.y) list.append(this.item(node.y[0], this.earlier(at, node.y[1]), `${way}/d`));
-    for (const one of node.o ?? []) list.append(this.item(one, node.a ?? at, `${way}/${one}`));
+    const place = this.placeOf(node, at);
+    for (const one of node.o ?? []) list.append(this.item(one, place, `${way}/${one}`));
     if (list.childElementCount) found.push(list);
     return found;
+  }
+
+  /**
+   * Return where the operands of a value are looked at: where it was found, nowhere if the sliders have moved that unseen.
+   * @param {Memory} node
+   * @param {number} at
+   */
+  placeOf(node, at) {
+    if (node.a === undefined || !this.live) return node.a ?? at;
+    const { data, calculation } = this.live;
+    const [factor, added] = data.values[node.z ?? ""] ?? [NaN, NaN];
+    return calculation.values[data.calculation.values[node.z ?? ""]] * factor + added;
   }
 
   /**
@@ -133,11 +146,12 @@ export class Explanation {
   item(id, at, way) {
     const node = this.law(id, at);
     const item = document.createElement("li");
-    const where = this.varies(id) && at !== this.cursor.rows[this.row] ? `(${this.angle(at)})` : "";
-    const value = this.value(id, at);
+    const isLost = this.varies(id) && Number.isNaN(at);
+    const where = this.varies(id) && !isLost && at !== this.cursor.rows[this.row] ? `(${this.angle(at)})` : "";
+    const value = isLost ? "" : this.value(id, at);
     const line = `${node.s}${where}${value && ` = ${value}`}${node.n ? ` <span class="name">${node.n}</span>` : ""}`;
     const deep = node.f !== undefined || node.o?.length || node.y || node.w || node.g;
-    if (!deep || (where && this.rowAt(at) === undefined)) {
+    if (!deep || isLost || (where && this.rowAt(at) === undefined)) {
       item.innerHTML = line;
       return item;
     }
@@ -199,8 +213,10 @@ export class Explanation {
     const { values, columns } = live.data.calculation;
     const row = nearest(this.cursor.rows, at);
     const isRow = Math.abs(this.cursor.rows[row] - at) < 1e-6;
-    if (columns[key] !== undefined && !isRow) return "";
-    const value = columns[key] === undefined ? live.calculation.values[values[key]] : live.rows(key)[row];
+    // of a machine that goes by time the nodes do not
+    if (columns[key] !== undefined && !isRow && this.memories.where !== "°") return "";
+    const beside = () => live.calculation.cycle.at(live.calculation.nodesOf(columns[key]), at);
+    const value = columns[key] === undefined ? live.calculation.values[values[key]] : isRow ? live.rows(key)[row] : beside();
     return printed(value * factor + added) + (["", "°", "%"].includes(unit) ? "" : "\u00a0") + unit;
   }
 

@@ -105,7 +105,7 @@ export class Figure {
   read() {
     const { columns, cursor } = this;
     const axis = columns[this.axis];
-    const parts = [`${axis.symbol} = ${placeOf(cursor, axis)}`];
+    const parts = [`${axis.symbol} = ${cursor.beyond ? placeOf(cursor, axis) : told(axis, cursor.row)}`];
     /** @type {Set<string>} */
     const done = new Set();
     for (const curve of this.moving) {

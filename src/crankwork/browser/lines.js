@@ -8,8 +8,7 @@ import { mixed } from "./between.js";
 const MOST = 481;
 // of a column, how far from its line a node is seen
 const SEEN = 2e-3;
-// of degrees, what is the same; of those that a curve tells by tenths
-const SAME = 1e-6;
+// of degrees that a curve tells by tenths, or by where it stands on paper, what is the same
 const NEAR_END = 0.1;
 
 export class Lines {
@@ -41,9 +40,9 @@ export class Lines {
     const key = `${first} ${last}`;
     const known = this.known.get(key);
     if (known) return known;
-    const inside = this.places.filter((_, k) => this.angles[k] >= first - SAME && this.angles[k] <= last + SAME);
+    const inside = this.places.filter((_, k) => this.angles[k] >= first - NEAR_END && this.angles[k] <= last + NEAR_END);
     const at = inside.map((one) => this.calculation.degrees[one]);
-    const isCut = at[at.length - 1] < last - SAME;
+    const isCut = at[at.length - 1] < last - NEAR_END;
     if (isCut) at.push(last);
     const found = { inside, at, isCut };
     this.known.set(key, found);

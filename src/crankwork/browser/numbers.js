@@ -61,12 +61,13 @@ export function significant(value, digits = 4) {
 }
 
 /**
- * Return where a cursor stands: its row, or beyond the rows the place itself.
+ * Return where a cursor stands: its row, or beside the rows the place itself.
  * @param {import("./cursor.js").Cursor} cursor
  * @param {Column} axis
  */
 export function placeOf(cursor, axis) {
-  if (!cursor.beyond) return told(axis, cursor.row);
+  const { rows, row, at } = cursor;
+  if (Math.abs(rows[row] - at) <= 1e-6 * (rows[rows.length - 1] - rows[0])) return told(axis, row);
   return told({ ...axis, decimals: axis.decimals + 1, values: [cursor.at] }, 0);
 }
 

@@ -44,7 +44,11 @@ export class Live {
     const { calculation, data } = this;
     calculation.run(design);
     const finite = (/** @type {number} */ row) => Number.isFinite(calculation.values[row]);
-    if (calculation.leftOut > data.far || !Object.keys(data.values).every((key) => finite(data.calculation.values[key]))) return false;
+    if (calculation.leftOut > data.far || !Object.keys(data.values).every((key) => finite(data.calculation.values[key]))) {
+      // what is drawn later is of the machine that is shown
+      calculation.run(this.design);
+      return false;
+    }
     this.design = design;
     this.moved = design.some((one, k) => one !== data.fields[k].now);
     for (const [key, factor] of Object.entries(data.columns)) {

@@ -102,13 +102,20 @@ class StudioPage {
     });
     this.ahead = new Ahead({
       beside: (key) => this.beside(key),
-      ask: (key, beside) => this.aside.ask({ do: "ahead", text: this.seen.from, key, beside, figures: this.wanted, ...this.form.reach(key) }),
+      from: () => this.seen.from,
+      ask: (key, number) => this.aside.ask({ do: "ahead", text: this.seen.from, key, number, figures: this.wanted, ...this.form.reach(key) }),
       bound: (name, bind) => this.bound(name, bind),
       figure: (name, found, columns) => {
         const frame = /** @type {HTMLElement | null} */ (room("diagrams").querySelector(`.figures > [data-name="${name}"]`));
         return frame ? this.figure(frame, name, found, columns) : undefined;
       },
-      film: () => this.film,
+      film: (isStated) => {
+        if (isStated && this.film?.data !== this.seen.data.film) {
+          const stated = new DOMParser().parseFromString(this.seen.film, "text/html").querySelector("svg");
+          if (stated) this.filmed(stated.outerHTML, this.seen.data.film);
+        }
+        return this.film;
+      },
       filmed: (drawn, film) => this.filmed(drawn, film),
       cursor: () => this.cursor,
     });
@@ -120,7 +127,7 @@ class StudioPage {
     this.aside = new Talk(now, (answer, question) => {
       if (question?.do === "disk") this.watched(answer, question);
       else if (question?.do === "show") this.redrawn(answer, Number(question.pinned));
-      else if (question) this.ahead.heard(String(question.key), String(question.beside), answer);
+      else if (question) this.ahead.heard(Number(question.number), answer);
     }, "prepares");
     setInterval(() => this.watch(), LOOKS);
     setTimeout(() => !this.seen.data && !room("refusals").childElementCount && room("notice").hidden && this.notice(this.words.working), PATIENCE);
@@ -140,7 +147,7 @@ class StudioPage {
     const own = rows.find((/** @type {any} */ row) => row.key === key);
     if (own?.number === undefined || document.body.classList.contains("stale")) return "";
     const others = rows.filter((/** @type {any} */ row) => row !== own).map((/** @type {any} */ row) => [row.key, row.value]);
-    return JSON.stringify([this.opened, this.wanted, others]);
+    return JSON.stringify([this.opened, this.wanted, Boolean(this.seen.turn), others]);
   }
 
   /** Return in words how near links come to a line, of a number that is held, where they come near. */
@@ -391,10 +398,10 @@ class StudioPage {
    */
   drawHeld(answer) {
     const columns = columnsOf(answer.data);
-    if (answer.film) this.filmed(answer.film, answer.data.film);
+    if (answer.film && !this.ahead.draws()) this.filmed(answer.film, answer.data.film);
     for (const one of /** @type {NodeListOf<HTMLElement>} */ (room("diagrams").querySelectorAll(".figures > figure"))) {
       const name = one.dataset.name ?? "";
-      if (answer.figures[name]) this.figure(one, name, answer, columns);
+      if (answer.figures[name] && !this.ahead.draws(name)) this.figure(one, name, answer, columns);
     }
   }
 
@@ -419,7 +426,7 @@ class StudioPage {
 
   /** @param {Answer} answer */
   draw(answer) {
-    this.ahead.release();
+    const held = this.ahead.release();
     this.unlight();
     this.seen = answer;
     const { data } = answer;
@@ -432,6 +439,8 @@ class StudioPage {
     this.values(answer);
     this.turn(answer.turn);
     this.columns = columns;
+    // whoever held a number may hold it again
+    if (held) this.ahead.prepare(held);
   }
 
   /**

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,8 @@ from crankwork.show.scene import Arc, Box, Circle, Drawing, Hatch, Item, Plot, P
 
 # of its size, how far a line may be from another that is the same
 _SAME_PLACE = 1e-6
-# millimetres that nobody sees
-_UNSEEN = 1e-3
+# millimetres that nobody sees; beyond a graph, above and to the right, where marks of its scales stand
+_UNSEEN, _BESIDE = 1e-3, 8.0
 # of parts that move, in millimetres and degrees
 _UNSEEN_MOVE = 0.05
 
@@ -33,16 +34,28 @@ def is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
 
 def scaled(drawn: Sequence[Drawing]) -> list[bool]:
     """Return which items stand within graphs whose scales differ: the same on paper, they say something else."""
-    plots = list(zip(*(one.plots for one in drawn), strict=False))
-    # by more than rounding
-    boxes = [own.box for own, *others in plots if not all(_is_near_scale(own, one) for one in others)]
-    frames = frame_marks(drawn[0])
-    return [not frame and is_within(item, boxes) for frame, item in zip(frames, drawn[0].items, strict=True)]
+    boxes = []
+    for own, *others in zip(*(one.plots for one in drawn), strict=False):
+        is_other = ~np.all([_is_near_scale(own, one) for one in others], axis=0)
+        if is_other.any():
+            across, up = np.where(is_other, _BESIDE, 0.0)
+            box = own.box
+            boxes += [box._replace(height=box.height + across), box._replace(width=box.width + up)]
+    items, frames = drawn[0].items, frame_marks(drawn[0])
+    # a legend says of curves what they are
+    legend = {id(one) for pair in pairwise(items) for one in pair if getattr(pair[0], "name", "") == "legend"}
+    return [
+        not frame and id(item) not in legend and is_within(item, boxes)
+        for frame, item in zip(frames, items, strict=True)
+    ]
 
 
-def _is_near_scale(one: Plot, other: Plot) -> bool:
-    ends, others = np.array([one.x, one.y]), np.array([other.x, other.y])
-    return bool(np.all(np.abs(ends - others) <= _SAME_PLACE * np.abs(ends[:, :1] - ends[:, 1:])))
+def _is_near_scale(one: Plot, other: Plot) -> list[bool]:
+    """Return whether the scales across and upward are the same but for rounding."""
+    return [
+        bool(np.all(np.abs(np.subtract(own, of)) <= _SAME_PLACE * abs(own[0] - own[1])))
+        for own, of in zip((one.x, one.y), (other.x, other.y), strict=True)
+    ]
 
 
 def is_within(item: Item, boxes: Iterable[Box]) -> bool:
@@ -55,6 +68,19 @@ def is_within(item: Item, boxes: Iterable[Box]) -> bool:
         case Polyline(points=points) | Hatch(points=points):
             x, y = (np.min(points, axis=0) + np.max(points, axis=0)) / 2
     return any(0 <= x - one.left <= one.width and 0 <= y - one.bottom <= one.height for one in boxes)
+
+
+def is_title(item: Item, boxes: Iterable[Box]) -> bool:
+    """Return whether an item is the title of an axis of a graph in some box: upright beside it, or below its middle."""
+    if not isinstance(item, Text):
+        return False
+    x, y = item.place
+    return any(
+        (x < one.left and one.bottom < y < one.top)
+        if item.angle == 90
+        else y < one.bottom and abs(x - one.left - one.width / 2) < _UNSEEN
+        for one in boxes
+    )
 
 
 def staying(drawn: Sequence[Drawing]) -> set[str]:

@@ -87,11 +87,14 @@ class Memories:
 
     def follow(self, live: Live) -> None:
         """Say of nodes which follow the sliders: where they are calculated, and what takes them to their units."""
-        names = live.nodes(self._kept)
+        names, ending = live.nodes(self._kept), "time" if self._results.period else "angle"
         for node, known, argument, name in zip(self._nodes, self._kept, self._arguments, names, strict=True):
             if name:
                 (origin, unit), (end, _) = (self._shown(known, argument, one) for one in (0.0, 1.0))
                 node["m"] = [name, end - origin, origin, printed_unit(unit, self._language)]
+            base, dot, own = known.key.partition(".")
+            if "a" in node and live.follows(place := f"{base}_{ending}{dot}{own}"):
+                node["z"] = place
 
     def _of_table(self, key: str, values: Array, unit: str) -> dict[str, Any]:
         """Return the column of the tables that has these values, and those at other angles, if there is one."""

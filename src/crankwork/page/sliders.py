@@ -18,7 +18,7 @@ from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Language, Refusal
 from crankwork.locale.numbers import number
-from crankwork.page.alike import is_same_film, is_within, scaled, signed, staying
+from crankwork.page.alike import is_same_film, is_title, is_within, scaled, signed, staying
 from crankwork.page.between import Between, number_in_legend
 from crankwork.page.joints import is_label, joints_of, upon_joints
 from crankwork.quantities import QUANTITIES, base_key
@@ -243,6 +243,9 @@ class Live:
             if is_legend and live and (told := self._told(at, there)):
                 plots[0].setdefault("told", []).append(told)
                 continue
+            if is_title(item, (box for _, box in live)):
+                # its numbers keep the power of ten that it tells
+                continue
             is_curve = isinstance(item, Polyline) and item.name
             marks[at] = FAINT if is_legend or is_curve or not live else GONE
         following = {f"frame {at}" for at, one in enumerate(plots) if one["curves"]}
@@ -287,6 +290,8 @@ class Live:
     def _curve(self, name: str, plots: Sequence[Plot]) -> dict[str, Any]:
         x, y = ([one.curves[name][axis] for one in plots] for axis in (0, 1))
         if all(len(one) > 1 and np.ptp(one) == 0 for one in y):
+            if any(one.x != plots[0].x for one in plots if one.over):
+                return {}
             level = self._single([float(one[0]) for one in y])
             return {"level": level} if level else {}
         if plots[0].over:
