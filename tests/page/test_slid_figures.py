@@ -122,6 +122,15 @@ def test_a_diagram_within_another_keeps_its_frame_and_marks_of_scales_go_with_th
         x = drawn(page, "indicator", curve)[0]
         ends.append([(one - box.left) / box.width for one in (x.min(), x.max())])
     assert ends[1] == pytest.approx(ends[0], abs=5e-3)
+    # nor are vectors drawn in two scales
+    ticks = [
+        page.locator(f"[data-figure=crankpin_polar] g.frame text.{side}").evaluate_all(
+            f"all => all.map((one) => [one.textContent.replace('−', '-'), one.getAttribute('{axis}')].map(Number))"
+        )
+        for side, axis in (("dm", "x"), ("de", "y"))
+    ]
+    per_unit = [(one[-1][1] - one[0][1]) / (one[-1][0] - one[0][0]) for one in ticks]
+    assert per_unit[0] == pytest.approx(per_unit[1], rel=1e-3)
     assert marks.count() == 1
     assert not marks.is_visible()
     assert [one.is_visible() for one in titles.all()] == [True, True]

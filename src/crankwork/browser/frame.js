@@ -59,7 +59,16 @@ export class Frame {
       this.take(/** @type {Ends} */ (plot.x.map((one) => one * by)), /** @type {Ends} */ (plot.y.map((one) => one * by)));
       return;
     }
-    this.take(plot.over ? plot.x : fitted(plot.x, x), fitted(plot.y, y));
+    const [across, up] = [plot.over ? plot.x : fitted(plot.x, x), fitted(plot.y, y)];
+    if (!this.isEqual) this.take(across, up);
+    else if (!hasRoomFor(plot.x, x) || !hasRoomFor(plot.y, y) || Math.max(filledBy(plot.x, x), filledBy(plot.y, y)) < FILLED) this.take(...inOneScale(plot.box, across, up));
+  }
+
+  /** Whether both scales are one, as of a diagram of vectors. */
+  get isEqual() {
+    const { over, box } = this.plot;
+    const [a, b] = [box[2] / Math.abs(this.home.x[1] - this.home.x[0]), box[3] / Math.abs(this.home.y[1] - this.home.y[0])];
+    return !over && Math.abs(a - b) < 1e-3 * a;
   }
 
   /**
@@ -71,7 +80,7 @@ export class Frame {
     if (same(x, plot.x) && same(y, plot.y)) return;
     const height = plot.box[3] * 72 / 25.4;
     const ticks = [
-      same(x, this.home.x) ? plot.ticks?.[0] ?? [] : roundTicks(x, 8),
+      same(x, this.home.x) || !plot.ticks?.[0].length ? plot.ticks?.[0] ?? [] : roundTicks(x, 8),
       roundTicks(y, Math.max(4, Math.round(height / 24))),
     ];
     [plot.x, plot.y] = [x, y];
@@ -132,6 +141,40 @@ function fitted(now, [least, largest]) {
   if (reachLow >= low - slack && reachHigh <= high + slack && reachHigh - reachLow >= FILLED * (high - low)) return now;
   const ends = /** @type {Ends} */ ([reachLow === 0 ? 0 : reachLow - room, reachHigh === 0 ? 0 : reachHigh + room]);
   return now[0] > now[1] ? [ends[1], ends[0]] : ends;
+}
+
+/**
+ * Return whether a scale holds values.
+ * @param {Ends} scale
+ * @param {Ends} values
+ */
+function hasRoomFor(scale, [least, largest]) {
+  return least >= Math.min(...scale) && largest <= Math.max(...scale);
+}
+
+/**
+ * Return what of a scale values fill.
+ * @param {Ends} scale
+ * @param {Ends} values
+ */
+function filledBy(scale, [least, largest]) {
+  return (largest - least) / Math.abs(scale[1] - scale[0]);
+}
+
+/**
+ * Return scales that are one: that which has less room goes on, and the other reaches further both ways.
+ * @param {number[]} box
+ * @param {Ends} x
+ * @param {Ends} y
+ * @returns {[Ends, Ends]}
+ */
+function inOneScale([, , width, height], x, y) {
+  const length = Math.max(Math.abs(x[1] - x[0]) / width, Math.abs(y[1] - y[0]) / height);
+  const around = (/** @type {Ends} */ [start, end], /** @type {number} */ size) => {
+    const [middle, half] = [(start + end) / 2, (Math.sign(end - start) * length * size) / 2];
+    return /** @type {Ends} */ ([middle - half, middle + half]);
+  };
+  return [around(x, width), around(y, height)];
 }
 
 /**

@@ -83,6 +83,11 @@ def is_title(item: Item, boxes: Iterable[Box]) -> bool:
     )
 
 
+def is_beside(item: Item, boxes: Iterable[Box]) -> bool:
+    """Return whether an item stands within some box, or where marks of its scales do."""
+    return is_within(item, (one.inset(*[-_BESIDE] * 4) for one in boxes))
+
+
 def staying(drawn: Sequence[Drawing]) -> set[str]:
     """Return the names of curves that are the same in every design but for rounding, which thins them otherwise."""
     found, moving = set[str](), set[str]()

@@ -18,7 +18,7 @@ from crankwork.kernel.script import Script
 from crankwork.kernel.trace import Designs, Trace
 from crankwork.locale import Language, Refusal
 from crankwork.locale.numbers import number
-from crankwork.page.alike import is_same_film, is_title, is_within, scaled, signed, staying
+from crankwork.page.alike import is_beside, is_same_film, is_title, is_within, scaled, signed, staying
 from crankwork.page.between import Between, number_in_legend
 from crankwork.page.joints import is_label, joints_of, upon_joints
 from crankwork.quantities import QUANTITIES, base_key
@@ -247,7 +247,9 @@ class Live:
                 # its numbers keep the power of ten that it tells
                 continue
             is_curve = isinstance(item, Polyline) and item.name
-            marks[at] = FAINT if is_legend or is_curve or not live else GONE
+            # what stands at a value of the scales, and not what is told beside the graphs
+            is_upon = is_beside(item, (box for _, box in live))
+            marks[at] = GONE if is_upon and not (is_legend or is_curve) else FAINT
         following = {f"frame {at}" for at, one in enumerate(plots) if one["curves"]}
         marks = [frame if frame in following else mark for frame, mark in zip(frame_marks(drawn), marks, strict=True)]
         return plots if live else [], marks if differs else [], differs
