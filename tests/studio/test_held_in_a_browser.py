@@ -205,3 +205,9 @@ def test_a_machine_that_is_held_again_stands_upon_its_own_paper(seen):
         page.locator('[data-slides="crank.radius"]').dispatch_event("change")
         settled(page)
         assert page.evaluate(RATIO) == pytest.approx(held / 175, rel=3e-3)
+
+
+def test_a_slider_of_what_is_nothing_reaches_as_far_as_the_machine(seen):
+    slider = seen().locator('[data-slides="fixed_points.C[2]"]')
+    assert slider.input_value() == "0"
+    assert [slider.get_attribute(one) for one in ("min", "max")] == ["-200", "200"]

@@ -27,6 +27,8 @@ export class Form {
     this.shape = "";
     /** What stands in the file, by key. @type {Map<string, string>} */
     this.stated = new Map();
+    /** The largest number of each unit, which a slider reaches whose own is 0. @type {Map<string, number>} */
+    this.sizes = new Map();
     /** The field whose slider is held. */
     this.held = "";
   }
@@ -40,7 +42,10 @@ export class Form {
     const fresh = shape !== this.shape;
     if (fresh) this.build(groups, additions);
     this.shape = shape;
-    for (const row of groups.flatMap((group) => group.rows)) this.fill(row, fresh);
+    const rows = groups.flatMap((group) => group.rows);
+    this.sizes.clear();
+    for (const { unit, number } of rows) if (unit && number) this.sizes.set(unit, Math.max(Math.abs(number), this.sizes.get(unit) ?? 0));
+    for (const row of rows) this.fill(row, fresh);
   }
 
   /**
@@ -201,7 +206,7 @@ export class Form {
       slider.value = String(row.number);
       return;
     }
-    const [low, high, step] = reach(row.number, row.low ?? -Infinity, row.high ?? Infinity, row.whole ?? false);
+    const [low, high, step] = reach(row.number, row.low ?? -Infinity, row.high ?? Infinity, row.whole ?? false, this.sizes.get(row.unit ?? ""));
     [slider.min, slider.max, slider.step] = [low, high, step].map(String);
     slider.value = String(row.number);
     slider.dataset.unit = row.unit ?? "";
@@ -235,9 +240,10 @@ function key(word) {
  * @param {number} low
  * @param {number} high
  * @param {boolean} whole
+ * @param {number} [size] how far it goes both ways from 0
  */
-export function reach(number, low, high, whole) {
-  const size = Math.abs(number) || Math.min(1, Math.abs(high), Math.abs(low) || Infinity);
+export function reach(number, low, high, whole, size = 1) {
+  size = Math.abs(number) || Math.min(size, Math.abs(high), Math.abs(low) || Infinity);
   const ends = number > 0 ? [number / 2, number * 2] : number < 0 ? [number * 2, number / 2] : [-size, size];
   const step = whole ? 1 : 10 ** Math.floor(Math.log10(size) - 2);
   // ends that are steps too

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any
 
+import numpy as np
+
 from crankwork.analysis import Results
 from crankwork.description.document import Description
 from crankwork.locale import Language
@@ -21,8 +23,8 @@ from crankwork.study.sliders import around, ends, moved
 _NEAR = 0.02
 # of it, where machines lie that others are drawn between: nearer to each other towards the ends, as polynomials ask for
 _AROUND = (-0.25, -0.177, 0.0, 0.177, 0.25)
-# and one that nobody draws, on the way to the ends of its slider, and where those are unless the page tells
-_FURTHER, _ENDS = 0.5, (-0.5, 1.0)
+# where the ends of its slider are unless the page tells; machines there and halfway nobody draws
+_ENDS = (-0.5, 1.0)
 _ROUNDING = 1e-9
 
 
@@ -45,7 +47,8 @@ def ahead(
     now = made.sliders[0].now
     near = [now * (1 + share) for share in _AROUND]
     low, high = (reach and ends(description, key, *reach)) or [now * (1 + share) for share in _ENDS]
-    far = [one for one in (low, now * (1 + _FURTHER), high) if low <= one <= high and one not in near]
+    far = [low, (low + now) / 2, (now + high) / 2, high]
+    far = [one for one in far if not np.isclose(one, near, rtol=_ROUNDING, atol=0.0).any()]
     others = around(description, key, results, near)
     further = around(description, key, results, far)
     live = Live(made, language, names, others, further)
