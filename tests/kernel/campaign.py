@@ -132,10 +132,12 @@ def compared(name: str, text: str, seed: int = 1, named: Sequence[str] = ()) -> 
         return Comparison(name, absent="turns back")
     memories, reasons = [one.memory for one in machine.traced], dict[str, str]()
     cycle, looked = machine.stated.machine.cycle, np.arange(0.5, 360, 7.0)
+    designs = Designs(memories, machine.rows, ())
+    trace = Trace(designs, CrankGrid.from_degrees, looked, is_shifted=True)
     for key in machine.stated.summary:
         try:
-            designs = Designs(memories, machine.rows, [key])
-            Trace(designs, CrankGrid.from_degrees, looked, is_shifted=True).value(memories[0][key])
+            designs.add(key)
+            trace.value(memories[0][key])
         except NotCompiledError as error:
             reasons[key] = f"{error.reason}: {error.key}"
     keys = [key for key in machine.stated.summary if key not in reasons]

@@ -1,5 +1,6 @@
 """Kernels against analyses: the same single values, by operations of the memory at another grid."""
 
+import functools
 import itertools
 import math
 import runpy
@@ -75,14 +76,15 @@ class Study:
         factors = np.random.default_rng(11).uniform(1 - spread, 1 + spread, (len(self.fields), count))
         return self.middle[:, None] * factors
 
+    @functools.cached_property
+    def trace(self):
+        self.designs = Designs(self.memories, self.rows, ())
+        return Trace(self.designs, CrankGrid.from_degrees, np.arange(0, 360, 7.0), is_shifted=False)
+
     def compiles(self, key):
+        trace = self.trace
         try:
-            trace = Trace(
-                Designs(self.memories, self.rows, [key]),
-                CrankGrid.from_degrees,
-                np.arange(0, 360, 7.0),
-                is_shifted=False,
-            )
+            self.designs.add(key)
             trace.value(self.memories[0][key])
         except NotCompiledError as error:
             return error
