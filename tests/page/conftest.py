@@ -7,6 +7,7 @@ import gzip
 import json
 import re
 from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -53,24 +54,24 @@ def stored() -> Callable[[bytes], dict[str, Any]]:
     return read
 
 
-@pytest.fixture
-def opened(browser: Browser, pages: Callable[[str, Language], Path]) -> Generator[Callable[..., Page]]:
-    """Open the page of an example; at the end nothing may have been asked for, and no script may have failed."""
+@contextmanager
+def watched(browser: Browser) -> Generator[Callable[..., Page]]:
+    """Open pages of files; at the end nothing else may have been asked for, and no script may have failed."""
     contexts, asked, failed = [], [], []
 
-    def open_page(name: str, language: Language = "en", **look: object) -> Page:
+    def open_file(path: Path, **look: object) -> Page:
         context = browser.new_context(**look)
         contexts.append(context)
         page = context.new_page()
         page.on("request", lambda request: asked.append(request.url))
         page.on("pageerror", lambda error: failed.append(str(error)))
         page.on("console", lambda message: failed.append(message.text))
-        page.goto(pages(name, language).as_uri())
+        page.goto(path.as_uri())
         if look.get("java_script_enabled", True):
             page.wait_for_selector("html.live")
         return page
 
-    yield open_page
+    yield open_file
     for context in contexts:
         context.close()
     assert failed == []
@@ -79,25 +80,22 @@ def opened(browser: Browser, pages: Callable[[str, Language], Path]) -> Generato
 
 
 @pytest.fixture
-def slid(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Generator[Callable[..., Page]]:
-    """Open a page with sliders; nothing may be asked for, and no script may fail."""
-    folder, contexts, asked, failed = tmp_path_factory.mktemp("sliders"), [], [], []
+def opened(browser: Browser, pages: Callable[[str, Language], Path]) -> Generator[Callable[..., Page]]:
+    """Open the page of an example."""
+    with watched(browser) as open_file:
+        yield lambda name, language="en", **look: open_file(pages(name, language), **look)
 
-    def open_page(name: str, language: Language = "en", change: Callable[[str], str] = str, **look: object) -> Page:
-        path = folder / f"{name}-{language}-{len(contexts)}.html"
-        path.write_bytes(change(document(name, language)).encode())
-        context = browser.new_context(**{"reduced_motion": "reduce", "viewport": {"width": 1300, "height": 900}} | look)
-        contexts.append(context)
-        page = context.new_page()
-        page.on("request", lambda request: asked.append(request.url))
-        page.on("pageerror", lambda error: failed.append(str(error)))
-        page.on("console", lambda message: failed.append(message.text))
-        page.goto(path.as_uri())
-        page.wait_for_selector("html.live")
-        return page
 
-    yield open_page
-    for context in contexts:
-        context.close()
-    assert failed == []
-    assert all(url.startswith("file:") for url in asked)
+@pytest.fixture
+def slid(browser: Browser, tmp_path: Path) -> Generator[Callable[..., Page]]:
+    """Open a page with sliders."""
+    usual = {"reduced_motion": "reduce", "viewport": {"width": 1300, "height": 900}}
+
+    with watched(browser) as open_file:
+
+        def open_page(name: str, language: Language = "en", change: Callable[[str], str] = str, **look: object) -> Page:
+            path = tmp_path / f"{name}-{language}.html"
+            path.write_bytes(change(document(name, language)).encode())
+            return open_file(path, **(usual | look))
+
+        yield open_page
