@@ -22,6 +22,7 @@ from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
+from each import for_each
 from engines import cylinder_angle
 
 pytestmark = pytest.mark.elsewhere
@@ -113,7 +114,7 @@ def test_dead_centres_are_those_of_thirty_digits(geometry):
     assert x.max() == pytest.approx(slave.stroke, rel=1e-4)
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.013])
+@for_each("offset", [0.0, 0.013])
 def test_without_knuckle_radius_it_is_a_plain_slider_crank(offset):
     rod = ArticulatedRod(0.3, 0.0, 77.0, 40.0, offset)
     motion = articulated_motion(MASTER, rod, ANGLES)
@@ -204,7 +205,7 @@ def test_without_knuckle_radius_the_master_rod_feels_nothing():
 # --- what cannot be assembled
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("lengths", "rod", "message"),
     [
         (MASTER, ArticulatedRod(0.14, KNUCKLE, 110.0, 40.0), r"knuckle pin is 146[.]017 mm beside.*misses 6[.]017"),
@@ -246,7 +247,7 @@ def _central(_place, own):
     return piston_motion(MASTER, own)
 
 
-@pytest.mark.parametrize("cylinders", [5, 7, 9])
+@for_each("cylinders", [5, 7, 9])
 def test_equal_central_rods_of_a_radial_row_have_no_second_order(cylinders):
     parts = _inertia_orders(cylinders, _central)
     assert abs(parts[2]) == pytest.approx(cylinders / 2, rel=1e-13)

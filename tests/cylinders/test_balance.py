@@ -24,6 +24,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, piston_transfer_2, rod_swing
 from crankwork.kinematics.textbook import textbook_transfer_2
 from crankwork.method import EXACT, TEXTBOOK
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -46,7 +47,7 @@ def _acceleration(slider_crank: SliderCrank):
 # --- orders of the piston acceleration
 
 
-@pytest.mark.parametrize("slider_crank", [CENTRAL, OFFSET], ids=["central", "offset"])
+@for_each("slider_crank", [CENTRAL, OFFSET], ids=["central", "offset"])
 def test_the_orders_are_those_of_the_sampled_motion(slider_crank) -> None:
     orders = (1, 2, 3, 4, 5, 6)
     exact = inertia_harmonics(slider_crank, orders)

@@ -20,6 +20,7 @@ from crankwork.cylinders.ellipse import OrderBalance, balance_sum
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.slider_crank import SliderCrank
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -54,7 +55,7 @@ def test_half_the_mass_of_a_single_cylinder_leaves_half_its_force_turning_backwa
     assert abs(first.force.backward) == pytest.approx(ONE / 2, rel=1e-14)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.5, 2 / 3, 1.0])
+@for_each("share", [0.0, 0.3, 0.5, 2 / 3, 1.0])
 def test_a_share_is_taken_from_the_axis_and_put_across_it(share: float) -> None:
     first = _left(_layout([0.0]), share)[0]
     assert (first.force.largest, first.force.least) == pytest.approx(
@@ -64,7 +65,7 @@ def test_a_share_is_taken_from_the_axis_and_put_across_it(share: float) -> None:
         assert first.force.direction == pytest.approx(0 if share < 0.5 else 90)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("pins", "axes"),
     [
         ([0.0], (-45.0, 45.0)),

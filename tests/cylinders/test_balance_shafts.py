@@ -15,6 +15,7 @@ from crankwork.cylinders.counterweights import rotating_unbalances, throw_counte
 from crankwork.cylinders.ellipse import balance_sum
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.kinematics.slider_crank import SliderCrank
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -53,7 +54,7 @@ def test_a_balanced_order_needs_no_shafts() -> None:
     assert balance_shafts(free_forces(FOUR, M_REC, R, W, RODS)[0], W) == ()
 
 
-@pytest.mark.parametrize("axis", [0.0, 35.0, 90.0])
+@for_each("axis", [0.0, 35.0, 90.0])
 def test_two_shafts_take_the_first_order_of_one_cylinder(axis: float) -> None:
     free = free_forces(_layout([0.0], axis), M_REC, R, W, RODS)
     pair = balance_shafts(free[0], W)

@@ -21,6 +21,7 @@ from crankwork.cylinders import bearings
 from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -164,8 +165,8 @@ def test_a_rod_without_mass_is_loaded_along_itself(force, ratio, offset):
     assert _close(bearings.small_end_bearing_load(force, force * swing.sin / swing.cos, swing), (-along, 0 * along))
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.004])
-@pytest.mark.parametrize("inertia_excess", [0.0, -0.003])
+@for_each("offset", [0.0, 0.004])
+@for_each("inertia_excess", [0.0, -0.003])
 def test_big_end_and_small_end_forces_move_the_rod(offset, inertia_excess):
     """Newton for the rod, force and moment: m a of its centre, J eps about it."""
     machine = crankwork.read_machine(crankwork.template("engine"))

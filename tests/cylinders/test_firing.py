@@ -21,9 +21,10 @@ from crankwork.cylinders.firing import (
     wrapped,
 )
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS, radial_order, standard_orders
+from each import for_each
 from engines import standard_layout
 
-every_standard = pytest.mark.parametrize(
+every_standard = for_each(
     "standard",
     STANDARD_ORDERS,
     ids=lambda one: f"{one.kind}-{one.strokes}-{order_text(one.order)}-{one.axes[-1]:g}-{one.throws[-1]:g}",
@@ -108,7 +109,7 @@ def test_wrapping_leaves_what_is_no_decimal_as_it_is():
 # --- orders that are none
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("order", "cylinders", "message"),
     [
         ((1, 3, 2), 4, "1-3-2 leaves out cylinder 4"),
@@ -175,7 +176,7 @@ def test_a_standard_engine_fires_evenly_or_is_known_not_to(standard):
         assert notices[0].code == "uneven_intervals"
 
 
-@pytest.mark.parametrize("order", CRANKS)
+@for_each("order", CRANKS)
 def test_cranks_are_those_of_the_tables_of_free_forces(order):
     cylinders = order.count("-") + 1
     found = [one.throws for one in standard_orders("inline", cylinders) if order_text(one.order) == order]
@@ -188,7 +189,7 @@ def test_the_most_usual_order_comes_first():
     assert standard_orders("inline", 11) == ()
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("cylinders", "strokes", "order"),
     [(3, 4, "1-3-2"), (5, 4, "1-3-5-2-4"), (7, 4, "1-3-5-7-2-4-6"), (9, 4, "1-3-5-7-9-2-4-6-8"), (4, 2, "1-2-3-4")],
 )

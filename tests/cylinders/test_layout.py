@@ -11,9 +11,10 @@ from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, order_text, wrapped
 from crankwork.cylinders.layout import Banks
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS
+from each import for_each
 from engines import standard_layout
 
-every_standard = pytest.mark.parametrize(
+every_standard = for_each(
     "standard",
     STANDARD_ORDERS,
     ids=lambda one: f"{one.kind}-{one.strokes}-{order_text(one.order)}-{one.axes[-1]:g}-{one.throws[-1]:g}",
@@ -163,7 +164,7 @@ def test_the_second_bank_of_a_v_may_hang_on_the_first():
 # --- refusals name the key and the way out
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("make", "key", "parts"),
     [
         (

@@ -11,6 +11,7 @@ from crankwork.cylinders.load_statistics import (
     reversal,
 )
 from crankwork.cylinders.load_vectors import BearingLoad
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -18,7 +19,7 @@ DEGREES = np.arange(0.0, 720.5, 0.5)
 PHI = np.radians(DEGREES)
 
 
-@pytest.mark.parametrize("turn", [0.0, 200.0, 690.0])
+@for_each("turn", [0.0, 200.0, 690.0])
 def test_the_longest_unbroken_stretch_counts(turn):
     """Tension from 100 to 130 and from 700 over the end of the cycle to 20, wherever the cycle begins."""
     ends = sorted((one + turn) % 720 for one in (20.0, 100.0, 130.0, 700.0))
@@ -28,7 +29,7 @@ def test_the_longest_unbroken_stretch_counts(turn):
     assert (found.compression, found.duration, found.ratio) == (570.0, 40.0, 0.1)
 
 
-@pytest.mark.parametrize(("sign", "expected"), [(1, (720, 0, 3, 0)), (-1, (0, 720, 0, 3))])
+@for_each(("sign", "expected"), [(1, (720, 0, 3, 0)), (-1, (0, 720, 0, 3))])
 def test_a_load_of_one_sign_does_not_reverse(sign, expected):
     found = reversal([720.0], [sign > 0], (-1.0, -3.0) if sign > 0 else (3.0, 1.0))
     assert found == expected

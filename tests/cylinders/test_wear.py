@@ -11,6 +11,7 @@ from hypothesis.extra.numpy import arrays
 from crankwork.cylinders.load_vectors import BearingLoad, turned_by
 from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums, wear_table
 from crankwork.errors import CrankworkError
+from each import for_each
 
 SIZES = arrays(float, 20, elements=st.floats(1.0, 1e5))
 # half a degree from any ray and from any end of an arc
@@ -51,7 +52,7 @@ def test_a_force_presses_where_it_comes_from():
     assert (hole.angle, hole.arc, hole.least) == (0, 210, 0)
 
 
-@pytest.mark.parametrize(("rays", "covered"), [(12, 5), (24, 9), (36, 13)])
+@for_each(("rays", "covered"), [(12, 5), (24, 9), (36, 13)])
 def test_rays_at_the_very_ends_of_an_arc_are_on_it(rays, covered):
     """However the direction of the force was rounded."""
     direction = np.radians(np.arange(rays) * 360 / rays)
@@ -95,7 +96,7 @@ def test_loads_alike_on_both_sides_of_the_crank_wear_both_sides_alike(size, dire
 # --- the oil hole
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("sums", "expected"),
     [
         ([5, 4, 3, 2, 1, 2, 3, 4, 5, 6, 7, 6], (120, 30, 1)),

@@ -21,6 +21,7 @@ from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.dyads import RRP, RRR, Guide
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
@@ -90,7 +91,7 @@ def running(mechanism, link, grid=GRID):
     return Running(mechanism, motion, rate, loads, second)
 
 
-@pytest.mark.parametrize(("mechanism", "link"), EVERY.values(), ids=EVERY)
+@for_each(("mechanism", "link"), EVERY.values(), ids=EVERY)
 def test_every_route_gives_the_same(mechanism, link):
     at_work = running(mechanism, link)
     found = by_groups(at_work)
@@ -98,7 +99,7 @@ def test_every_route_gives_the_same(mechanism, link):
         assert route(at_work) == pytest.approx(found, rel=1e-10, abs=1e-9), name
 
 
-@pytest.mark.parametrize(("mechanism", "link"), EVERY.values(), ids=EVERY)
+@for_each(("mechanism", "link"), EVERY.values(), ids=EVERY)
 def test_the_memory_replayed_is_the_number(mechanism, link):
     motion = remembered_motion(mechanism, linkage_motion(mechanism, DENSE))
     own = given_mechanism(mechanism)

@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 
 from crankwork.dynamics.efficiency import Parallel, Series, driving_torque_as_brake, driving_torque_as_motor, efficiency
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -15,13 +16,13 @@ def test_series_and_parallel():
     assert efficiency(Series((0.5, Parallel((0.9, Series((0.5, 0.5))))))) == pytest.approx(0.5 * (0.9 + 0.25) / 2)
 
 
-@pytest.mark.parametrize("wrong", [0.0, -0.1, 1.2, float("nan")])
+@for_each("wrong", [0.0, -0.1, 1.2, float("nan")])
 def test_an_impossible_efficiency(wrong):
     with pytest.raises(ValueError, match="above 0 and not above 1"):
         efficiency(Series((0.9, wrong)))
 
 
-@pytest.mark.parametrize("shares", [(0.5,), (0.5, 0.6), (1.5, -0.5)])
+@for_each("shares", [(0.5,), (0.5, 0.6), (1.5, -0.5)])
 def test_impossible_shares(shares):
     with pytest.raises(ValueError, match="as many shares"):
         efficiency(Parallel((0.9, 0.8), shares))

@@ -24,6 +24,7 @@ from crankwork.mechanism.catalog import crank_shaper, scotch_yoke, slotted_press
 from crankwork.mechanism.dyads import RPP, RRP, Guide
 from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -57,7 +58,7 @@ def test_without_friction_nothing_changes(shaper):
     assert not found.power_loss.any()
 
 
-@pytest.mark.parametrize("mechanism", [crank_shaper(0.05, 0.15, 0.3, 0.2, 0.14), slotted_press(), scotch_yoke(0.1)])
+@for_each("mechanism", [crank_shaper(0.05, 0.15, 0.3, 0.2, 0.14), slotted_press(), scotch_yoke(0.1)])
 def test_the_power_lost_is_what_the_crank_gives_more(mechanism):
     loads = [TorqueOnLink("crank", -3.0), ForceOnPoint("crank_pin", 100.0, -40.0), Weight()]
     sliders = [joint.link for joint in joints(mechanism) if not isinstance(joint, Pin)]
@@ -181,7 +182,7 @@ def test_no_load_no_friction():
     assert not found.held.any()
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("friction", "message"),
     [
         ([PinFriction("nowhere", 0.01, 0.1)], "no joint nowhere.*crank_pivot, crank_pin, piston_pin"),

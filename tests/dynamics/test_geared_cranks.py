@@ -13,6 +13,7 @@ from crankwork.kinematics.coordinates import driver_coordinate, link_angle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 FILE = Path(__file__).parent.parent / "machines" / "geared-five-bar.toml"
@@ -82,7 +83,7 @@ def test_its_circuit_is_the_whole_turn():
         assert circuit.extent(link_angle(link)).travel == pytest.approx(RESULTS.summary[f"link_swing.{link}"], rel=1e-9)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("old", "new", "key", "advice"),
     [
         ("ratio = -2", "ratio = 0", "geared.second.ratio", "negative"),

@@ -5,6 +5,7 @@ import math
 import pytest
 
 import crankwork
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -83,7 +84,7 @@ def test_its_force_joins_those_of_the_linkage():
         )
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("mass", "key", "advice"),
     [
         (OWN + '\ninertia = "1e-4 kg*m2"', "crank.inertia", "leave it out"),

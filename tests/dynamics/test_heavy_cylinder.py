@@ -14,6 +14,7 @@ from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
+from each import for_each
 
 MACHINES = Path(__file__).parents[1] / "machines"
 BARREL = 'barrel = { mass = "60 kg", inertia = "5 kg*m2", centre = ["0.4 m", "0.01 m"] }'
@@ -73,8 +74,8 @@ def test_barrel_and_rod_are_in_equilibrium_as_two_bodies(heavy):
     assert own + moment == pytest.approx(3 * turning, abs=1e-4 * np.max(np.abs(driver)))
 
 
-@pytest.mark.parametrize("ends", ['["F", "G"]', '["G", "F"]'])
-@pytest.mark.parametrize("parts", [(BARREL, ROD), (BARREL,), (ROD,)])
+@for_each("ends", ['["F", "G"]', '["G", "F"]'])
+@for_each("parts", [(BARREL, ROD), (BARREL,), (ROD,)])
 def test_more_routes_agree_whichever_end_has_the_barrel(ends, parts):
     line = next(one for one in BETWEEN.split("\n") if one.startswith("cylinder ="))
     small = "\n".join(parts).replace("0.4 m", "0.04 m").replace("0.5 m", "0.05 m").replace("60 kg", "6 kg")
@@ -98,7 +99,7 @@ def test_all_joint_forces_are_those_of_one_system_of_two_links_more(heavy):
         assert groups.guides[name].moment == pytest.approx(guide.moment, abs=1e-12 * largest)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("text", "told"),
     [
         (HEAVY.replace('mass = "60 kg", ', ""), r"driver\.barrel\.mass"),

@@ -10,6 +10,7 @@ import pytest
 from crankwork.dynamics import piston_forces as forces
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, mean_piston_speed, rod_swing
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -61,7 +62,7 @@ def test_a_rotating_mass_pulls_outwards() -> None:
     assert forces.rotating_inertia_force(3.0, 0.1, 20.0) == pytest.approx(-120.0, rel=1e-15)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("phi", "theta", "torque"),
     [(0, 0, 0), (90, 0, 1), (180, 0, 0), (270, 0, -1), (0, 90, 1), (0, -90, -1), (90, -90, 0)],
 )

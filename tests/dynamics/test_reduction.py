@@ -14,6 +14,7 @@ from crankwork.loads.applied import NO_LOADS
 from crankwork.loads.load import ForceOnPoint, TorqueOnLink, Weight, applied_loads
 from crankwork.mechanism.catalog import four_bar, scotch_yoke, slotted_press, watt_six_bar
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -49,7 +50,7 @@ def test_without_bodies_there_is_no_inertia():
     assert not found.inertia_1.any()
 
 
-@pytest.mark.parametrize("name", ["six-bar", "press"])
+@for_each("name", ["six-bar", "press"])
 def test_the_derivative_is_that_of_the_inertia(six_bar, name):
     mechanism = six_bar if name == "six-bar" else slotted_press()
     inertia, inertia_1 = reduced_inertia(mechanism, linkage_motion(mechanism, GRID))

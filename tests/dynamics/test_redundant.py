@@ -13,6 +13,7 @@ from crankwork.note.linkage_note import linkage_note
 from crankwork.note.options import NoteOptions
 from crankwork.note.web import web
 from crankwork.report.summary import summary_text
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -103,7 +104,7 @@ def by_equilibrium(angle, share):
     return np.linalg.solve(matrix, right)
 
 
-@pytest.mark.parametrize("share", [0.5, 1.0, -0.2])
+@for_each("share", [0.5, 1.0, -0.2])
 def test_every_joint_of_coupled_wheels_with_three_cranks(share):
     results = crankwork.analyse(crankwork.read_machine(WHEELS.replace("SHARE", str(share))))
     for degrees in (12.0, 30.0, 77.0, 90.0, 144.0, 201.0, 300.0, 359.0):
@@ -154,7 +155,7 @@ of = "second"
         assert moment == pytest.approx(0.0, abs=1e-9 * abs(b[1]))
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@for_each("language", LANGUAGES)
 def test_it_is_told_and_explained(language):
     results = crankwork.analyse(crankwork.read_machine(WHEELS.replace("SHARE", "0.5")))
     assert "third" in summary_text(results, language=language)
@@ -208,7 +209,7 @@ MISTAKES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("old", "new", "key", "advice"), MISTAKES.values(), ids=MISTAKES)
+@for_each(("old", "new", "key", "advice"), MISTAKES.values(), ids=MISTAKES)
 def test_what_cannot_be_shared_is_told(old, new, key, advice):
     with pytest.raises(CrankworkError) as caught:
         crankwork.read_machine(WHEELS.replace(old, new, 1).replace("SHARE", "0.5"))

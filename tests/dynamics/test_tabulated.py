@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from crankwork.dynamics.tabulated import difference_derivative
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
 ANGLE = np.radians(np.arange(0, 360, 10))
 
 
-@pytest.mark.parametrize(("scheme", "error"), [("forward", 0.2), ("central", 0.03), ("spectral", 1e-13)])
+@for_each(("scheme", "error"), [("forward", 0.2), ("central", 0.03), ("spectral", 1e-13)])
 def test_differences_approach_the_derivative(scheme, error):
     found = difference_derivative(ANGLE, np.sin(2 * ANGLE) + 3, scheme)
     miss = np.max(np.abs(found - 2 * np.cos(2 * ANGLE)))
@@ -31,9 +32,7 @@ def test_the_highest_even_order_has_no_slope():
     assert difference_derivative(np.arange(8) * np.pi / 4, values, "spectral") == pytest.approx(0, abs=1e-14)
 
 
-@pytest.mark.parametrize(
-    ("angle", "values"), [([0.0, 1.0, 1.0], [1, 2, 3]), ([0.0, 1.0, 7.0], [1, 2, 3]), ([0.0, 1.0], [1, 2, 3])]
-)
+@for_each(("angle", "values"), [([0.0, 1.0, 1.0], [1, 2, 3]), ([0.0, 1.0, 7.0], [1, 2, 3]), ([0.0, 1.0], [1, 2, 3])])
 def test_angles_that_do_not_make_a_revolution(angle, values):
     with pytest.raises(ValueError, match="ascend within one revolution"):
         difference_derivative(angle, values)

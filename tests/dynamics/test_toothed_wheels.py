@@ -14,6 +14,7 @@ from crankwork.analysis.linkage import running_at
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 FILE = Path(__file__).parent.parent / "machines" / "toothed-five-bar.toml"
@@ -49,7 +50,7 @@ def test_a_torque_on_the_geared_crank_presses_its_teeth():
     assert results["joint_force_x.O"] == pytest.approx(across * math.tan(math.radians(20)), rel=1e-12)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
+@for_each("ratio", RATIOS)
 def test_the_pivots_bear_what_one_system_of_all_links_gives(ratio):
     one, grid = lifted(ratio), crankwork.CrankGrid.from_degrees(DEGREES)
     results, moved = crankwork.analyse(one), linkage_motion(one.mechanism, crankwork.CrankGrid.from_degrees(DEGREES))
@@ -65,7 +66,7 @@ def test_the_pivots_bear_what_one_system_of_all_links_gives(ratio):
         assert found[f"joint_force_y.{name}"] == pytest.approx(system.pins[joint].y, abs=1e-12 * largest)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
+@for_each("ratio", RATIOS)
 def test_the_power_of_the_teeth_is_that_of_the_torque_that_passes(ratio):
     """Where wheels touch both move alike, and what the teeth give the one they take from the other."""
     results = crankwork.analyse(lifted(ratio))
@@ -100,7 +101,7 @@ def test_the_notice_is_for_wheels_that_do_not_touch_only():
     assert "geared" not in codes
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("old", "new", "told"),
     [
         (

@@ -14,6 +14,7 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program, replay
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import polytropic_pressure
+from each import for_each
 
 SIN, SIN_2, COS_2 = (Known(OfAngle(*one), "crank_angle") for one in (("sin", 1), ("sin", 2), ("cos", 2)))
 
@@ -46,7 +47,7 @@ REFUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("taken", REFUSED.values(), ids=REFUSED)
+@for_each("taken", REFUSED.values(), ids=REFUSED)
 def test_outside_formulas_a_known_refuses(taken):
     with pytest.raises(TypeError):
         taken(SIN)

@@ -14,6 +14,7 @@ from crankwork.formula.lines import DelayedLine, FormulaLine, Moment, SumLine, w
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.series import series_transfer_2_term
 from crankwork.loads.gas import gas_force, polytropic_pressure
+from each import for_each
 
 SIN = Known(OfAngle("sin"), "crank_angle")
 
@@ -107,7 +108,7 @@ def test_a_line_evaluates_to_its_value():
     assert line.value == pytest.approx((1000 + sine) * sine**2 / (2 - sine), rel=1e-15)
 
 
-@pytest.mark.parametrize(("order", "shown"), [(1, "a_k·cos φ"), (2, "a_k·cos 2φ"), (3, "a_k·cos kφ")])
+@for_each(("order", "shown"), [(1, "a_k·cos φ"), (2, "a_k·cos 2φ"), (3, "a_k·cos kφ")])
 def test_the_first_two_orders_are_written_out(order, shown):
     cosine = Known(OfAngle("cos", order))
     (line,) = lines(series_transfer_2_term(2.0, cosine, absent(""), absent("")))
@@ -135,7 +136,7 @@ def test_folding_keeps_the_numbers_of_a_formula():
     assert fold(tree) == tree
 
 
-@pytest.mark.parametrize(("couple", "shown"), [(12.0, "(M_st + M_dyn)/η"), (None, "M_st/η")], ids=["given", "absent"])
+@for_each(("couple", "shown"), [(12.0, "(M_st + M_dyn)/η"), (None, "M_st/η")], ids=["given", "absent"])
 def test_a_step_leaves_out_what_nobody_stated(couple, shown):
     dynamic = absent("dynamic_torque") if couple is None else given("dynamic_torque", couple)
     (step,) = lines(driving_torque_as_motor(given("static_torque", 30.0), dynamic, given("efficiency", 0.5)))

@@ -11,6 +11,7 @@ from crankwork.dynamics.reaction import joint_force
 from crankwork.formula.known import Known, KnownAngle, Pieces, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -29,7 +30,7 @@ def test_the_mean_of_a_size_that_vanishes_is_that_of_the_integral_over_both_its_
     assert (least.value, least.at) == (pytest.approx(0.0, abs=1e-14), pytest.approx(20.3, abs=1e-9))
 
 
-@pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9])
+@for_each("gap", [1e-3, 1e-6, 1e-9])
 def test_the_mean_of_a_size_that_nearly_vanishes_is_an_elliptic_integral(gap: float) -> None:
     mpmath = pytest.importorskip("mpmath")
     found = over(size=joint_force(ANGLE.sin, given("", gap)))
@@ -65,7 +66,7 @@ def test_nothing_to_follow_is_nothing() -> None:
     assert over().largest_and_least == {}
 
 
-@pytest.mark.parametrize("apart", [0.3, 0.02, 1e-3, 1e-6])
+@for_each("apart", [0.3, 0.02, 1e-3, 1e-6])
 def test_the_mean_of_a_size_that_vanishes_just_beside_a_break(apart: float) -> None:
     """Between the break and the first node of the interval, where its values show nothing of the corner."""
     beside = Known(Pieces([120.0, 360.0], (given("", 1.0), given("", 1.0))))
@@ -81,7 +82,7 @@ def test_a_size_of_little_beside_another_has_its_extremes_where_they_are() -> No
     assert (largest.at % 180, least.at % 180) == pytest.approx((33.0, 123.0), abs=1e-5)
 
 
-@pytest.mark.parametrize("beside", [1e-5, 1e-7])
+@for_each("beside", [1e-5, 1e-7])
 def test_the_mean_of_a_size_with_steep_peaks_is_found_at_once(beside: float) -> None:
     a, below = 1 + beside, beside * (2 + beside)
     once = 1.0 / (a - ANGLE.shifted(-77.7).cos)

@@ -12,6 +12,7 @@ from crankwork.formula.worked import Worked
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import clearance_volume, polytropic_pressure
 from crankwork.locale import told
+from each import for_each
 
 
 def _speeds() -> Worked:
@@ -47,7 +48,7 @@ def test_what_is_worked_again_later_is_marked_and_leaves_the_first_calculation_a
     assert "mean_piston_speed" not in worked.known
 
 
-@pytest.mark.parametrize("ratio", [1.0, math.nan], ids=["division by zero", "no number"])
+@for_each("ratio", [1.0, math.nan], ids=["division by zero", "no number"])
 def test_where_no_number_follows_the_operands_are_told(ratio):
     worked = Worked()
     worked.given("swept_volume", 0.0005)

@@ -14,6 +14,7 @@ from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, Segment
 from crankwork.mechanism.dyads import RRR, Guide
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, slider_crank
+from each import for_each
 from linkages import At, distance
 
 pytestmark = pytest.mark.elsewhere
@@ -39,7 +40,7 @@ def swing(circuit, name, part=None):
     return math.degrees(circuit.extent(link_angle(name), part).travel)
 
 
-@pytest.mark.parametrize(("branch", "degrees"), [(1, 20.0), (1, 40.0), (1, 75.0), (-1, 20.0), (-1, 79.0), (1, 300.0)])
+@for_each(("branch", "degrees"), [(1, 20.0), (1, 40.0), (1, 75.0), (-1, 20.0), (-1, 79.0), (1, 300.0)])
 def test_limits_of_a_crank_that_swings_do_not_depend_on_the_start(branch, degrees):
     circuit = circuit_through(four_bar(CRANK, COUPLER, ROCKER, GROUND, branch=branch), degrees)
     driver = driver_coordinate(PARTIAL)
@@ -105,7 +106,7 @@ def test_lengths_and_angles_between_links_may_drive():
     assert pin.greatest == pytest.approx(CRANK * math.cos(math.radians(FOLDED)), abs=1e-12)
 
 
-@pytest.mark.parametrize("branch", [1, -1])
+@for_each("branch", [1, -1])
 def test_a_parallelogram_goes_straight_on_through_its_change_points(branch):
     circuit = circuit_through(four_bar(0.3, 1.0, 0.3, 1.0, branch=branch), 40.0)
     there = circuit.stretch(np.linspace(0, circuit.curve.length, 400))
@@ -136,7 +137,7 @@ def test_an_isosceles_slider_crank_passes_the_shaft():
     assert circuit.turns("crank") == -1
 
 
-@pytest.mark.parametrize(("longer", "passes"), [(5e-10, True), (3e-9, False), (1e-7, False), (1e-5, False)])
+@for_each(("longer", "passes"), [(5e-10, True), (3e-9, False), (1e-7, False), (1e-5, False)])
 def test_lengths_that_differ_by_little_are_equal_or_told(longer, passes):
     circuit = circuit_through(four_bar(0.3, 1.0 + longer, 0.3, 1.0), 40.0)
     assert bool(circuit.curve.crossings.size) == passes

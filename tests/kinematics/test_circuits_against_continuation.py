@@ -8,6 +8,7 @@ import pytest
 from crankwork.kinematics.circuits import all_circuits
 from crankwork.kinematics.coordinates import driver_coordinate, link_angle
 from crankwork.mechanism.catalog import four_bar, stephenson_six_bar, watt_six_bar
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -159,6 +160,6 @@ def compare(number):
         assert len(branches) == max(1, len(dead))
 
 
-@pytest.mark.parametrize("number", range(40))
+@for_each("number", range(40))
 def test_circuits_and_limits_are_those_of_another_continuation(number):
     compare(number)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import mpmath
 import numpy as np
-import pytest
 
 from crankwork.kinematics.crank_grid import CrankGrid
+from each import for_each
 
 NEAR_QUARTERS = np.array([k * 90 + d for k in range(-4, 9) for d in (-1e-3, -1e-6, -1e-9, 1e-9, 1e-6, 1e-3)])
 
 
-@pytest.mark.parametrize("turns", [-2, -1, 0, 1, 2, 1000])
+@for_each("turns", [-2, -1, 0, 1, 2, 1000])
 def test_multiples_of_a_right_angle_are_exact(turns: int) -> None:
     grid = CrankGrid.from_degrees(turns * 360 + np.array([0.0, 90.0, 180.0, 270.0]))
     assert grid.sin.tolist() == [0, 1, 0, -1]
@@ -77,7 +77,7 @@ def test_one_minus_and_plus_sin_vanish_exactly_where_they_should() -> None:
     assert grid.one_plus_sin.tolist() == [2, 0]
 
 
-@pytest.mark.parametrize("order", [1, 2, 3, 8, 200])
+@for_each("order", [1, 2, 3, 8, 200])
 def test_multiples_of_the_angle_are_those_of_the_grid(order: int) -> None:
     degrees = np.arange(0, 721, 7.5)
     grid = CrankGrid.from_degrees(degrees)
@@ -114,7 +114,7 @@ def test_special_angles_are_sorted_in_once() -> None:
     assert np.array_equal(degrees, np.unique([*range(0, 721, 30), 370, 375]))
 
 
-@pytest.mark.parametrize(("step", "end", "special"), [(0.3, 0.9, ()), (0.1, 0.5, (0.3,)), (0.7, 360.0, (14.7,))])
+@for_each(("step", "end", "special"), [(0.3, 0.9, ()), (0.1, 0.5, (0.3,)), (0.7, 360.0, (14.7,))])
 def test_rounding_of_the_step_does_not_make_two_rows_of_one_angle(
     step: float, end: float, special: tuple[float, ...]
 ) -> None:

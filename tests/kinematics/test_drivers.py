@@ -14,6 +14,7 @@ from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.dyads import RRP, RRR, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
@@ -198,9 +199,7 @@ def test_a_cylinder_in_a_chain_is_the_one_in_a_dyad():
         assert found[key] == pytest.approx(value, rel=1e-10, abs=1e-11), key
 
 
-@pytest.mark.parametrize(
-    "mechanism", [BOOM, as_chain(BOOM), SLIDING_CYLINDER, ELBOW], ids=["boom", "chain", "slider", "elbow"]
-)
+@for_each("mechanism", [BOOM, as_chain(BOOM), SLIDING_CYLINDER, ELBOW], ids=["boom", "chain", "slider", "elbow"])
 def test_the_memory_replayed_is_the_motion(mechanism):
     remembered = columns(remembered_motion(mechanism, linkage_motion(mechanism, DENSE)))
     found, expected = Program(remembered)(GRID), columns(linkage_motion(mechanism, GRID))
@@ -222,8 +221,8 @@ def test_a_crank_that_follows_a_law_is_the_crank_at_that_angle():
         assert remembered[key] == pytest.approx(value, rel=1e-13, abs=1e-14), key
 
 
-@pytest.mark.parametrize("branch", [1, -1])
-@pytest.mark.parametrize("is_swapped", [False, True])
+@for_each("branch", [1, -1])
+@for_each("is_swapped", [False, True])
 def test_links_with_a_motor_between_them_pass_the_line(is_swapped, branch):
     """The angle between the links goes round more than once; the third side alone says where they are."""
     sides, opened, ground = (0.15, 0.26), branch * 2.4, 0.3

@@ -17,6 +17,7 @@ from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT, TEXTBOOK, Method
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -59,9 +60,9 @@ def _extremes_by_search(machine: SliderCrank, order: int) -> list[tuple[float, f
     return sorted(found)
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.2, -0.2])
-@pytest.mark.parametrize("ratio", [0.1, 0.34, 0.7])
-@pytest.mark.parametrize("order", [1, 2])
+@for_each("offset", [0.0, 0.2, -0.2])
+@for_each("ratio", [0.1, 0.34, 0.7])
+@for_each("order", [1, 2])
 def test_exact_extremes_are_those_of_forty_digits(ratio: float, offset: float, order: int) -> None:
     machine = SliderCrank(1.0, 1 / ratio, offset)
     expected = _extremes_by_search(machine, order)
@@ -73,21 +74,21 @@ def test_exact_extremes_are_those_of_forty_digits(ratio: float, offset: float, o
         assert found.at % 360 == pytest.approx(angle, abs=1e-9)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
+@for_each("ratio", RATIOS)
 def test_exact_velocity_of_a_central_machine_is_antisymmetric(ratio: float) -> None:
     largest, least = _largest_and_least(SliderCrank(1.0, 1 / ratio), 1)
     assert largest.at + least.at == pytest.approx(360, abs=1e-9)
     assert largest.value == pytest.approx(-least.value, rel=1e-14)
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.1, 0.2])
+@for_each("ratio", [0.05, 0.1, 0.2])
 def test_the_fastest_point_is_near_crank_and_rod_at_right_angles(ratio: float) -> None:
     largest, _ = _largest_and_least(SliderCrank(1.0, 1 / ratio), 1)
     assert math.tan(math.radians(largest.at)) == pytest.approx(1 / ratio, rel=2 * ratio**2)
     assert largest.value == pytest.approx(math.sqrt(1 + ratio**2), rel=ratio**4)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
+@for_each("ratio", RATIOS)
 def test_textbook_velocity_is_extreme_where_the_quadratic_says(ratio: float) -> None:
     found = _largest_and_least(SliderCrank(0.05, 0.05 / ratio), 1, TEXTBOOK)
     cosine = (-1 + math.sqrt(1 + 8 * ratio**2)) / (4 * ratio)
@@ -97,14 +98,14 @@ def test_textbook_velocity_is_extreme_where_the_quadratic_says(ratio: float) -> 
     assert [one.value for one in found] == pytest.approx([fastest, -fastest], rel=1e-14)
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.2, 0.25])
+@for_each("ratio", [0.05, 0.2, 0.25])
 def test_textbook_acceleration_of_a_long_rod_is_extreme_at_the_dead_centres(ratio: float) -> None:
     largest, least = _largest_and_least(SliderCrank(0.05, 0.05 / ratio), 2, TEXTBOOK)
     assert (largest.at, least.at) == (0, 180)
     assert (largest.value, least.value) == pytest.approx((0.05 * (1 + ratio), -0.05 * (1 - ratio)), rel=1e-14)
 
 
-@pytest.mark.parametrize("ratio", [0.250005, 0.2501, 0.28, 0.34, 0.5, 0.8, 0.99])
+@for_each("ratio", [0.250005, 0.2501, 0.28, 0.34, 0.5, 0.8, 0.99])
 def test_textbook_acceleration_of_a_short_rod_is_least_beside_the_bottom(ratio: float) -> None:
     """The minima come out of the bottom dead centre as the ratio passes a quarter; the first of the two counts."""
     largest, least = _largest_and_least(SliderCrank(0.05, 0.05 / ratio), 2, TEXTBOOK)
@@ -127,8 +128,8 @@ def test_the_minimum_at_a_ratio_of_028_is_at_153_23_degrees() -> None:
     assert round(least.at, 2) == 153.23
 
 
-@pytest.mark.parametrize("ratio", [one for one in RATIOS if one < 0.6])
-@pytest.mark.parametrize("method", [EXACT, TEXTBOOK, EXACT.named("series:8")], ids=lambda method: method.name)
+@for_each("ratio", [one for one in RATIOS if one < 0.6])
+@for_each("method", [EXACT, TEXTBOOK, EXACT.named("series:8")], ids=lambda method: method.name)
 def test_the_largest_acceleration_of_a_central_machine_is_at_the_top(ratio: float, method: Method) -> None:
     machine = SliderCrank(1.0, 1 / ratio)
     largest, _ = _largest_and_least(machine, 2, method)
@@ -140,8 +141,8 @@ def test_the_largest_acceleration_of_a_central_machine_is_at_the_top(ratio: floa
     assert bottom == pytest.approx([-(1 - ratio)], rel=1e-13)
 
 
-@pytest.mark.parametrize("order", [1, 2, 4, 9])
-@pytest.mark.parametrize("offset", [0.0, 0.3])
+@for_each("order", [1, 2, 4, 9])
+@for_each("offset", [0.0, 0.3])
 def test_series_extremes_are_extremes_of_the_series(order: int, offset: float) -> None:
     machine, method = SliderCrank(1.0, 3.0, offset), EXACT.named(f"series:{order}")
     dense = piston_motion(machine, CrankGrid.steps(0.1, 360.0), method).piston
@@ -154,7 +155,7 @@ def test_series_extremes_are_extremes_of_the_series(order: int, offset: float) -
         assert np.min(dense[which]) >= least.value - 1e-14
 
 
-@pytest.mark.parametrize(("ratio", "offset"), [(0.99, 0.0), (0.999999, 0.0), (0.5, 0.999998), (0.5, -0.999998)])
+@for_each(("ratio", "offset"), [(0.99, 0.0), (0.999999, 0.0), (0.5, 0.999998), (0.5, -0.999998)])
 def test_no_point_of_a_dense_scan_near_the_limit_exceeds_the_extremes(ratio: float, offset: float) -> None:
     machine = SliderCrank(1.0, 1 / ratio, offset)
     fine = np.linspace(-0.3, 0.3, 6001)
@@ -165,7 +166,7 @@ def test_no_point_of_a_dense_scan_near_the_limit_exceeds_the_extremes(ratio: flo
         assert np.min(dense[order]) >= least.value * (1 + 1e-12)
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.03, -0.03])
+@for_each("offset", [0.0, 0.03, -0.03])
 def test_dead_centres_in_degrees_are_those_of_the_triangle(offset: float) -> None:
     top, bottom = dead_centres(SliderCrank(0.05, 0.2, offset))
     assert top == pytest.approx(math.degrees(math.asin(offset / 0.25)), rel=1e-14)

@@ -13,6 +13,7 @@ from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import Crank, Mechanism
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -84,7 +85,7 @@ def test_the_angle_of_a_link_that_turns_fully_has_no_jump():
     assert angle[-1] - angle[0] == pytest.approx(4 * np.pi)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("lengths", "degrees", "text"),
     [
         (

@@ -13,6 +13,7 @@ from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.placement import place
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
+from each import for_each
 
 DENSE = CrankGrid.steps(1.0, 360.0)
 GRID = CrankGrid.from_degrees([0.0, 12.34, 90.0, 179.999, 180.0, 200.5, 359.0])
@@ -63,7 +64,7 @@ def test_a_crank_that_starts_elsewhere_and_turns_back(linkages):
         assert found[key] == pytest.approx(value + 0.0 * GRID.angle, rel=1e-14, abs=1e-14), key
 
 
-@pytest.mark.parametrize("direction", [1, -1])
+@for_each("direction", [1, -1])
 def test_a_second_pin_of_the_crank_moves(direction):
     mechanism = Mechanism(Crank(0.1, direction=direction), (), points=(LinkPoint("throw", "crank", -0.02, 0.07),))
     motion = remembered_motion(mechanism, linkage_motion(mechanism, DENSE))

@@ -17,6 +17,7 @@ from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import RRP, Crank, Mechanism, slider_crank
 from crankwork.method import EXACT, TEXTBOOK, Method
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -42,8 +43,8 @@ PLACES = [(math.pi / 2, -1, (0.0, 0.0)), (0.0, 1, (0.0, 0.0)), (2.2, 1, (0.3, -0
 MACHINES: list[Lengths] = [(0.05, 0.2, 0.0), (0.05, 0.2, 0.03), (0.05, 0.08, -0.02)]
 
 
-@pytest.mark.parametrize("machine", MACHINES)
-@pytest.mark.parametrize(("turned", "direction", "pivot"), PLACES)
+@for_each("machine", MACHINES)
+@for_each(("turned", "direction", "pivot"), PLACES)
 def test_the_generic_dyad_gives_the_motion_of_the_closed_form(
     machine: Lengths, turned: float, direction: int, pivot: tuple[float, float]
 ) -> None:
@@ -60,8 +61,8 @@ def test_the_generic_dyad_gives_the_motion_of_the_closed_form(
         assert rod[order] == pytest.approx(-direction * closed.rod[order], abs=1e-13)
 
 
-@pytest.mark.parametrize("machine", MACHINES)
-@pytest.mark.parametrize(("turned", "direction", "pivot"), PLACES)
+@for_each("machine", MACHINES)
+@for_each(("turned", "direction", "pivot"), PLACES)
 def test_a_slider_crank_is_recognised_wherever_it_stands(
     machine: Lengths, turned: float, direction: int, pivot: tuple[float, float]
 ) -> None:
@@ -70,12 +71,12 @@ def test_a_slider_crank_is_recognised_wherever_it_stands(
     assert found == pytest.approx(machine, rel=1e-14, abs=1e-16)
 
 
-@pytest.mark.parametrize("machine", MACHINES)
+@for_each("machine", MACHINES)
 def test_the_upright_engine_is_the_slider_crank_of_its_lengths(machine: Lengths) -> None:
     assert as_slider_crank(slider_crank(*machine)) == pytest.approx(machine, rel=1e-15)
 
 
-@pytest.mark.parametrize("machine", MACHINES)
+@for_each("machine", MACHINES)
 def test_the_piston_of_the_upright_engine_is_at_its_place_at_zero_and_ninety_degrees(machine: Lengths) -> None:
     r, l, e = machine  # noqa: E741
     moved = linkage_motion(slider_crank(r, l, e), CrankGrid.from_degrees([0.0, 90.0]))
@@ -87,7 +88,7 @@ def test_the_piston_of_the_upright_engine_is_at_its_place_at_zero_and_ninety_deg
     assert pin.y.position == pytest.approx([r, 0], abs=1e-16)
 
 
-@pytest.mark.parametrize("machine", MACHINES)
+@for_each("machine", MACHINES)
 def test_crank_and_rod_keep_their_lengths_and_the_slider_its_guide(machine: Lengths) -> None:
     r, l, e = machine  # noqa: E741
     moved = linkage_motion(slider_crank(r, l, e), GRID)
@@ -101,8 +102,8 @@ def test_crank_and_rod_keep_their_lengths_and_the_slider_its_guide(machine: Leng
     assert piston.y.position - pin.y.position == pytest.approx(l * np.sin(along), abs=1e-15)
 
 
-@pytest.mark.parametrize("branch", [1, -1])
-@pytest.mark.parametrize("guide_angle", [0.0, 0.4, 2.0, -2.5])
+@for_each("branch", [1, -1])
+@for_each("guide_angle", [0.0, 0.4, 2.0, -2.5])
 def test_transfer_functions_of_the_dyad_are_derivatives_of_its_positions(branch: int, guide_angle: float) -> None:
     """Spectral derivatives, on a mechanism that is no slider-crank because its guide is not along the crank's zero."""
     samples = 128
@@ -115,7 +116,7 @@ def test_transfer_functions_of_the_dyad_are_derivatives_of_its_positions(branch:
         assert _spectral_derivative(first) == pytest.approx(second, abs=1e-13)
 
 
-@pytest.mark.parametrize("branch", [1, -1])
+@for_each("branch", [1, -1])
 def test_the_direction_of_a_link_does_not_jump_by_a_turn(branch: int) -> None:
     dyad = RRP("crank_pin", "slide", "rod", 0.25, (0.03, -0.02), 0.4, 1 if branch > 0 else -1)
     direction = linkage_motion(Mechanism(Crank(0.05), (dyad,)), GRID).links["rod"].position
@@ -146,7 +147,7 @@ def _largest_errors(machine: Lengths, method: Method) -> list[float]:
     return [found[key] / machine[0] for key in keys]
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("ratio", "x", "x_1", "x_2"),
     [(0.25, 0.0020, 0.0026, 0.0082), (0.34, 0.0052, 0.0068, 0.0215), (0.5, 0.018, 0.024, 0.077)],
 )
@@ -176,7 +177,7 @@ def test_a_dyad_that_just_reaches_is_refused_because_it_jams() -> None:
         linkage_motion(slider_crank(0.05, 0.05), CrankGrid.steps(90.0, 180.0))
 
 
-@pytest.mark.parametrize("name", ["", "Exact", "series", "series:", "series:0", "series:201", "series:1.5", "taylor"])
+@for_each("name", ["", "Exact", "series", "series:", "series:0", "series:201", "series:1.5", "taylor"])
 def test_a_method_that_does_not_exist_is_refused_with_those_that_do(name: str) -> None:
     with pytest.raises(MethodError, match=r"write exact, textbook or series:N,? .*from 1 to 200") as caught:
         EXACT.named(name)
@@ -189,7 +190,7 @@ def test_an_order_of_five_thousand_digits_is_refused_like_any_other_and_briefly(
     assert len(str(caught.value)) < 200
 
 
-@pytest.mark.parametrize("name", ["exact", "textbook", "series:1", "series:200"])
+@for_each("name", ["exact", "textbook", "series:1", "series:200"])
 def test_a_method_is_found_by_the_name_it_has(name: str) -> None:
     assert EXACT.named(name).name == name
     assert TEXTBOOK.named(name) == EXACT.named(name)

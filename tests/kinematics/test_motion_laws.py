@@ -12,6 +12,7 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion_laws import clock, extent, law_at, remembered_law
 from crankwork.mechanism.driver import Law, Segment
+from each import for_each
 
 KINDS = (
     "constant", "parabolic", "trapezoidal", "modified-trapezoidal", "cubic", "3-4-5", "4-5-6-7", "harmonic",
@@ -31,7 +32,7 @@ def at(law, degrees):
     return law_at(law, CrankGrid.from_degrees(degrees))
 
 
-@pytest.mark.parametrize("law", LAWS, ids=[*KINDS, "table", "one way"])
+@for_each("law", LAWS, ids=[*KINDS, "table", "one way"])
 def test_rates_are_derivatives_by_time(law):
     degrees = np.random.default_rng(3).uniform(1.0, 359.0, 400)
     edges = breaks_of(remembered_law(law, turns=False), 360.0)
@@ -45,7 +46,7 @@ def test_rates_are_derivatives_by_time(law):
     assert (rate_after - rate_before) / (2 * step * per_second) == pytest.approx(second, abs=2e-6)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@for_each("kind", KINDS)
 def test_segments_end_where_they_are_sent(kind):
     law = THERE_AND_BACK[kind]
     found = at(law, [0.0, 144.0, 150.0, 180.0, 360.0]).position
@@ -53,7 +54,7 @@ def test_segments_end_where_they_are_sent(kind):
     assert law.segments[-1].to == law.start
 
 
-@pytest.mark.parametrize("kind", [one for one in KINDS if one != "constant"])
+@for_each("kind", [one for one in KINDS if one != "constant"])
 def test_rates_have_no_jumps(kind):
     law = THERE_AND_BACK[kind]
     edges = breaks_of(remembered_law(law, turns=False), 360.0)[1:-1]
@@ -138,7 +139,7 @@ class Beyond:
         return 6 * share**2 - 5 * share**3, 12 * share - 15 * share**2, 12 - 30 * share
 
 
-@pytest.mark.parametrize(("own", "kind"), [(Swing(), "harmonic"), (Halves(), "parabolic")])
+@for_each(("own", "kind"), [(Swing(), "harmonic"), (Halves(), "parabolic")])
 def test_a_law_of_ones_own_moves_a_machine_as_the_same_law_of_ours(own, kind):
     machine = read(Path(__file__).parents[1] / "machines" / "driven-slider.toml")
     start, period = machine.mechanism.driver.law.start, 2.0
@@ -165,7 +166,7 @@ def test_a_law_of_ones_own_may_go_beyond_its_end():
     assert extent(law) == pytest.approx((0.0, 0.128), abs=1e-15)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("ways", "breaks", "told"),
     [
         (lambda z: (2 * z, 0 * z + 2, 0 * z), (), "from 0 to 2"),

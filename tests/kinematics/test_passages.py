@@ -13,6 +13,7 @@ from crankwork.kinematics.travel import travel, way_through
 from crankwork.mechanism.catalog import four_bar
 from crankwork.mechanism.dyads import RPR, RRR
 from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -61,7 +62,7 @@ def test_what_is_remembered_passes_as_well():
     assert found["turn"] == pytest.approx(GRID.angle, abs=1e-12)
 
 
-@pytest.mark.parametrize(("crank", "ground"), [(0.3, 1.0), (2.0, 5.0), (0.5, 0.9)])
+@for_each(("crank", "ground"), [(0.3, 1.0), (2.0, 5.0), (0.5, 0.9)])
 def test_the_crossed_branch_goes_on_crossed(crank, ground):
     rocker = linkage_motion(_passing(four_bar(crank, ground, crank, ground, branch=-1)), GRID).links["rocker"]
     half, k = GRID.angle / 2, (ground + crank) / (ground - crank)

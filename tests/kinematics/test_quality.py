@@ -3,11 +3,12 @@
 import pytest
 
 from crankwork.kinematics.quality import grashof
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("lengths", "kind"),
     [
         ((2.5, 7, 4.5, 8), "crank-rocker"),

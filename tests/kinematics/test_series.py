@@ -14,6 +14,7 @@ from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.series import acceleration_harmonic, acceleration_harmonics, series_transfer
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -26,14 +27,14 @@ def _spectrum(machine: SliderCrank) -> NDArray[np.complex128]:
     return np.fft.rfft(piston_motion(machine, TURN).piston.position_2) * (2 / SAMPLES)
 
 
-@pytest.mark.parametrize("ratio", [0.01, 0.1, 0.25, 0.34, 0.5, 0.8, 0.9])
+@for_each("ratio", [0.01, 0.1, 0.25, 0.34, 0.5, 0.8, 0.9])
 def test_coefficients_are_those_of_the_transform_of_the_exact_acceleration(ratio: float) -> None:
     spectrum = _spectrum(SliderCrank(1.0, 1 / ratio))[1:101]
     series = [acceleration_harmonic(ratio, order) for order in range(1, 101)]
     assert np.max(np.abs(spectrum - series)) < 1e-13
 
 
-@pytest.mark.parametrize("ratio", [0.95, 0.99])
+@for_each("ratio", [0.95, 0.99])
 def test_coefficients_near_the_limit_are_those_of_the_transform_relative_to_the_peak(ratio: float) -> None:
     peak = np.max(np.abs(piston_motion(SliderCrank(1.0, 1 / ratio), TURN).piston.position_2))
     spectrum = _spectrum(SliderCrank(1.0, 1 / ratio))[1:101]
@@ -41,8 +42,8 @@ def test_coefficients_near_the_limit_are_those_of_the_transform_relative_to_the_
     assert np.max(np.abs(spectrum - series)) < 1e-13 * peak
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.25, 0.34, 0.5, 0.9, 0.99])
-@pytest.mark.parametrize("order", [2, 4, 6, 20, 100])
+@for_each("ratio", [0.05, 0.25, 0.34, 0.5, 0.9, 0.99])
+@for_each("order", [2, 4, 6, 20, 100])
 def test_a_coefficient_is_exact_relative_to_itself(ratio: float, order: int) -> None:
     """A_2m = -(2m)^2/lambda times the Fourier coefficient of sqrt(1 - lambda^2 sin^2), a hypergeometric function."""
     m = order // 2
@@ -53,7 +54,7 @@ def test_a_coefficient_is_exact_relative_to_itself(ratio: float, order: int) -> 
         assert abs(acceleration_harmonic(ratio, order) / (order**2 / lam * total) - 1) < 1e-14 * order
 
 
-@pytest.mark.parametrize("ratio", [0.1, 0.2])
+@for_each("ratio", [0.1, 0.2])
 def test_the_first_coefficients_begin_as_the_books_print_them(ratio: float) -> None:
     powers = ratio ** np.arange(9)
     assert acceleration_harmonic(ratio, 2) == pytest.approx(
@@ -67,7 +68,7 @@ def test_the_first_coefficients_begin_as_the_books_print_them(ratio: float) -> N
     )
 
 
-@pytest.mark.parametrize("order", [3, 5, 199])
+@for_each("order", [3, 5, 199])
 def test_a_central_machine_has_no_odd_orders_but_the_first(order: int) -> None:
     assert acceleration_harmonic(0.3, 1) == 1
     assert acceleration_harmonic(0.3, order) == 0
@@ -86,14 +87,14 @@ def test_a_rod_hardly_longer_than_the_crank_does_not_take_forever() -> None:
     assert time.perf_counter() - begin < 0.1
 
 
-@pytest.mark.parametrize("offset", [0.3, -0.3, 1e-6])
+@for_each("offset", [0.3, -0.3, 1e-6])
 def test_offset_coefficients_are_those_of_the_transform(offset: float) -> None:
     machine = SliderCrank(1.0, 3.0, offset)
     cosine, sine = acceleration_harmonics(machine, 60)
     assert np.max(np.abs(cosine - 1j * sine - _spectrum(machine)[1:61])) < 1e-13
 
 
-@pytest.mark.parametrize("spare", [1e-2, 1e-4, 1e-6])
+@for_each("spare", [1e-2, 1e-4, 1e-6])
 def test_offset_coefficients_do_not_alias_where_the_crank_barely_turns(spare: float) -> None:
     """The spectrum falls like exp(-k sqrt(2 spare)), so the number of samples must follow the spare length."""
     machine = SliderCrank(1.0, 1.5, 0.5 - 1.5 * spare)
@@ -111,7 +112,7 @@ def test_an_offset_adds_to_the_first_order_what_the_textbook_says() -> None:
     assert cosine == pytest.approx([1, ratio], rel=1e-3)
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.3, -0.3])
+@for_each("offset", [0.0, 0.3, -0.3])
 def test_the_series_converges_to_exact_as_a_geometric_series(offset: float) -> None:
     machine = SliderCrank(1.0, 2.5, offset)
     exact = piston_motion(machine, TURN).piston
@@ -134,8 +135,8 @@ def test_the_series_near_the_limit_with_offset_still_converges() -> None:
         assert np.max(np.abs(one - other)) < 1e-8
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.4])
-@pytest.mark.parametrize("order", [1, 2, 5])
+@for_each("offset", [0.0, 0.4])
+@for_each("order", [1, 2, 5])
 def test_the_parts_of_a_truncated_series_are_derivatives_of_each_other(offset: float, order: int) -> None:
     x, x_1, x_2 = series_transfer(SliderCrank(1.0, 3.0, offset), TURN, order)
     step = np.radians(360 / SAMPLES)

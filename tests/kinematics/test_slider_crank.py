@@ -15,6 +15,7 @@ from crankwork.formula.expression import FORMULAS, Expression, Number, Operation
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.piston import exact_piston, piston_motion, textbook_piston
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank, rod_cosine, rod_swing
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -81,7 +82,7 @@ def _largest(exact: Array) -> float:
     return float(np.max(np.abs(exact[0])))
 
 
-every_machine = pytest.mark.parametrize(("ratio", "share"), CENTRAL + OFFSET)
+every_machine = for_each(("ratio", "share"), CENTRAL + OFFSET)
 
 
 @every_machine
@@ -95,7 +96,7 @@ def test_displacement_is_exact_to_a_part_in_ten_trillion_of_half_the_stroke(rati
 
 
 @every_machine
-@pytest.mark.parametrize("order", [1, 2])
+@for_each("order", [1, 2])
 def test_transfer_functions_are_exact_relative_to_their_largest_value(ratio: float, share: float, order: int) -> None:
     machine = _machine(ratio, share)
     degrees, *exact = _forty_digits(machine)
@@ -113,8 +114,8 @@ def test_rod_angle_and_its_derivatives_are_exact(ratio: float, share: float) -> 
     assert _error(rod.position_2, beta_2) < 1e-13 * _largest(beta_2)
 
 
-@pytest.mark.parametrize("share", [-0.5, 1e-3, 0.1, LIMIT])
-@pytest.mark.parametrize("ratio", [1e-3, 0.25, 0.99, 1 - 1e-9])
+@for_each("share", [-0.5, 1e-3, 0.1, LIMIT])
+@for_each("ratio", [1e-3, 0.25, 0.99, 1 - 1e-9])
 def test_displacement_with_offset_near_the_top_is_that_of_forty_digits(ratio: float, share: float) -> None:
     """Where it all but vanishes, it errs by less than a rounding of the lengths that are left over there."""
     machine = _machine(ratio, share) if ratio < LIMIT else SliderCrank(1.0, 1 / ratio, share * (1 / ratio - 1))
@@ -170,7 +171,7 @@ def test_sines_and_cosines_of_the_rod_belong_to_angles(ratio: float, share: floa
     assert np.max(np.abs(swing.sin_sum**2 + swing.cos_sum**2 - 1)) < 2e-15
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.01, -0.01])
+@for_each("offset", [0.0, 0.01, -0.01])
 def test_a_second_turn_repeats_the_first_bit_for_bit(offset: float) -> None:
     machine = SliderCrank(RADIUS, 0.3, offset)
     degrees = np.arange(0, 361, 0.5)
@@ -181,7 +182,7 @@ def test_a_second_turn_repeats_the_first_bit_for_bit(offset: float) -> None:
             assert one.tobytes() == two.tobytes()
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.012, -0.012, 0.2])
+@for_each("offset", [0.0, 0.012, -0.012, 0.2])
 def test_the_mirrored_machine_turned_backwards_moves_alike(offset: float) -> None:
     degrees = np.arange(0, 361.0)
     one = piston_motion(SliderCrank(RADIUS, 0.3, offset), CrankGrid.from_degrees(degrees))
@@ -192,8 +193,8 @@ def test_the_mirrored_machine_turned_backwards_moves_alike(offset: float) -> Non
         assert np.array_equal(x_2, sign * y_2)
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.012])
-@pytest.mark.parametrize(("factor", "tolerance"), [(2.0, 0.0), (1000.0, 2e-15), (1e-3, 2e-15)])
+@for_each("offset", [0.0, 0.012])
+@for_each(("factor", "tolerance"), [(2.0, 0.0), (1000.0, 2e-15), (1e-3, 2e-15)])
 def test_lengths_scale_the_motion_and_leave_the_angles(offset: float, factor: float, tolerance: float) -> None:
     grid = CrankGrid.steps(1.0, 360.0)
     small = piston_motion(SliderCrank(RADIUS, 0.3, offset), grid)
@@ -204,7 +205,7 @@ def test_lengths_scale_the_motion_and_leave_the_angles(offset: float, factor: fl
         assert np.max(np.abs(two - one)) <= tolerance * np.max(np.abs(one)) * 2
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.4])
+@for_each("offset", [0.0, 0.4])
 def test_textbook_approaches_exact_with_the_cube_of_the_ratio(offset: float) -> None:
     """Halving the ratio divides the error by eight; with offset, e/r held, the next term of the root is a cube too."""
     grid = CrankGrid.steps(1.0, 360.0)
@@ -234,7 +235,7 @@ def test_textbook_displacement_with_offset_counts_from_top_dead_centre_to_the_or
     assert _gap(exact, approximate, 0) < 0.0020 + 0.25 * 0.1**2
 
 
-@pytest.mark.parametrize("ratio", [1e-4, 1e-6, 1e-8])
+@for_each("ratio", [1e-4, 1e-6, 1e-8])
 def test_a_very_long_rod_leaves_a_pure_cosine(ratio: float) -> None:
     grid = CrankGrid.steps(1.0, 360.0)
     x, x_1, x_2 = piston_motion(SliderCrank(RADIUS, RADIUS / ratio), grid).piston
@@ -247,7 +248,7 @@ def test_a_very_long_rod_leaves_a_pure_cosine(ratio: float) -> None:
 # --- dead centres and stroke
 
 
-@pytest.mark.parametrize(("ratio", "share"), OFFSET)
+@for_each(("ratio", "share"), OFFSET)
 def test_dead_centres_are_those_of_forty_digits(ratio: float, share: float) -> None:
     machine = _machine(ratio, share)
     with mpmath.workdps(40):
@@ -257,7 +258,7 @@ def test_dead_centres_are_those_of_forty_digits(ratio: float, share: float) -> N
         assert abs(machine.bottom_dead_centre / bottom - 1) < 1e-14
 
 
-@pytest.mark.parametrize(("ratio", "share"), [one for one in OFFSET if one[0] > 0.1 and abs(one[1]) < LIMIT])
+@for_each(("ratio", "share"), [one for one in OFFSET if one[0] > 0.1 and abs(one[1]) < LIMIT])
 def test_crank_and_rod_are_in_line_at_the_dead_centres_and_the_piston_stands_still(ratio: float, share: float) -> None:
     machine = _machine(ratio, share)
     grid = CrankGrid.from_radians([machine.top_dead_centre, machine.bottom_dead_centre])
@@ -268,7 +269,7 @@ def test_crank_and_rod_are_in_line_at_the_dead_centres_and_the_piston_stands_sti
     assert x[1] == pytest.approx(machine.stroke, rel=1e-14)
 
 
-@pytest.mark.parametrize(("ratio", "share"), OFFSET)
+@for_each(("ratio", "share"), OFFSET)
 def test_the_stroke_with_offset_is_that_of_forty_digits_and_longer_than_two_radii(ratio: float, share: float) -> None:
     machine = _machine(ratio, share)
     with mpmath.workdps(40):
@@ -293,7 +294,7 @@ def test_an_offset_moves_both_dead_centres_towards_itself() -> None:
 # --- a batch of designs
 
 
-@pytest.mark.parametrize("offsets", [(0.0, 0.0), (0.01, -0.02)])
+@for_each("offsets", [(0.0, 0.0), (0.01, -0.02)])
 def test_a_row_of_a_batch_is_the_single_machine(offsets: tuple[float, float]) -> None:
     grid = CrankGrid.steps(1.0, 360.0)
     lengths = [(0.05, 0.2, offsets[0]), (0.06, 0.18, offsets[1])]
@@ -308,7 +309,7 @@ def test_a_row_of_a_batch_is_the_single_machine(offsets: tuple[float, float]) ->
 # --- refusals
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("lengths", "missing"),
     [((0.05, 0.04, 0.0), "10"), ((0.05, 0.06, 0.02), "10"), ((0.05, 0.06, -0.0125), "2.5"), ((0.05, 0.05, 0.0), "0")],
 )
@@ -324,12 +325,12 @@ def test_a_refusal_names_the_lengths_it_compared() -> None:
         check_slider_crank(SliderCrank(0.05, 0.06, -0.02))
 
 
-@pytest.mark.parametrize("lengths", [(0.05, 0.0500001, 0.0), (0.05, 0.07, 0.0199), (0.05, 0.07, -0.0199)])
+@for_each("lengths", [(0.05, 0.0500001, 0.0), (0.05, 0.07, 0.0199), (0.05, 0.07, -0.0199)])
 def test_a_rod_that_is_just_long_enough_is_accepted(lengths: tuple[float, float, float]) -> None:
     check_slider_crank(SliderCrank(*lengths))
 
 
-@pytest.mark.parametrize("lengths", [(float("nan"), 0.2, 0.0), (0.05, float("nan"), 0.0), (0.05, 0.2, float("nan"))])
+@for_each("lengths", [(float("nan"), 0.2, 0.0), (0.05, float("nan"), 0.0), (0.05, 0.2, float("nan"))])
 def test_lengths_that_are_not_numbers_are_refused(lengths: tuple[float, float, float]) -> None:
     with pytest.raises(GeometryError):
         check_slider_crank(SliderCrank(*lengths))

@@ -26,6 +26,7 @@ from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import TEXTBOOK
+from each import for_each
 
 INLINE_PINS = {
     "I1": (0,),
@@ -76,7 +77,7 @@ def _layout(pins, axes=(0.0,), pitch=1.0) -> Layout:
 class TestCustomaryLayouts:
     """Factors of m r w^2 A_q, and of that times the pitch."""
 
-    @pytest.mark.parametrize("name", INLINE_PINS)
+    @for_each("name", INLINE_PINS)
     def test_inline(self, name: str) -> None:
         found = layout_factors(_layout(INLINE_PINS[name]))
         assert [one.order for one in found] == [1, 2, 4, 6]
@@ -85,13 +86,13 @@ class TestCustomaryLayouts:
             assert one.moment.largest == pytest.approx(moment, abs=5.1e-7)
             assert (one.force.largest == 0) == (force == 0), "what cancels is zero, not rounding"
 
-    @pytest.mark.parametrize("angle", V2_FACTORS)
+    @for_each("angle", V2_FACTORS)
     def test_v2_with_one_crankpin(self, angle: int) -> None:
         found = layout_factors(_layout((0, 0), (-angle / 2, angle / 2), 0.0), (1, 2))
         for one, extremes in zip(found, V2_FACTORS[angle], strict=True):
             assert (one.force.least, one.force.largest) == pytest.approx(extremes, abs=5.1e-7)
 
-    @pytest.mark.parametrize("count", RADIAL_FACTORS)
+    @for_each("count", RADIAL_FACTORS)
     def test_radial(self, count: int) -> None:
         found = layout_factors(_layout((0,), np.arange(count) * 360 / count, 0.0), (1, 2))
         for one, factor in zip(found, RADIAL_FACTORS[count], strict=True):
@@ -107,7 +108,7 @@ class TestCustomaryLayouts:
 class TestBevan:
     """Examples of chapter 14, weights in pounds, lengths in inches."""
 
-    @pytest.mark.parametrize(("position", "far", "near"), [(-10.0, 24, 144), (10.0, 24, 96)])
+    @for_each(("position", "far", "near"), [(-10.0, 24, 144), (10.0, 24, 96)])
     def test_example_1_a_weight_balanced_in_two_planes(self, position: float, far: float, near: float) -> None:
         """200 lb at 9 in, 10 in outside or inside of the first plane; planes 50 in apart, weights at 15 in."""
         first, second = in_two_planes([200 * 9.0], [position], (0.0, 50.0))

@@ -11,6 +11,7 @@ import pytest
 
 import crankwork
 from crankwork.kinematics.crank_grid import CrankGrid
+from each import for_each
 
 
 def at(machine, *degrees):
@@ -288,7 +289,7 @@ class TestBalmer9:
             {gas}
         """)
 
-    @pytest.mark.parametrize(("kelvin", "small", "large"), [(303.15, 1.0e6, 0.1e6), (909.45, 3.0e6, 0.3e6)])
+    @for_each(("kelvin", "small", "large"), [(303.15, 1.0e6, 0.1e6), (909.45, 3.0e6, 0.3e6)])
     def test_the_isotherms_of_one_mass(self, kelvin, small, large):
         charge = f"""
             temperature = "{kelvin} K"

@@ -20,6 +20,7 @@ import pytest
 
 import crankwork
 from crankwork.analysis import Results
+from each import for_each
 
 GEAR = """
 [fixed_points]
@@ -151,12 +152,12 @@ def results() -> dict[str, Results]:
     return {name: crankwork.analyse(crankwork.read_machine(case.text)) for name, case in CASES.items()}
 
 
-@pytest.mark.parametrize(("name", "key", "value", "tolerance"), PRINTED, ids=[f"{one[0]}: {one[1]}" for one in PRINTED])
+@for_each(("name", "key", "value", "tolerance"), PRINTED, ids=[f"{one[0]}: {one[1]}" for one in PRINTED])
 def test_a_printed_value(results: dict[str, Results], name: str, key: str, value: float, tolerance: float) -> None:
     assert results[name][key] == pytest.approx(value, abs=tolerance)
 
 
-@pytest.mark.parametrize("name", CASES)
+@for_each("name", CASES)
 def test_the_routes_agree(results: dict[str, Results], name: str) -> None:
     assert not results[name].unmet
     assert max(results[name].checks.values()) < 1e-11
@@ -315,7 +316,7 @@ def pump(sizes: tuple[float, float, float], heads: tuple[float, float], more: st
     return crankwork.analyse(crankwork.read_machine(text))
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("sizes", "heads", "pipe", "least", "tolerance"),
     [
         # p. 420: separation in the discharge pipe; the notebook cuts a head of 47.5 m to 47
@@ -346,7 +347,7 @@ def test_separation_in_a_pipe(
     assert found["indicated_work.water"] == pytest.approx((heads[0] - heads[1]) * METRE * swept, rel=1e-11)
 
 
-@pytest.mark.parametrize(("vapour", "told"), [(1.9, False), (2.1, True)])
+@for_each(("vapour", "told"), [(1.9, False), (2.1, True)])
 def test_separation_is_told(vapour: float, told: bool) -> None:
     pipe = f'suction_pipe = {{ length = "5 m", diameter = "50 mm" }}\nvapour_pressure = "{vapour * METRE} Pa"'
     found = pump((150.0, 150.0, 26.9982331852), (7.5, 50.0), pipe)

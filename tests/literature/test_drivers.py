@@ -16,6 +16,7 @@ import math
 import pytest
 
 import crankwork
+from each import for_each
 
 LBF, INCH = 4.4482216152605, 0.0254
 
@@ -102,14 +103,14 @@ def _lift(d: float) -> crankwork.Results:
     """)
 
 
-@pytest.mark.parametrize("d", [0.2, 0.6])
+@for_each("d", [0.2, 0.6])
 def test_beer_10_3_lift_table(d: float) -> None:
     # half the weight of a crate of 1000 kg is on each side, wherever it stands
     assert _lift(d).value("driver_force", at=0.0) == pytest.approx(5.16e3, rel=2e-3)
     assert _lift(d).value("driver_force", at=0.0) == pytest.approx(5157.17949, rel=1e-7)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("cylinder_at", "load_at", "sense", "expected"),
     [(-10.0, 10.0, 1, 1000.0), (20.0, 10.0, 1, 500.0), (10.0, 20.0, 1, 2000.0)],
     ids=["first class", "second class", "third class"],
@@ -140,7 +141,7 @@ def test_esposito_6_5_levers(cylinder_at: float, load_at: float, sense: int, exp
     assert pushed == pytest.approx(expected, rel=1e-9)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("kind", "velocity", "acceleration", "tolerance"),
     [("cubic", 1.5, 6.0, 1e-9), ("modified-sine", 1.76, 5.53, 1e-3), ("3-4-5", 1.875, 5.7735, 1e-5)],
 )

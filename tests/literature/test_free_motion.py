@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import crankwork
+from each import for_each
 
 mp.mp.dps = 30
 GRAVITY = "9.81"
@@ -53,7 +54,7 @@ def events(results: crankwork.Results, word: str) -> list[dict[str, float]]:
     ]
 
 
-@pytest.mark.parametrize("amplitude", PERIODS)
+@for_each("amplitude", PERIODS)
 def test_periods_of_a_pendulum(amplitude: int) -> None:
     results = let_go(PENDULUM.format(start=-90 - amplitude, time=2.9 * PERIODS[amplitude], step=0.1))
     back = events(results, "turns_back")
@@ -114,7 +115,7 @@ def turned(count: int, time: float) -> tuple[float, float]:
     return float(mp.pi + 2 * from_bottom), float(2 * rate * mp.sqrt(1 - k2 * mp.sin(from_bottom) ** 2))
 
 
-@pytest.mark.parametrize("count", [1, 2, 6])
+@for_each("count", [1, 2, 6])
 def test_the_n_four_bar_over_ten_seconds(count: int) -> None:
     """It passes two change points of every parallelogram each turn."""
     results = let_go(four_bars(count, 10.0))

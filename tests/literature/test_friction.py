@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 
 import crankwork
+from each import for_each
 
 LBF, INCH = 4.4482216152605, 0.0254
 
@@ -64,9 +65,7 @@ class TestPulley:
         pins.O = {{ coefficient = 0.2, radius = "1 in" }}
     """
 
-    @pytest.mark.parametrize(
-        ("circle", "rises", "held"), [("tangent", 611.11111, 409.09091), ("sine", 608.7188255, 410.6986502)]
-    )
+    @for_each(("circle", "rises", "held"), [("tangent", 611.11111, 409.09091), ("sine", 608.7188255, 410.6986502)])
     def test_pull(self, circle: str, rises: float, held: float) -> None:
         results = analysed(self.file.format(circle=circle))
         pull = [-results.value("driver_force_with_friction", at=one) / LBF for one in (0.5, 1.5)]

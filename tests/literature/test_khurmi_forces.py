@@ -24,6 +24,7 @@ from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, Method
+from each import for_each
 
 TEXTBOOK_981 = Method(kinematics="textbook", rod="two-mass", gravity=9.81)
 
@@ -60,14 +61,14 @@ class TestExample7:
         kinematics = "textbook"
     """)
 
-    @pytest.mark.parametrize(
+    @for_each(
         ("key", "kilo", "decimals"),
         [("side_force", 10.97, 2), ("rod_force", 50.65, 2), ("tangential_force", 48.3, 1), ("crank_torque", 14.491, 3)],
     )
     def test_the_printed_values_come_out(self, key: str, kilo: float, decimals: int) -> None:
         assert round(_at(self.machine, 60)[key] / 1e3, decimals) == kilo
 
-    @pytest.mark.parametrize(
+    @for_each(
         ("key", "value"),
         [
             ("inertia_force", -19276.571),
@@ -119,9 +120,7 @@ class TestExample8:
     def test_the_printed_turning_moment_comes_out(self) -> None:
         assert round(_at(self.machine, 125)["crank_torque"]) == 3020
 
-    @pytest.mark.parametrize(
-        ("key", "value"), [("inertia_force", 14161.271), ("piston_force", 18386.012), ("crank_torque", 3019.894)]
-    )
+    @for_each(("key", "value"), [("inertia_force", 14161.271), ("piston_force", 18386.012), ("crank_torque", 3019.894)])
     def test_the_recalculated_values_come_out(self, key: str, value: float) -> None:
         assert _at(self.machine, 125)[key] == pytest.approx(value, abs=5.001e-4)
 
@@ -170,7 +169,7 @@ class TestExample13:
     2.2 MPa, which makes its forces 0.15 % larger.
     """
 
-    @pytest.mark.parametrize(
+    @for_each(
         ("key", "kilo", "decimals"),
         [("tangential_force", 109.501, 3), ("radial_force", 79.438, 3)],
     )
@@ -183,14 +182,14 @@ class TestExample13:
         assert torque == pytest.approx(27375.22, abs=5.001e-3)
         assert round(torque / 1e3, 2) == 27.38
 
-    @pytest.mark.parametrize(("key", "value"), [("tangential_force", 109500.9), ("radial_force", 79438.48)])
+    @for_each(("key", "value"), [("tangential_force", 109500.9), ("radial_force", 79438.48)])
     def test_the_recalculated_values_come_out_from_the_rounded_pressure(self, key: str, value: float) -> None:
         assert _at(_diesel(2.2e6), 405)[key] == pytest.approx(value, abs=0.05)
 
     def test_the_pressure_on_the_expansion_line_is_the_recalculated_one(self) -> None:
         assert _at(_diesel(), 405)["gas_pressure"] / 1e6 + 0.1 == pytest.approx(2.197243, abs=5.001e-7)
 
-    @pytest.mark.parametrize(
+    @for_each(
         ("key", "value"), [("tangential_force", 109341.15), ("radial_force", 79322.59), ("crank_torque", 27335.29)]
     )
     def test_the_recalculated_values_come_out_from_the_diagram(self, key: str, value: float) -> None:

@@ -21,6 +21,7 @@ from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, TEXTBOOK, Method
+from each import for_each
 
 
 def _speed(rpm: float) -> float:
@@ -66,7 +67,7 @@ class TestExample5:
         assert round(float(beta_1[0]) * _speed(450), 1) == 5.9
         assert round(-float(beta_2[0]) * _speed(450) ** 2) == 481
 
-    @pytest.mark.parametrize(
+    @for_each(
         ("body", "order", "value"),
         [("piston", 1, 6.90536), ("piston", 2, 124.949344), ("rod", 1, 6.033596), ("rod", 2, -484.394707)],
     )

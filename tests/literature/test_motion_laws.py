@@ -17,6 +17,7 @@ import pytest
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.mechanism.driver import Law, Segment
+from each import for_each
 
 PERIOD, WAY, SHARE = 3.0, 0.4, 0.5
 
@@ -32,7 +33,7 @@ def normalised(kind: str, degrees: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 RISE = np.linspace(0.0, 180.0, 36001)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("kind", "velocity", "acceleration"),
     [
         ("parabolic", 2.0, 4.0),
@@ -69,9 +70,7 @@ def test_modified_sine_of_a_design_program() -> None:
     assert a / 5.52796 == pytest.approx([1.0, math.sqrt(0.5), 0.0], abs=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("kind", "jerk_first"), [("3-4-5", 60.0), ("cycloidal", 4 * math.pi**2), ("modified-trapezoidal", 61.43)]
-)
+@for_each(("kind", "jerk_first"), [("3-4-5", 60.0), ("cycloidal", 4 * math.pi**2), ("modified-trapezoidal", 61.43)])
 def test_jerk_at_the_start(kind: str, jerk_first: float) -> None:
     _, a = normalised(kind, RISE)
     assert np.diff(a)[0] / np.diff(RISE / 180)[0] == pytest.approx(jerk_first, rel=1e-3)

@@ -13,6 +13,7 @@ import pytest
 
 import crankwork
 from crankwork.kinematics.crank_grid import CrankGrid
+from each import for_each
 
 INCH = 0.0254
 
@@ -112,7 +113,7 @@ ENGINE = """
 """
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("more", "piston", "point", "rod", "printed"),
     [
         ("", 385.610118654139, 422.4504285947545, 98.96964765662062, (422, 98.7)),

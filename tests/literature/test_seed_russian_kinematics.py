@@ -17,6 +17,7 @@ import pytest
 
 import crankwork
 from crankwork.mechanism.mechanism import slider_crank
+from each import for_each
 
 MACHINE = crankwork.read(Path(__file__).parents[2] / "examples" / "slider-crank.toml")
 
@@ -59,8 +60,8 @@ def test_the_table_has_the_rows_of_the_note(results: crankwork.Results) -> None:
     assert results.grid.degrees.tolist() == list(TABLE)
 
 
-@pytest.mark.parametrize("column", range(3), ids=KEYS)
-@pytest.mark.parametrize("angle", TABLE)
+@for_each("column", range(3), ids=KEYS)
+@for_each("angle", TABLE)
 def test_every_printed_digit_comes_out(results: crankwork.Results, angle: int, column: int) -> None:
     printed = TABLE[angle][column]
     if printed == CUT_NOT_ROUNDED:
@@ -81,7 +82,7 @@ def test_two_digits_are_exchanged_in_the_worked_line_for_270_degrees(results: cr
     assert sorted(computed) == sorted(WORKED_LINE_AT_270)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("radius", "rpm", "velocity", "acceleration"),
     [(0.075, 2500, 19625.0, 6419010.4), (0.045, 3400, 16014.0, 7123561.0), (0.075, 3400, 26690.0, 11872601.7)],
 )

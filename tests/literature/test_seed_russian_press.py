@@ -11,6 +11,7 @@ import pytest
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import slotted_press
+from each import for_each
 
 PRINTED = {
     "rod_centre": [0.025, 0.032, 0.046, 0.05, 0.043, 0.031, 0.025, 0.037, 0.045, 0.05, 0.046, 0.036],
@@ -32,7 +33,7 @@ def computed():
     }
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("name", "root_mean_square"), [("rod_centre", 0.0009), ("rod", 0.0015), ("rocker", 0.0071), ("punch", 0.0011)]
 )
 def test_the_printed_table_to_the_accuracy_of_the_velocity_plans(computed, name, root_mean_square):

@@ -21,6 +21,7 @@ import pytest
 
 import crankwork
 from crankwork.kinematics.crank_grid import Array
+from each import for_each
 
 HERE = Path(__file__).parent
 MACHINE = crankwork.read(HERE.parents[1] / "examples" / "spark-engine.toml")
@@ -115,7 +116,7 @@ def test_the_table_has_a_row_every_five_degrees_of_the_cycle(results: crankwork.
     assert ALPHA.tolist() == list(range(0, 721, 5)) == results.grid.degrees.tolist()
 
 
-@pytest.mark.parametrize(("first", "last"), [(185, 350), (380, 500)])
+@for_each(("first", "last"), [(185, 350), (380, 500)])
 def test_compression_and_expansion_have_the_printed_pressure(
     results: crankwork.Results, first: float, last: float
 ) -> None:

@@ -18,6 +18,7 @@ import pytest
 
 from crankwork.analysis import Results, analyse
 from crankwork.description.machine_file import read_machine
+from each import for_each
 
 
 class Case(NamedTuple):
@@ -482,19 +483,19 @@ def results() -> dict[str, Results]:
     return {name: found(case.text) for name, case in CASES.items()}
 
 
-@pytest.mark.parametrize(("name", "key", "value", "tolerance"), PRINTED, ids=[f"{one[0]}: {one[1]}" for one in PRINTED])
+@for_each(("name", "key", "value", "tolerance"), PRINTED, ids=[f"{one[0]}: {one[1]}" for one in PRINTED])
 def test_a_printed_value(results: dict[str, Results], name: str, key: str, value: float, tolerance: float) -> None:
     quantity, _, at = key.partition("@")
     assert results[name].value(quantity, float(at) if at else None) == pytest.approx(value, abs=tolerance)
 
 
-@pytest.mark.parametrize("name", CASES)
+@for_each("name", CASES)
 def test_the_routes_agree(results: dict[str, Results], name: str) -> None:
     assert not results[name].unmet
     assert max(results[name].checks.values(), default=0.0) < 1e-11
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("mass", "torque", "acceleration", "energy"),
     [("2500 kg", "1500 N*m", 0.6, 45e3), ("2000 kg", "1000 N*m", 0.5, 25e3)],
     ids=["khurmi 16.2", "sarkar 6.1"],
@@ -544,7 +545,7 @@ speeds = ["62 rpm", "58 rpm"]
 """
 
 
-@pytest.mark.parametrize(("slope", "together", "blank"), [("", 50271.7656427, 33514.5104285),
+@for_each(("slope", "together", "blank"), [("", 50271.7656427, 33514.5104285),
                                                           ('punch_slope = "1 mm"', 23812.9416202, None)])  # fmt: skip
 def test_force_of_a_press(slope: str, together: float, blank: float | None) -> None:
     """P. C. Sharma: A textbook of production engineering. S. Chand, New Delhi. Example 2.6, page 135: a washer.

@@ -19,6 +19,7 @@ from crankwork.kinematics.coordinates import driver_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import four_bar
+from each import for_each
 from linkages import At
 
 PLACES = {
@@ -229,7 +230,7 @@ def _as_walked(tables, places, start, names):
 KLANN = {"hinge": 1.366 + 1.366j, "pivot": 1.009 + 0.574j, "shaft": 1.599 + 0.75j}
 
 
-@pytest.mark.parametrize("hip", [1, -1])
+@for_each("hip", [1, -1])
 def test_klanns_leg_stays_on_the_stated_branch(hip):
     """The same leg with its hip to one side of the line from knee to hinge walks, to the other it waves."""
     crank, rod, lower, far, knee, thigh, leg, upper = 0.268, 0.59, 0.3206, 1.1051, 0.5221, 0.8966, 1.732, 0.5177

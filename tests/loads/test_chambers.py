@@ -20,6 +20,7 @@ from crankwork.loads.filling import filled
 from crankwork.loads.indicator import DiagramError, DiagramPoint, Piece
 from crankwork.mechanism.dyads import RPP, RPR, RRP, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, slider_crank
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -254,7 +255,7 @@ class TestStirling:
             found = columns(fill(yokes(), chambers, {"helium": charge}))
             assert found["diagram_pressure.cold"] == pytest.approx(schmidt.pressure(ANGLES), rel=1e-12)
 
-    @pytest.mark.parametrize("stated", [{"pressure": 2e5, "angle": 77.0}, {"mean_pressure": 2e5}])
+    @for_each("stated", [{"pressure": 2e5, "angle": 77.0}, {"mean_pressure": 2e5}])
     def test_a_polytrope_holds_for_all_the_volume(self, stated):
         chambers, _ = beta("displacer", "power")
         found = columns(fill(yokes(), chambers, {"air": Charge(("hot", "cold"), exponent=1.4, **stated)}), TURN)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from crankwork.loads.cycle import quadrature
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -30,7 +31,7 @@ def test_the_nodes_rise_and_never_stand_on_a_break() -> None:
         assert inside == 8 * math.ceil((end - start) / 15)
 
 
-@pytest.mark.parametrize("degree", range(16))
+@for_each("degree", range(16))
 def test_a_polynomial_up_to_degree_fifteen_is_integrated_exactly(degree: int) -> None:
     nodes, weights = quadrature(np.array([0.0, 15.0]))
     assert len(nodes) == 8
@@ -50,7 +51,7 @@ def test_a_step_at_a_break_does_no_harm() -> None:
     assert abs(weights @ np.where(nodes > 100, 5.0, 2.0) - math.radians(2 * 100 + 5 * 620)) > 1e-3
 
 
-@pytest.mark.parametrize("order", [0.5, 1, 2, 4])
+@for_each("order", [0.5, 1, 2, 4])
 def test_the_harmonics_of_an_engine_are_integrated_to_rounding(order: float) -> None:
     nodes, weights = quadrature(np.array([0.0, 720.0]))
     assert weights @ np.sin(np.radians(order * nodes)) ** 2 == pytest.approx(2 * math.pi, rel=1e-14)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from crankwork.loads import gas
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -32,9 +33,7 @@ def test_the_volume_is_the_clearance_at_top_dead_centre_and_all_at_bottom() -> N
     assert volumes == pytest.approx([1e-4, 6e-4, 1.1e-3], rel=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("exponent", "expected"), [(0.0, 1e5), (1.0, 2e5), (2.0, 4e5), (1.5, 2**1.5 * 1e5), (-1.0, 0.5e5)]
-)
+@for_each(("exponent", "expected"), [(0.0, 1e5), (1.0, 2e5), (2.0, 4e5), (1.5, 2**1.5 * 1e5), (-1.0, 0.5e5)])
 def test_half_the_volume_multiplies_the_pressure_by_a_power_of_two(exponent: float, expected: float) -> None:
     assert gas.polytropic_pressure(1e5, 1e-3, 0.5e-3, exponent) == pytest.approx(expected, rel=1e-15)
 

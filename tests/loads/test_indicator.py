@@ -15,6 +15,7 @@ from scipy.integrate import quad
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Law, Piece, solve_diagram
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -88,7 +89,7 @@ class TestWork:
         )  # fmt: skip
         assert diagram.work(volume_at) == pytest.approx((2e5 - 1e5) * 5e-4, rel=1e-14)
 
-    @pytest.mark.parametrize("exponent", [0.0, 0.5, 1.0, 1.25, 1.4, 3.0])
+    @for_each("exponent", [0.0, 0.5, 1.0, 1.25, 1.4, 3.0])
     def test_an_otto_cycle_does_its_textbook_work(self, exponent: float) -> None:
         """Compression to and expansion from 9 times the volume, the fourfold pressure after the vertical line."""
         top = P0 * 9**exponent
@@ -101,7 +102,7 @@ class TestWork:
         compression = isothermal if exponent == 1 else (top * small - P0 * large) / (exponent - 1)
         assert work == pytest.approx(3 * compression, rel=1e-13)
 
-    @pytest.mark.parametrize("excess", [0.0, 1e-12, 1e-8, -1e-8, 1e-6, -1e-4])
+    @for_each("excess", [0.0, 1e-12, 1e-8, -1e-8, 1e-6, -1e-4])
     def test_an_exponent_next_to_one_does_nearly_isothermal_work(self, excess: float) -> None:
         """The work of compression is p V ln 9 (9^k - 1) / (k ln 9), in which expm1 keeps all digits."""
         pieces = (OTTO_PIECES[0], _between("polytropic", "a", "c", exponent=1 + excess), *OTTO_PIECES[2:])
@@ -111,7 +112,7 @@ class TestWork:
         assert -compression.work(volume_at) == pytest.approx(expected, rel=1e-12)
         assert expansion.work(volume_at) > -compression.work(volume_at)
 
-    @pytest.mark.parametrize("exponent", [1.0, 1.2, 1.4])
+    @for_each("exponent", [1.0, 1.2, 1.4])
     def test_the_closed_forms_agree_with_numerical_quadrature(self, exponent: float) -> None:
         pieces = (OTTO_PIECES[0], _between("polytropic", "a", "c", exponent=exponent), *OTTO_PIECES[2:])
         diagram = _solve(OTTO_POINTS, *pieces)
@@ -155,7 +156,7 @@ class TestPressure:
         assert _pressure(diagram, 540.0)[0] == pytest.approx(5e6 / 9**1.25, rel=1e-14)
         assert _pressure(diagram, math.nextafter(540.0, 541.0)) == [P0]
 
-    @pytest.mark.parametrize("step", [0.5, 1.0, 7.0, 45.0, 360.0])
+    @for_each("step", [0.5, 1.0, 7.0, 45.0, 360.0])
     def test_the_pressure_at_an_angle_does_not_depend_on_the_other_angles(self, step: float) -> None:
         diagram = _solve(OTTO_POINTS, *OTTO_PIECES)
         at = np.arange(0.0, 720.1, step)
@@ -241,7 +242,7 @@ class TestAngleFoundByPressure:
             self._compressor(delivery=4e6)
         assert caught.value.key == "gas.pieces[1]"
 
-    @pytest.mark.parametrize("pressure", [None, 0.0, -1e5])
+    @for_each("pressure", [None, 0.0, -1e5])
     def test_an_end_without_angle_needs_a_positive_pressure(self, pressure: float | None) -> None:
         error = _error(
             {"a": (0.0, P0), "b": (None, pressure)}, _between("polytropic", "a", "b", exponent=1.3)
@@ -273,7 +274,7 @@ class TestRefusals:
         error = _error(OTTO_POINTS, OTTO_PIECES[0], _between("polytropic", "a", "c"))
         assert error.key == "gas.pieces[2].exponent"
 
-    @pytest.mark.parametrize("pressure", [0.0, -1.0])
+    @for_each("pressure", [0.0, -1.0])
     def test_a_polytrope_needs_a_positive_pressure(self, pressure: float) -> None:
         error = _error({"a": (0.0, pressure), "b": (720.0, None)}, _between("polytropic", "a", "b", exponent=1.3))
         assert (error.key, str(error)) == (
@@ -302,7 +303,7 @@ class TestRefusals:
         assert error.key == "gas.pieces[2]"
         assert "do not let the angle go backwards" in str(error)
 
-    @pytest.mark.parametrize("law", ["constant", "polytropic"])
+    @for_each("law", ["constant", "polytropic"])
     def test_a_piece_that_goes_backwards_names_both_angles(self, law: Law) -> None:
         points = {"a": (0.0, P0), "b": (540.0, None), "c": (180.0, None), "d": (720.0, None)}
         pieces = (_between("constant", "a", "b"), _between(law, "b", "c", exponent=1.3), _between("constant", "c", "d"))

@@ -26,6 +26,7 @@ from crankwork.loads.load import (
 from crankwork.loads.table import Table
 from crankwork.mechanism.catalog import crank_shaper, four_bar, slotted_press
 from crankwork.mechanism.mechanism import Crank, Mechanism, body_at
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -61,7 +62,7 @@ class TestTable:
         assert values.max() == 1
         assert np.all(np.diff(values) >= -1e-15)
 
-    @pytest.mark.parametrize("interpolation", ["linear", "monotone"])
+    @for_each("interpolation", ["linear", "monotone"])
     def test_a_period_closes_the_curve(self, interpolation):
         open_end = Table((0.0, 1.0, 2.0), (1.0, 4.0, 2.0), interpolation, period=3.0)
         closed = Table((0.0, 1.0, 2.0, 3.0), (1.0, 4.0, 2.0, 1.0), interpolation, period=3.0)
@@ -69,7 +70,7 @@ class TestTable:
         assert open_end(at) == pytest.approx(closed(at))
         assert open_end(at) == pytest.approx(open_end(at + 3))
 
-    @pytest.mark.parametrize(
+    @for_each(
         ("at", "values", "period", "message"),
         [
             ((0.0,), (1.0,), 0.0, "two points"),
@@ -192,7 +193,7 @@ class TestDamper:
         with pytest.raises(GeometryError, match="ends of the damper"):
             applied_loads(CRANK, moved, [Damper("crank_pin", "crank_pin", 1.0)])
 
-    @pytest.mark.parametrize("name", ["ram", "block"])
+    @for_each("name", ["ram", "block"])
     def test_on_a_guide(self, shaper, name):
         mechanism, moved = shaper
         rate = derivative(moved.sliders[name].position)
@@ -233,7 +234,7 @@ def test_rates_of_a_table_are_read_where_there_are_no_frames():
     assert found.angle_1 == pytest.approx(1)
 
 
-@pytest.mark.parametrize(
+@for_each(
     "load",
     [
         ForceOnPoint("nowhere", 1.0, 0.0),

@@ -11,6 +11,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.loads import treated
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram
 from crankwork.loads.measured import MeasuredPressure, Treatment, recorded_cycles, wrap_is_rough
+from each import for_each
 
 CYCLE = 720.0
 
@@ -46,8 +47,8 @@ def _error(measured: MeasuredPressure, cycle: float = CYCLE) -> DiagramError:
     return caught.value
 
 
-@pytest.mark.parametrize("step", [0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 2.0, 3.0])
-@pytest.mark.parametrize("start", [0.0, -360.0, 57.0])
+@for_each("step", [0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 2.0, 3.0])
+@for_each("start", [0.0, -360.0, 57.0])
 def test_samples_come_back_as_recorded(step: float, start: float) -> None:
     degrees = np.asarray(start + np.arange(round(CYCLE / step)) * step, float)
     diagram, cycles, _ = measured_diagram(_recorded(degrees), CYCLE)
@@ -91,7 +92,7 @@ def test_a_last_row_that_repeats_the_first_changes_nothing() -> None:
     assert _pressure(with_last, at).tolist() == _pressure(without, at).tolist()
 
 
-@pytest.mark.parametrize("start", [0.0, 30.0, -181.5])
+@for_each("start", [0.0, 30.0, -181.5])
 def test_the_diagram_is_closed_bit_for_bit(start: float) -> None:
     diagram, _, _ = measured_diagram(_recorded(start + np.arange(0.0, 720.0)), CYCLE)
     first, last = _pressure(diagram, np.array([0.0, 720.0]))
@@ -99,7 +100,7 @@ def test_the_diagram_is_closed_bit_for_bit(start: float) -> None:
     assert (diagram.segments[0].start, diagram.segments[-1].end) == (0.0, 720.0)
 
 
-@pytest.mark.parametrize("shift", [0.0, 25.0, -11.5, 360.0, -700.0])
+@for_each("shift", [0.0, 25.0, -11.5, 360.0, -700.0])
 def test_a_shift_puts_top_dead_centre_where_it_belongs(shift: float) -> None:
     degrees = np.arange(0.0, 720.0, 0.5)
     recorded = _recorded(degrees, _true_pressure(degrees + shift))
@@ -133,14 +134,14 @@ def test_a_cycle_that_is_not_whole_is_left_out_of_the_average() -> None:
     assert np.max(_pressure(diagram, degrees[:720])) < 4.2e6
 
 
-@pytest.mark.parametrize("cycle", [360.0, 720.0])
+@for_each("cycle", [360.0, 720.0])
 def test_the_cycle_may_be_two_strokes_or_four(cycle: float) -> None:
     degrees = np.arange(0.0, 720.0)
     _, cycles, _ = measured_diagram(_recorded(degrees), cycle)
     assert cycles == 720 / cycle
 
 
-@pytest.mark.parametrize("step", [0.5, 1.0, 2.0, 7.2, 0.7])
+@for_each("step", [0.5, 1.0, 2.0, 7.2, 0.7])
 def test_resampling_sets_the_knots(step: float) -> None:
     degrees = np.arange(0.0, 720.0, 0.5)
     diagram, _, _ = measured_diagram(_recorded(degrees), CYCLE, step=step)
@@ -150,7 +151,7 @@ def test_resampling_sets_the_knots(step: float) -> None:
     assert np.max(np.abs(_pressure(diagram, at) - _true_pressure(at))) < 1e-4 * 4e6
 
 
-@pytest.mark.parametrize("step", [0.1, 0.2, 0.3, 0.6])
+@for_each("step", [0.1, 0.2, 0.3, 0.6])
 def test_resampling_at_a_step_that_is_no_binary_fraction_keeps_every_knot_once(step: float) -> None:
     for start in (0.0, 0.35, -360.0):
         degrees = start + np.arange(0.0, 720.0)
@@ -165,7 +166,7 @@ def test_a_smooth_wrap_is_not_worth_a_warning() -> None:
     assert not wrap_is_rough(diagram, wrap)
 
 
-@pytest.mark.parametrize(("drift", "rough"), [(1e5, False), (-1e5, False), (3e5, True), (-3e5, True)])
+@for_each(("drift", "rough"), [(1e5, False), (-1e5, False), (3e5, True), (-3e5, True)])
 def test_a_drift_over_the_cycle_shows_at_the_wrap(drift: float, *, rough: bool) -> None:
     degrees = np.arange(0.0, 721.0)
     drifting = 5e5 + _true_pressure(degrees) + drift * degrees / 720
@@ -191,7 +192,7 @@ class TestRefusals:
         assert str(_error(_recorded(degrees))).startswith('60000 samples in one cycle; write resample = "0.1 deg"')
         assert measured_diagram(_recorded(degrees), CYCLE, step=0.5)[1] == 1
 
-    @pytest.mark.parametrize("wrong", [49.0, 48.0, -3.0])
+    @for_each("wrong", [49.0, 48.0, -3.0])
     def test_an_angle_that_does_not_rise_is_told_with_its_line(self, wrong: float) -> None:
         degrees = np.arange(0.0, 720.0)
         degrees[50] = wrong
@@ -209,7 +210,7 @@ class TestRefusals:
         degrees = np.delete(np.arange(0.0, 720.0), np.arange(100, 103))
         assert measured_diagram(_recorded(degrees), CYCLE)[1] == 1
 
-    @pytest.mark.parametrize(("samples", "whole"), [(720, True), (719, False), (360, False)])
+    @for_each(("samples", "whole"), [(720, True), (719, False), (360, False)])
     def test_less_than_a_cycle_is_refused(self, samples: int, *, whole: bool) -> None:
         recorded = _recorded(np.arange(0.0, float(samples)))
         if whole:

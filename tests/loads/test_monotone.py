@@ -10,6 +10,7 @@ from scipy.interpolate import PchipInterpolator
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+from each import for_each
 
 values = st.floats(-10.0, 10.0).map(lambda value: round(value, 3))
 steps = st.floats(0.05, 5.0)
@@ -54,17 +55,17 @@ def test_random_curves_are_those_of_scipy_to_fourteen_digits() -> None:
         assert np.max(np.abs(hermite(x, y, monotone_slopes(x, y), at) - PchipInterpolator(x, y)(at))) < 1e-14
 
 
-@pytest.mark.parametrize(
-    "ordinates",
-    [
-        pytest.param([1.0, 3.0], id="two points"),
-        pytest.param([1.0, 3.0, 2.0], id="three points and a turn"),
-        pytest.param([2.0, 2.0, 2.0, 2.0], id="flat"),
-        pytest.param([0.0, 0.0, 1.0, 1.0, 1.0, 0.0], id="flat stretches"),
-        pytest.param([0.0, 1.0, -5.0, 1.0], id="end slope held back"),
-        pytest.param([0.0, 0.1, 5.0, 5.1], id="end slope of the wrong sign"),
-    ],
-)
+SPECIAL = {
+    "two points": [1.0, 3.0],
+    "three points and a turn": [1.0, 3.0, 2.0],
+    "flat": [2.0, 2.0, 2.0, 2.0],
+    "flat stretches": [0.0, 0.0, 1.0, 1.0, 1.0, 0.0],
+    "end slope held back": [0.0, 1.0, -5.0, 1.0],
+    "end slope of the wrong sign": [0.0, 0.1, 5.0, 5.1],
+}
+
+
+@for_each("ordinates", SPECIAL.values(), ids=SPECIAL)
 def test_the_special_cases_are_those_of_scipy(ordinates: list[float]) -> None:
     _check_against_scipy(np.array([0.0, 1.0, 1.5, 4.0, 4.2, 6.0])[: len(ordinates)], np.array(ordinates))
 

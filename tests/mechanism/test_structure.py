@@ -11,6 +11,7 @@ from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.structure import mobility, structure
+from each import for_each
 from linkages import mechanism_from
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -65,7 +66,7 @@ def solved(tables):
     return mechanism
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("tables", "formula", "number"),
     [
         (SIX_BAR, "I(0,1) -> II(3,4) -> II(2,5)", 2),
@@ -119,7 +120,7 @@ def test_a_joint_off_the_line_of_its_slider():
     assert one.sliders["ram"].position == pytest.approx(other.sliders["ram"].position)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("tables", "key", "text"),
     [
         (changed(SIX_BAR, "crank", [{}, {}]), "crank", "there are 2 cranks"),
@@ -242,7 +243,7 @@ def test_a_crank_with_two_pins():
     assert np.hypot(k.x.position, k.y.position) == pytest.approx(np.hypot(0.03, 0.01))
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("tables", "key", "text"),
     [
         (changed(SIX_BAR, "links", []), "links", "must be a table"),

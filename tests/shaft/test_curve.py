@@ -9,6 +9,7 @@ import pytest
 
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -46,7 +47,7 @@ def test_sums_and_products_on_different_corners():
     assert (TRIANGLES - 2 * math.pi)(angle) == pytest.approx(TRIANGLES(angle) - 2 * math.pi)
 
 
-@pytest.mark.parametrize("by", [0.0, 1.0, 2 * math.pi / 3, 2 * math.pi, -1.0])
+@for_each("by", [0.0, 1.0, 2 * math.pi / 3, 2 * math.pi, -1.0])
 def test_a_delayed_curve(by):
     angle = np.linspace(0, 2 * math.pi, 50)
     assert TRIANGLES.delayed(by)(angle) == pytest.approx(TRIANGLES(angle - by), abs=1e-9)
@@ -70,7 +71,7 @@ def test_every_crossing_is_found():
     assert curve.zeros() == pytest.approx(np.arange(8) + 0.5)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("angle", "value"),
     [([0, 1], [1, 2, 3]), ([0, 2, 1], [0, 0, 0]), ([0, 0], [1, 2]), ([0, 1], [0, math.nan]), ([0], [1])],
 )

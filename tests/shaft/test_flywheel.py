@@ -12,6 +12,7 @@ from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_inertia, true_speed
 from crankwork.shaft.flywheel import WAYS, flywheel, inertia_on_other_shaft
 from crankwork.shaft.wheel import inertia_of_wheel, rim_speed_of_stress
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -44,7 +45,7 @@ def test_acceleration_is_the_derivative_of_the_speed():
     assert speed.acceleration(angle) == pytest.approx(speed.speed(angle) * slope, rel=1e-5)
 
 
-@pytest.mark.parametrize("fluctuation", [0.3, 0.1, 0.02, 0.001])
+@for_each("fluctuation", [0.3, 0.1, 0.02, 0.001])
 def test_the_exact_flywheel_gives_the_fluctuation_asked_for(fluctuation):
     found = flywheel(INERTIA, LOAD, 10.0, fluctuation)
     turning = true_speed(INERTIA + found.inertia, LOAD, 10.0)
@@ -70,7 +71,7 @@ def test_a_machine_that_needs_no_flywheel():
     assert flywheel(Curve.constant(1000.0), LOAD, 10.0, 0.1).inertia < 0
 
 
-@pytest.mark.parametrize(("speed", "fluctuation"), [(10, 0), (10, 2), (10, -0.1), (0, 0.1)])
+@for_each(("speed", "fluctuation"), [(10, 0), (10, 2), (10, -0.1), (0, 0.1)])
 def test_what_cannot_be_asked(speed, fluctuation):
     with pytest.raises(MethodError, match="between 0 and 2"):
         flywheel(INERTIA, LOAD, speed, fluctuation)

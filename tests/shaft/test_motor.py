@@ -16,6 +16,7 @@ from crankwork.shaft.motor import (
     synchronous_speed,
 )
 from crankwork.shaft.motor_choice import first_angle_beyond
+from each import for_each
 from motors import LinearMotor
 
 pytestmark = pytest.mark.elsewhere
@@ -42,7 +43,7 @@ def test_the_slip_of_the_greatest_torque():
     assert breakdown_slip(0.03, 2.2) == pytest.approx(0.03 * 4.1595918, rel=1e-7)
 
 
-@pytest.mark.parametrize(("speed", "overload"), [(1500 * RPM, 2.0), (1400 * RPM, 1.0)])
+@for_each(("speed", "overload"), [(1500 * RPM, 2.0), (1400 * RPM, 1.0)])
 def test_motors_that_do_not_exist(speed, overload):
     with pytest.raises(MethodError):
         AsynchronousMotor.of_catalogue(7500.0, speed, overload)

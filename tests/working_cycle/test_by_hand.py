@@ -24,6 +24,7 @@ from crankwork.working_cycle import (
     wiebe,
     woschni,
 )
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -177,13 +178,10 @@ HEAT_RELEASE: list[Case] = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("formula", "operands", "expected"),
-    [
-        pytest.param(*case, id=case[0].__name__)
-        for case in (*CHARGE, *FUEL, *HEATS, *COMBUSTION, *PERFORMANCE, *IDEAL, *HEAT_RELEASE)
-    ],
-)
+CASES = (*CHARGE, *FUEL, *HEATS, *COMBUSTION, *PERFORMANCE, *IDEAL, *HEAT_RELEASE)
+
+
+@for_each(("formula", "operands", "expected"), CASES, ids=lambda case: case[0].__name__)
 def test_a_formula_gives_what_a_calculation_by_hand_gives(
     formula: Callable[..., float], operands: tuple[float, ...], expected: float
 ) -> None:

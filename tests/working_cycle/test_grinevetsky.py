@@ -15,6 +15,7 @@ from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import FUELS, CycleError
 from crankwork.working_cycle.grinevetsky import grinevetsky
 from crankwork.working_cycle.heat_capacities import HeatLaw
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -26,8 +27,8 @@ TWO_STROKE = GrinevetskyData(
     "diesel", 14.0, 2000.0, strokes=2, lost_stroke=0.18, charge_pressure=0.15e6, power=150e3, cylinders=4
 )
 ALL = {"petrol": PETROL, "lean": LEAN, "diesel": DIESEL, "charged": CHARGED, "two-stroke": TWO_STROKE}
-every_engine = pytest.mark.parametrize("data", ALL.values(), ids=ALL)
-every_law = pytest.mark.parametrize("law", ["kolchin", "vietnamese", "linear"])
+every_engine = for_each("data", ALL.values(), ids=ALL)
+every_law = for_each("law", ["kolchin", "vietnamese", "linear"])
 
 
 @every_engine
@@ -112,7 +113,7 @@ def test_energy_at_z_is_that_at_c_and_the_heat_of_the_fuel(data: GrinevetskyData
 
 
 @every_engine
-@pytest.mark.parametrize("law", ["vietnamese", "linear"])
+@for_each("law", ["vietnamese", "linear"])
 def test_energy_at_z_from_absolute_zero(data: GrinevetskyData, law: HeatLaw):
     values = grinevetsky(replace(data, heat_capacities=law)).values
     with mpmath.workdps(30):
@@ -263,7 +264,7 @@ def test_what_was_not_given_is_said():
     assert grinevetsky(full).notices == ()
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("changes", "code"),
     [
         ({"compression_ratio": 13.0}, "cycle_knock"),
@@ -289,7 +290,7 @@ def test_what_is_unusual_is_said_and_used(changes, code):
         assert cycle.values.get(name, value) == value
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("changes", "words"),
     [
         ({"compression_ratio": 0.5}, "above 1"),

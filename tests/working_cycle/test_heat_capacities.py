@@ -21,6 +21,7 @@ from crankwork.working_cycle.heat_capacities import (
     residual_heat,
 )
 from crankwork.working_cycle.mixture import mixture
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -43,7 +44,7 @@ def _high(name: str, celsius: float) -> float:
     return heat_constant_of_gases(*amounts, 1.0) + heat_slope_of_gases(*amounts, 1.0) * celsius
 
 
-@pytest.mark.parametrize("name", GASES)
+@for_each("name", GASES)
 def test_both_sets_of_coefficients_meet_where_one_ends(name: str):
     assert _high(name, LOW_LIMIT) == pytest.approx(_low(name, LOW_LIMIT), rel=0.011)
 
@@ -55,7 +56,7 @@ def _enthalpy(name: str, kelvin: float) -> float:
     return 1000 * (a * t + b * t**2 / 2 + c * t**3 / 3 + d * t**4 / 4 - e / t)
 
 
-@pytest.mark.parametrize("name", sorted(SHOMATE))
+@for_each("name", sorted(SHOMATE))
 def test_heat_between_two_temperatures_is_the_measured_one(name: str):
     low, high = 750.0, 1150.0
     measured = _enthalpy(name, high) - _enthalpy(name, low) - 8.314462618 * (high - low)
@@ -67,8 +68,8 @@ def _counted(law: HeatLaw, kelvin: float) -> Known:
     return given("gas_celsius", kelvin - law_zero(law))
 
 
-@pytest.mark.parametrize("law", ["vietnamese", "linear"])
-@pytest.mark.parametrize("excess_air", [0.85, 0.999, 1.0, 1.4, 2.0])
+@for_each("law", ["vietnamese", "linear"])
+@for_each("excess_air", [0.85, 0.999, 1.0, 1.4, 2.0])
 def test_heat_from_600_to_2400_kelvin_is_that_of_the_gases(law: HeatLaw, excess_air: float):
     """The laws of whole mixtures count from 0 K, the gases from 0 degrees; differences compare."""
     data = GrinevetskyData("petrol", 9.0, 5000.0, fuel=FUELS["petrol"], excess_air=excess_air)
@@ -88,7 +89,7 @@ def test_heat_from_600_to_2400_kelvin_is_that_of_the_gases(law: HeatLaw, excess_
     assert ours == pytest.approx(gases, rel=0.035)
 
 
-@pytest.mark.parametrize("law", ["vietnamese", "linear"])
+@for_each("law", ["vietnamese", "linear"])
 def test_heat_of_the_charge_from_350_to_800_kelvin_is_that_of_air(law: HeatLaw):
     def energy(one: HeatLaw, kelvin: float) -> float:
         at = _counted(one, kelvin)

@@ -29,11 +29,12 @@ from crankwork.working_cycle.heat_data import HeatReleaseData, stages
 from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
 from crankwork.working_cycle.wiebe import wiebe_burning_rate, wiebe_burnt_fraction
 from crankwork.working_cycle.woschni import EXPANSION, woschni_coefficient, woschni_gas_speed
+from each import for_each
 from engines import cylinder_volumes
 
 BORE, RATIO = 0.08, 9.0
 CENTRAL = SliderCrank(0.04, 0.14, 0.0)
-OFFSETS = pytest.mark.parametrize("offset", [0.0, 0.006, -0.006])
+OFFSETS = for_each("offset", [0.0, 0.006, -0.006])
 ENGINE = HeatReleaseData(BORE, 3000.0, 1e5, 340.0, heat=900.0)
 TWO_STROKE = replace(ENGINE, cycle=360.0, exhaust_opens=70.0, intake_opens=52.0, intake_closes=65.0, heat=500.0)
 
@@ -62,7 +63,7 @@ def test_burning_ends_with_a_thousandth_left():
     assert wiebe_burnt_fraction(1.0, 1.7) == pytest.approx(0.999, abs=1e-6)
 
 
-@pytest.mark.parametrize("m", [0.0, 0.8, 2.0, 3.5])
+@for_each("m", [0.0, 0.8, 2.0, 3.5])
 def test_the_rate_of_burning_integrates_to_what_has_burnt(m):
     assert quad(lambda s: wiebe_burning_rate(s, m, 1.0), 0, 0.6)[0] == pytest.approx(
         wiebe_burnt_fraction(0.6, m), rel=1e-11
@@ -106,7 +107,7 @@ def test_without_heat_and_walls_the_gas_follows_the_isentrope():
     assert np.max(np.abs(invariant / invariant[0] - 1)) < 1e-9
 
 
-@pytest.mark.parametrize("gamma", [1.3, 1.4])
+@for_each("gamma", [1.3, 1.4])
 @OFFSETS
 def test_instant_burning_at_top_dead_centre_is_the_otto_cycle(gamma, offset):
     lengths = SliderCrank(0.04, 0.14, offset)
@@ -271,7 +272,7 @@ def test_walls_as_hot_as_the_charge_warm_it_no_more_than_they_cool_it():
 
 
 @OFFSETS
-@pytest.mark.parametrize("data", [ENGINE, TWO_STROKE], ids=["four strokes", "two strokes"])
+@for_each("data", [ENGINE, TWO_STROKE], ids=["four strokes", "two strokes"])
 def test_the_diagram_is_closed_and_without_gaps_or_steps(data, offset):
     segments = _run(data, SliderCrank(0.04, 0.14, offset)).calculated.diagram.segments
     assert (segments[0].start, segments[-1].end) == (0.0, data.cycle)
@@ -352,7 +353,7 @@ def test_the_pressure_at_any_angle_is_followed_to_the_heat():
     assert {"fuel_heat", "burning_shape", "residual_pressure"} <= {one.key for one in in_order([pressure])}
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("changes", "code"),
     [
         ({"burning_shape": 7.0}, "heat_shape"),
@@ -371,7 +372,7 @@ def test_a_usual_cycle_needs_no_notice():
     assert _run(replace(ENGINE, heat=700.0)).calculated.notices == ()
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("changes", "says"),
     [
         ({"burning_advance": 140.0}, "closed from"),

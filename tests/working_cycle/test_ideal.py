@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from crankwork.working_cycle.fuels import CycleError
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -32,7 +33,7 @@ def test_work_over_heat_is_the_closed_form(ratio, gamma, heat, kind):
     assert values["thermal_efficiency"] == pytest.approx(values["thermal_efficiency.closed"], rel=1e-9)
 
 
-@pytest.mark.parametrize("data", [OTTO, DIESEL, DUAL], ids=["otto", "diesel", "dual"])
+@for_each("data", [OTTO, DIESEL, DUAL], ids=["otto", "diesel", "dual"])
 def test_every_way_to_say_how_hot_gives_the_same_cycle(data):
     first = ideal_cycle(data)
     hot = max(value for key, value in first.values.items() if key.startswith("state_temperature"))
@@ -72,7 +73,7 @@ def test_the_dual_cycle_in_30_digits():
         assert float(abs(values["ideal_work"] / work - 1)) < 1e-14
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("data", "words"),
     [
         (replace(OTTO, heat=None), "write heat"),

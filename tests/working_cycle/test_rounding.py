@@ -24,6 +24,7 @@ from crankwork.working_cycle.rounding import (
     rounded_diagram,
     theoretical_work,
 )
+from each import for_each
 from engines import cylinder_volumes
 
 PETROL = {"p_r": 1.18e5, "p_a": 0.85e5, "p_z": 6.2e6, "n1": 1.37, "n2": 1.25}
@@ -33,10 +34,10 @@ VALVES = Timing(30.0, 8.0, 18.0, 60.0, 55.0, 20.0)
 PORTS = Timing(25.0, 8.0, 50.0, 50.0, 62.0, 60.0, 360.0)
 BARE = Timing()
 
-SCHOOLS = pytest.mark.parametrize("school", ["ru", "vi"])
-ENGINES = pytest.mark.parametrize("kind", ["petrol", "diesel"])
-OFFSETS = pytest.mark.parametrize("offset", [0.0, 0.006, -0.006])
-TIMINGS = pytest.mark.parametrize("timing", [VALVES, PORTS], ids=["valves", "ports"])
+SCHOOLS = for_each("school", ["ru", "vi"])
+ENGINES = for_each("kind", ["petrol", "diesel"])
+OFFSETS = for_each("offset", [0.0, 0.006, -0.006])
+TIMINGS = for_each("timing", [VALVES, PORTS], ids=["valves", "ports"])
 
 
 def _space(kind: str = "petrol", offset: float = 0.0) -> tuple[VolumeAt, tuple[float, float]]:
@@ -136,7 +137,7 @@ def test_a_top_dead_centre_just_before_zero_may_be_written_either_way():
 
 @SCHOOLS
 @ENGINES
-@pytest.mark.parametrize("advance", [15.0, 30.0, 45.0])
+@for_each("advance", [15.0, 30.0, 45.0])
 def test_burning_never_takes_the_pressure_below_the_compression_line(school, kind, advance):
     diagram = _rounded(kind, replace(VALVES, ignition_advance=advance), school=school).diagram
     volume_at, _ = _space(kind)
@@ -200,7 +201,7 @@ def test_points_and_pieces_solve_to_the_same_diagram(timing):
 # --- work
 
 
-@pytest.mark.parametrize("ratio", [8.0, 8.5, 9.0])
+@for_each("ratio", [8.0, 8.5, 9.0])
 @SCHOOLS
 def test_a_petrol_engine_keeps_the_share_that_books_expect(school, ratio):
     lengths = SliderCrank(0.04, 0.14, 0.0)
@@ -319,7 +320,7 @@ def test_a_wanted_share_is_met_by_the_level_of_the_peak(kind, school, timing):
     assert "round_unreachable" not in {code for code, _ in result.notices}
 
 
-@pytest.mark.parametrize(("wanted", "level"), [(0.8, 0.80), (0.999, 0.95)])
+@for_each(("wanted", "level"), [(0.8, 0.80), (0.999, 0.95)])
 def test_a_share_out_of_reach_is_said(wanted, level):
     result = _rounded(filling_factor=wanted)
     [(_, values)] = [one for one in result.notices if one[0] == "round_unreachable"]
@@ -330,7 +331,7 @@ def test_a_share_out_of_reach_is_said(wanted, level):
 # --- notices and refusals
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("theory", "options", "code"),
     [
         ({"p_c": 2.0e6}, {}, "round_differs"),
@@ -351,7 +352,7 @@ def test_pressures_that_fit_their_lines_need_no_notice():
     assert _rounded(theory=PETROL | fitting).notices == ()
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("timing", "theory", "options", "says"),
     [
         ({"ignition_delay": 30.0}, {}, {}, "after top dead centre"),

@@ -22,6 +22,7 @@ from crankwork.working_cycle.ideal import IdealData, ideal_cycle
 from crankwork.working_cycle.pressures import CornerPressure
 from crankwork.working_cycle.rounding import Timing
 from crankwork.working_cycle.theoretical_diagram import theoretical_diagram
+from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -37,8 +38,8 @@ CYCLES = {
     "dual": ideal_cycle(IdealData("dual", 16.0, 1e5, 300.0, heat=1.5e6, pressure_ratio=1.4)),
     "two-stroke ideal": ideal_cycle(IdealData("otto", 8.0, 1e5, 300.0, heat=1.5e6, angle=360.0)),
 }
-every_cycle = pytest.mark.parametrize("cycle", CYCLES.values(), ids=CYCLES)
-every_offset = pytest.mark.parametrize("offset", [0.0, 0.01, -0.01], ids=["central", "offset", "offset the other way"])
+every_cycle = for_each("cycle", CYCLES.values(), ids=CYCLES)
+every_offset = for_each("offset", [0.0, 0.01, -0.01], ids=["central", "offset", "offset the other way"])
 RADIUS, ROD, AREA = 0.045, 0.15, 0.005
 
 
@@ -145,8 +146,8 @@ def test_the_work_does_not_depend_on_the_speed_and_that_is_said():
     assert works[0] == pytest.approx(works[1], rel=1e-12)
 
 
-@pytest.mark.parametrize("timing", [None, Timing(20.0, 5.0, 10.0, 60.0, 55.0, 15.0)], ids=["sharp", "rounded"])
-@pytest.mark.parametrize("name", ["petrol", "diesel"])
+@for_each("timing", [None, Timing(20.0, 5.0, 10.0, 60.0, 55.0, 15.0)], ids=["sharp", "rounded"])
+@for_each("name", ["petrol", "diesel"])
 def test_the_pressure_at_any_angle_is_followed_into_the_calculation(name: str, timing: Timing | None):
     cycle = CYCLES[name]
     cylinder = _cylinder(cycle, 0.0)
