@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import inspect
 import operator
-import pkgutil
 import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
@@ -17,9 +16,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-import crankwork
 from crankwork.formula.expression import (
-    FORMULAS,
     Expression,
     Formula,
     Number,
@@ -31,23 +28,11 @@ from crankwork.formula.expression import (
     symbol,
     text,
 )
-from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.quantities import LANGUAGES
+from each import failing
 
-
-def _import_every_module() -> None:
-    """Register every formula of the package; a module that needs an absent optional package has none."""
-    for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
-        if module.name.endswith("__main__"):
-            continue
-        try:
-            importlib.import_module(module.name)
-        except ModuleNotFoundError as absent:
-            if absent.name is None or absent.name.startswith("crankwork"):
-                raise
-
-
-_import_every_module()
-every_formula = pytest.mark.parametrize("formula", FORMULAS.values(), ids=FORMULAS)
+Formulas = dict[str, Formula]
+Recorded = Callable[..., Any]
 
 
 def _random_arguments(formula: Formula, size: int | None = None) -> dict[str, Any]:
@@ -62,54 +47,50 @@ def _random_arguments(formula: Formula, size: int | None = None) -> dict[str, An
     return {name: generator.uniform(*ranges.get(name, (0.1, 0.9)), size) for name in formula.arguments}
 
 
-# --- what is registered
-
-
-def test_the_package_has_formulas() -> None:
-    assert {"piston_displacement", "piston_transfer_2", "textbook_displacement"} <= set(FORMULAS)
-
-
-@every_formula
-def test_a_formula_gives_a_known_quantity_and_names_its_source(formula: Formula) -> None:
-    assert formula.quantity in QUANTITIES
-    assert formula.source.strip()
-
-
-@every_formula
-def test_no_other_formula_has_taken_the_name(formula: Formula) -> None:
-    module = importlib.import_module(formula.function.__module__)
-    assert getattr(module, formula.name).__wrapped__ is formula.function
+def test_no_other_formula_has_taken_the_name(formulas: Formulas) -> None:
+    taken = [
+        name
+        for name, one in formulas.items()
+        if getattr(importlib.import_module(one.function.__module__), name).__wrapped__ is not one.function
+    ]
+    assert taken == []
 
 
 # --- it prints
 
 
-@every_formula
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_formula_prints_with_a_symbol_for_each_argument(formula: Formula, language: Any) -> None:
-    shown = text(record(formula.shown), language=language)
-    symbols = [symbol(name, language) for name in _printed_arguments(formula)]
-    assert all(symbols)
-    assert all(one in shown for one in symbols)
-    assert len(set(symbols)) == len(symbols), "two arguments of one formula print the same symbol"
+def test_a_formula_prints_with_a_symbol_for_each_argument(formulas: Formulas, language: Any) -> None:
+    def check(formula: Formula) -> None:
+        shown = text(record(formula.shown), language=language)
+        symbols = [symbol(name, language) for name in _printed_arguments(formula)]
+        assert all(symbols)
+        assert [one for one in symbols if one not in shown] == []
+        assert len(set(symbols)) == len(symbols), "two arguments of one formula print the same symbol"
+
+    assert failing(formulas, check) == {}
 
 
-@every_formula
-def test_a_formula_with_numbers_prints_those_numbers_and_no_symbol(formula: Formula) -> None:
-    values = {name: f"{1.001 + k / 1000:.3f}" for k, name in enumerate(_printed_arguments(formula))}
-    shown = text(record(formula.shown), values).replace("\u00a0rad)", ")")
-    assert all(number in shown for number in values.values())
-    functions = {function_name(one) for one in _functions_of(record(formula.shown))}
-    assert set(re.findall(r"[^\W\d_²³⁴]\w*", shown)) <= functions | {"π"}
+def test_a_formula_with_numbers_prints_those_numbers_and_no_symbol(formulas: Formulas) -> None:
+    def check(formula: Formula) -> None:
+        values = {name: f"{1.001 + k / 1000:.3f}" for k, name in enumerate(_printed_arguments(formula))}
+        shown = text(record(formula.shown), values).replace("\u00a0rad)", ")")
+        assert [number for number in values.values() if number not in shown] == []
+        functions = {function_name(one) for one in _functions_of(record(formula.shown))}
+        assert set(re.findall(r"[^\W\d_²³⁴]\w*", shown)) <= functions | {"π"}
+
+    assert failing(formulas, check) == {}
 
 
-@every_formula
-def test_a_formula_printed_with_numbers_evaluates_to_its_value(formula: Formula) -> None:
-    values = _random_arguments(formula)
-    shown = text(record(formula.function), {name: repr(float(value)) for name, value in values.items()})
-    shown = shown.replace("\u00a0rad)", ")")
-    read_back = _value_of_text(shown, {function_name(one): one for one in _functions_of(record(formula.function))})
-    assert read_back == pytest.approx(formula.function(**values), rel=1e-13)
+def test_a_formula_printed_with_numbers_evaluates_to_its_value(formulas: Formulas) -> None:
+    def check(formula: Formula) -> None:
+        values = _random_arguments(formula)
+        shown = text(record(formula.function), {name: repr(float(value)) for name, value in values.items()})
+        shown = shown.replace("\u00a0rad)", ")")
+        read_back = _value_of_text(shown, {function_name(one): one for one in _functions_of(record(formula.function))})
+        assert read_back == pytest.approx(formula.function(**values), rel=1e-13)
+
+    assert failing(formulas, check) == {}
 
 
 def _printed_arguments(formula: Formula) -> tuple[str, ...]:
@@ -119,57 +100,75 @@ def _printed_arguments(formula: Formula) -> tuple[str, ...]:
     return printed
 
 
-def _functions_of(tree: Expression) -> set[np.ufunc]:
+def _operations(tree: Expression) -> set[Callable[..., Any]]:
     if not isinstance(tree, Operation):
         return set()
-    below = set().union(*map(_functions_of, tree.operands))
-    return below | {tree.function} if isinstance(tree.function, np.ufunc) else below
+    return {tree.function}.union(*map(_operations, tree.operands))
+
+
+def _functions_of(tree: Expression) -> set[np.ufunc]:
+    return {one for one in _operations(tree) if isinstance(one, np.ufunc)}
 
 
 # --- it computes: the tree and the function, bit for bit
 
 
-@every_formula
 @pytest.mark.parametrize("kind", ["float", "numpy scalar", "array", "complex array"])
-def test_the_tree_gives_the_very_same_bits_as_the_function(formula: Formula, kind: str) -> None:
-    values = _random_arguments(formula, None if kind in ("float", "numpy scalar") else 100)
-    if kind == "float":
-        values = {name: float(value) for name, value in values.items()}
-    if kind == "complex array":
-        values = {name: value + 1j * value[::-1] for name, value in values.items()}
-    direct, recorded = formula.function(**values), evaluate(record(formula.function), values)
-    assert np.array_equal(direct, recorded)
-    assert np.all(np.isfinite(direct))
+def test_the_tree_gives_the_very_same_bits_as_the_function(formulas: Formulas, kind: str) -> None:
+    def check(formula: Formula) -> None:
+        values = _random_arguments(formula, None if kind in ("float", "numpy scalar") else 100)
+        if kind == "float":
+            values = {name: float(value) for name, value in values.items()}
+        if kind == "complex array":
+            values = {name: value + 1j * value[::-1] for name, value in values.items()}
+        direct, recorded = formula.function(**values), evaluate(record(formula.function), values)
+        assert np.array_equal(direct, recorded)
+        assert np.all(np.isfinite(direct))
+
+    assert failing(formulas, check) == {}
 
 
 # --- it compiles
 
 
-@every_formula
-def test_a_formula_compiles_and_agrees_with_itself(formula: Formula) -> None:
-    numba = pytest.importorskip("numba")
-    compiled = numba.njit(formula.function)
-    values = np.array(list(_random_arguments(formula, 20).values()))
-    for column in values.T:
-        assert compiled(*column) == pytest.approx(formula.function(*column), rel=1e-14)
+@pytest.mark.compiled
+def test_a_formula_compiles_and_agrees_with_itself(formulas: Formulas) -> None:
+    """Of the formulas, the first with each operation, and of each number of arguments."""
+    import numba
+
+    sample, seen = {}, set[object]()
+    for name, formula in sorted(formulas.items()):
+        new = {*_operations(record(formula.function)), len(formula.arguments)} - seen
+        if new:
+            sample[name] = formula
+            seen |= new
+
+    def check(formula: Formula) -> None:
+        compiled = numba.njit(formula.function)
+        for column in np.array(list(_random_arguments(formula, 20).values())).T:
+            assert compiled(*column) == pytest.approx(formula.function(*column), rel=1e-14)
+
+    assert failing(sample, check) == {}
 
 
 # --- it differentiates
 
 
-@every_formula
-def test_the_complex_step_derivative_is_that_of_forty_digits(formula: Formula) -> None:
-    values = {name: float(value) for name, value in _random_arguments(formula).items()}
-    tree = record(formula.function)
-    with mpmath.workdps(40):
+def test_the_complex_step_derivative_is_that_of_forty_digits(formulas: Formulas) -> None:
+    def check(formula: Formula) -> None:
+        values = {name: float(value) for name, value in _random_arguments(formula).items()}
+        tree = record(formula.function)
         exact = {name: mpmath.mpf(value) for name, value in values.items()}
         size = abs(_in_mpmath(tree, exact))
+        h = mpmath.mpf(10) ** -12
         for name in formula.arguments:
-            h = mpmath.mpf(10) ** -12
             sides = [_in_mpmath(tree, exact | {name: exact[name] + step}) for step in (h, -h)]
             expected = (sides[0] - sides[1]) / (2 * h)
             derivative = np.imag(formula.function(**(values | {name: complex(values[name], 1e-200)}))) / 1e-200
             assert abs(derivative - expected) <= 1e-13 * (size + abs(expected)), name
+
+    with mpmath.workdps(40):
+        assert failing(formulas, check) == {}
 
 
 _IN_MPMATH = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "power": "power"}
@@ -214,56 +213,39 @@ def test_what_is_not_a_formula_is_refused() -> None:
 
 # --- printing: the text says what the tree says
 
-Recorded = Callable[..., Any]
+PRINTED: dict[str, Recorded] = {
+    "r − (x − r)": lambda r, x: r - (x - r),
+    "r + x + r": lambda r, x: r + (x + r),
+    "r/(x·r)": lambda r, x: r / (x * r),
+    "(r + x)²": lambda r, x: (r + x) ** 2,
+    "(−r)²·x": lambda r, x: (-r) ** 2 * x,
+    "−r²": lambda r: -(r**2),
+    "(cos φ)³": lambda cos_phi: cos_phi**3,
+    "r^(x + 1)": lambda r, x: r ** (x + 1),
+    "(r^x)²": lambda r, x: (r**x) ** 2,
+    "√(r + 1)/2": lambda r: np.sqrt(r + 1) / 2,
+    "r⁴": lambda r: r**4,
+    "r^5": lambda r: r**5,
+}
 
 
-@pytest.mark.parametrize(
-    ("function", "shown"),
-    [
-        (lambda r, x: r - (x - r), "r − (x − r)"),
-        (lambda r, x: r + (x + r), "r + x + r"),
-        (lambda r, x: r / (x * r), "r/(x·r)"),
-        (lambda r, x: (r + x) ** 2, "(r + x)²"),
-        (lambda r, x: (-r) ** 2 * x, "(−r)²·x"),
-        (lambda r: -(r**2), "−r²"),
-        (lambda cos_phi: cos_phi**3, "(cos φ)³"),
-        (lambda r, x: r ** (x + 1), "r^(x + 1)"),
-        (lambda r, x: (r**x) ** 2, "(r^x)²"),
-        (lambda r: np.sqrt(r + 1) / 2, "√(r + 1)/2"),
-        (lambda r: r**4, "r⁴"),
-        (lambda r: r**5, "r^5"),
-    ],
-)
-def test_parentheses_stand_where_they_are_needed_and_only_there(function: Recorded, shown: str) -> None:
-    assert text(record(function)) == shown
+def test_parentheses_stand_where_they_are_needed_and_only_there() -> None:
+    assert {shown: text(record(function)) for shown, function in PRINTED.items()} == {one: one for one in PRINTED}
 
 
-@pytest.mark.parametrize("exponent", [2.0, np.float64(2), np.int64(2)], ids=["float", "numpy float", "numpy integer"])
-def test_a_square_prints_as_a_square_whatever_the_type_of_its_exponent(exponent: float) -> None:
-    assert text(record(lambda r: r**exponent)) == "r²"
-
-
-def test_a_negative_number_written_in_a_formula_keeps_its_sign_under_a_power() -> None:
+def test_numbers_print_with_all_that_they_say() -> None:
+    """A square as a square of any type of exponent, a sign under a power, every digit of a conversion factor."""
+    squares: list[Recorded] = [lambda r: r**2.0, lambda r: r ** np.float64(2), lambda r: r ** np.int64(2)]
+    assert [text(record(one)) for one in squares] == ["r²"] * 3
     assert _value_of_text(text(record(lambda x: (-2) ** x), {"x": "2"}), {}) == 4
-
-
-def test_a_number_written_in_a_formula_prints_all_its_digits() -> None:
-    """A conversion factor that prints as another number makes the printed calculation wrong."""
     assert float(text(record(lambda: 735.49875))) == 735.49875
 
 
-@pytest.mark.parametrize(
-    ("function", "values"),
-    [
-        (lambda r, x: r + x, {"r": "5", "x": "-3"}),
-        (lambda r, x: r + x, {"r": "5", "x": "−3"}),
-        (lambda r, x: r + -x, {}),
-        (lambda r: r * -2, {}),
-        (lambda r: r - -2 * r, {}),
-    ],
-)
-def test_a_sign_never_stands_next_to_another_operator(function: Recorded, values: dict[str, str]) -> None:
-    assert not re.search(r"[+−·/-] ?[−-]", text(record(function), values))
+def test_a_sign_never_stands_next_to_another_operator() -> None:
+    recorded: list[Recorded] = [lambda r, x: r + -x, lambda r: r * -2, lambda r: r - -2 * r]
+    shown = [text(record(one)) for one in recorded]
+    shown += [text(record(lambda r, x: r + x), {"r": "5", "x": three}) for three in ("-3", "−3")]
+    assert [one for one in shown if re.search(r"[+−·/-] ?[−-]", one)] == []
 
 
 NAMES = {"r": "r", "x": "x", "sin_phi": "sin φ", "beta_1": "β′"}
