@@ -1,51 +1,44 @@
-"""One case for many members of a kind: each is checked, and all that fail are told by name."""
+"""Rows of a table in one case of a test: every row that fails is told, by name."""
 
 from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import pytest
 
-Members = Mapping[str, Any] | Collection[Any]
+Test = Callable[..., None]
 
 
-def each(members: Members, later: Members = ()) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Return what makes one case of a test of one member; `later`: those that are left to a slow case.
+def for_each(names: str | Sequence[str], rows: Iterable[Any], ids: Any = None) -> Callable[[Test], Test]:
+    """Call a test once for each row, like `pytest.mark.parametrize`, but as one case: with its fixtures as they are."""
+    keys = [names] if isinstance(names, str) else list(names)
+    table = list(rows)
+    assert table, "a test of no rows tests nothing"
 
-    The first parameters of the test are the member, or what it is a plain tuple of; the others are fixtures. A member
-    that is a `functools.partial` is made when its turn comes.
-    """
-    parts = {"few": _named(members), "rest": _named(later)}
-    first = next(iter(parts["few"].values()))
-    count = len(first) if type(first) is tuple else 1
-
-    def decorated(test: Callable[..., None]) -> Callable[..., None]:
+    def together(test: Test) -> Test:
         @functools.wraps(test)
-        def checked(part: str = "few", **fixtures: Any) -> None:
-            failed = []
-            for name, member in parts[part].items():
+        def every_row(*args: Any, **fixtures: Any) -> None:
+            failures: list[BaseException] = []
+            for at, row in enumerate(table):
+                values = dict(zip(keys, row if len(keys) > 1 else [row], strict=True))
                 try:
-                    given = member() if isinstance(member, functools.partial) else member
-                    test(*(given if type(given) is tuple else (given,)), **fixtures)
-                except (Exception, pytest.fail.Exception) as error:
-                    told = AssertionError(f"{name}: {type(error).__name__}: {error}")
-                    failed.append(told.with_traceback(error.__traceback__))
-            if failed:
-                raise ExceptionGroup(f"{len(failed)} of {len(parts[part])} fail", failed)
+                    test(*args, **fixtures, **values)
+                except (Exception, pytest.fail.Exception) as error:  # noqa: BLE001 - told below, with all others
+                    error.add_note(f"row {at}: {_label(ids, at, row) or values}")
+                    failures.append(error)
+            if failures:
+                raise BaseExceptionGroup(f"{len(failures)} of {len(table)} rows", failures)
 
-        own = list(inspect.signature(test).parameters.values())[count:]
-        part = [inspect.Parameter("part", inspect.Parameter.POSITIONAL_OR_KEYWORD)] if later else []
-        checked.__signature__ = inspect.Signature([*part, *own])  # type: ignore[attr-defined]
-        del checked.__wrapped__
-        if later:
-            return pytest.mark.parametrize("part", ["few", pytest.param("rest", marks=pytest.mark.slow)])(checked)
-        return checked
+        given = inspect.signature(test)
+        rest = [one for key, one in given.parameters.items() if key not in keys]
+        every_row.__signature__ = given.replace(parameters=rest)  # type: ignore[attr-defined]
+        return every_row
 
-    return decorated
+    return together
 
 
-def _named(members: Members) -> dict[str, Any]:
-    return dict(members) if isinstance(members, Mapping) else {str(one): one for one in members}
+def _label(ids: Any, at: int, row: Any) -> str:
+    return "" if ids is None else str(ids(row) if callable(ids) else list(ids)[at])
