@@ -29,7 +29,7 @@ from crankwork.formula.expression import (
     text,
 )
 from crankwork.quantities import LANGUAGES
-from each import failing
+from rules import failing
 
 Formulas = dict[str, Formula]
 Recorded = Callable[..., Any]
