@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import pytest
@@ -42,3 +42,14 @@ def for_each(names: str | Sequence[str], rows: Iterable[Any], ids: Any = None) -
 
 def _label(ids: Any, at: int, row: Any) -> str:
     return "" if ids is None else str(ids(row) if callable(ids) else list(ids)[at])
+
+
+def failing(members: Mapping[str, Any], check: Callable[[Any], None]) -> dict[str, str]:
+    """Return what a check says of each member that it fails for, by name."""
+    found: dict[str, str] = {}
+    for name, one in members.items():
+        try:
+            check(one)
+        except (Exception, pytest.fail.Exception) as error:  # noqa: BLE001 - told by name
+            found[name] = f"{type(error).__name__}: {error}"
+    return found
