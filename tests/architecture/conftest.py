@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import ast
-import importlib
-import pkgutil
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-
-import crankwork
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "src" / "crankwork"
@@ -35,13 +31,3 @@ def modules() -> list[Module]:
     """Every file of the package."""
     texts = {path.relative_to(PACKAGE).as_posix(): path.read_text("utf-8") for path in sorted(PACKAGE.rglob("*.py"))}
     return [Module(path, text, ast.parse(text)) for path, text in texts.items()]
-
-
-@pytest.fixture(scope="session")
-def imported() -> list[str]:
-    """The names of all modules of the package, imported, so that every formula is registered."""
-    names = [module.name for module in pkgutil.walk_packages(crankwork.__path__, "crankwork.")]
-    for name in names:
-        if not name.endswith("__main__"):
-            importlib.import_module(name)
-    return names

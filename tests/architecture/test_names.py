@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import importlib
 
-import pytest
-
 import crankwork
+from each import for_each
 
 
-@pytest.mark.parametrize("name", crankwork.__all__)
+@for_each("name", crankwork.__all__)
 def test_a_public_name_is_that_of_its_room(name):
     found, home = getattr(crankwork, name), crankwork._HOMES[name]
     assert found is getattr(importlib.import_module(f"crankwork.{home}"), name)

@@ -8,10 +8,9 @@ import tomllib
 import unicodedata
 from pathlib import Path
 
-import pytest
-
 import crankwork
 from crankwork.locale import LANGUAGES, say, texts
+from each import for_each
 
 FOLDER = Path(crankwork.__file__).parent / "locale"
 ROOMS = sorted({path.stem for path in FOLDER.glob("*/*.toml")})
@@ -23,19 +22,15 @@ def placeholders(words: str) -> set[tuple[str, str | None]]:
     return {(field, form) for _, field, form, _ in string.Formatter().parse(words) if field is not None}
 
 
-@pytest.mark.parametrize("room", ROOMS)
-def test_a_room_has_the_same_texts_in_the_same_order_in_every_language(room):
+@for_each("room", ROOMS)
+def test_a_room_is_toml_with_the_same_texts_in_the_same_order_in_every_language(room):
     names = [list(texts(room, language)) for language in LANGUAGES]
     assert names[0] == names[1] == names[2]
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("room", ROOMS)
-def test_a_room_is_toml_and_nothing_in_it_is_overlooked(room, language):
-    written = (FOLDER / language / f"{room}.toml").read_text(encoding="utf-8")
-    assert tomllib.loads(written) == texts(room, language)
-    strange = [line for line in written.splitlines() if line and line[0] != "#" and not line.endswith('"')]
-    assert strange == []
+    for language in LANGUAGES:
+        written = (FOLDER / language / f"{room}.toml").read_text(encoding="utf-8")
+        assert tomllib.loads(written) == texts(room, language), language
+        strange = [line for line in written.splitlines() if line and line[0] != "#" and not line.endswith('"')]
+        assert strange == [], language
 
 
 def test_what_is_put_in_is_the_same_in_every_language():

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import get_args
 
 import click
-import pytest
 
 import crankwork
 from crankwork.analysis.results import Notice
@@ -27,6 +26,7 @@ from crankwork.quantities import QUANTITIES, SUBJECTS
 from crankwork.report.notices import notice_text
 from crankwork.study.study_file import STUDY_FILE
 from crankwork.units import UNITS
+from each import for_each
 
 PACKAGE = Path(crankwork.__file__).parent
 FILES = *machine_file.FILES, STUDY_FILE
@@ -146,9 +146,8 @@ def said_keys() -> set[str]:
     return found - set(QUANTITIES)
 
 
-@pytest.mark.parametrize("room", ROOMS)
-def test_every_text_is_used(room):
-    assert [name for name in texts(room, "en") if not is_used(room, name)] == []
+def test_every_text_is_used():
+    assert [(room, name) for room in ROOMS for name in texts(room, "en") if not is_used(room, name)] == []
 
 
 def test_every_key_that_the_source_spells_has_its_text():
@@ -183,7 +182,7 @@ def test_every_command_option_and_stand_in_of_the_help_has_its_text():
     assert texts_of_help() - {"columns.value"} == set(texts("help", "en"))
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@for_each("language", LANGUAGES)
 def test_every_notice_can_be_told(language):
     for code in texts("notices", "en"):
         values: dict[str, float | str] = dict.fromkeys(re.findall(r"\{(\w+)\}", say(f"notices.{code}", "en")), 1.0)
