@@ -10,24 +10,11 @@ from each import for_each
 pytestmark = pytest.mark.elsewhere
 
 FILE = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-C = ["180 mm", "0 mm"]
-[crank]
-pivot = "O"
-pin = "A"
-radius = "50 mm"
-speed = "1500 rpm"
-MASS
-[links.coupler]
-joins = ["A", "B"]
-length = "200 mm"
-[links.rocker]
-joins = ["C", "B"]
-length = "150 mm"
-OTHER
-[method]
-weights = WEIGHTS
+fixed_points = { O = ["0 mm", "0 mm"], C = ["180 mm", "0 mm"] }
+crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "1500 rpm"MASS }
+links.coupler = { joins = ["A", "B"], length = "200 mm" }
+links.rocker = { joins = ["C", "B"], length = "150 mm"OTHER }
+method.weights = WEIGHTS
 """
 
 
@@ -37,7 +24,7 @@ def analysed(mass, other="", *, weights=False):
     return crankwork.analyse(crankwork.read_machine(text))
 
 
-OWN = 'mass = "2 kg"\ncentre = ["20 mm", "0 mm"]'
+OWN = ', mass = "2 kg", centre = ["20 mm", "0 mm"]'
 W = 1500 * math.pi / 30
 
 
@@ -62,20 +49,20 @@ def test_its_weight_turns_it():
 
 
 def test_its_inertia_is_about_its_axis():
-    whole = OWN + '\ninertia = "0.003 kg*m2"'
+    whole = OWN + ', inertia = "0.003 kg*m2"'
     assert analysed(whole).value("reduced_inertia", 0.0) == pytest.approx(0.003, rel=1e-14)
-    accelerated = analysed(whole + '\nangular_acceleration = "40 rad/s2"')
+    accelerated = analysed(whole + ', angular_acceleration = "40 rad/s2"')
     assert accelerated.value("balancing_torque", 10.0) == pytest.approx(0.12, rel=1e-12)
     assert not accelerated.unmet
     # without a mass it is what it was: of all that turns, and no body
-    alone = analysed('inertia = "0.003 kg*m2"', 'mass = "1 kg"\ncentre = "B"')
+    alone = analysed(', inertia = "0.003 kg*m2"', ', mass = "1 kg", centre = "B"')
     assert alone.machine.drive.inertia == 0.003
     assert [one.link for one in alone.machine.mechanism.bodies] == ["rocker"]
 
 
 def test_its_force_joins_those_of_the_linkage():
-    rocker = 'mass = "1 kg"\ncentre = "B"'
-    alone, both = analysed('inertia = "1e-3 kg*m2"', rocker), analysed(OWN, rocker)
+    rocker = ', mass = "1 kg", centre = "B"'
+    alone, both = analysed(', inertia = "1e-3 kg*m2"', rocker), analysed(OWN, rocker)
     for degrees in (15.0, 140.0):
         more = both.value("joint_force_x.O", degrees) - alone.value("joint_force_x.O", degrees)
         assert more == pytest.approx(-2 * 0.02 * W**2 * math.cos(math.radians(degrees)), rel=1e-9)
@@ -87,8 +74,8 @@ def test_its_force_joins_those_of_the_linkage():
 @for_each(
     ("mass", "key", "advice"),
     [
-        (OWN + '\ninertia = "1e-4 kg*m2"', "crank.inertia", "leave it out"),
-        ('mass = "2 kg"\ncentre = "Z"', "crank.centre", "O, A"),
+        (OWN + ', inertia = "1e-4 kg*m2"', "crank.inertia", "leave it out"),
+        (', mass = "2 kg", centre = "Z"', "crank.centre", "O, A"),
     ],
 )
 def test_what_cannot_be_is_told(mass, key, advice):

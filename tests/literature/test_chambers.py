@@ -20,22 +20,12 @@ def at(machine, *degrees):
 
 
 GEAR = """
-    [fixed_points]
-    O = ["0 mm", "0 mm"]
-    [crank]
-    pivot = "O"
-    pin = "A"
-    radius = "{radius}"
-    speed = "{speed}"
-    start = "180 deg"
-    [links]
-    rod = {{ joins = ["A", "B"], length = "{length}" }}
-    [guides]
-    bed = {{ through = "O" }}
-    [sliders]
-    piston = {{ guide = "bed", pin = "B"{mass} }}
-    [branch]
-    B = -1
+    fixed_points.O = ["0 mm", "0 mm"]
+    crank = {{ pivot = "O", pin = "A", radius = "{radius}", speed = "{speed}", start = "180 deg" }}
+    links.rod = {{ joins = ["A", "B"], length = "{length}" }}
+    guides.bed = {{ through = "O" }}
+    sliders.piston = {{ guide = "bed", pin = "B"{mass} }}
+    branch.B = -1
 """
 
 
@@ -48,13 +38,14 @@ class TestRossD90:
     """
 
     REST = """
-        clearance_volume = "{hot} cm3"
-        temperature = "923 K"
-        [charges.air]
-        chambers = ["hot", "cold"]
-        mean_pressure = "200 kPa"
-        gas_constant = "287 J/(kg*K)"
-        dead_volumes = [{{ volume = "28.396768708 cm3", temperature = "923 K" }},
+        chambers.cold = {{ slider = "cold_{piece}", bore = "55.9 mm", clearance_volume = "{cold} cm3",\
+            temperature = "300 K" }}
+        chambers.hot = {{ slider = "hot_{piece}", bore = "55.9 mm", clearance_volume = "{hot} cm3",\
+            temperature = "923 K" }}
+        charges.air.chambers = ["hot", "cold"]
+        charges.air.mean_pressure = "200 kPa"
+        charges.air.gas_constant = "287 J/(kg*K)"
+        charges.air.dead_volumes = [{{ volume = "28.396768708 cm3", temperature = "923 K" }},
             {{ volume = "35.9737401528 cm3", temperature = "554.34603921 K" }},
             {{ volume = "33.0228238704 cm3", temperature = "300 K" }}]
     """
@@ -64,33 +55,18 @@ class TestRossD90:
         bore, swept, phase = 0.0559, 61.0451332132e-6, math.radians(95.5898963542)
         radius = 2e3 * swept / (math.pi * bore**2)
         machine = crankwork.read_machine(f"""
-            [fixed_points]
-            O = ["0 mm", "0 mm"]
-            [crank]
-            pivot = "O"
-            pin = "C"
-            radius = "{radius!r} mm"
-            speed = "50 Hz"
-            points = {{ H = ["{radius * math.cos(phase)!r} mm", "{radius * math.sin(phase)!r} mm"] }}
-            [guides]
-            cold_bore = {{ through = "O" }}
-            cold_slot = {{ link = "cold_yoke", angle = "90 deg" }}
-            hot_bore = {{ through = "O" }}
-            hot_slot = {{ link = "hot_yoke", angle = "90 deg" }}
-            [sliders]
-            cold_yoke = {{ guide = "cold_bore" }}
-            cold_block = {{ pin = "C", guide = "cold_slot" }}
-            hot_yoke = {{ guide = "hot_bore" }}
-            hot_block = {{ pin = "H", guide = "hot_slot" }}
-            [chambers.cold]
-            slider = "cold_yoke"
-            bore = "55.9 mm"
-            clearance_volume = "8 cm3"
-            temperature = "300 K"
-            [chambers.hot]
-            slider = "hot_yoke"
-            bore = "55.9 mm"
-            {self.REST.format(hot=10)}
+            fixed_points.O = ["0 mm", "0 mm"]
+            crank = {{ pivot = "O", pin = "C", radius = "{radius!r} mm", speed = "50 Hz",\
+                points.H = ["{radius * math.cos(phase)!r} mm", "{radius * math.sin(phase)!r} mm"] }}
+            guides.cold_bore.through = "O"
+            guides.hot_bore.through = "O"
+            guides.cold_slot = {{ link = "cold_yoke", angle = "90 deg" }}
+            guides.hot_slot = {{ link = "hot_yoke", angle = "90 deg" }}
+            sliders.cold_yoke.guide = "cold_bore"
+            sliders.hot_yoke.guide = "hot_bore"
+            sliders.cold_block = {{ pin = "C", guide = "cold_slot" }}
+            sliders.hot_block = {{ pin = "H", guide = "hot_slot" }}
+            {self.REST.format(piece="yoke", cold=8, hot=10)}
         """)
         results = crankwork.analyse(machine)
         assert results["gas_mass.air"] == pytest.approx(0.253308323112e-3, rel=1e-10)
@@ -108,38 +84,21 @@ class TestRossD90:
         area = math.pi * 5.59**2 / 4
         more = area * (2.28209065544 - 2.17792625716)
         machine = crankwork.read_machine(f"""
-            [fixed_points]
-            O = ["0 mm", "0 mm"]
-            [crank]
-            pivot = "O"
-            pin = "A"
-            radius = "8.5 mm"
-            speed = "50 Hz"
-            [links.yoke]
-            joins = ["A", "M"]
-            length = "35.4 mm"
-            points = {{ E = ["35.4 mm", "-35.4 mm"], C = ["35.4 mm", "35.4 mm"] }}
-            [guides]
-            middle = {{ through = "O", angle = "90 deg" }}
-            hot_bore = {{ through = ["35.4 mm", "0 mm"], angle = "90 deg" }}
-            hot_slot = {{ link = "hot_piston", angle = "90 deg" }}
-            cold_bore = {{ through = ["-35.4 mm", "0 mm"], angle = "90 deg" }}
-            cold_slot = {{ link = "cold_piston", angle = "90 deg" }}
-            [sliders]
-            shoe = {{ guide = "middle", pin = "M" }}
-            hot_piston = {{ guide = "hot_bore" }}
-            hot_end = {{ pin = "E", guide = "hot_slot" }}
-            cold_piston = {{ guide = "cold_bore" }}
-            cold_end = {{ pin = "C", guide = "cold_slot" }}
-            [chambers.cold]
-            slider = "cold_piston"
-            bore = "55.9 mm"
-            clearance_volume = "{8 + more!r} cm3"
-            temperature = "300 K"
-            [chambers.hot]
-            slider = "hot_piston"
-            bore = "55.9 mm"
-            {self.REST.format(hot=10 + more)}
+            fixed_points.O = ["0 mm", "0 mm"]
+            crank = {{ pivot = "O", pin = "A", radius = "8.5 mm", speed = "50 Hz" }}
+            links.yoke = {{ joins = ["A", "M"], length = "35.4 mm",\
+                points = {{ E = ["35.4 mm", "-35.4 mm"], C = ["35.4 mm", "35.4 mm"] }} }}
+            guides.middle = {{ through = "O", angle = "90 deg" }}
+            guides.hot_bore = {{ through = ["35.4 mm", "0 mm"], angle = "90 deg" }}
+            guides.hot_slot = {{ link = "hot_piston", angle = "90 deg" }}
+            guides.cold_bore = {{ through = ["-35.4 mm", "0 mm"], angle = "90 deg" }}
+            guides.cold_slot = {{ link = "cold_piston", angle = "90 deg" }}
+            sliders.shoe = {{ guide = "middle", pin = "M" }}
+            sliders.hot_piston.guide = "hot_bore"
+            sliders.hot_end = {{ pin = "E", guide = "hot_slot" }}
+            sliders.cold_piston.guide = "cold_bore"
+            sliders.cold_end = {{ pin = "C", guide = "cold_slot" }}
+            {self.REST.format(piece="piston", cold=8 + more, hot=10 + more)}
         """)
         results = crankwork.analyse(machine)
         assert results["swept_volume.hot"] == pytest.approx(59.2203892402e-6, rel=1e-9)
@@ -268,56 +227,37 @@ class TestBalmer9:
 
     def yoke(self, gas):
         return crankwork.read_machine(f"""
-            [fixed_points]
-            O = ["0 mm", "0 mm"]
-            [crank]
-            pivot = "O"
-            pin = "A"
-            radius = "450 mm"
-            speed = "60 rpm"
-            start = "180 deg"
-            [guides]
-            bore = {{ through = "O" }}
-            slot = {{ link = "piston", angle = "90 deg" }}
-            [sliders]
-            piston = {{ guide = "bore" }}
-            block = {{ pin = "A", guide = "slot" }}
-            [chambers.gas]
-            slider = "piston"
-            area = "100 cm2"
-            clearance_volume = "1 l"
+            fixed_points.O = ["0 mm", "0 mm"]
+            crank = {{ pivot = "O", pin = "A", radius = "450 mm", speed = "60 rpm", start = "180 deg" }}
+            guides = {{ bore = {{ through = "O" }}, slot = {{ link = "piston", angle = "90 deg" }} }}
+            sliders = {{ piston = {{ guide = "bore" }}, block = {{ pin = "A", guide = "slot" }} }}
+            chambers.gas.slider = "piston"
+            chambers.gas.area = "100 cm2"
+            chambers.gas.clearance_volume = "1 l"
             {gas}
         """)
 
     @for_each(("kelvin", "small", "large"), [(303.15, 1.0e6, 0.1e6), (909.45, 3.0e6, 0.3e6)])
     def test_the_isotherms_of_one_mass(self, kelvin, small, large):
         charge = f"""
-            temperature = "{kelvin} K"
-            [charges.air]
-            chambers = ["gas"]
-            mass = "11.5339056457 g"
-            gas_constant = "286 J/(kg*K)"
+            chambers.gas.temperature = "{kelvin} K"
+            charges.air = {{ chambers = ["gas"], mass = "11.5339056457 g", gas_constant = "286 J/(kg*K)" }}
         """
         found = at(self.yoke(charge), 0.0, 180.0)["gas_pressure.gas"] + 101325
         assert found == pytest.approx([small, large], rel=1e-11)
 
     def test_work_of_the_cycle(self):
         machine = self.yoke("""
-            pressures = "absolute"
-            ambient = "0.1 MPa"
-            [chambers.gas.points]
-            p4 = { stroke = 0.0, pressure = "3 MPa" }
-            p1 = { stroke = 1.0 }
-            p2 = { stroke = 1.0, pressure = "0.1 MPa" }
-            p3 = { stroke = 0.0, pressure = "3 MPa" }
-            [[chambers.gas.pieces]]
-            law = "polytropic"
-            points = ["p4", "p1"]
-            exponent = 1.0
-            [[chambers.gas.pieces]]
-            law = "polytropic"
-            points = ["p2", "p3"]
-            exponent = 1.0
+            chambers.gas.pressures = "absolute"
+            chambers.gas.ambient = "0.1 MPa"
+            chambers.gas.points.p4 = { stroke = 0.0, pressure = "3 MPa" }
+            chambers.gas.points.p1 = { stroke = 1.0 }
+            chambers.gas.points.p2 = { stroke = 1.0, pressure = "0.1 MPa" }
+            chambers.gas.points.p3 = { stroke = 0.0, pressure = "3 MPa" }
+            chambers.gas.pieces = [
+                { law = "polytropic", points = ["p4", "p1"], exponent = 1.0 },
+                { law = "polytropic", points = ["p2", "p3"], exponent = 1.0 },
+            ]
         """)
         results = crankwork.analyse(machine)
         assert results["indicated_work.gas"] == pytest.approx(4605.17018599, rel=1e-11)
@@ -340,19 +280,13 @@ class TestKhurmi8:
         machine = crankwork.read_machine(
             gear
             + """
-            [chambers.top]
-            slider = "piston"
-            bore = "300 mm"
-            pressure = "30 kPa"
-            [chambers.bottom]
-            slider = "piston"
-            bore = "300 mm"
-            rod_diameter = "50 mm"
-            sense = -1
-            pressure = "1.5 kPa"
-            [method]
-            weights = true
-            gravity = "9.81 m/s2"
+            chambers.top = { slider = "piston", bore = "300 mm", pressure = "30 kPa" }
+            chambers.bottom.slider = "piston"
+            chambers.bottom.bore = "300 mm"
+            chambers.bottom.rod_diameter = "50 mm"
+            chambers.bottom.sense = -1
+            chambers.bottom.pressure = "1.5 kPa"
+            method = { weights = true, gravity = "9.81 m/s2" }
         """
         )
         results = at(machine, 125.0)

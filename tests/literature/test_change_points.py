@@ -26,19 +26,11 @@ CROSSED = {
 
 
 LINKAGE = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-D = ["{ground!r} mm", "0 mm"]
-[crank]
-pivot = "O"
-pin = "A"
-radius = "{crank!r} mm"
-speed = "1 rad/s"
-[links]
-coupler = {{ joins = ["A", "B"], length = "{coupler!r} mm", points = {{ T = ["{tracer!r} mm", "0 mm"] }} }}
-rocker = {{ joins = ["D", "B"], length = "{rocker!r} mm" }}
-[branch]
-B = {branch}
+fixed_points = {{ O = ["0 mm", "0 mm"], D = ["{ground!r} mm", "0 mm"] }}
+crank = {{ pivot = "O", pin = "A", radius = "{crank!r} mm", speed = "1 rad/s" }}
+links.coupler = {{ joins = ["A", "B"], length = "{coupler!r} mm", points = {{ T = ["{tracer!r} mm", "0 mm"] }} }}
+links.rocker = {{ joins = ["D", "B"], length = "{rocker!r} mm" }}
+branch.B = {branch}
 """
 
 

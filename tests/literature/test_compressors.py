@@ -23,24 +23,13 @@ from crankwork.analysis import Results
 from each import for_each
 
 GEAR = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-[crank]
-pivot = "O"
-pin = "A"
-radius = "{radius!r} mm"
-speed = "{speed} rpm"
-start = "180 deg"
-[links]
-rod = {{ joins = ["A", "B"], length = "10 m" }}
-[guides]
-bed = {{ through = "O" }}
-[sliders]
-piston = {{ guide = "bed", pin = "B" }}
-[branch]
-B = -1
-[efficiency]
-chain = {chain}
+fixed_points.O = ["0 mm", "0 mm"]
+crank = {{ pivot = "O", pin = "A", radius = "{radius!r} mm", speed = "{speed} rpm", start = "180 deg" }}
+links.rod = {{ joins = ["A", "B"], length = "10 m" }}
+guides.bed = {{ through = "O" }}
+sliders.piston = {{ guide = "bed", pin = "B" }}
+branch.B = -1
+efficiency.chain = {chain}
 """
 
 SIDE = """
@@ -252,24 +241,17 @@ def test_a_crank_gear_has_the_valves_of_a_chamber() -> None:
     bore, stroke = of_volume(2e-3)
     found = crankwork.analyse(
         crankwork.read_machine(f"""
-        [crank]
-        stroke = "{stroke!r} mm"
-        speed = "800 rpm"
-        [rod]
-        length = "10 m"
-        [cylinder]
-        bore = "{bore!r} mm"
-        compression_ratio = 21
-        [gas]
-        cycle = "360 deg"
-        pressures = "absolute"
-        ambient = "101.3 kPa"
-        [gas.valves]
-        suction = "101.3 kPa"
-        discharge = "810.4 kPa"
-        compression_exponent = 1.25
-        temperature = "288 K"
-        gas_constant = "287 J/(kg*K)"
+        crank = {{ stroke = "{stroke!r} mm", speed = "800 rpm" }}
+        rod.length = "10 m"
+        cylinder = {{ bore = "{bore!r} mm", compression_ratio = 21 }}
+        gas.cycle = "360 deg"
+        gas.pressures = "absolute"
+        gas.ambient = "101.3 kPa"
+        gas.valves.suction = "101.3 kPa"
+        gas.valves.discharge = "810.4 kPa"
+        gas.valves.compression_exponent = 1.25
+        gas.valves.temperature = "288 K"
+        gas.valves.gas_constant = "287 J/(kg*K)"
     """)
     )
     assert found["indicated_power"] == pytest.approx(-5475.65638255, rel=1e-11)
@@ -280,19 +262,10 @@ def test_a_crank_gear_has_the_valves_of_a_chamber() -> None:
 
 
 PUMP = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-[crank]
-pivot = "O"
-pin = "C"
-radius = "{radius} mm"
-speed = "{speed} rpm"
-[guides]
-bore = {{ through = "O" }}
-slot = {{ link = "plunger", angle = "90 deg" }}
-[sliders]
-plunger = {{ guide = "bore" }}
-block = {{ pin = "C", guide = "slot" }}
+fixed_points.O = ["0 mm", "0 mm"]
+crank = {{ pivot = "O", pin = "C", radius = "{radius} mm", speed = "{speed} rpm"{turning} }}
+guides = {{ bore = {{ through = "O" }}, slot = {{ link = "plunger", angle = "90 deg" }} }}
+sliders = {{ plunger = {{ guide = "bore" }}, block = {{ pin = "C", guide = "slot" }} }}
 [chambers.water]
 slider = "plunger"
 bore = "{bore} mm"
@@ -305,14 +278,15 @@ discharge = "{high} Pa"
 density = "1000 kg/m3"
 {more}
 """
+NARROW = 'suction_pipe = { length = "5 m", diameter = "50 mm" }'
 # pressure of a metre of water
 METRE = 9810.0
 
 
-def pump(sizes: tuple[float, float, float], heads: tuple[float, float], more: str) -> Results:
+def pump(sizes: tuple[float, float, float], heads: tuple[float, float], more: str, turning: str = "") -> Results:
     """Return the results of a plunger moved as a cosine: its bore and crank radius [mm], speed [rpm], heads [m]."""
     (bore, radius, speed), (low, high) = sizes, [METRE * one for one in heads]
-    text = PUMP.format(bore=bore, radius=radius, speed=speed, low=low, high=high, more=more)
+    text = PUMP.format(bore=bore, radius=radius, speed=speed, low=low, high=high, more=more, turning=turning)
     return crankwork.analyse(crankwork.read_machine(text))
 
 
@@ -322,13 +296,7 @@ def pump(sizes: tuple[float, float, float], heads: tuple[float, float], more: st
         # p. 420: separation in the discharge pipe; the notebook cuts a head of 47.5 m to 47
         ((200.0, 400.0, 24.17), (7.5, 50.0), 'discharge_pipe = { length = "45 m", diameter = "100 mm" }', 3.0, 0.03),
         # p. 421, with all digits of the speed that is printed as 27
-        (
-            (150.0, 150.0, 26.9982331852),
-            (7.5, 50.0),
-            'suction_pipe = { length = "5 m", diameter = "50 mm" }',
-            2.0,
-            1e-8,
-        ),
+        ((150.0, 150.0, 26.9982331852), (7.5, 50.0), NARROW, 2.0, 1e-8),
         # p. 421
         ((200.0, 200.0, 30.0), (10 - 3.476, 50.0), 'suction_pipe = { length = "5 m", diameter = "100 mm" }', 2.5, 5e-4),
         # p. 422: the diameter of the pipe; a head of 0.70 m before the ratio of the areas
@@ -349,7 +317,7 @@ def test_separation_in_a_pipe(
 
 @for_each(("vapour", "told"), [(1.9, False), (2.1, True)])
 def test_separation_is_told(vapour: float, told: bool) -> None:
-    pipe = f'suction_pipe = {{ length = "5 m", diameter = "50 mm" }}\nvapour_pressure = "{vapour * METRE} Pa"'
+    pipe = f'{NARROW}\nvapour_pressure = "{vapour * METRE} Pa"'
     found = pump((150.0, 150.0, 26.9982331852), (7.5, 50.0), pipe)
     assert [one.code for one in found.notices] == ["separation"] * told
 
@@ -367,11 +335,7 @@ def test_friction_takes_two_thirds_of_its_greatest_head() -> None:
 
 def test_a_pump_that_speeds_up() -> None:
     """Half-way the plunger keeps its speed by itself, and the head is that of the radius times what the shaft gains."""
-    pipe = 'suction_pipe = { length = "5 m", diameter = "50 mm" }'
-    text = PUMP.format(bore=150.0, radius=150.0, speed=20.0, low=7.5 * METRE, high=50 * METRE, more=pipe)
-    found = crankwork.analyse(
-        crankwork.read_machine(text.replace("[guides]", 'angular_acceleration = "2 rad/s2"\n[guides]'))
-    )
+    found = pump((150.0, 150.0, 20.0), (7.5, 50.0), NARROW, ', angular_acceleration = "2 rad/s2"')
     head = 5 / 9.81 * (150 / 50) ** 2 * 0.15 * 2
     assert found.value("diagram_pressure.water", 90.0) / METRE == pytest.approx(7.5 - head, rel=1e-12)
     assert not found.unmet

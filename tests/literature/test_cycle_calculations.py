@@ -81,31 +81,20 @@ def test_diesel_cycle_of_ratio_18_and_cut_off_2() -> None:
 
 def of_file(cylinder: str, cycle: str) -> Results:
     """Return the results of a cylinder of 200 mm bore and 300 mm stroke with an ideal cycle."""
-    return crankwork.analyse(
-        crankwork.read_machine(f"""
+    text = f"""
         format = 2
-        [crank]
-        stroke = "300 mm"
-        speed = "760 rpm"
-        [rod]
-        ratio = 0.25
-        [cylinder]
-        bore = "200 mm"
-        {cylinder}
-        [cycle]
-        corners = "sharp"
-        {cycle}
-    """)
-    )
+        crank = {{ stroke = "300 mm", speed = "760 rpm" }}
+        rod.ratio = 0.25
+        cylinder = {{ bore = "200 mm", {cylinder} }}
+        cycle = {{ corners = "sharp", {cycle}, adiabatic_exponent = 1.4 }}
+    """
+    return crankwork.analyse(crankwork.read_machine(text))
 
 
 def test_rajput_3_21() -> None:
     """A Diesel cycle with cut-off at 8 per cent of the stroke, 380 cycles a minute."""
-    found = of_file("compression_ratio = 15", """kind = "ideal-diesel"
-        cut_off = 2.12
-        intake_pressure = "1 bar"
-        intake_temperature = "300 K"
-        adiabatic_exponent = 1.4""")  # fmt: skip
+    cycle = 'kind = "ideal-diesel", cut_off = 2.12, intake_pressure = "1 bar", intake_temperature = "300 K"'
+    found = of_file("compression_ratio = 15", cycle)
     assert found["state_temperature.2"] == pytest.approx(886.253081719, rel=1e-11)
     assert found["state_temperature.3"] == pytest.approx(1878.85653324, rel=1e-11)
     assert found["state_temperature.4"] == pytest.approx(858.996630003, rel=1e-11)
@@ -121,12 +110,9 @@ def test_rajput_3_21() -> None:
 def test_rajput_3_23() -> None:
     """A dual cycle by its volumes, greatest pressure, and cut-off at 5 per cent of the stroke."""
     ratio = 1 + 0.0053 / 0.00035
-    found = of_file(f"compression_ratio = {ratio!r}", f"""kind = "dual"
-        pressure_ratio = {65 / (0.9 * ratio**1.4)!r}
-        cut_off = {1 + 0.05 * (ratio - 1)!r}
-        intake_pressure = "0.9 bar"
-        intake_temperature = "353 K"
-        adiabatic_exponent = 1.4""")  # fmt: skip
+    cycle = f'kind = "dual", pressure_ratio = {65 / (0.9 * ratio**1.4)!r}, cut_off = {1 + 0.05 * (ratio - 1)!r}'
+    intake = 'intake_pressure = "0.9 bar", intake_temperature = "353 K"'
+    found = of_file(f"compression_ratio = {ratio!r}", f"{cycle}, {intake}")
     assert found["thermal_efficiency"] == pytest.approx(0.637576292043, rel=1e-11)
     assert found["state_pressure.2"] == pytest.approx(44.1992677349e5, rel=1e-11)
     assert found["state_temperature.2"] == pytest.approx(1073.90747859, rel=1e-11)
@@ -137,11 +123,8 @@ def test_rajput_3_23() -> None:
 
 def test_mathur_2_5() -> None:
     """An Otto cycle of ratio 8 from 100 degrees C, taken as 373 K, to 50 bar."""
-    found = of_file("compression_ratio = 8", f"""kind = "otto"
-        pressure_ratio = {50 / 8**1.4!r}
-        intake_pressure = "1 bar"
-        intake_temperature = "373 K"
-        adiabatic_exponent = 1.4""")  # fmt: skip
+    cycle = f'kind = "otto", pressure_ratio = {50 / 8**1.4!r}, intake_pressure = "1 bar", intake_temperature = "373 K"'
+    found = of_file("compression_ratio = 8", cycle)
     celsius = [found[f"state_temperature.{at}"] - 273 for at in (2, 3, 4)]
     assert celsius == pytest.approx([583.928972828, 2058.25, 741.735500342], rel=1e-11)
     assert found["state_pressure.2"] == pytest.approx(18.37917368e5, rel=1e-9)

@@ -31,18 +31,12 @@ class TestWindow:
 
     length = math.sqrt(5 - 4 * math.cos(math.radians(30)))
     results = analysed(f"""
-        [fixed_points]
-        A = ["0 m", "0 m"]
-        O = ["2 m", "0 m"]
-        [driver]
-        cylinder = ["A", "B"]
-        start = "{length!r} m"
-        law = [{{ kind = "constant", to = "1.6 m", speed = "0.5 m/s" }}]
-        [links.window]
-        joins = ["O", "B"]
-        length = "1 m"
-        [positions]
-        B = ["1.13 m", "0.5 m"]
+        fixed_points = {{ A = ["0 m", "0 m"], O = ["2 m", "0 m"] }}
+        driver.cylinder = ["A", "B"]
+        driver.start = "{length!r} m"
+        driver.law = [{{ kind = "constant", to = "1.6 m", speed = "0.5 m/s" }}]
+        links.window = {{ joins = ["O", "B"], length = "1 m" }}
+        positions.B = ["1.13 m", "0.5 m"]
     """)
 
     def test_the_window_turns_as_printed(self) -> None:
@@ -62,44 +56,20 @@ def _lift(d: float) -> crankwork.Results:
     """Return the lift table with its load at a distance from one end: arms of 1.4 m, crossed in their middle."""
     length = math.sqrt(0.7**2 + 3.2**2 - 2 * 0.7 * 3.2 * 0.5)
     return analysed(f"""
-        [fixed_points]
-        E = ["0 m", "0 m"]
-        H = ["3.2 m", "0 m"]
-        [driver]
-        cylinder = ["H", "D"]
-        start = "{length!r} m"
-        law = [{{ kind = "constant", to = "{length + 1e-3!r} m", over = "1 min" }}]
-        [links.arm]
-        joins = ["E", "D"]
-        length = "0.7 m"
-        points = {{ C = ["1.4 m", "0 m"] }}
-        [links.cross]
-        joins = ["D", "F"]
-        length = "0.7 m"
-        points = {{ G = ["-0.7 m", "0 m"] }}
-        [guides.base]
-        through = "E"
-        [sliders.roller]
-        pin = "F"
-        guide = "base"
-        [links.table]
-        joins = ["C", "P"]
-        length = "{d} m"
-        [guides.top]
-        through = ["0 m", "0 m"]
-        link = "table"
-        [sliders.upper]
-        pin = "G"
-        guide = "top"
-        [branch]
-        table = 1
-        [positions]
-        D = ["0.35 m", "0.61 m"]
-        F = ["0.7 m", "0 m"]
-        [[loads]]
-        kind = "force"
-        point = "P"
-        y = "-4905 N"
+        fixed_points = {{ E = ["0 m", "0 m"], H = ["3.2 m", "0 m"] }}
+        driver.cylinder = ["H", "D"]
+        driver.start = "{length!r} m"
+        driver.law = [{{ kind = "constant", to = "{length + 1e-3!r} m", over = "1 min" }}]
+        links.arm = {{ joins = ["E", "D"], length = "0.7 m", points = {{ C = ["1.4 m", "0 m"] }} }}
+        links.cross = {{ joins = ["D", "F"], length = "0.7 m", points = {{ G = ["-0.7 m", "0 m"] }} }}
+        guides.base.through = "E"
+        sliders.roller = {{ pin = "F", guide = "base" }}
+        links.table = {{ joins = ["C", "P"], length = "{d} m" }}
+        guides.top = {{ through = ["0 m", "0 m"], link = "table" }}
+        sliders.upper = {{ pin = "G", guide = "top" }}
+        branch.table = 1
+        positions = {{ D = ["0.35 m", "0.61 m"], F = ["0.7 m", "0 m"] }}
+        loads = [{{ kind = "force", point = "P", y = "-4905 N" }}]
     """)
 
 
@@ -119,23 +89,15 @@ def test_esposito_6_5_levers(cylinder_at: float, load_at: float, sense: int, exp
     # the cylinder stands upright below the lever, or above it where that is of the first class
     foot = -0.3 if cylinder_at > 0 else 0.3
     results = analysed(f"""
-        [fixed_points]
-        O = ["0 m", "0 m"]
-        A = ["{cylinder_at * INCH} m", "{foot} m"]
-        [driver]
-        cylinder = ["A", "B"]
-        start = "0.3 m"
-        law = [{{ kind = "constant", to = "0.301 m", over = "1 min" }}]
-        [links.lever]
-        joins = ["O", "B"]
-        length = "{abs(cylinder_at) * INCH} m"
-        points = {{ L = ["{load_at * INCH * math.copysign(1, cylinder_at)} m", "0 m"] }}
-        [positions]
-        B = ["{cylinder_at * INCH} m", "0 m"]
-        [[loads]]
-        kind = "force"
-        point = "L"
-        y = "{-1000 * LBF} N"
+        fixed_points = {{ O = ["0 m", "0 m"], A = ["{cylinder_at * INCH} m", "{foot} m"] }}
+        driver.cylinder = ["A", "B"]
+        driver.start = "0.3 m"
+        driver.law = [{{ kind = "constant", to = "0.301 m", over = "1 min" }}]
+        links.lever.joins = ["O", "B"]
+        links.lever.length = "{abs(cylinder_at) * INCH} m"
+        links.lever.points = {{ L = ["{load_at * INCH * math.copysign(1, cylinder_at)} m", "0 m"] }}
+        positions.B = ["{cylinder_at * INCH} m", "0 m"]
+        loads = [{{ kind = "force", point = "L", y = "{-1000 * LBF} N" }}]
     """)
     pushed = results.value("driver_force", at=0.0) / LBF
     assert pushed == pytest.approx(expected, rel=1e-9)
@@ -147,26 +109,17 @@ def test_esposito_6_5_levers(cylinder_at: float, load_at: float, sense: int, exp
 )
 def test_peak_factors_of_a_driven_slider(kind: str, velocity: float, acceleration: float, tolerance: float) -> None:
     results = analysed(f"""
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [driver]
-        slider = "piston"
-        law = [
+        fixed_points.O = ["0 mm", "0 mm"]
+        driver.slider = "piston"
+        driver.law = [
             {{ kind = "{kind}", to = "250 mm", over = "0.4 s" }},
             {{ kind = "dwell", over = "0.2 s" }},
             {{ kind = "{kind}", to = "150 mm", over = "0.8 s" }},
         ]
-        [guides.line]
-        through = "O"
-        [sliders.piston]
-        pin = "B"
-        guide = "line"
-        [links.rod]
-        joins = ["B", "A"]
-        length = "180 mm"
-        [links.arm]
-        joins = ["O", "A"]
-        length = "120 mm"
+        guides.line.through = "O"
+        sliders.piston = {{ pin = "B", guide = "line" }}
+        links.rod = {{ joins = ["B", "A"], length = "180 mm" }}
+        links.arm = {{ joins = ["O", "A"], length = "120 mm" }}
     """)
     summary = results.summary
     assert summary["driver_velocity_max"] == pytest.approx(velocity * 0.1 / 0.4, rel=tolerance)

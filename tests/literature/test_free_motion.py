@@ -21,23 +21,17 @@ PERIODS = {
 }  # fmt: skip
 
 PENDULUM = """
-[fixed_points]
-O = ["0 m", "0 m"]
-[crank]
-pivot = "O"
-pin = "P"
-radius = "1 m"
-speed = "60 rpm"
-mass = "1 kg"
-inertia = "1 kg*m2"
-centre = ["1 m", "0 m"]
-start = "{start} deg"
-[method]
-weights = true
-gravity = "9.81 m/s2"
-[transient]
-time = "{time} s"
-step = "{step} s"
+fixed_points.O = ["0 m", "0 m"]
+crank.pivot = "O"
+crank.pin = "P"
+crank.radius = "1 m"
+crank.speed = "60 rpm"
+crank.mass = "1 kg"
+crank.inertia = "1 kg*m2"
+crank.centre = ["1 m", "0 m"]
+crank.start = "{start} deg"
+method = {{ weights = true, gravity = "9.81 m/s2" }}
+transient = {{ time = "{time} s", step = "{step} s" }}
 """
 
 
@@ -135,38 +129,27 @@ def test_the_n_four_bar_over_ten_seconds(count: int) -> None:
 
 # two links of 10 kg and 0.375 m between wheels on a floor and a collar of 7 kg: as a trammel, both links in one
 COLLAR = """
-[fixed_points]
-O = ["0 m", "0 m"]
-[crank]
-pivot = "O"
-pin = "M"
-radius = "0.1875 m"
-start = "0 deg"
-speed = "60 rpm"
-[links]
-link = { joins = ["M", "B"], length = "0.1875 m", mass = "20 kg", inertia = "0.234375 kg*m2", centre = "M" }
-[guides]
-rod = { angle = "90 deg" }
-[sliders]
-collar = { guide = "rod", pin = "B", mass = "7 kg" }
-[positions]
-B = ["0 m", "0.01 m"]
-[method]
-weights = true
-gravity = "9.81 m/s2"
+fixed_points.O = ["0 m", "0 m"]
+crank = { pivot = "O", pin = "M", radius = "0.1875 m", start = "0 deg", speed = "60 rpm" }
+links.link = { joins = ["M", "B"], length = "0.1875 m", mass = "20 kg", inertia = "0.234375 kg*m2", centre = "M" }
+guides.rod = { angle = "90 deg" }
+sliders.collar = { guide = "rod", pin = "B", mass = "7 kg" }
+positions.B = ["0 m", "0.01 m"]
+method = { weights = true, gravity = "9.81 m/s2" }
 """
 
 
 def test_a_collar_falls_onto_a_spring() -> None:
     """Meriam and Kraige, 6/11: 2.54 m/s where the links are level, the spring of 30 kN/m gives way by 60.1 mm."""
-    fallen = let_go(COLLAR + '[transient]\ntime = "2 s"\nstart = "45 deg"\nstops = ["0 deg", "90 deg"]\nuntil = "rest"')
+    fallen = let_go(
+        COLLAR + 'transient = { time = "2 s", start = "45 deg", stops = ["0 deg", "90 deg"], until = "rest" }'
+    )
     (met,) = events(fallen, "stop")
     speed = 0.375 * abs(met["crank_speed"])
     assert speed == pytest.approx(2.54, rel=2e-3)
     assert speed == pytest.approx(2.54390445667142, rel=1e-12)
-    spring = '[[loads]]\nkind = "spring"\nslider = "collar"\nstiffness = "30000 N/m"\n'
-    sinking = COLLAR.replace("[method]", f"{spring}[method]")
-    sunk = let_go(sinking + f'[transient]\ntime = "0.1 s"\nspeed = "{met["crank_speed"]!r} rad/s"')
+    sinking = COLLAR + 'loads = [{ kind = "spring", slider = "collar", stiffness = "30000 N/m" }]\n'
+    sunk = let_go(sinking + f'transient = {{ time = "0.1 s", speed = "{met["crank_speed"]!r} rad/s" }}')
     way = 0.375 * math.sin(-events(sunk, "turns_back")[0]["crank_angle"])
     assert way == pytest.approx(0.0601, rel=2e-3)
     assert way == pytest.approx(0.06013928424680485, rel=1e-11)
@@ -175,28 +158,12 @@ def test_a_collar_falls_onto_a_spring() -> None:
 def test_a_damper_on_a_yoke_slows_a_wheel_down() -> None:
     """J w' = -d (r sin phi)^2 w, so that w = w0 - d r^2 / J (phi / 2 - sin 2 phi / 4)."""
     results = let_go("""
-        [fixed_points]
-        O = ["0 m", "0 m"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "0.1 m"
-        speed = "60 rpm"
-        inertia = "2 kg*m2"
-        [guides]
-        slot = { link = "yoke", angle = "90 deg" }
-        bed = { through = "O", angle = "0 deg" }
-        [sliders]
-        block = { guide = "slot", pin = "A" }
-        yoke = { guide = "bed" }
-        [[loads]]
-        kind = "damper"
-        slider = "yoke"
-        damping = "60 N*s/m"
-        [transient]
-        speed = "10 rad/s"
-        time = "3 s"
-        step = "0.1 s"
+        fixed_points.O = ["0 m", "0 m"]
+        crank = { pivot = "O", pin = "A", radius = "0.1 m", speed = "60 rpm", inertia = "2 kg*m2" }
+        guides = { slot = { link = "yoke", angle = "90 deg" }, bed = { through = "O", angle = "0 deg" } }
+        sliders = { block = { guide = "slot", pin = "A" }, yoke = { guide = "bed" } }
+        loads = [{ kind = "damper", slider = "yoke", damping = "60 N*s/m" }]
+        transient = { speed = "10 rad/s", time = "3 s", step = "0.1 s" }
     """)
     columns = results.listings["transient"].columns
     angle = columns["crank_angle"]

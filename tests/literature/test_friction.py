@@ -37,32 +37,20 @@ class TestPulley:
     """
 
     file = """
-        [fixed_points]
-        O = ["0 in", "0 in"]
-        Q = ["2 in", "-10 in"]
-        [driver]
-        slider = "hand"
-        start = "0.05 in"
-        law = [
+        fixed_points = {{ O = ["0 in", "0 in"], Q = ["2 in", "-10 in"] }}
+        driver.slider = "hand"
+        driver.start = "0.05 in"
+        driver.law = [
             {{ kind = "constant", to = "-0.05 in", over = "1 s" }},
             {{ kind = "constant", to = "0.05 in", over = "1 s" }},
         ]
-        [links]
-        pulley = {{ joins = ["O", "B"], length = "2 in", points = {{ A = ["-2 in", "0 in"] }} }}
-        rope = {{ joins = ["B", "C"], length = "10 in" }}
-        [guides]
-        rail = {{ through = "Q", angle = "90 deg" }}
-        [sliders]
-        hand = {{ guide = "rail", pin = "C" }}
-        [positions]
-        B = ["2 in", "0 in"]
-        [[loads]]
-        kind = "force"
-        point = "A"
-        y = "-500 lbf"
-        [friction]
-        circle = "{circle}"
-        pins.O = {{ coefficient = 0.2, radius = "1 in" }}
+        links.pulley = {{ joins = ["O", "B"], length = "2 in", points = {{ A = ["-2 in", "0 in"] }} }}
+        links.rope = {{ joins = ["B", "C"], length = "10 in" }}
+        guides.rail = {{ through = "Q", angle = "90 deg" }}
+        sliders.hand = {{ guide = "rail", pin = "C" }}
+        positions.B = ["2 in", "0 in"]
+        loads = [{{ kind = "force", point = "A", y = "-500 lbf" }}]
+        friction = {{ circle = "{circle}", pins.O = {{ coefficient = 0.2, radius = "1 in" }} }}
     """
 
     @for_each(("circle", "rises", "held"), [("tangent", 611.11111, 409.09091), ("sine", 608.7188255, 410.6986502)])
@@ -79,35 +67,24 @@ class TestPulley:
 
 
 WEDGE = """
-    [fixed_points]
-    O = ["0 mm", "0 mm"]
-    [driver]
-    slider = "wedge"
-    start = "-10 mm"
-    law = [
+    fixed_points.O = ["0 mm", "0 mm"]
+    driver.slider = "wedge"
+    driver.start = "-10 mm"
+    driver.law = [
         {{ kind = "constant", to = "10 mm", over = "1 s" }},
         {{ kind = "constant", to = "-10 mm", over = "1 s" }},
     ]
-    [guides]
-    floor = {{ through = "O", angle = "0 deg" }}
-    wall = {{ through = "O", angle = "{wall} deg" }}
-    face = {{ link = "wedge", angle = "{face} deg" }}
-    [sliders]
-    wedge = {{ guide = "floor" }}
-    touching = {{ guide = "face", pin = "P" }}
-    block = {{ guide = "wall", pin = "P" }}
-    [positions]
-    P = ["0 mm", "0 mm"]
-    [[loads]]
-    kind = "force"
-    point = "P"
-    link = "block"
-    x = "{x!r} N"
-    y = "{y!r} N"
-    [friction.sliders]
-    wedge = {{ coefficient = {guides} }}
-    touching = {{ coefficient = {faces} }}
-    block = {{ coefficient = {guides} }}
+    guides.floor = {{ through = "O", angle = "0 deg" }}
+    guides.wall = {{ through = "O", angle = "{wall} deg" }}
+    guides.face = {{ link = "wedge", angle = "{face} deg" }}
+    sliders.wedge = {{ guide = "floor" }}
+    sliders.touching = {{ guide = "face", pin = "P" }}
+    sliders.block = {{ guide = "wall", pin = "P" }}
+    positions.P = ["0 mm", "0 mm"]
+    loads = [{{ kind = "force", point = "P", link = "block", x = "{x!r} N", y = "{y!r} N" }}]
+    friction.sliders.wedge = {{ coefficient = {guides} }}
+    friction.sliders.touching = {{ coefficient = {faces} }}
+    friction.sliders.block = {{ coefficient = {guides} }}
 """
 
 
@@ -140,25 +117,13 @@ def test_the_best_angle_of_two_sliders_that_touch_obliquely() -> None:
 def test_a_four_bar_linkage_of_70_per_cent() -> None:
     """A crank of 300 mm with 50 N m turns a rocker of 360 mm; the crank at 60 degrees to the ground of 600 mm."""
     results = analysed("""
-        [fixed_points]
-        D = ["0 mm", "0 mm"]
-        C = ["600 mm", "0 mm"]
-        [crank]
-        pivot = "D"
-        pin = "A"
-        radius = "300 mm"
-        speed = "100 rpm"
-        [links]
-        coupler = { joins = ["A", "B"], length = "360 mm" }
-        rocker = { joins = ["C", "B"], length = "360 mm" }
-        [positions]
-        B = ["500 mm", "350 mm"]
-        [[loads]]
-        kind = "torque"
-        link = "rocker"
-        torque = ["-58.14636704042652 N*m"]
-        [efficiency]
-        chain = [0.7]
+        fixed_points = { D = ["0 mm", "0 mm"], C = ["600 mm", "0 mm"] }
+        crank = { pivot = "D", pin = "A", radius = "300 mm", speed = "100 rpm" }
+        links.coupler = { joins = ["A", "B"], length = "360 mm" }
+        links.rocker = { joins = ["C", "B"], length = "360 mm" }
+        positions.B = ["500 mm", "350 mm"]
+        loads = [{ kind = "torque", link = "rocker", torque = ["-58.14636704042652 N*m"] }]
+        efficiency.chain = [0.7]
     """)
     assert abs(results.value("link_angular_velocity.rocker", at=60.0)) == pytest.approx(6.303388527506544)
     torque = abs(results.value("driving_torque", at=60.0))
@@ -177,27 +142,12 @@ class TestJammingGuide:
     """
 
     file = """
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "100 mm"
-        speed = "60 rpm"
-        [guides]
-        slot = {{ link = "yoke", angle = "90 deg" }}
-        bed = {{ through = "O", angle = "0 deg" }}
-        [sliders]
-        block = {{ guide = "slot", pin = "A" }}
-        yoke = {{ guide = "bed" }}
-        [[loads]]
-        kind = "process"
-        slider = "yoke"
-        force = ["100 N"]
-        stroke = "growing"
-        acts = "both"
-        [friction.sliders]
-        yoke = {{ coefficient = 0.6, length = "{length} mm" }}
+        fixed_points.O = ["0 mm", "0 mm"]
+        crank = {{ pivot = "O", pin = "A", radius = "100 mm", speed = "60 rpm" }}
+        guides = {{ slot = {{ link = "yoke", angle = "90 deg" }}, bed = {{ through = "O", angle = "0 deg" }} }}
+        sliders = {{ block = {{ guide = "slot", pin = "A" }}, yoke = {{ guide = "bed" }} }}
+        loads = [{{ kind = "process", slider = "yoke", force = ["100 N"], stroke = "growing", acts = "both" }}]
+        friction.sliders.yoke = {{ coefficient = 0.6, length = "{length} mm" }}
     """
 
     def test_the_push_that_moves_it(self) -> None:
@@ -244,29 +194,16 @@ class TestDeadBand:
 
     r, length, radii, f = 0.1, 0.3, {"O": 0.03, "A": 0.025, "B": 0.02}, 0.12
     results = analysed("""
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "100 mm"
-        speed = "60 rpm"
-        [links]
-        rod = { joins = ["A", "B"], length = "300 mm" }
-        [guides]
-        bed = { through = "O", angle = "0 deg" }
-        [sliders]
-        piston = { pin = "B", guide = "bed" }
-        [[loads]]
-        kind = "force"
-        point = "B"
-        link = "piston"
-        x = "-1 kN"
-        [friction]
-        circle = "sine"
-        pins.O = { coefficient = 0.12, radius = "30 mm" }
-        pins.A = { coefficient = 0.12, radius = "25 mm" }
-        pins.B = { coefficient = 0.12, radius = "20 mm" }
+        fixed_points.O = ["0 mm", "0 mm"]
+        crank = { pivot = "O", pin = "A", radius = "100 mm", speed = "60 rpm" }
+        links.rod = { joins = ["A", "B"], length = "300 mm" }
+        guides.bed = { through = "O", angle = "0 deg" }
+        sliders.piston = { pin = "B", guide = "bed" }
+        loads = [{ kind = "force", point = "B", link = "piston", x = "-1 kN" }]
+        friction.circle = "sine"
+        friction.pins.O = { coefficient = 0.12, radius = "30 mm" }
+        friction.pins.A = { coefficient = 0.12, radius = "25 mm" }
+        friction.pins.B = { coefficient = 0.12, radius = "20 mm" }
     """)
 
     def end(self, sign: int, start: float) -> float:
@@ -306,22 +243,12 @@ class TestDrags:
     """A flywheel on two bearings with a constant drag and one with the speed, and a piece pushed along its guide."""
 
     results = analysed("""
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "100 mm"
-        speed = "10 rad/s"
-        [guides]
-        slot = { link = "yoke", angle = "90 deg" }
-        bed = { through = "O", angle = "0 deg" }
-        [sliders]
-        block = { guide = "slot", pin = "A" }
-        yoke = { guide = "bed" }
-        [friction]
-        pins.O = { moment = "2 N*m", damping = "0.3 N*m*s/rad" }
-        sliders.yoke = { force = "20 N", damping = "50 N*s/m" }
+        fixed_points.O = ["0 mm", "0 mm"]
+        crank = { pivot = "O", pin = "A", radius = "100 mm", speed = "10 rad/s" }
+        guides = { slot = { link = "yoke", angle = "90 deg" }, bed = { through = "O", angle = "0 deg" } }
+        sliders = { block = { guide = "slot", pin = "A" }, yoke = { guide = "bed" } }
+        friction.pins.O = { moment = "2 N*m", damping = "0.3 N*m*s/rad" }
+        friction.sliders.yoke = { force = "20 N", damping = "50 N*s/m" }
     """)
 
     def test_torque_and_losses(self) -> None:

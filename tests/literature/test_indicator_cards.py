@@ -20,47 +20,24 @@ import pytest
 import crankwork
 
 ENGINE = """
-[crank]
-stroke = "{stroke} m"
-speed = "{speed} rpm"
-[rod]
-ratio = 0.25
-[cylinder]
-bore = "{bore} m"
-[engine]
-layout = "inline"
-cylinders = {cylinders}
-strokes = {strokes}
-{order}
-[gas]
-cycle = "{cycle} deg"
-[gas.points]
-a = {{ angle = "0 deg", pressure = "{mean!r} bar" }}
-b = {{ angle = "180 deg" }}
-c = {{ angle = "180 deg", pressure = "0 bar" }}
-d = {{ angle = "{cycle} deg", pressure = "{mean!r} bar" }}
-[[gas.pieces]]
-law = "constant"
-points = ["a", "b"]
-[[gas.pieces]]
-law = "constant"
-points = ["c", "d"]
+crank = {{ stroke = "{stroke} m", speed = "{speed} rpm" }}
+rod.ratio = 0.25
+cylinder.bore = "{bore} m"
+engine = {{ layout = "inline", cylinders = {cylinders}, strokes = {strokes}{order} }}
+gas.cycle = "{cycle} deg"
+gas.points.a = {{ angle = "0 deg", pressure = "{mean!r} bar" }}
+gas.points.b = {{ angle = "180 deg" }}
+gas.points.c = {{ angle = "180 deg", pressure = "0 bar" }}
+gas.points.d = {{ angle = "{cycle} deg", pressure = "{mean!r} bar" }}
+gas.pieces = [{{ law = "constant", points = ["a", "b"] }}, {{ law = "constant", points = ["c", "d"] }}]
 """
 
 
 def test_nag_3_4() -> None:
     """Twelve cylinders of two strokes: 5.5 cm2 over 6 cm with a spring of 147 MPa/m."""
     mean = 5.5e-4 / 0.06 * 147 * 10
-    text = ENGINE.format(
-        stroke=1.2,
-        speed=150,
-        bore=0.8,
-        cylinders=12,
-        strokes=2,
-        cycle=360,
-        mean=mean,
-        order=f"firing_order = {list(range(1, 13))}",
-    )
+    order = f", firing_order = {list(range(1, 13))}"
+    text = ENGINE.format(stroke=1.2, speed=150, bore=0.8, cylinders=12, strokes=2, cycle=360, mean=mean, order=order)
     found = crankwork.analyse(crankwork.read_machine(text))
     assert found["indicated_mean_pressure"] == pytest.approx(1.3475e6, rel=1e-12)
     assert found["engine_indicated_power"] == pytest.approx(24383785.5401, rel=1e-11)
@@ -79,41 +56,24 @@ def test_mathur_2_10() -> None:
     """The pressure doubles from 30 to 70 per cent of the compression stroke on a polytrope of 1.33."""
     at = 360 - math.degrees(math.acos(1 - 2 * 0.3))
     description = crankwork.Description("""
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "C"
-        radius = "50 mm"
-        speed = "600 rpm"
-        [guides]
-        bore = { through = "O" }
-        slot = { link = "piston", angle = "90 deg" }
-        [sliders]
-        piston = { guide = "bore" }
-        block = { pin = "C", guide = "slot" }
-        [chambers.gas]
-        slider = "piston"
-        bore = "80 mm"
-        sense = -1
-        compression_ratio = 8.0
-        pressures = "absolute"
-        ambient = "1 bar"
-        [chambers.gas.points]
-        expanded = { angle = "0 deg" }
-        started = { angle = "180 deg" }
-        a = { stroke = 0.7, pressure = "1.33 bar" }
-        compressed = { angle = "360 deg" }
-        [[chambers.gas.pieces]]
-        law = "polytropic"
-        exponent = 1.33
-        reference = "a"
-        points = ["expanded", "started"]
-        [[chambers.gas.pieces]]
-        law = "polytropic"
-        exponent = 1.33
-        reference = "a"
-        points = ["started", "compressed"]
+        fixed_points.O = ["0 mm", "0 mm"]
+        crank = { pivot = "O", pin = "C", radius = "50 mm", speed = "600 rpm" }
+        guides = { bore = { through = "O" }, slot = { link = "piston", angle = "90 deg" } }
+        sliders = { piston = { guide = "bore" }, block = { pin = "C", guide = "slot" } }
+        chambers.gas.slider = "piston"
+        chambers.gas.bore = "80 mm"
+        chambers.gas.sense = -1
+        chambers.gas.compression_ratio = 8.0
+        chambers.gas.pressures = "absolute"
+        chambers.gas.ambient = "1 bar"
+        chambers.gas.points.expanded = { angle = "0 deg" }
+        chambers.gas.points.started = { angle = "180 deg" }
+        chambers.gas.points.a = { stroke = 0.7, pressure = "1.33 bar" }
+        chambers.gas.points.compressed = { angle = "360 deg" }
+        chambers.gas.pieces = [
+            { law = "polytropic", exponent = 1.33, reference = "a", points = ["expanded", "started"] },
+            { law = "polytropic", exponent = 1.33, reference = "a", points = ["started", "compressed"] },
+        ]
     """)
     wanted = f"diagram_pressure.gas@{at!r}deg = 2.66 bar"
     found = crankwork.solve(description, wanted, "chambers.gas.compression_ratio", limits=("2", "20"), steps=10)

@@ -39,26 +39,15 @@ class TestExample7:
     """Example 15.7, page 533: piston effort and what follows of it in a horizontal steam engine, 60 degrees."""
 
     machine = crankwork.read_machine("""
-        [crank]
-        radius = "300 mm"
-        speed = "250 rpm"
-        [rod]
-        length = "1.2 m"
-        [piston]
-        mass = "250 kg"
-        [cylinder]
-        bore = "0.5 m"
-        clearance_volume = "1 l"
-        [gas]
-        cycle = "360 deg"
-        [gas.points]
-        start = { angle = "0 deg", pressure = "0.35 MPa" }   # the difference between the two sides
-        end = { angle = "360 deg" }
-        [[gas.pieces]]
-        law = "constant"
-        points = ["start", "end"]
-        [method]
-        kinematics = "textbook"
+        crank = { radius = "300 mm", speed = "250 rpm" }
+        rod.length = "1.2 m"
+        piston.mass = "250 kg"
+        cylinder = { bore = "0.5 m", clearance_volume = "1 l" }
+        gas.cycle = "360 deg"
+        # the difference between the two sides
+        gas.points = { start = { angle = "0 deg", pressure = "0.35 MPa" }, end = { angle = "360 deg" } }
+        gas.pieces = [{ law = "constant", points = ["start", "end"] }]
+        method.kinematics = "textbook"
     """)
 
     @for_each(
@@ -91,30 +80,15 @@ class TestExample8:
     """
 
     machine = crankwork.read_machine("""
-        [crank]
-        stroke = "450 mm"
-        speed = "200 rpm"
-        [rod]
-        length = "1.2 m"
-        [piston]
-        mass = "225 kg"
-        [cylinder]
-        bore = "0.3 m"
-        clearance_volume = "1 l"
-        piston_rod_diameter = "50 mm"
-        [gas]
-        cycle = "360 deg"
-        back_pressure = "1.5 kPa"
-        [gas.points]
-        start = { angle = "0 deg", pressure = "30 kPa" }
-        end = { angle = "360 deg" }
-        [[gas.pieces]]
-        law = "constant"
-        points = ["start", "end"]
-        [method]
-        kinematics = "textbook"
-        weights = true
-        gravity = "9.81 m/s2"
+        crank = { stroke = "450 mm", speed = "200 rpm" }
+        rod.length = "1.2 m"
+        piston.mass = "225 kg"
+        cylinder = { bore = "0.3 m", clearance_volume = "1 l", piston_rod_diameter = "50 mm" }
+        gas.cycle = "360 deg"
+        gas.back_pressure = "1.5 kPa"
+        gas.points = { start = { angle = "0 deg", pressure = "30 kPa" }, end = { angle = "360 deg" } }
+        gas.pieces = [{ law = "constant", points = ["start", "end"] }]
+        method = { kinematics = "textbook", weights = true, gravity = "9.81 m/s2" }
     """)
 
     def test_the_printed_turning_moment_comes_out(self) -> None:
@@ -203,40 +177,18 @@ class TestExample20:
     """
 
     machine = crankwork.read_machine("""
-        [crank]
-        radius = "300 mm"
-        speed = "125 rpm"
-        [rod]
-        length = "1.5 m"
-        mass = "250 kg"
-        centre_of_mass = "500 mm"
-        radius_of_gyration = "650 mm"
-        [piston]
-        mass = "300 kg"
-        [cylinder]
-        bore = "1 m"
-        inclination = "-90 deg"
-        [method]
-        kinematics = "textbook"
-        gravity = "9.81 m/s2"
+        crank = { radius = "300 mm", speed = "125 rpm" }
+        rod = { length = "1.5 m", mass = "250 kg", centre_of_mass = "500 mm", radius_of_gyration = "650 mm" }
+        piston.mass = "300 kg"
+        cylinder = { bore = "1 m", inclination = "-90 deg" }
+        method = { kinematics = "textbook", gravity = "9.81 m/s2" }
     """)
     with_weights = crankwork.read_machine("""
-        [crank]
-        radius = "300 mm"
-        speed = "125 rpm"
-        [rod]
-        length = "1.5 m"
-        mass = "250 kg"
-        centre_of_mass = "500 mm"
-        [piston]
-        mass = "300 kg"
-        [cylinder]
-        bore = "1 m"
-        inclination = "-90 deg"
-        [method]
-        kinematics = "textbook"
-        weights = true
-        gravity = "9.81 m/s2"
+        crank = { radius = "300 mm", speed = "125 rpm" }
+        rod = { length = "1.5 m", mass = "250 kg", centre_of_mass = "500 mm" }
+        piston.mass = "300 kg"
+        cylinder = { bore = "1 m", inclination = "-90 deg" }
+        method = { kinematics = "textbook", weights = true, gravity = "9.81 m/s2" }
     """)
     two_term_rigid = Method(kinematics="textbook", rod="rigid", gravity=9.81)
 

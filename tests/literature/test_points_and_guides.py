@@ -25,21 +25,11 @@ def at(text, degrees):
 
 
 SLOTTED_LEVER = """
-    [fixed_points]
-    O = ["0 in", "0 in"]
-    C = ["0 in", "8 in"]
-    [crank]
-    pivot = "C"
-    pin = "P"
-    radius = "4 in"
-    start = "90 deg"
-    speed = "60 rpm"
-    [links]
-    lever = { joins = ["O", "N"], length = "14 in" }
-    [guides]
-    slot = { link = "lever" }
-    [sliders]
-    block = { pin = "P", guide = "slot" }
+    fixed_points = { O = ["0 in", "0 in"], C = ["0 in", "8 in"] }
+    crank = { pivot = "C", pin = "P", radius = "4 in", start = "90 deg", speed = "60 rpm" }
+    links.lever = { joins = ["O", "N"], length = "14 in" }
+    guides.slot = { link = "lever" }
+    sliders.block = { pin = "P", guide = "slot" }
 """
 
 
@@ -78,38 +68,21 @@ class TestBevan37:
 
 
 SLIDER_CRANK = """
-    [fixed_points]
-    O = ["0 m", "0 m"]
-    [crank]
-    pivot = "O"
-    pin = "B"
-    radius = "{r} m"
-    speed = "{n} rpm"
-    [links]
-    rod = {{ joins = ["P", "B"], length = "{l} m", points = {{ E = ["{at} m", "0 m"] }} }}
-    [guides]
-    bed = {{ through = "O" }}
-    [sliders]
-    crosshead = {{ pin = "P", guide = "bed" }}
+    fixed_points.O = ["0 m", "0 m"]
+    crank = {{ pivot = "O", pin = "B", radius = "{r} m", speed = "{n} rpm" }}
+    links.rod = {{ joins = ["P", "B"], length = "{l} m", points = {{ E = ["{at} m", "0 m"] }} }}
+    guides.bed = {{ through = "O" }}
+    sliders.crosshead = {{ pin = "P", guide = "bed" }}
 """
 
 
 FOOT = 12 * INCH
 ENGINE = """
-    [fixed_points]
-    O = ["0 in", "0 in"]
-    [crank]
-    pivot = "O"
-    pin = "C"
-    radius = "9 in"
-    speed = "240 rpm"
-    {more}
-    [links]
-    rod = {{ joins = ["C", "P"], length = "36 in", points = {{ X = ["12 in", "0 in"] }} }}
-    [guides]
-    bed = {{ through = "O" }}
-    [sliders]
-    piston = {{ pin = "P", guide = "bed" }}
+    fixed_points.O = ["0 in", "0 in"]
+    crank = {{ pivot = "O", pin = "C", radius = "9 in", speed = "240 rpm"{more} }}
+    links.rod = {{ joins = ["C", "P"], length = "36 in", points = {{ X = ["12 in", "0 in"] }} }}
+    guides.bed = {{ through = "O" }}
+    sliders.piston = {{ pin = "P", guide = "bed" }}
 """
 
 
@@ -117,7 +90,7 @@ ENGINE = """
     ("more", "piston", "point", "rod", "printed"),
     [
         ("", 385.610118654139, 422.4504285947545, 98.96964765662062, (422, 98.7)),
-        ('angular_acceleration = "100 rad/s2"', 443.1733303311859, 452.8191827076349, 79.56636771449882, (452, 79.3)),
+        (', angular_acceleration = "100 rad/s2"', 443.1733303311859, 452.8191827076349, 79.56636771449882, (452, 79.3)),
     ],
 )
 def test_engine_whose_crank_gathers_speed(more, piston, point, rod, printed):
@@ -159,19 +132,15 @@ def test_middle_of_a_connecting_rod():
 
 
 FOUR_BAR = """
-    [fixed_points]
-    O = [{pivot}]
-    D = [{fixed}]
-    [crank]
-    pivot = "O"
-    pin = "A"
-    radius = "{crank} mm"
-    start = "{start} deg"
-    speed = "{speed} rad/s"
-    angular_acceleration = "{eps} rad/s2"
-    [links]
-    coupler = {{ joins = ["A", "B"], length = "{coupler} mm" }}
-    rocker = {{ joins = ["D", "B"], length = "{rocker} mm" }}
+    fixed_points = {{ O = [{pivot}], D = [{fixed}] }}
+    crank.pivot = "O"
+    crank.pin = "A"
+    crank.radius = "{crank} mm"
+    crank.start = "{start} deg"
+    crank.speed = "{speed} rad/s"
+    crank.angular_acceleration = "{eps} rad/s2"
+    links.coupler = {{ joins = ["A", "B"], length = "{coupler} mm" }}
+    links.rocker = {{ joins = ["D", "B"], length = "{rocker} mm" }}
 """
 
 

@@ -14,23 +14,12 @@ import crankwork
 from crankwork.kinematics.crank_grid import CrankGrid
 
 SLOTTED_LEVER = """
-    [fixed_points]
-    O = ["0 mm", "{centres} mm"]
-    A = ["0 mm", "0 mm"]
-    [crank]
-    pivot = "O"
-    pin = "B"
-    radius = "{crank} mm"
-    speed = "60 rpm"
-    [links]
-    lever = {{ joins = ["A", "P"], length = "{lever} mm" }}
-    link = {{ joins = ["P", "R"], length = "900 mm" }}
-    [guides]
-    slot = {{ link = "lever" }}
-    bed = {{ through = ["0 mm", "{bed} mm"] }}
-    [sliders]
-    block = {{ pin = "B", guide = "slot" }}
-    ram = {{ pin = "R", guide = "bed" }}
+    fixed_points = {{ O = ["0 mm", "{centres} mm"], A = ["0 mm", "0 mm"] }}
+    crank = {{ pivot = "O", pin = "B", radius = "{crank} mm", speed = "60 rpm" }}
+    links.lever = {{ joins = ["A", "P"], length = "{lever} mm" }}
+    links.link = {{ joins = ["P", "R"], length = "900 mm" }}
+    guides = {{ slot = {{ link = "lever" }}, bed = {{ through = ["0 mm", "{bed} mm"] }} }}
+    sliders = {{ block = {{ pin = "B", guide = "slot" }}, ram = {{ pin = "R", guide = "bed" }} }}
 """
 
 
@@ -82,23 +71,12 @@ def test_slotted_lever_made_for_a_stroke_and_a_time_ratio():
 def test_whitworth():
     """Khurmi and Gupta, ex. 5.4, p. 112: fixed link 50 mm, crank 75 mm, arm 150 mm, link 135 mm long."""
     text = """
-        [fixed_points]
-        C = ["0 mm", "50 mm"]
-        D = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "C"
-        pin = "A"
-        radius = "75 mm"
-        speed = "60 rpm"
-        [links]
-        lever = { joins = ["D", "P"], length = "100 mm" }
-        link = { joins = ["P", "R"], length = "135 mm" }
-        [guides]
-        slot = { link = "lever", angle = "180 deg" }
-        bed = { through = "D" }
-        [sliders]
-        block = { pin = "A", guide = "slot" }
-        ram = { pin = "R", guide = "bed" }
+        fixed_points = { C = ["0 mm", "50 mm"], D = ["0 mm", "0 mm"] }
+        crank = { pivot = "C", pin = "A", radius = "75 mm", speed = "60 rpm" }
+        links.lever = { joins = ["D", "P"], length = "100 mm" }
+        links.link = { joins = ["P", "R"], length = "135 mm" }
+        guides = { slot = { link = "lever", angle = "180 deg" }, bed = { through = "D" } }
+        sliders = { block = { pin = "A", guide = "slot" }, ram = { pin = "R", guide = "bed" } }
     """
     summary = analysed(text).summary
     assert summary["time_ratio.ram"] == pytest.approx(2.735, rel=1e-4)
@@ -110,17 +88,10 @@ def test_whitworth():
 
 
 FOUR_BAR = """
-    [fixed_points]
-    A = ["0 mm", "0 mm"]
-    D = ["{ground} mm", "0 mm"]
-    [crank]
-    pivot = "A"
-    pin = "B"
-    radius = "{crank} mm"
-    speed = "{speed} rpm"
-    [links]
-    coupler = {{ joins = ["B", "C"], length = "{coupler} mm" }}
-    rocker = {{ joins = ["D", "C"], length = "{rocker} mm" }}
+    fixed_points = {{ A = ["0 mm", "0 mm"], D = ["{ground} mm", "0 mm"] }}
+    crank = {{ pivot = "A", pin = "B", radius = "{crank} mm", speed = "{speed} rpm" }}
+    links.coupler = {{ joins = ["B", "C"], length = "{coupler} mm" }}
+    links.rocker = {{ joins = ["D", "C"], length = "{rocker} mm" }}
 """
 
 
@@ -177,31 +148,19 @@ def test_torque_through_a_four_bar_with_losses():
 def test_pressure_angle_of_a_slider_crank_and_of_an_offset_one():
     """R. L. Norton, Design of Machinery, ch. 4: the sine is that of the crank over the rod, and of the offset."""
     text = """
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "50 mm"
-        speed = "60 rpm"
-        [links]
-        rod = { joins = ["A", "B"], length = "200 mm" }
-        [guides]
-        bed = { through = ["0 mm", "OFFSET"] }
-        [sliders]
-        piston = { pin = "B", guide = "bed" }
+        fixed_points.O = ["0 mm", "0 mm"]
+        crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "60 rpm" }
+        links.rod = { joins = ["A", "B"], length = "200 mm" }
+        guides.bed = { through = ["0 mm", "OFFSET"] }
+        sliders.piston = { pin = "B", guide = "bed" }
     """
     central = analysed(text.replace("OFFSET", "0 mm"), 0.0, 30.0, 90.0)
     sines = [0.25 * math.sin(math.radians(one)) for one in (0, 30, 90)]
     assert [abs(math.sin(one)) for one in central.columns["pressure_angle.B"]] == pytest.approx(sines, abs=1e-14)
     assert central.summary["pressure_angle_max.B"] == pytest.approx(math.asin(0.25), rel=1e-12)
     # the same machine turned by 35 degrees
-    leaning = analysed(
-        text.replace("OFFSET", "0 mm").replace('"] }\n        [sliders]', '"], angle = "35 deg" }\n        [sliders]'),
-        35.0,
-        65.0,
-        125.0,
-    )
+    turned = text.replace('"OFFSET"]', '"0 mm"], angle = "35 deg"')
+    leaning = analysed(turned, 35.0, 65.0, 125.0)
     assert [abs(math.sin(one)) for one in leaning.columns["pressure_angle.B"]] == pytest.approx(sines, abs=1e-14)
     assert leaning.summary["pressure_angle_max.B"] == pytest.approx(math.asin(0.25), rel=1e-12)
     offset = analysed(text.replace("OFFSET", "30 mm")).summary
