@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import pickle
 import re
 from collections import defaultdict
@@ -86,40 +87,47 @@ SAYING = {
     "heading": "headings", "title": "headings", "caption": "captions", "column": "columns", "term": "columns",
     "sentence": "sentences", "phrase": "sentences", "paragraph": "sentences",
 }  # fmt: skip
-TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")}
 
 
-def constants(tree: ast.AST) -> set[str]:
-    """Return the strings of a module, docstrings left out."""
-    said = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-    return {
-        node.value for node in ast.walk(tree)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said
-    }  # fmt: skip
+@functools.cache
+def trees() -> dict[Path, ast.Module]:
+    """Return every module of the package, read."""
+    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")}
 
 
-CONSTANTS = {path: constants(tree) for path, tree in TREES.items()}
-EVERYWHERE = set().union(*CONSTANTS.values())
+@functools.cache
+def constants() -> dict[Path, set[str]]:
+    """Return the strings of each module, docstrings left out."""
+    found = {}
+    for path, tree in trees().items():
+        nodes = list(ast.walk(tree))
+        said = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+        found[path] = {
+            node.value for node in nodes
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said
+        }  # fmt: skip
+    return found
 
 
-def pieces(folder: Path) -> set[str]:
+@functools.cache
+def pieces(folder: str) -> set[str]:
     """Return what keys may be made of: constants, and what stands between dots, blanks and commas in them."""
-    mine = set().union(*(some for path, some in CONSTANTS.items() if path.is_relative_to(folder)))
+    mine = set().union(*(some for path, some in constants().items() if path.is_relative_to(PACKAGE / folder)))
     return {piece for one in mine for piece in (one, *re.split(r"[., ]", one), one.replace(" ", "_"))}
 
 
-PIECES = {folder: pieces(PACKAGE / folder) for folder in set(NAMED_IN.values())}
-
-
-MODULES = "".join(path.read_text("utf-8") for path in (PACKAGE / "browser").glob("*.js"))
-
-
 def is_used(room: str, name: str) -> bool:
-    if room == "studio" and re.search(rf"\bwords\.{name}\b", MODULES):
+    if room == "studio" and re.search(rf"\bwords\.{name}\b", scripts()):
         return True
-    if f"{room}.{name}" in EVERYWHERE or name in TABLES.get(room, ()):
+    if name in TABLES.get(room, ()) or any(f"{room}.{name}" in some for some in constants().values()):
         return True
-    return room in NAMED_IN and is_made_of(name, PIECES[NAMED_IN[room]])
+    return room in NAMED_IN and is_made_of(name, pieces(NAMED_IN[room]))
+
+
+@functools.cache
+def scripts() -> str:
+    """Return what runs in a browser."""
+    return "".join(path.read_text("utf-8") for path in (PACKAGE / "browser").glob("*.js"))
 
 
 def is_made_of(name: str, names: set[str]) -> bool:
@@ -135,7 +143,7 @@ def is_made_of(name: str, names: set[str]) -> bool:
 def said_keys() -> set[str]:
     """Return the keys that calls spell whole, and those that the words of notes and sheets are asked for."""
     found = set()
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         for call in ast.walk(tree):
             match call:
                 case ast.Call(func=ast.Name("say") | ast.Attribute(_, "say"), args=[ast.Constant(str(key)), *_]):
