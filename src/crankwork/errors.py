@@ -13,6 +13,16 @@ from crankwork.resources import installable
 class CrankworkError(Exception):
     """Anything crankwork refuses to do; the text is meant for the user as it stands."""
 
+    def __reduce__(
+        self,
+    ) -> tuple[Callable[..., CrankworkError], tuple[type[CrankworkError], object], dict[str, object]]:
+        # by its text, not by the arguments of its class: otherwise it cannot come back from a process
+        return _again, (type(self), self.args), self.__dict__
+
+
+def _again(kind: type[CrankworkError], arguments: tuple[object, ...]) -> CrankworkError:
+    return kind.__new__(kind, *arguments)
+
 
 class GeometryError(CrankworkError):
     """A mechanism that cannot be assembled or cannot turn."""

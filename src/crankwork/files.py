@@ -101,10 +101,13 @@ def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
     write_files({path: text.encode("utf-8")}, overwrite=overwrite)
 
 
-def check_files(*paths: str | Path, overwrite: bool = False) -> None:
-    """Raise unless files may be written, before anything is computed for them."""
+def check_files(*paths: str | Path, overwrite: bool = False, save: bool = False) -> None:
+    """Raise unless files may be written, before anything is computed for them.
+
+    `save`: they may be files that were read.
+    """
     for path in map(Path, paths):
-        _check_new(path, overwrite=overwrite)
+        _check_new(path, overwrite=overwrite, save=save)
         try:
             if not path.parent.is_dir():
                 raise CrankworkError(Refusal("folder_absent", path=path, folder=path.parent))
@@ -114,22 +117,27 @@ def check_files(*paths: str | Path, overwrite: bool = False) -> None:
             raise _unwritable(path, error) from None
 
 
-def _check_new(path: Path, *, overwrite: bool) -> None:
-    """Raise if something stands where a file is to go."""
+def _check_new(path: Path, *, overwrite: bool, save: bool = False) -> None:
+    """Raise if something stands where a file is to go; `save`: it may be a file that was read."""
     try:
         if path.is_dir():
             raise CrankworkError(Refusal("name_of_folder", path=path))
         if path.exists() and not path.is_file():
             raise CrankworkError(Refusal("name_of_odd", path=path))
+        if not save and path.resolve() in _inputs:
+            raise CrankworkError(Refusal("place_read", path=path))
         if path.exists() and not overwrite:
             raise CrankworkError(Refusal("name_taken", path=path))
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
 
 
-def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False) -> None:
-    """Write files into folders that are there, so that a failure leaves what was there before."""
-    check_files(*contents, overwrite=overwrite)
+def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False, save: bool = False) -> None:
+    """Write files into folders that are there, so that a failure leaves what was there before.
+
+    `save`: they may be files that were read; everything else may not replace its own input.
+    """
+    check_files(*contents, overwrite=overwrite or save, save=save)
     path = Path(next(iter(contents), ""))
     try:
         with contextlib.ExitStack() as stack:
@@ -142,6 +150,12 @@ def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False
                 (staging[path.parent] / path.name).replace(path)
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
+
+
+def mark_inputs(*paths: str | Path) -> None:
+    """Name files that will be read, so that a place that is one of them is refused before anything is computed."""
+    with contextlib.suppress(OSError, ValueError):
+        _inputs.update(Path(path).resolve() for path in paths)
 
 
 def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: bool = False) -> None:

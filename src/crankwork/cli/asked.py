@@ -111,8 +111,12 @@ def asking(command: Callable[..., None]) -> Callable[..., None]:
 
     @functools.wraps(command)
     def called(**options: Any) -> None:  # noqa: ANN401 - whatever Click has read
-        common = {name: options.pop(name) for name in shared & options.keys()}
-        command(Asked(**common), **options)
+        from crankwork.files import mark_inputs
+
+        asked = Asked(**{name: options.pop(name) for name in shared & options.keys()})
+        if asked.file:
+            mark_inputs(asked.file)
+        command(asked, **options)
 
     return called
 

@@ -116,7 +116,7 @@ class Rooms:
             return {"handed": True, "recent": named(recent(Recent(asked["name"], text)))}
         if not asked.get("anyway") and (found := _on_disk(path)) != asked["kept"]:
             return {"gone": True} if found is None else {"conflict": str(path)}
-        files.write_files({path: text.encode()}, overwrite=True)
+        files.write_files({path: text.encode()}, save=True)
         return {"saved": str(path)}
 
     def script(self, steps: str) -> str:
