@@ -6,16 +6,18 @@ import importlib
 import os
 import pkgutil
 import shutil
+from collections import Counter
 from collections.abc import Generator
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import pytest
-from coverage import Coverage
 from hypothesis import settings
-from playwright.sync_api import Browser, sync_playwright
 
 import crankwork
 from crankwork.formula.expression import FORMULAS, Formula
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
 
@@ -25,7 +27,9 @@ os.environ.pop("LC_MESSAGES", None)
 os.environ["LANG"] = "C.UTF-8"
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-MEASURED: set[str] = set()
+# what takes long or needs more than pip installs in a minute; `scripts/test --all` runs it
+LATER = ("browser", "programs", "compiled", "data", "slow")
+LEFT_OUT = pytest.StashKey[Counter[str]]()
 IN_CI = os.environ.get("CI") == "true"
 
 # Parallel tests share the processor, so a deadline would measure the neighbours.
@@ -33,19 +37,34 @@ settings.register_profile("crankwork", deadline=None, derandomize=IN_CI)
 settings.load_profile("crankwork")
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, bool, bool]:
-    """Measure coverage in the first case of a test, none of Hypothesis: the others run the same lines twice as long."""
-    test, measuring = item.nodeid.partition("[")[0], Coverage.current()
-    drawn = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
-    if measuring is None or not (drawn or test in MEASURED):
-        MEASURED.add(test)
-        return (yield)
-    measuring.stop()
-    try:
-        return (yield)
-    finally:
-        measuring.start()
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the choice of a part of the tests; without it all of them run."""
+    parser.addoption("--part", choices=("light", "rest"), help="the tests of scripts/test, or the rest")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark what needs a browser, and leave the other part out."""
+    for item in items:
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker("browser")
+    part = config.getoption("part")
+    if part is None:
+        return
+    reasons = [[name for name in LATER if item.get_closest_marker(name)] for item in items]
+    left_out = [item for item, why in zip(items, reasons, strict=True) if bool(why) == (part == "light")]
+    if part == "light":
+        config.stash[LEFT_OUT] = Counter(why[0] for why in reasons if why)
+    kept = set(map(id, items)) - set(map(id, left_out))
+    items[:] = [item for item in items if id(item) in kept]
+    config.hook.pytest_deselected(items=left_out)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """Tell what was left out and which command runs it."""
+    counts = config.stash.get(LEFT_OUT, Counter())
+    if counts:
+        what = ", ".join(f"{number} {name}" for name, number in counts.most_common())
+        terminalreporter.write_line(f"not run: {counts.total()} tests ({what}); scripts/test --all runs them")
 
 
 @pytest.hookimpl(wrapper=True)
@@ -81,6 +100,8 @@ def formulas() -> dict[str, Formula]:
 @pytest.fixture(scope="session")
 def browser() -> Generator[Browser]:
     """A browser of this machine; there may be one in a process."""
+    from playwright.sync_api import sync_playwright
+
     program = next((path for name in BROWSERS if (path := shutil.which(name))), None)
     if program is None:
         pytest.skip("chromium is not installed")
