@@ -1,15 +1,13 @@
 """Kernels against analyses: the same single values, by operations of the memory at another grid."""
 
-import functools
-import itertools
 import math
 import runpy
 from pathlib import Path
 
+import mpmath
 import numpy as np
 import pytest
 
-import crankwork
 from crankwork.formula.known import Found, Known, OfAngle, Pieces, given
 from crankwork.formula.replay import Program
 from crankwork.kernel import compiled as compiled_kernels
@@ -21,87 +19,29 @@ from crankwork.kernel.sums import shared
 from crankwork.kernel.trace import Designs, NotCompiledError, Trace
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import polytropic_pressure
-from crankwork.study.sought import sought_number
+from varied import Varied
 
 BULK = runpy.run_path(str(Path(__file__).parents[2] / "benchmarks" / "bulk.py"))
 ENGINE = BULK["ENGINE"].replace("compression_ratio = 9\n", 'compression_ratio = 9\noffset = "4 mm"\n')
-EIGHT = BULK["V8"]
-FIVE = """
+THREE = """
 [engine]
 layout = "inline"
-cylinders = 5
-firing_order = [1, 2, 4, 5, 3]
+cylinders = 3
+firing_order = [1, 3, 2]
 spacing = "110 mm"
+[method]
+kinematics = "textbook"
 """
 LENGTHS = ("crank.radius", "rod.length", "cylinder.bore", "crank.speed", "piston.mass", "cylinder.compression_ratio")
 MACHINES = {
     "engine": (ENGINE, LENGTHS),
-    "textbook engine": (ENGINE.replace('offset = "4 mm"\n', "") + '[method]\nkinematics = "textbook"\n', LENGTHS),
-    "five in line": (ENGINE + FIVE, LENGTHS),
-    "V8": (ENGINE + EIGHT, LENGTHS),
+    "three in line by the textbook": (BULK["ENGINE"] + THREE, LENGTHS),
+    "V8": (ENGINE + BULK["V8"], LENGTHS),
     "four-bar": ("four-bar", ("crank.radius", "crank.speed", "links.coupler.length", "links.rocker.mass")),
     "six-bar": ("watt-six-bar", ("crank.radius", "crank.speed")),
     "shaper": ("crank-shaper", ("crank.radius", "crank.speed", "links.lever.length", "links.link.mass")),
     "press": ("press", ("crank.radius", "crank.speed", "links.rod.length")),
 }
-# what is found on rows, by vectors of forces or by the motion in time
-PROCEDURES = {
-    "energy", "oil_hole", "reversal", "vector_sum", "vector_share",  "harmonic", "fourier", "phase_star",
-}  # fmt: skip
-
-
-class Study:
-    """A machine file with some fields varied."""
-
-    def __init__(self, name):
-        text, self.fields = MACHINES[name]
-        self.description = crankwork.Description(text if "\n" in text else crankwork.template(text))
-        values = self.description.values
-        self.numbers = [sought_number(values, key) for key in self.fields]
-        self.middle = np.array([one.now for one in self.numbers])
-        of = np.arange(len(self.fields))
-        ends = itertools.product(of, (0.98, 1.02))
-        rows = [self.middle, *(np.where(of == at, factor * self.middle, self.middle) for at, factor in ends)]
-        self.rows = np.array(rows)
-        self.analysed = [self.results(one) for one in rows]
-        self.memories = [one.memory for one in self.analysed]
-        self.cycle = self.analysed[0].machine.cycle
-
-    def results(self, design):
-        pairs = zip(self.fields, self.numbers, design, strict=True)
-        settings = [f"{key}={number.written(float(value))}" for key, number, value in pairs]
-        return crankwork.analyse(self.description.machine(settings))
-
-    def drawn(self, count, spread=0.02):
-        factors = np.random.default_rng(11).uniform(1 - spread, 1 + spread, (len(self.fields), count))
-        return self.middle[:, None] * factors
-
-    @functools.cached_property
-    def trace(self):
-        self.designs = Designs(self.memories, self.rows, ())
-        return Trace(self.designs, CrankGrid.from_degrees, np.arange(0, 360, 7.0), is_shifted=False)
-
-    def compiles(self, key):
-        trace = self.trace
-        try:
-            self.designs.add(key)
-            trace.value(self.memories[0][key])
-        except NotCompiledError as error:
-            return error
-        return None
-
-    def kernel(self, keys, steps=None):
-        return Kernel(self.memories, self.rows, keys, CrankGrid.from_degrees, cycle=self.cycle, steps=steps)
-
-
-@pytest.fixture(scope="module", params=MACHINES)
-def study(request):
-    return Study(request.param)
-
-
-@pytest.fixture(scope="module", params=["five in line", "four-bar"])
-def short_study(request):
-    return Study(request.param)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -116,12 +56,17 @@ def by_arrays(monkeypatch):
     monkeypatch.setattr(compiled_kernels, "compiles", lambda: False)
 
 
-@pytest.fixture(params=["compiled", "arrays"])
-def by(request):
-    if request.param == "arrays":
-        request.getfixturevalue("by_arrays")
-    else:
-        pytest.importorskip("numba")
+def refusals(study):
+    """Return why values do not compile, by their keys."""
+    designs, found = Designs(study.memories, study.rows, ()), {}
+    trace = Trace(designs, CrankGrid.from_degrees, np.arange(0, 360, 7.0), is_shifted=False)
+    for key, known in study.memories[0].items():
+        try:
+            designs.add(key)
+            trace.value(known)
+        except NotCompiledError as error:
+            found[key] = error
+    return found
 
 
 def sizes(study, keys):
@@ -139,59 +84,58 @@ def sizes(study, keys):
     return np.array(found)
 
 
-def test_single_values_are_those_of_analyses(study):
-    pytest.importorskip("numba")
-    keys = [key for key in study.analysed[0].summary if key in study.memories[0] and study.compiles(key) is None]
-    assert len(keys) > len(study.analysed[0].summary) / 2
-    designs = study.drawn(5)
-    found = study.kernel(keys)(designs)
-    size = sizes(study, keys)
+def wrong_values(kernel, study, designs):
+    """Return values that are not those of analyses, by design and key."""
+    found, size, wrong = kernel(designs), sizes(study, kernel.keys), {}
+    assert np.all(found.left_out < 1e-12)
     for at, design in enumerate(designs.T):
         summary = study.results(design).summary
-        apart = np.abs(found.values[:, at] - [summary[key] for key in keys]) / size
-        # a place where a column is flat is known to the root of its digits, and so is a ratio of places
-        limits = [1e-7 if key.partition(".")[0].endswith(("_angle", "time_ratio")) else 1e-12 for key in keys]
-        assert found.left_out[at] < 1e-12
-        for key, one, limit in zip(keys, apart, limits, strict=True):
-            assert one <= limit or math.isnan(summary[key]), (key, one)
+        for key, one, of in zip(kernel.keys, found.values[:, at], size, strict=True):
+            # a place where a column is flat is known to the root of its digits, and so is a ratio of places
+            limit = 1e-7 if key.partition(".")[0].endswith(("_angle", "time_ratio")) else 1e-12
+            if not (abs(one - summary[key]) <= limit * of or math.isnan(summary[key])):
+                wrong[at, key] = one, summary[key]
+    return wrong
 
 
-def test_arrays_give_what_compiled_loops_give(short_study, monkeypatch):
-    pytest.importorskip("numba")
-    keys = [key for key in short_study.analysed[0].summary if key.endswith("_max")][:4]
-    keys += [key for key in ("excess_work",) if key in short_study.analysed[0].summary]
-    designs = short_study.drawn(70)
-    for steps in (None, 720):
-        by_loops = short_study.kernel(keys, steps)(designs).values
-        with monkeypatch.context() as without:
-            without.setattr(compiled_kernels, "compiles", lambda: False)
-            by_arrays = short_study.kernel(keys, steps)(designs).values
-        np.testing.assert_allclose(by_loops, by_arrays, rtol=1e-11)
-
-
-def test_what_does_not_compile_says_why(study):
-    reasons = set()
-    for key in study.analysed[0].summary:
-        told = study.compiles(key) if key in study.memories[0] else None
-        if told is not None:
-            reasons.add((told.reason, told.key.partition(".")[0]))
-            assert told.reason in ("procedure", "table", "ways", "solved")
-    if "V8" in str(study.description):
-        assert reasons
-
-
-def test_columns_of_a_graph_are_those_of_the_memory(study):
-    """Every operation is one of a formula: the graph played as it is gives the columns that the memory gives."""
-    keys = [key for key, known in study.memories[0].items() if known.varies and study.compiles(key) is None]
-    degrees = np.linspace(1.3, study.cycle - 2.2, 60)
-    design = study.drawn(1)[:, 0]
+@pytest.mark.parametrize("name", MACHINES)
+def test_values_and_columns_are_those_of_analyses_and_others_say_why_not(name, by_arrays):
+    study = Varied(*MACHINES[name])
+    told = refusals(study)
+    reasons = {key: error.reason for key, error in told.items() if key in study.summary}
+    assert set(reasons.values()) <= {"procedure", "table", "ways", "solved"}
+    assert reasons or name != "V8"
+    keys = [key for key in study.summary if key in study.memories[0] and key not in told]
+    assert len(keys) > len(study.summary) / 2
+    assert wrong_values(study.kernel(keys), study, study.drawn(5)) == {}
+    # every operation is one of a formula: the graph played as it is gives the columns that the memory gives
+    keys = [key for key, known in study.memories[0].items() if known.varies and key not in told]
+    degrees, design = np.linspace(1.3, study.cycle - 2.2, 60), study.drawn(1)[:, 0]
     memory = study.results(design).memory
     trace = Trace(Designs(study.memories, study.rows, keys), CrankGrid.from_degrees, degrees, is_shifted=True)
     expected = Program({key: memory[key] for key in keys})(CrankGrid.from_degrees(degrees))
     found = played([trace.value(study.memories[0][key]) for key in keys], design, degrees, study.cycle)
-    for key, one in zip(keys, found, strict=True):
-        size = np.max(np.abs(expected[key]))
-        assert np.max(np.abs(one - expected[key])) <= 1e-12 * max(size, 1e-9), key
+    apart = {key: np.max(np.abs(one - expected[key])) for key, one in zip(keys, found, strict=True)}
+    assert {key for key, one in apart.items() if not one <= 1e-12 * max(np.max(np.abs(expected[key])), 1e-9)} == set()
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("name", ["engine", "V8", "four-bar", "shaper"])
+def test_compiled_loops_give_what_analyses_and_arrays_give(name, monkeypatch):
+    """Of seventy designs, because 64 are calculated at once."""
+    study = Varied(*MACHINES[name])
+    told, designs = refusals(study), study.drawn(70)
+    kernel = study.kernel([key for key in study.summary if key in study.memories[0] and key not in told])
+    assert wrong_values(kernel, study, designs[:, :5]) == {}
+    found = kernel(designs).values
+    few = [key for key in study.summary if key.endswith("_max")][:4]
+    few += [key for key in ("excess_work",) if key in study.summary]
+    steps = study.kernel(few, steps=720)(designs).values if name in ("V8", "four-bar") else None
+    monkeypatch.setattr(compiled_kernels, "compiles", lambda: False)
+    rows = [kernel.keys.index(key) for key in few]
+    np.testing.assert_allclose(found[rows], study.kernel(few)(designs).values, rtol=1e-11)
+    if steps is not None:
+        np.testing.assert_allclose(steps, study.kernel(few, steps=720)(designs).values, rtol=1e-11)
 
 
 def played(wanted, design, degrees, cycle):
@@ -223,8 +167,11 @@ def played(wanted, design, degrees, cycle):
     return [made[one.at] for one in wanted]
 
 
-def test_sampled_values_are_those_of_columns_at_the_angles(by):
-    study = Study("engine")
+@pytest.mark.parametrize("way", [pytest.param("compiled", marks=pytest.mark.compiled), "arrays"])
+def test_sampled_values_are_those_of_columns_at_the_angles(way, request):
+    if way == "arrays":
+        request.getfixturevalue("by_arrays")
+    study = Varied(*MACHINES["engine"])
     keys = ["piston_force_max", "tangential_force_min", "mean_torque", "piston_force_min_angle"]
     designs = study.drawn(70)
     found = study.kernel(keys, steps=720)(designs).values
@@ -238,13 +185,19 @@ def test_sampled_values_are_those_of_columns_at_the_angles(by):
 
 
 def test_sampled_work_and_flywheel_come_near_the_exact_ones_with_the_square_of_the_step(by_arrays):
-    study = Study("engine")
+    study = Varied(*MACHINES["engine"])
     keys = ["excess_work", "flywheel_inertia"]
     designs = study.drawn(3)
     exact = study.kernel(keys)(designs).values
     coarse, fine = (np.abs(study.kernel(keys, steps=steps)(designs).values / exact - 1) for steps in (720, 7200))
     assert np.all(coarse < 2e-3)
     assert np.all(fine < coarse / 8)
+
+
+def test_engines_are_as_an_engineer_writes_them_with_numpy(by_arrays):
+    """Sums over whole degrees by trapezoids, where kernels have the curve."""
+    designs = BULK["drawn"](BULK["FIELDS"], 128)
+    np.testing.assert_allclose(BULK["kernel"](720)(designs).values, BULK["by_numpy"](designs), rtol=2e-4)
 
 
 def test_fields_that_are_followed_crookedly_are_refused():
@@ -264,29 +217,20 @@ def test_laws_that_end_elsewhere_are_refused():
         Designs(memories, np.array([[1.0], [1.1], [1.2]]), ["y"])
 
 
-def test_of_two_extremes_the_worse_one_is_chosen_for_each_design():
-    description = crankwork.Description(crankwork.template("crank-shaper"))
-    radii = [0.050, 0.049, 0.051, 0.055, 0.090]
-    analyses = [crankwork.analyse(description.machine([f"crank.radius={one * 1000:g} mm"])) for one in radii]
+def test_of_two_extremes_the_worse_one_is_chosen_for_each_design(by_arrays):
+    study, radii = Varied("crank-shaper", ["crank.radius"]), [0.050, 0.049, 0.051, 0.055, 0.090]
     keys = ["pressure_angle_max.D", "transmission_angle_min.D"]
-    kernel = Kernel(
-        [one.memory for one in analyses[:3]], np.array(radii[:3])[:, None], keys, CrankGrid.from_degrees,
-        cycle=360.0, is_for_few=True,
-    )  # fmt: skip
-    expected = [[one.summary[key] for one in analyses] for key in keys]
+    expected = [[study.results([one]).summary[key] for one in radii] for key in keys]
     # far from the designs that were traced the ram leans the other way
     assert expected[0][0] == expected[0][2] < expected[0][3]
-    assert kernel(np.array([radii])).values == pytest.approx(np.array(expected), abs=1e-9)
+    found = study.kernel(keys, is_for_few=True)(np.array([radii])).values
+    assert found == pytest.approx(np.array(expected), abs=1e-9)
 
 
 def test_the_mean_of_what_is_nothing_but_for_rounding_is_nothing():
-    description = crankwork.Description(crankwork.template("slider-crank"))
-    analyses = [crankwork.analyse(description.machine([f"crank.radius={one} mm"])) for one in (50, 49, 51)]
-    radii = np.array([[0.050, 0.049, 0.051]])
-    memories = [one.memory for one in analyses]
-    kernel = Kernel(memories, radii.T, ["mean_torque"], CrankGrid.from_degrees, cycle=360.0, is_for_few=True)
-    assert analyses[0].summary["mean_torque"] == 0
-    assert not kernel(np.array([[0.050, 0.045, 0.060]])).values.any()
+    study = Varied("slider-crank", ["crank.radius"])
+    assert study.summary["mean_torque"] == 0
+    assert not study.kernel(["mean_torque"], is_for_few=True)(np.array([[0.050, 0.045, 0.060]])).values.any()
 
 
 def test_two_equal_ways_of_writing_are_one_operation():
@@ -327,7 +271,6 @@ def test_sums_of_columns_share_their_parts():
 
 @pytest.mark.elsewhere
 def test_derivatives_by_the_angle_are_those_of_differences_with_forty_digits():
-    mpmath = pytest.importorskip("mpmath")
     graph = Graph()
     sin, cos = graph.angle("sin", 1, 0.0), graph.angle("cos", 1, 0.0)
     ratio = graph.input(0)
@@ -351,29 +294,30 @@ def test_derivatives_by_the_angle_are_those_of_differences_with_forty_digits():
 
 
 @pytest.mark.elsewhere
-@pytest.mark.parametrize("name", PARTIALS)
-def test_derivatives_of_operations_are_those_of_differences_with_forty_digits(name):
-    mpmath = pytest.importorskip("mpmath")
+def test_derivatives_of_operations_are_those_of_differences_with_forty_digits():
     exactly = {
         "add": mpmath.fadd, "sub": mpmath.fsub, "mul": mpmath.fmul, "div": mpmath.fdiv, "neg": mpmath.fneg,
         "half_turns": lambda near, angle: mpmath.nint((near - angle) / mpmath.pi),
         "log_ratio": lambda x, y: mpmath.log(x / y), "arcsin": mpmath.asin, "arccos": mpmath.acos,
         "arctan": mpmath.atan,
     }  # fmt: skip
-    function = exactly.get(name) or getattr(mpmath, name)
-    of = [0.3, 0.7][: 2 if name in ("add", "sub", "mul", "div", "half_turns", "log_ratio") else 1]
-    found = PARTIALS[name](COMPUTE[name](*of), *of)
-    with mpmath.workdps(40):
-        for at, one in enumerate(found):
-            order = tuple(int(at == other) for other in range(len(of)))
-            expected = mpmath.diff(function, tuple(map(mpmath.mpf, of)), order)
-            assert one == pytest.approx(float(expected), rel=1e-14, abs=1e-30)
+    wrong = {}
+    for name, partials in PARTIALS.items():
+        of = [0.3, 0.7][: 2 if name in ("add", "sub", "mul", "div", "half_turns", "log_ratio") else 1]
+        function = exactly.get(name) or getattr(mpmath, name)
+        with mpmath.workdps(40):
+            for at, one in enumerate(partials(COMPUTE[name](*of), *of)):
+                order = tuple(int(at == other) for other in range(len(of)))
+                expected = float(mpmath.diff(function, tuple(map(mpmath.mpf, of)), order))
+                if one != pytest.approx(expected, rel=1e-14, abs=1e-30):
+                    wrong[name, at] = one, expected
+    assert wrong == {}
 
 
+@pytest.mark.compiled
 def test_a_cached_kernel_is_not_written_again(monkeypatch, tmp_path):
-    pytest.importorskip("numba")
     monkeypatch.setenv("CRANKWORK_CACHE", str(tmp_path))
-    study = Study("engine")
+    study = Varied(*MACHINES["engine"])
 
     def written():
         study.kernel(["mean_torque"], steps=36)(study.drawn(2))
@@ -384,10 +328,10 @@ def test_a_cached_kernel_is_not_written_again(monkeypatch, tmp_path):
     assert written() == first
 
 
+@pytest.mark.compiled
 def test_where_nothing_can_be_kept_a_kernel_is_compiled_for_the_run(monkeypatch, tmp_path):
-    pytest.importorskip("numba")
     (tmp_path / "file").write_text("", encoding="utf-8")
     monkeypatch.setenv("CRANKWORK_CACHE", str(tmp_path / "file"))
-    study = Study("four-bar")
+    study = Varied(*MACHINES["four-bar"])
     found = study.kernel(["joint_force_max.B"], steps=36)(study.middle[:, None])
     assert found.values[0, 0] > 0
