@@ -8,7 +8,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -128,3 +128,31 @@ def check_mistakes(crankwork: Command) -> Callable[[Answer], None]:
         assert not re.search(r"tomllib|numpy|pydantic|errno|error code|exception", answer.err, re.IGNORECASE)
 
     return check
+
+
+@pytest.fixture
+def check_refusals(
+    crankwork: Command, check_mistakes: Callable[[Answer], None]
+) -> Callable[[Iterable[tuple[tuple[str, ...], str]]], None]:
+    """Make sure that each command is refused in one line with what is told and writes nothing; name others."""
+
+    def check(refusals: Iterable[tuple[tuple[str, ...], str]]) -> None:
+        before, failures = _contents("."), {}
+        for arguments, told in refusals:
+            answer = crankwork(*arguments)
+            try:
+                check_mistakes(answer)
+                (line,) = answer.mistakes
+                assert told in line
+                assert _contents(".") == before
+            except (AssertionError, ValueError) as error:
+                failures[" ".join(arguments)[:200]] = f"{answer.err[:500]} {error}"
+        assert failures == {}
+
+    return check
+
+
+def _contents(folder: str | Path) -> dict[str, bytes]:
+    """Return what is in the files of a folder and below it, by their names."""
+    folder = Path(folder)
+    return {one.relative_to(folder).as_posix(): one.read_bytes() for one in folder.rglob("*") if one.is_file()}
