@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-import crankwork
 from crankwork.formula.expression import text
 from crankwork.formula.lines import FormulaLine, SumLine
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
+from note.built import broken, lines
 
 # Расчет привода и поршневого двигателя автомобиля, course note at www.transporank.ru, worked lines above its table 2:
 # crank angle [deg]: S [mm], v [mm/s], a [mm/s2]
@@ -33,48 +29,46 @@ PRESS = {
 }
 
 
-@pytest.mark.parametrize("angle", MOTION)
-def test_motion_of_a_russian_note(angle, groups_of):
-    results = crankwork.analyse(crankwork.read(EXAMPLES / "slider-crank.toml"))
-    motion = next(group for group in groups_of(results, angle) if group.name == "motion")
-    found = {step.key: step.value * 1e3 for step in motion.lines}
+def wrong_motion(angle):
+    steps = lines("slider-crank", "motion", angle)
     keys = ("piston_displacement", "piston_velocity", "piston_acceleration")
     for key, printed, digit in zip(keys, MOTION[angle], LAST_DIGIT, strict=True):
-        assert found[key] == pytest.approx(printed, abs=digit * 1.01)
+        assert steps[key].value * 1e3 == pytest.approx(printed, abs=digit * 1.01), key
 
 
-@pytest.mark.parametrize("angle", PRESS)
-def test_rows_of_a_russian_press(angle, groups_of):
-    results = crankwork.analyse(crankwork.read(EXAMPLES / "press.toml"))
-    groups = {group.name: group for group in groups_of(results, angle)}
+def test_motion_of_a_russian_note():
+    assert broken(wrong_motion, MOTION) == {}
+
+
+def wrong_press(angle):
     rocker, punch, whole, dynamic, balancing, driving = PRESS[angle]
-    inertia = next(step for step in groups["reduction"].lines if step.key == "reduced_inertia")
+    inertia = lines("press", "reduction", angle)["reduced_inertia"]
     assert isinstance(inertia, SumLine)
     terms = {step.key: step.value for step in inertia.terms}
     assert terms["reduced_inertia.rocker"] == pytest.approx(rocker, abs=0.0006)
     assert terms["reduced_inertia.punch"] == pytest.approx(punch, abs=0.0006)
     # the document adds four terms, each rounded to three decimals
     assert inertia.value == pytest.approx(whole, abs=4 * 0.0005)
-    torques = {step.key: step.value for step in groups["torques"].lines}
+    torques = {key: step.value for key, step in lines("press", "torques", angle).items()}
     assert torques["dynamic_torque"] == pytest.approx(dynamic, abs=0.002)
     assert torques["balancing_torque"] == pytest.approx(balancing, abs=1e-9)
     assert torques["driving_torque"] == pytest.approx(driving, abs=0.0055)
 
 
-def test_a_motor_that_brakes_is_shown_by_the_formula_of_a_brake(groups_of):
-    results = crankwork.analyse(crankwork.read(EXAMPLES / "press.toml"))
+def test_rows_of_a_russian_press():
+    assert broken(wrong_press, PRESS) == {}
+
+
+def test_a_motor_that_brakes_is_shown_by_the_formula_of_a_brake():
     for angle, name in ((30, "driving_torque_as_motor"), (150, "driving_torque_as_brake")):
-        torques = next(one for one in groups_of(results, angle) if one.name == "torques")
-        assert torques.lines[-1].formula.name == name
+        *_, last = lines("press", "torques", angle).values()
+        assert last.formula.name == name
 
 
-def test_a_step_prints_as_the_note_writes_it(groups_of):
+def test_a_step_prints_as_the_note_writes_it():
     """R (1 - cos phi + lambda/4 (1 - cos 2 phi)), with the numbers in."""
-    results = crankwork.analyse(crankwork.read(EXAMPLES / "slider-crank.toml"))
-    motion = next(group for group in groups_of(results) if group.name == "motion")
-    step = next(one for one in motion.lines if one.key == "piston_displacement")
+    step = lines("slider-crank", "motion")["piston_displacement"]
     assert isinstance(step, FormulaLine)
-    tree = step.expression
-    assert text(tree, language="ru") == "R·(1 − cos φ + λ/4·(1 − cos 2φ))"
+    assert text(step.expression, language="ru") == "R·(1 − cos φ + λ/4·(1 − cos 2φ))"
     numbers = {name: f"{value:.4g}" for name, value in step.values.items()}
-    assert text(tree, numbers) == "0.075·(1 − 0.866 + 0.25/4·(1 − 0.5))"
+    assert text(step.expression, numbers) == "0.075·(1 − 0.866 + 0.25/4·(1 − 0.5))"
