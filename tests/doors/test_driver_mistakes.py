@@ -7,6 +7,7 @@ import pytest
 
 import crankwork
 from crankwork.locale import LANGUAGES, told
+from each import for_each
 
 BOOM = """
 [fixed_points]
@@ -81,48 +82,23 @@ length = "120 mm"
 """
 MISTAKES = {
     "two drivers": (BOOM, 'start = "1.3 m"', 'slider = "x"\nstart = "1.3 m"', "driver.slider", "one driver"),
-    "a crank too": (
-        BOOM,
-        "[links.boom]",
-        '[crank]\npivot = "O"\npin = "Z"\nradius = "1 m"\n[links.boom]',
-        "driver.cylinder",
-        "one driver",
-    ),
+    "a crank too": (BOOM, "[links.boom]", '[crank]\npivot = "O"\npin = "Z"\nradius = "1 m"\n[links.boom]',
+        "driver.cylinder", "one driver"),
     "nobody drives": (BOOM, 'cylinder = ["A", "B"]\n', "", "driver", "nothing drives"),
-    "a law and a speed": (
-        CRANK,
-        'radius = "50 mm"',
-        'radius = "50 mm"\nspeed = "100 rpm"',
-        "crank.speed",
-        "take speed out",
-    ),
+    "a law and a speed": (CRANK, 'radius = "50 mm"', 'radius = "50 mm"\nspeed = "100 rpm"', "crank.speed",
+        "take speed out"),
     "a law without a pivot": (CRANK, 'pivot = "O"\n', "", "crank.pivot", 'pivot = "O"'),
-    "a flywheel": (
-        CRANK,
-        "[links.coupler]",
-        "[flywheel]\nfluctuation = 0.05\n[links.coupler]",
-        "flywheel",
-        "crank.speed instead",
-    ),
+    "a flywheel": (CRANK, "[links.coupler]", "[flywheel]\nfluctuation = 0.05\n[links.coupler]", "flywheel",
+        "crank.speed instead"),
     "an unknown slider": (SLIDER, 'slider = "piston"', 'slider = "ram"', "driver.slider", "piston"),
-    "a guide that moves": (
-        SLIDER,
-        'through = "O"',
-        'through = ["0 mm", "0 mm"]\nlink = "arm"',
-        "driver.slider",
-        "fixed guide",
-    ),
+    "a guide that moves": (SLIDER, 'through = "O"', 'through = ["0 mm", "0 mm"]\nlink = "arm"', "driver.slider",
+        "fixed guide"),
     "an unknown point": (BOOM, '["A", "B"]', '["A", "Z"]', "driver.cylinder", "A, B, O"),
     "one point twice": (BOOM, '["A", "B"]', '["A", "A"]', "driver.cylinder", "two different"),
     "one point": (BOOM, '["A", "B"]', '["A"]', "driver.cylinder", "write 2 of them"),
     "a cylinder on one link": (BOOM, '["A", "B"]', '["O", "B"]', "driver.cylinder", "different links"),
-    "held links": (
-        ELBOW,
-        "[positions]",
-        '[links.strut]\njoins = ["E", "C"]\n[positions]',
-        "driver.between",
-        "lower, rocker, strut and upper are held without the driver",
-    ),
+    "held links": (ELBOW, "[positions]", '[links.strut]\njoins = ["E", "C"]\n[positions]', "driver.between",
+        "lower, rocker, strut and upper are held without the driver"),
     "no length left": (BOOM, 'start = "1.3 m"', 'start = "-1.3 m"', "driver.law", "above zero"),
     "an angle for a length": (BOOM, '"1.3 m"', '"13 deg"', "driver.start", '"0.5 m"'),
     "a length for an angle": (ELBOW, '"25 deg"', '"25 mm"', "driver.law[1].to", '"90 deg"'),
@@ -131,35 +107,15 @@ MISTAKES = {
     "no time": (BOOM, ', over = "4 s"', "", "driver.law[1].over", "over ="),
     "a ramp of another law": (BOOM, '"3-4-5"', '"3-4-5", ramp = 0.2', "driver.law[1].ramp", "trapezoidal"),
     "a speed of another law": (BOOM, 'over = "4 s"', 'speed = "1 m/s"', "driver.law[1].speed", "constant"),
-    "a speed that turns": (
-        BOOM,
-        '"3-4-5", to = "1.9 m", over = "4 s"',
-        '"constant", to = "1.9 m", speed = "4 rpm"',
-        "driver.law[1].speed",
-        '"0.1 m/s"',
-    ),
-    "a speed to where it stands": (
-        BOOM,
-        '"3-4-5", to = "1.9 m", over = "4 s"',
-        '"constant", to = "1.3 m", speed = "4 m/s"',
-        "driver.law[1].speed",
-        "dwell",
-    ),
-    "a law that stands": (
-        BOOM,
-        'start = "1.3 m"\nlaw = [{ kind = "3-4-5"',
-        'law = [{ kind = "constant"',
-        "driver.start",
-        "give start",
-    ),
+    "a speed that turns": (BOOM, '"3-4-5", to = "1.9 m", over = "4 s"', '"constant", to = "1.9 m", speed = "4 rpm"',
+        "driver.law[1].speed", '"0.1 m/s"'),
+    "a speed to where it stands": (BOOM, '"3-4-5", to = "1.9 m", over = "4 s"',
+        '"constant", to = "1.3 m", speed = "4 m/s"', "driver.law[1].speed", "dwell"),
+    "a law that stands": (BOOM, 'start = "1.3 m"\nlaw = [{ kind = "3-4-5"', 'law = [{ kind = "constant"',
+        "driver.start", "give start"),
     "a table without values": (BOOM, '"3-4-5"', '"table", at = [0.5]', "driver.law[1].at", "as many values"),
-    "a table that falls": (
-        BOOM,
-        '"3-4-5"',
-        '"table", at = [0.5, 0.4], values = ["1.4 m", "1.5 m"]',
-        "driver.law[1].at",
-        "rise",
-    ),
+    "a table that falls": (BOOM, '"3-4-5"', '"table", at = [0.5, 0.4], values = ["1.4 m", "1.5 m"]', "driver.law[1].at",
+        "rise"),
     "shares without a period": (BOOM, 'over = "4 s"', "over = 0.5", "driver.law[1].over", "period ="),
     "an unknown kind": (BOOM, '"3-4-5"', '"3-4"', "driver.law[1].kind", "3-4-5"),
     "links without a pin": (ELBOW, '["upper", "lower"]', '["upper", "rocker"]', "driver.between", "common"),
@@ -167,17 +123,13 @@ MISTAKES = {
     "no drawing": (ELBOW, 'C = ["-100 mm", "490 mm"]\n', "", "driver.between", "[positions]"),
     "beyond its reach": (BOOM, '"1.9 m"', '"2.9 m"', "driver.law", "what the links reach"),
     "through a dead position": (SLIDER, '"250 mm"', '"310 mm"', "driver.law", "what the links reach"),
-    "a load by the crank angle": (
-        SLIDER,
-        "[links.rod]",
+    "a load by the crank angle": (SLIDER, "[links.rod]",
         '[[loads]]\nkind = "torque"\nlink = "arm"\ntorque = ["1 N*m", "2 N*m"]\nat = ["0 deg", "90 deg"]\n[links.rod]',
-        "loads[1]",
-        "by the stroke",
-    ),
-}
+        "loads[1]", "by the stroke"),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize(("text", "old", "new", "key", "advice"), MISTAKES.values(), ids=MISTAKES)
+@for_each(("text", "old", "new", "key", "advice"), MISTAKES.values(), ids=list(MISTAKES))
 def test_a_mistake_is_told_at_its_line(text, old, new, key, advice):
     assert text.count(old) >= 1
     with pytest.raises(crankwork.InputError) as caught:
@@ -228,7 +180,7 @@ def test_times_and_shares_must_agree():
             crankwork.read_machine(text)
 
 
-@pytest.mark.parametrize("text", [BOOM, SLIDER, ELBOW, CRANK], ids=["boom", "slider", "elbow", "crank"])
+@for_each("text", [BOOM, SLIDER, ELBOW, CRANK], ids=["boom", "slider", "elbow", "crank"])
 def test_the_files_without_mistakes_are_computed(text):
     results = crankwork.analyse(crankwork.read_machine(text))
     assert results.notices[0].code == "by_law"
@@ -236,8 +188,8 @@ def test_the_files_without_mistakes_are_computed(text):
     assert not results.unmet
 
 
-@pytest.mark.parametrize("dead_at", [1, 2])
-@pytest.mark.parametrize("first", ["table", "3-4-5", "cycloidal", "parabolic"])
+@for_each("dead_at", [1, 2])
+@for_each("first", ["table", "3-4-5", "cycloidal", "parabolic"])
 def test_a_law_that_ends_at_a_dead_position_is_refused_whichever_segment_it_is(first, dead_at):
     """Segments that end between whole degrees of the period; the boom points away from the foot of its cylinder."""
     ends = {1: "1.7 m", 2: "1.3 m", dead_at: f"{1.8 + math.hypot(0.6, 0.5):.16g} m"}

@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 
 import numpy as np
-import pytest
+
+from each import for_each
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ORDER = "firing_order = [1, 3, 4, 2]"
@@ -83,7 +84,7 @@ MISTAKES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "old", "new", "key", "advice"), MISTAKES.values(), ids=MISTAKES)
+@for_each(("name", "old", "new", "key", "advice"), MISTAKES.values(), ids=list(MISTAKES))
 def test_a_mistake_is_told_with_its_fix(crankwork, name, old, new, key, advice):
     text = (EXAMPLES / f"{name}.toml").read_text("utf-8")
     assert old in text
@@ -132,7 +133,7 @@ def test_uneven_intervals_are_said_with_the_intervals(crankwork):
     assert "uneven" not in crankwork("check", "engine.toml").out
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("old", "new", "said"),
     [
         ("compression_ratio = 8.5", "compression_ratio = 14.5", "knock"),
@@ -206,7 +207,7 @@ def test_an_engine_of_which_only_the_motion_is_known_says_so(crankwork):
     assert "motion only" in answer.out
 
 
-@pytest.mark.parametrize("ratio", ["4", "1.5", "1.0000001", "1"])
+@for_each("ratio", ["4", "1.5", "1.0000001", "1"])
 def test_the_ratio_that_is_advised_may_be_written(crankwork, machine_file, ratio) -> None:
     file = machine_file(name="slider-crank")
     told = crankwork("check", file, "--set", f"rod.ratio={ratio}").err

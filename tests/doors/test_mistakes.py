@@ -6,9 +6,8 @@ import re
 import tomllib
 from pathlib import Path
 
-import pytest
-
 from crankwork.description.machine_file import template
+from each import for_each
 
 # the original line of the template, what a user writes, the key blamed, and words of the advice
 MISTAKES = {
@@ -81,7 +80,7 @@ MISTAKES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("mistake", MISTAKES.values(), ids=MISTAKES)
+@for_each("mistake", MISTAKES.values(), ids=list(MISTAKES))
 def test_a_mistake_is_told_once_on_its_line_with_what_to_write(
     crankwork, machine_file, check_mistakes, mistake
 ) -> None:
@@ -161,7 +160,7 @@ SYNTAX = {
 }
 
 
-@pytest.mark.parametrize(("text", "line", "advice"), SYNTAX.values(), ids=SYNTAX)
+@for_each(("text", "line", "advice"), SYNTAX.values(), ids=list(SYNTAX))
 def test_text_that_is_no_toml_is_refused_on_its_line(
     crankwork, machine_file, check_mistakes, text, line, advice
 ) -> None:
@@ -171,7 +170,7 @@ def test_text_that_is_no_toml_is_refused_on_its_line(
     assert answer.mistakes[0].startswith(f"my.toml:{line}: ")
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("line", "written"),
     [
         ("radius = “50 mm”", 'radius = "50 mm"'),

@@ -6,6 +6,7 @@ import pytest
 
 import crankwork
 from crankwork.locale import LANGUAGES, told
+from each import for_each
 
 ENGINE = """
 [crank]
@@ -79,9 +80,7 @@ MISTAKES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("text", "old", "new", "key", "message"), MISTAKES, ids=[f"{one[3]}: {one[2][:30]}" for one in MISTAKES]
-)
+@for_each(("text", "old", "new", "key", "message"), MISTAKES, ids=[f"{one[3]}: {one[2][:30]}" for one in MISTAKES])
 def test_a_mistake_is_told_at_its_line(text, old, new, key, message):
     changed = text.replace(old, new)
     assert changed != text
