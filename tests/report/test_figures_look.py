@@ -1,43 +1,45 @@
-"""What every figure looks like, told from its scene: where letters stand, and what runs through them."""
+"""What every figure looks like, told from its scene: where letters stand, what runs through them, and curves in grey."""
 
 from __future__ import annotations
 
-from pathlib import Path
+import itertools
 
 import numpy as np
-import pytest
 
 from crankwork.analysis import analyse
-from crankwork.description.machine_file import read, read_machine
+from crankwork.description.machine_file import read_machine
 from crankwork.note.sheets import drawn_sheets
 from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
+from crankwork.report.not_drawn import not_drawn
 from crankwork.show.chart import Graph, round_ticks, sheet
 from crankwork.show.labels import mark
+from crankwork.show.pdf import png
 from crankwork.show.place import Place, placed
-from crankwork.show.scene import Box, Drawing, Pen, Text, line, rectangle, runs
+from crankwork.show.scene import Box, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
+from crankwork.show.svg import svg
+from each import for_each
 from looks import box_of, faults
+from shown import FEW, REST, figures_of, in_parts, results_of
 
-ROOT = Path(__file__).parents[2]
-TEMPLATES = ROOT / "src" / "crankwork" / "description" / "templates"
-FILES = [*sorted((ROOT / "examples").glob("*.toml")), *sorted(TEMPLATES.glob("*.toml"))]
-
-
-def _name(path: Path) -> str:
-    return f"{path.parent.name}-{path.stem}"
+# contrast of lines with their ground that is asked for of pictures, and what is no less apart in shade or width
+CONTRAST, SHADES, WIDTHS = 3.0, 0.25, 1.3
 
 
-@pytest.mark.parametrize("path", FILES, ids=_name)
-def test_letters_stand_on_their_paper_clear_of_lines_and_of_each_other(path):
-    results = analyse(read(path))
-    found = {
-        f"{_name(path)}.{language}.{name}": wrong
-        for language in LANGUAGES
-        for name, one in drawings(results, language=language).items()
-        if (wrong := faults(one))
-    }
-    assert found == {}
+@in_parts(
+    ("name", "language"),
+    [(name, LANGUAGES[at % 3]) for at, name in enumerate(FEW)],
+    [
+        (name, one)
+        for at, name in enumerate((*FEW, *REST))
+        for one in LANGUAGES
+        if name in REST or one != LANGUAGES[at % 3]
+    ],
+)
+def test_letters_stand_on_their_paper_clear_of_lines_and_of_each_other(name, language):
+    found = figures_of(name, language)
+    assert {figure: wrong for figure, one in found.items() if (wrong := faults(one))} == {}
 
 
 def test_faults_are_seen():
@@ -55,11 +57,10 @@ def test_faults_are_seen():
     assert kinds(Text((10.0, 10.0), "J_S^2")) == ["mark"]
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@for_each("language", LANGUAGES)
 def test_letters_stand_clear_where_forces_are_per_area(language):
     """Footers tell the frame of the vectors, the method and the area."""
-    results = analyse(read(ROOT / "examples" / "v8-diesel.toml"))
-    found = drawings(results, language=language, per_area=True)
+    found = drawings(results_of("v8-diesel"), language=language, per_area=True)
     assert {name: wrong for name, one in found.items() if (wrong := faults(one))} == {}
 
 
@@ -120,7 +121,7 @@ def test_names_are_printed_as_they_are_written():
     assert not [one for text in said.values() for one in text if 0xE000 <= ord(one) < 0xF900]
 
 
-@pytest.mark.parametrize("is_sheet", [False, True])
+@for_each("is_sheet", [False, True])
 def test_numbers_of_axes_stand_clear_where_an_axis_goes_through_zero(is_sheet):
     """Below and left of the graph, not at the axis in its middle, where curves would run through them."""
     with placed(Place(is_sheet=is_sheet)):
@@ -140,3 +141,51 @@ def test_numbers_of_axes_stand_clear_where_an_axis_goes_through_zero(is_sheet):
     for one in numbers:
         box = box_of(one)
         assert box.right < plot.box.left or box.top < plot.box.bottom
+
+
+def _contrast(shade):
+    """Return the contrast of a shade of grey with white paper."""
+    light = shade / 12.92 if shade <= 0.04045 else ((shade + 0.055) / 1.055) ** 2.4
+    return 1.05 / (light + 0.05)
+
+
+def _are_apart(one, other):
+    """Return whether two pens are told apart in grey."""
+    dashes = [tuple(round(dash / pen.width, 1) for dash in pen.dashes) for pen in (one, other)]
+    wide, narrow = max(one.width, other.width), min(one.width, other.width)
+    return dashes[0] != dashes[1] or wide > WIDTHS * narrow or abs(shade_of(one) - shade_of(other)) > SHADES
+
+
+def _curves(drawing):
+    """Yield the pens of curves on each graph, by their names; straight lines have letters or numbers at their ends."""
+    for plot in drawing.plots:
+        found = {}
+        for item in drawing.items:
+            if isinstance(item, Polyline) and len(plot.curves.get(item.name, ((),))[0]) > 2 and item.fill is None:
+                x, y = item.points.mean(axis=0)
+                if plot.box.left <= x <= plot.box.right and plot.box.bottom <= y <= plot.box.top:
+                    found[item.name] = pen_of(item.kind)
+        yield found
+
+
+@in_parts("name", FEW, REST)
+def test_curves_of_a_graph_are_told_apart_in_grey_and_seen_on_paper(name):
+    for figure, drawing in figures_of(name).items():
+        for pens in _curves(drawing):
+            alike = [pair for pair in itertools.combinations(pens, 2) if not _are_apart(*(pens[one] for one in pair))]
+            assert alike == [], figure
+            assert all(_contrast(shade_of(one)) >= CONTRAST for one in pens.values()), figure
+
+
+def test_letters_without_a_glyph_are_boxes_in_a_picture_and_not_lost():
+    def drawn(text):
+        return png(Drawing("t", "en", 40.0, 10.0, (Text((2.0, 3.0), text),)), pixels_per_inch=60.0)
+
+    assert len({drawn(one) for one in ("ab", "a😀b", "a😀中b")}) == 3
+    assert "a😀中b" in svg(Drawing("t", "en", 40.0, 10.0, (Text((2.0, 3.0), "a😀中b"),))).decode()
+
+
+def test_what_is_not_drawn_is_told():
+    told = [*not_drawn(results_of("parallelogram"), "en")]
+    assert told == ["not drawn, because zero throughout: static torque"]
+    assert next(iter(not_drawn(results_of("excavator-boom"), "ru"))).startswith("планы сил не построены")
