@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import runpy
+import sys
 from functools import cache
 from pathlib import Path
+
+import pytest
 
 import crankwork
 from crankwork.page.document import page as written
 from crankwork.study.sliders import moved
-from kernel.test_kernel import EIGHT, ENGINE
 
+BULK = runpy.run_path(str(Path(__file__).parents[2] / "benchmarks" / "bulk.py"))
+ENGINE = BULK["ENGINE"].replace("compression_ratio = 9\n", 'compression_ratio = 9\noffset = "4 mm"\n')
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MACHINES = {
     "engine": (ENGINE, ("crank.radius", "rod.length=150..230mm", "crank.speed=1000..6000rpm", "piston.mass")),
-    "V8": (ENGINE + EIGHT, ("crank.speed", "rod.length=170..210mm", "piston.mass")),
+    "V8": (ENGINE + BULK["V8"], ("crank.speed", "rod.length=170..210mm", "piston.mass")),
     "four-bar": ("four-bar", ("crank.radius", "crank.speed", "links.coupler.length")),
     "six-bar": ("stephenson-six-bar", ("crank.radius", "crank.speed")),
     "spark-engine": ((EXAMPLES / "spark-engine.toml").read_text("utf-8"), ("crank.speed=1000..6000rpm", "rod.ratio")),
@@ -30,6 +35,8 @@ OTHERS = {
     "loop": ("engine", ("crank.radius", "crank.speed=1000..6000rpm")),
     "punch": ((EXAMPLES / "punching-machine.toml").read_text("utf-8"), ("crank.speed",)),
 }
+AXE = Path(sys.prefix) / "node" / "node_modules" / "axe-core" / "axe.min.js"
+POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'"
 MOVE = """([at, value]) => {
   const slider = document.querySelector(`[data-field="${at}"]`);
   slider.value = value;
@@ -51,8 +58,9 @@ def live(name):
 
 @cache
 def document(name, language):
-    one = live(name)
-    return written(one.results[0], language, None, one).decode()
+    """Return a page with sliders, in which nothing may be made into script."""
+    text = written(live(name).results[0], language, None, live(name)).decode()
+    return text.replace("<head>", f'<head><meta http-equiv="Content-Security-Policy" content="{POLICY}">')
 
 
 def results(name, shown):
@@ -60,5 +68,18 @@ def results(name, shown):
     return crankwork.analyse(described(name).machine(settings))
 
 
+def design(name, **shown):
+    """Return what the fields of a page state, some of them, by key with `_` for `.`, something else."""
+    return [shown.get(one.key.replace(".", "_"), one.shown(one.now)) for one in live(name).sliders]
+
+
 def move(page, at, value):
     page.evaluate(MOVE, [at, value])
+
+
+def rules_broken(page):
+    """Return which rules of pages that everybody can read a page breaks, each with an element that does."""
+    if not AXE.exists():
+        pytest.skip("axe-core is not installed")
+    page.evaluate(AXE.read_text("utf-8"))
+    return page.evaluate("axe.run().then((found) => found.violations.map((one) => [one.id, one.nodes[0].html]))")

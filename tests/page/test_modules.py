@@ -27,6 +27,7 @@ def node() -> str:
     return found
 
 
+@pytest.mark.programs
 def test_types_of_all_modules_agree(node) -> None:
     files = sorted(map(str, ROOM.glob("*.js")))
     libraries = ["--lib", "es2022,dom,dom.iterable"]
