@@ -1,7 +1,5 @@
 """Articulated rods against thirty digits, against the plain slider-crank, virtual work and statics of rigid rods."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath

@@ -1,7 +1,5 @@
 """Orders of the piston acceleration, free forces and their ellipses."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Counterweights remove what turns forwards, and nothing else."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Balance shafts take away one order, and act on the frame by their height."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

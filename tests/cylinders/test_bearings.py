@@ -4,8 +4,6 @@ Printed numbers: Động lực học của cơ cấu khuỷu trục - thanh truy
 Technology and Education: P1 every 5 degrees, r/l = 0.25, 13.76 g/cm2 of rod mass at the crankpin.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Firing orders: the angles they give on a crankshaft, and every order a crankshaft allows."""
 
-from __future__ import annotations
-
 from itertools import permutations, product
 
 import pytest

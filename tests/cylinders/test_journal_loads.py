@@ -1,7 +1,5 @@
 """Loads on main journals: forces and moments of every throw add up to nothing, whatever acts on it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Layouts: pins from orders, firing from throws, positions and journals, and the sentences of refusal."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """What a bearing load comes to, against loads whose means, extremes and reversals are known in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

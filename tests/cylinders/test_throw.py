@@ -1,7 +1,5 @@
 """The crank gear of a throw as a mechanism of dyads moves as the engine's own formulas say."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Torque of many cylinders: angles, sums, torque along the shaft, harmonics and phase stars."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

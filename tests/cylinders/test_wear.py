@@ -1,7 +1,5 @@
 """The wear diagram: what is put on the rays comes back in the sums, wherever the journal is turned."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

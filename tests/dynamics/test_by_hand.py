@@ -1,7 +1,5 @@
 """Small formulas of motion and forces with numbers that can be worked out by hand: 3-4-5 and 5-12-13 triangles."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

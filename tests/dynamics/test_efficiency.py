@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import pytest
 
 from crankwork.dynamics.efficiency import Parallel, Series, driving_torque_as_brake, driving_torque_as_motor, efficiency

@@ -1,7 +1,5 @@
 """Barrel and rod of a hydraulic cylinder with masses: against free bodies written out here, and against more routes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

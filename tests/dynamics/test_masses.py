@@ -1,7 +1,5 @@
 """Masses of the crank gear: what replaces the rod keeps what it promises."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Each force formula against cases that can be worked out by hand: 3-4-5 triangles, right angles, statics."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Forces between the teeth of geared cranks: by hand, by power, and against one system of all links."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What remembers: knowns, their refusals, replay at any angles, columns over a whole cycle."""
 
-from __future__ import annotations
-
 import math
 import pickle
 

@@ -1,7 +1,5 @@
 """The memory as lines: what is absent folds away, arithmetic stands in place, operands go by their own names."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

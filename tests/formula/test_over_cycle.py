@@ -1,7 +1,5 @@
 """Columns over a cycle against closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Ranges of formulas: what is put in from outside is told once, at its farthest."""
 
-from __future__ import annotations
-
 from crankwork.formula.known import Known, OfAngle, given
 from crankwork.formula.ranges import range_notices
 from crankwork.kinematics.crank_grid import CrankGrid

@@ -1,7 +1,5 @@
 """A calculation step by step: where operands come from, and what is kept."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -42,13 +43,16 @@ def adapter() -> type[Adapter]:
     return Adapter
 
 
+_read = functools.cache(crankwork.read)
+
+
 class Adapter:
     """Today's results as plain lists."""
 
     @staticmethod
     def methods(path: Path) -> list[str]:
         """Return the file's own method and, of a piston moved by lengths, the others."""
-        machine = crankwork.read(path)
+        machine = _read(path)
         if machine.lengths is None:
             return [OWN]
         own = crankwork.analyse(machine).method.name
@@ -57,7 +61,7 @@ class Adapter:
     @staticmethod
     def angles(path: Path) -> list[float]:
         """Return the angles to freeze: every 15 degrees, what the file's table adds to its own steps, and 370. [deg]"""
-        machine = crankwork.read(path)
+        machine = _read(path)
         own = crankwork.analyse(machine).grid.degrees.tolist()
         regular = [15.0 * step for step in range(int(own[-1] / 15) + 1)]
         wanted = sorted({*regular, *([370.0] if own[-1] == 720 else []), *(one for one in own if one % 5)})
@@ -68,7 +72,7 @@ class Adapter:
     @staticmethod
     def values(path: Path, method: str, degrees: Sequence[float]) -> dict[str, Any]:
         """Return columns by key, single values by key, and listings by name and key, all in SI."""
-        machine = crankwork.read(path)
+        machine = _read(path)
         if method != OWN:
             machine = crankwork.with_method(machine, method)
         results = crankwork.analyse(machine, crankwork.CrankGrid.from_degrees(degrees))

@@ -1,7 +1,5 @@
 """Crank angles: exact where a table is read by eye, periodic to the last bit, without cancellation."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 

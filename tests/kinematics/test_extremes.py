@@ -1,7 +1,5 @@
 """Dead centres, and the largest and least velocity and acceleration, against closed forms and against forty digits."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """The motion of a mechanism: the generic dyad against the closed form, errors of methods, and refusals."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The Fourier series of the piston motion against the transform of the exact motion."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

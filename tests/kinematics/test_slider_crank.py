@@ -1,7 +1,5 @@
 """Exact slider-crank kinematics against forty digits, up to where the crank barely turns."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 from typing import Any

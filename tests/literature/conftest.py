@@ -13,8 +13,6 @@ Published cases of mechanisms that no machine file expresses, with the reason:
   straight line where it goes on an arc: a linkage moves as it is made.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -6,8 +6,6 @@ angles and 5e-8 in the rates; the 34-digit values are from an energy quadrature 
 form, which agree to 16 digits.
 """
 
-from __future__ import annotations
-
 import runpy
 import types
 from pathlib import Path

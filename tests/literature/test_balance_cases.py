@@ -5,8 +5,6 @@ FOSSEE/Python-Textbook-Companions; the factors of the customary layouts are thos
 ch. 5, and Taylor, The Internal-Combustion Engine, vol. 2, ch. 8.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 

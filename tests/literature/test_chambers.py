@@ -3,8 +3,6 @@
 Values with more digits than a source prints are from an independent recalculation of its formulas.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -11,8 +11,6 @@ Basic_And_Applied_Thermodynamics_by_P._K._Nag/Chapter19.ipynb and
 secondary to the books. Values with more digits than are printed were recalculated from the same numbers.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -12,8 +12,6 @@ A_textbook_of_Internal_Combustion_Engines_by_R._K._Rajput/CHAPTER3_3.ipynb and
 Internal_Combustion_Engine_by_M._l._Mathur_and_R._P._Sharma/ch2_2.ipynb, and secondary to the books.
 """
 
-from __future__ import annotations
-
 import pytest
 
 import crankwork

@@ -9,8 +9,6 @@ to the books. Peak factors: reference pages mechdesigner.support/motion-cam-law-
 .../motion-cam-law-modified-sinusoid.htm.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """Machines let go: pendulums, the N-four-bar and links that fall, from files, against closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath as mp

@@ -10,8 +10,6 @@ balance of forces at 40 digits.
 The dead band and the jamming guide are closed forms, worked out here.
 """
 
-from __future__ import annotations
-
 import math
 
 import mpmath

@@ -11,8 +11,6 @@ Internal_Combustion_Engine_by_M._l._Mathur_and_R._P._Sharma/ch2_2.ipynb, so they
 A card is told by its area; one of constant pressure over the stroke that works has the same.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -10,8 +10,6 @@ The book takes two terms for the inertia force, the rod angle exactly, and g = 9
 resists the rotation as positive.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

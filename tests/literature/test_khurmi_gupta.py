@@ -8,8 +8,6 @@ Theory_Of_Machines_by_R._S._Khurmi_And_J._K._Gupta/ch15.ipynb, so they are secon
 The book takes two terms of the series, and the rod's derivatives to first order, with n = l/r.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -6,8 +6,6 @@ The book has two terms of the piston acceleration, the rod as two masses with a 
 the mass at the crankpin: 3840 N m in all. The rigid rod is nearer to that than 0.3 per cent.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

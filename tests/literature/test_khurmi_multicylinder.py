@@ -8,8 +8,6 @@ github.com/FOSSEE/Python-Textbook-Companions at commit d34b2ae7e5e6051f7c87531eb
 Theory_Of_Machines_by_R._S._Khurmi_And_J._K._Gupta/ch16.ipynb, so they are secondary to the book.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

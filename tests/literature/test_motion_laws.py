@@ -7,8 +7,6 @@ MechDesigner print them, mechdesigner.support/motion-cam-law-cubic.htm and .../m
 Velocity is counted in way over time, acceleration in way over its square, jerk in way over its cube.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

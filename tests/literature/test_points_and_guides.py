@@ -5,8 +5,6 @@ d34b2ae7e5e6051f7c87531ebc73b154b082d05b; angles that stand in figures are from 
 values with more digits are exact derivatives of the closed loops at 40 digits.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -5,8 +5,6 @@ and formulas 9 to 12. The document rounds each of four terms of the reduced iner
 them, and slips in four terms by up to 0.0013, so a sum may be off by that; everything else follows to the last digit.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -4,8 +4,6 @@ As printed in the companion notebooks github.com/FOSSEE/Python-Textbook-Companio
 d34b2ae7e5e6051f7c87531ebc73b154b082d05b; values with more digits are closed forms or closed loops at 40 digits.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

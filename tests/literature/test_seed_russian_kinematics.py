@@ -7,8 +7,6 @@ The note takes pi = 3.14 and two terms. Its worked lines show 3400 rpm and a rad
 2500 rpm and 75 mm. All its numbers are rounded but one, the acceleration at 150 and 210 degrees, which is cut.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

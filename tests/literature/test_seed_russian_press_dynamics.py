@@ -7,8 +7,6 @@ lines of its formulas 9 to 12 and its table 4, every printed digit.
 What the document itself has wrong or inconsistent is tested at the end.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -10,8 +10,6 @@ formulas. And ten of its pressures are not those of its program; they stand in `
 `PRESSURES_CUT_SHORT`.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple

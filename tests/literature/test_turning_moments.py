@@ -9,8 +9,6 @@ Theory_Of_Machines_by_B._K._Sarkar/Chapter6_1.ipynb, so they are secondary to th
 more than its own rounding, a comment says why.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Chambers against volumes by hand, Schmidt's closed form, and quadrature of scipy."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

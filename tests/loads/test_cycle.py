@@ -1,7 +1,5 @@
 """Quadrature over the cycle: exact for polynomials between the breaks, in radians."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

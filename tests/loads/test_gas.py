@@ -1,7 +1,5 @@
 """Areas, volumes, polytropes and gas forces, each against numbers that can be worked out by hand."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

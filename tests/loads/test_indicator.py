@@ -1,7 +1,5 @@
 """The indicator diagram: laws between points, their work, and every way in which a diagram does not hang together."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Mapping

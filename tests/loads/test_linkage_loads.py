@@ -1,7 +1,5 @@
 """Loads on a linkage: tables, process forces, springs, weights."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

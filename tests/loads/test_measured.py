@@ -1,7 +1,5 @@
 """Measured pressure: a known diagram comes back from its samples, however they were recorded."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Monotone cubic curves: the same as SciPy's, and never beyond the points they pass through."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import assume, given

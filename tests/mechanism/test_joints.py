@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke, slotted_press, watt_six_bar
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.joints import Pin, SlidingJoint, bearers, group_links, joints

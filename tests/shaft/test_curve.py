@@ -1,7 +1,5 @@
 """Quantities over the crank angle as piecewise polynomials."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Excess work, true speed, the flywheel four ways."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Torque of motors over speed, and what a load needs."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Equation of motion: steady speed with a motor."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Machines let go, as their coordinate feels it: starts, run-downs, oscillations, stops, against closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -4,8 +4,6 @@ Constants drawn from experience are those of the books: heats of gases at 1000 d
 Mendeleev, the 0.1 % that Vibe leaves unburnt.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

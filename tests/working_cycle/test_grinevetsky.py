@@ -1,7 +1,5 @@
 """The calculated cycle keeps its own books: energy, mass, work and the steps it shows."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import mpmath

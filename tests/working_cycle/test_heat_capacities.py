@@ -1,7 +1,5 @@
 """The laws of mean molar heats against each other and against measured enthalpies."""
 
-from __future__ import annotations
-
 import pytest
 
 from crankwork.formula.known import Known, given

@@ -1,7 +1,5 @@
 """The cycle from the heat released: formulas, limits with a closed form, conservation, and the closed diagram."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import pickle

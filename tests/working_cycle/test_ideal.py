@@ -1,7 +1,5 @@
 """Ideal cycles: closed forms, energy, and the limits in which one becomes another."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import mpmath

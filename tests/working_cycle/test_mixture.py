@@ -1,7 +1,5 @@
 """Fuel, charge and products: nothing is lost on the way."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Rounded corners: where the named points lie, how smooth the curve is, and how much work is left."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import replace

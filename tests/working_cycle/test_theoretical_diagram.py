@@ -1,7 +1,5 @@
 """The theoretical diagram closes on any crank gear, and its area is the mean pressure of the calculation."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
