@@ -16,7 +16,6 @@ from crankwork.errors import CrankworkError
 CAMPAIGN = runpy.run_path(str(Path(__file__).with_name("campaign.py")))
 FAULTS, hostile_file, outcome = (CAMPAIGN[name] for name in ("FAULTS", "hostile_file", "outcome"))
 plausible_file, plausible_outcome = (CAMPAIGN[name] for name in ("plausible_file", "plausible_outcome"))
-RUNS = 10
 
 
 def _divide(*_: object) -> None:
@@ -45,18 +44,18 @@ def _say_no_more(*_: object) -> None:
     raise CrankworkError("my.toml:7: crank.radius: is wrong")
 
 
-@pytest.mark.parametrize("part", range(RUNS))
-def test_hostile_files_are_refused_with_place_and_fix_or_computed(part) -> None:
-    found = {number: outcome(hostile_file(4, number)) for number in range(part, 400, RUNS)}
+@pytest.mark.parametrize("numbers", [range(20, 50), pytest.param(range(400), marks=pytest.mark.slow)], ids=len)
+def test_hostile_files_are_refused_with_place_and_fix_or_computed(numbers) -> None:
+    found = {number: outcome(hostile_file(4, number)) for number in numbers}
     assert {number: one for number, one in found.items() if one.kind in FAULTS} == {}
     assert {one.kind for one in found.values()} >= {"accepted", "refused"}
 
 
-@pytest.mark.parametrize("part", range(4))
-def test_plausible_machines_are_computed_or_refused_with_the_part(part) -> None:
-    found = {number: plausible_outcome(1, number) for number in range(1 + part, 49, 4)}
+@pytest.mark.parametrize("numbers", [(2, 3, 6, 7, 8, 10), pytest.param(range(1, 49), marks=pytest.mark.slow)], ids=len)
+def test_plausible_machines_are_computed_or_refused_with_the_part(numbers) -> None:
+    found = {number: plausible_outcome(1, number) for number in numbers}
     assert {number: one for number, one in found.items() if one.kind in FAULTS} == {}
-    assert "accepted" in {one.kind for one in found.values()}
+    assert {one.kind for one in found.values()} >= {"accepted", "refused"}
 
 
 def test_a_linkage_that_is_held_or_loose_must_be_told_with_a_part(monkeypatch) -> None:
@@ -66,31 +65,22 @@ def test_a_linkage_that_is_held_or_loose_must_be_told_with_a_part(monkeypatch) -
     assert plausible_outcome(1, spoilt[0]).kind == "untold"
 
 
-def test_a_file_of_a_number_is_always_the_same() -> None:
-    again = runpy.run_path(str(Path(__file__).with_name("mutations.py")))["hostile_file"]
-    assert [hostile_file(3, number) for number in range(20)] == [again(3, number) for number in range(20)]
-    again = runpy.run_path(str(Path(__file__).with_name("plausible.py")))["plausible_file"]
-    assert [plausible_file(3, number) for number in range(20)] == [again(3, number) for number in range(20)]
-
-
 def test_no_list_of_a_file_gets_into_itself() -> None:
     """Of this file a list is repeated, and a part of one copy put into another."""
     assert outcome(hostile_file(20261122, 26335)).kind == "refused"
 
 
-@pytest.mark.parametrize(
-    ("fault", "kind"),
-    [
-        (_divide, "traceback"), (_warn, "warning"), (_wait, "hang"), (_fill, "memory"), (_refuse, "message"),
-        (_say_no_more, "message"),
-    ],
-)  # fmt: skip
-def test_each_kind_of_fault_is_noticed(monkeypatch, fault, kind) -> None:
+def test_each_kind_of_fault_is_noticed(monkeypatch) -> None:
     text = template("engine")
     assert outcome(text).kind == "accepted"
-    monkeypatch.setitem(outcome.__globals__, "SECONDS", 0.2 if fault is _wait else 60.0)
-    monkeypatch.setitem(outcome.__globals__, "description_text", fault)
-    assert outcome(text).kind == kind
+    faults = {_divide: "traceback", _warn: "warning", _wait: "hang", _fill: "memory", _refuse: "message",
+              _say_no_more: "message"}  # fmt: skip
+    found = {}
+    for fault in faults:
+        monkeypatch.setitem(outcome.__globals__, "SECONDS", 0.2 if fault is _wait else 60.0)
+        monkeypatch.setitem(outcome.__globals__, "description_text", fault)
+        found[fault] = outcome(text).kind
+    assert found == faults
 
 
 def test_values_that_are_not_finite_are_noticed_where_nothing_is_said_of_them(monkeypatch) -> None:
