@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
@@ -13,6 +13,7 @@ import pytest
 import crankwork
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.errors import CrankworkError
+from crankwork.formula.known import Known
 from crankwork.machine import Bearings, Drive, Engine
 from crankwork.note.contents import note_of
 from crankwork.note.document import Note
@@ -168,6 +169,17 @@ def lines(case: str, group: str, *degrees: float) -> dict:
 @cache
 def note(case: str, language: str = "en") -> Note:
     return note_of(results(case), NoteOptions(language=language, figures=False))
+
+
+def remembered(shown: crankwork.Results) -> Iterator[Known]:
+    """Yield everything that results remember under each of its names."""
+    stack, seen = [known.named(key) for key, known in shown.memory.items()], set()
+    while stack:
+        one = stack.pop()
+        if (id(one.node), one.key) not in seen:
+            seen.add((id(one.node), one.key))
+            yield one
+            stack.extend(one.node.operands)
 
 
 # --- rules that hold for every machine

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import functools
-import importlib
 import math
-import pkgutil
 import re
-from pathlib import Path
 
 import numpy as np
-import pytest
 
-import crankwork
+from crankwork.formula.explained import Explanation
 from crankwork.formula.expression import FORMULAS, Operation, evaluate, record, symbol, text
-from crankwork.formula.known import Arithmetic, Use
-from crankwork.formula.lines import Moment, symbols_of, without_noise
+from crankwork.formula.known import Arithmetic, Total, Use, given, total
+from crankwork.formula.lines import FormulaLine, Moment, ValueLine, symbols_of, without_noise
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.note.digits import enough_digits
 from crankwork.note.equations import line_parts, told_values, value_symbol
+from note.built import broken, every_machine, groups, remembered, results
 
-FILES = [*sorted(Path("examples").glob("*.toml")), *crankwork.template_names()]
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 POWER = re.compile(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+")
 NUMBER = re.compile(r"\d+(\.\d+)?(·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
@@ -28,8 +24,6 @@ FUNCTIONS = {
     "tan": np.tan, "arctan": np.arctan, "arcsin": np.emath.arcsin, "arccos": np.emath.arccos, "sinh": np.sinh,
     "cosh": np.cosh, "tanh": np.tanh, "abs": np.abs, "sign": np.sign, "max": np.maximum, "min": np.minimum,
 }  # fmt: skip
-
-
 COMPLEX = {
     np.sqrt: np.emath.sqrt, np.log: np.emath.log, np.log10: np.emath.log10,
     np.arcsin: np.emath.arcsin, np.arccos: np.emath.arccos,
@@ -96,7 +90,7 @@ class Reader:
         for name, function in FUNCTIONS.items():
             if self.take(f"{name}("):
                 return function(*self.fenced()), name not in ("√", "abs")
-        pytest.fail(f"{self.line!r} cannot be read from {self.line[self.at :]!r} on")
+        raise AssertionError(f"{self.line!r} cannot be read from {self.line[self.at :]!r} on")
 
     def fenced(self) -> list[complex]:
         found = [self.sum()]
@@ -150,36 +144,14 @@ def evaluated(tree, put_in):
     return evaluate(tree, put_in)
 
 
-for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
-    if not module.name.endswith("__main__"):
-        importlib.import_module(module.name)
-
-
-@pytest.mark.parametrize("name", sorted(FORMULAS))
-def test_a_registered_formula_reads_as_it_computes(name):
+def misread_formula(name: str) -> str:
     tree = record(FORMULAS[name].shown)
     symbols = {one: symbol(one) for one in symbols_of(tree)}
-    assert misread(tree, symbols, dict(zip(symbols, range(len(symbols)), strict=True))) == ""
+    return misread(tree, symbols, dict(zip(symbols, range(len(symbols)), strict=True)))
 
 
-@functools.cache
-def results_of(file: Path | str, way: str = "exact") -> crankwork.Results:
-    settings = [f"method.kinematics={way}"]
-    if isinstance(file, Path):
-        return crankwork.analyse(crankwork.read(file, settings))
-    return crankwork.analyse(crankwork.read_machine(crankwork.template(file), file, settings))
-
-
-def remembered(results):
-    """Yield every use of a formula that the results remember, under each of its names."""
-    stack, seen = [known.named(key) for key, known in results.memory.items()], set()
-    while stack:
-        one = stack.pop()
-        if (id(one.node), one.key) not in seen:
-            seen.add((id(one.node), one.key))
-            if isinstance(one.node, Use) or (isinstance(one.node, Arithmetic) and one.key):
-                yield one
-            stack.extend(one.node.operands)
+def test_every_registered_formula_reads_as_it_computes(formulas):
+    assert broken(misread_formula, sorted(formulas)) == {}
 
 
 def missed(step) -> str:
@@ -211,12 +183,14 @@ def terms_of(printed: str) -> list[str]:
     return [part for part in parts if part]
 
 
-@pytest.mark.parametrize("file", FILES)
-def test_every_formula_of_a_machine_reads_as_it_computes(file):
-    results = results_of(file)
-    at = Moment(CrankGrid.from_degrees, float(results.grid.degrees[len(results.grid) // 3]) + 7.3)
+def misread_formulas(case: str) -> list[str]:
+    """Return what is wrong with the formulas that results remember, between the crank angles of their tables."""
+    degrees = results(case).grid.degrees
+    at = Moment(CrankGrid.from_degrees, float(degrees[len(degrees) // 3]) + 7.3)
     wrong, seen = set(), set()
-    for one in remembered(results):
+    for one in remembered(results(case)):
+        if not (isinstance(one.node, Use) or (isinstance(one.node, Arithmetic) and one.key)):
+            continue
         step = without_noise(at.step(one))
         wrong.add(missed(step))
         shown = {name: value_symbol(key, "en") for name, key in step.named}
@@ -225,4 +199,38 @@ def test_every_formula_of_a_machine_reads_as_it_computes(file):
         if mark not in seen:
             seen.add(mark)
             wrong.add(misread(step.expression, shown, step.values))
-    assert sorted(wrong - {""}) == []
+    return sorted(wrong - {""})
+
+
+@every_machine
+def test_every_formula_of_a_machine_reads_as_it_computes(cases):
+    assert broken(misread_formulas, cases) == {}
+
+
+def missed_lines(case: str) -> list[str]:
+    """Return the lines of a note, and of explanations at three crank angles, whose numbers do not give the value."""
+    steps = [without_noise(one) for group in groups(case) for one in group.lines if not isinstance(one, ValueLine)]
+    assert steps
+    memory, degrees = results(case).memory, results(case).grid.degrees
+    for key in {"crank_torque", "gas_pressure", "driving_torque", "point_x.B"} & memory.keys():
+        for at in degrees[[1, len(degrees) // 3, len(degrees) // 2]].tolist():
+            told = Explanation(memory[key], at, CrankGrid.from_degrees)
+            worked = (one for one in told if not one.residual and isinstance(one.known.node, Use | Arithmetic | Total))
+            steps += [without_noise(told.moment(one.degrees).step(one.known)) for one in worked]
+    return [f"{step.key}: {said}" for step in steps if (said := missed(step))]
+
+
+@every_machine
+def test_every_line_can_be_followed_with_a_calculator(cases):
+    assert broken(missed_lines, cases) == {}
+
+
+def test_a_difference_of_near_numbers_gets_more_digits_and_a_product_six():
+    terms = [given("piston_mass", 1234.56789), given("rod_small_end_mass", -1234.56111)]
+    line = Moment(CrankGrid.from_degrees, 0.0).step(total("reciprocating_mass", terms))
+    assert enough_digits(line) == 9
+    assert line_parts(line, "en")[1:] == ["1234.56789 + (−1234.56111)", "0.00678\u00a0kg"]
+    formula, values = FORMULAS["piston_area"], {"pi": math.pi, "D": 0.0789123456}
+    step = FormulaLine("piston_area", formula, values, formula.function(*values.values()))
+    assert enough_digits(step) == 6
+    assert line_parts(step, "en")[1] == "π·0.0789123²/4"
