@@ -15,7 +15,8 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, Segment
 from crankwork.mechanism.dyads import RRR, Guide
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, slider_crank
 from each import for_each
-from linkages import At, distance
+from linkages import TRIAD, At, distance, mechanism_from
+from motions import changed
 
 pytestmark = pytest.mark.elsewhere
 
@@ -149,19 +150,7 @@ def test_lengths_that_differ_by_little_are_equal_or_told(longer, passes):
 
 
 def test_of_a_chain_the_stated_circuit_is_followed():
-    from linkages import mechanism_from
-
-    mechanism, _ = mechanism_from({
-        "fixed_points": {"O": [0, 0], "E": [0.2, 0.5], "F": [0.26, 0.4]},
-        "crank": {"pivot": "O", "pin": "A", "radius": 0.9},
-        "positions": {"B": [0.15, 0.03], "C": [0.2, 0.1], "D": [0.2, -0.05]},
-        "links": {
-            "rod": {"joins": ["A", "B"]},
-            "plate": {"joins": ["B", "C", "D"], "points": {"S": [0.05, 0.01]}},
-            "arm": {"joins": ["C", "E"]},
-            "leg": {"joins": ["D", "F"]},
-        },
-    })  # fmt: skip
+    mechanism, _ = mechanism_from(changed(TRIAD, "crank.radius", 0.9))
     assert isinstance(mechanism.dyads[0], Chain)
     (circuit,) = all_circuits(mechanism)
     assert circuit.curve.is_closed

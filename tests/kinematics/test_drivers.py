@@ -5,9 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.mechanism.chain import Chain, ChainLink
@@ -15,10 +13,10 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, 
 from crankwork.mechanism.dyads import RRP, RRR, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
 from each import for_each
+from motions import coordinates, not_alike, remembered
 
 pytestmark = pytest.mark.elsewhere
 GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
-DENSE = CrankGrid.steps(1.0, 360.0)
 
 
 def there_and_back(low, high, kind="3-4-5"):
@@ -32,18 +30,6 @@ BOOM = Mechanism(
     ground={"O": (0.1, 0.5), "A": (0.4, -0.2)},
     points=(LinkPoint("T", "boom", 2.0, 0.1),),
 )
-
-
-def columns(motion):
-    """Return every coordinate of a motion with its derivatives."""
-    found = {}
-    for name, point in motion.points.items():
-        for axis, side in zip("xy", point, strict=True):
-            found |= {("point", name, axis, order): one for order, one in enumerate(side)}
-    for kind, coordinates in (("link", motion.links), ("slider", motion.sliders)):
-        for name, one in coordinates.items():
-            found |= {(kind, name, order): value for order, value in enumerate(one)}
-    return found
 
 
 class TestCylinderOnABoom:
@@ -173,38 +159,23 @@ def test_a_motor_between_two_links_opens_their_angle():
 def as_chain(mechanism):
     """Return the boom as a chain that is solved numerically."""
     motion = linkage_motion(mechanism, CrankGrid.from_degrees([0.0]))
-    dyad = mechanism.dyads[0]
-    law = mechanism.driver.law
-    links = (
-        ChainLink(
-            "cylinder",
-            mechanism.ground["A"],
-            float(motion.links["cylinder"].position[0]),
-            {"A": (0.0, 0.0), "B": (law.start, 0.0)},
-        ),
-        ChainLink(
-            "boom",
-            mechanism.ground["O"],
-            float(motion.links["boom"].position[0]),
-            {"O": (0.0, 0.0), "B": (dyad.length_b, 0.0)},
-        ),
+    start = mechanism.driver.law.start
+    links = tuple(
+        ChainLink(name, mechanism.ground[pin], float(motion.links[name].position[0]), {pin: (0, 0), "B": (length, 0)})
+        for name, pin, length in (("cylinder", "A", start), ("boom", "O", mechanism.dyads[0].length_b))
     )
-    chain = Chain(links, (), frozenset({"A", "O"}), law.start, 0.9)
+    chain = Chain(links, (), frozenset({"A", "O"}), start, 0.9)
     return Mechanism(mechanism.driver, (chain,), ground=mechanism.ground, points=mechanism.points)
 
 
 def test_a_cylinder_in_a_chain_is_the_one_in_a_dyad():
-    found, expected = (columns(linkage_motion(one, GRID)) for one in (as_chain(BOOM), BOOM))
-    for key, value in expected.items():
-        assert found[key] == pytest.approx(value, rel=1e-10, abs=1e-11), key
+    found, expected = (coordinates(linkage_motion(one, GRID)) for one in (as_chain(BOOM), BOOM))
+    assert not_alike(found, expected, rel=1e-10, abs=1e-11) == []
 
 
 @for_each("mechanism", [BOOM, as_chain(BOOM), SLIDING_CYLINDER, ELBOW], ids=["boom", "chain", "slider", "elbow"])
 def test_the_memory_replayed_is_the_motion(mechanism):
-    remembered = columns(remembered_motion(mechanism, linkage_motion(mechanism, DENSE)))
-    found, expected = Program(remembered)(GRID), columns(linkage_motion(mechanism, GRID))
-    for key, value in expected.items():
-        assert found[key] == pytest.approx(value + 0.0 * GRID.angle, rel=1e-13, abs=1e-13), key
+    assert not_alike(*remembered(mechanism, GRID), rel=1e-13, abs=1e-13) == []
 
 
 def test_a_crank_that_follows_a_law_is_the_crank_at_that_angle():
@@ -213,12 +184,10 @@ def test_a_crank_that_follows_a_law_is_the_crank_at_that_angle():
     still, swung = (Mechanism(Crank(0.05, start=0.3, direction=-1, pin="A", law=one), dyads, ground={"B": (0.18, 0.0)})
                     for one in (None, law))  # fmt: skip
     q = law_at(law, GRID).position
-    found, expected = columns(linkage_motion(swung, GRID)), columns(linkage_motion(still, CrankGrid.from_radians(q)))
-    for key, value in expected.items():
-        assert found[key] == pytest.approx(value, rel=1e-14, abs=1e-15), key
-    remembered = Program(columns(remembered_motion(swung, linkage_motion(swung, DENSE))))(GRID)
-    for key, value in expected.items():
-        assert remembered[key] == pytest.approx(value, rel=1e-13, abs=1e-14), key
+    expected = coordinates(linkage_motion(still, CrankGrid.from_radians(q)))
+    replayed, found = remembered(swung, GRID)
+    assert not_alike(found, expected, rel=1e-14, abs=1e-15) == []
+    assert not_alike(replayed, expected, rel=1e-13, abs=1e-14) == []
 
 
 @for_each("branch", [1, -1])
@@ -258,6 +227,4 @@ def test_links_with_a_motor_between_them_pass_the_line(is_swapped, branch):
             grown = (ahead.links[name][order] - behind.links[name][order]) / (2 * step)
             expected = motion.links[name][order + 1][1:-1] * rate
             assert grown[smooth] == pytest.approx(expected[smooth], rel=2e-5, abs=2e-6)
-    replayed = Program(columns(remembered_motion(motor, linkage_motion(motor, DENSE))))(grid)
-    for key, value in columns(motion).items():
-        assert replayed[key] == pytest.approx(value, rel=1e-12, abs=1e-12), key
+    assert not_alike(*remembered(motor, grid), rel=1e-12, abs=1e-12) == []

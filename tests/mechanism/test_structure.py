@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import linkages
 from crankwork.description.machine_file import read
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
@@ -12,7 +13,8 @@ from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.structure import mobility, structure
 from each import for_each
-from linkages import mechanism_from
+from linkages import SHAPER, mechanism_from
+from motions import changed
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SIX_BAR = {
@@ -26,38 +28,7 @@ SIX_BAR = {
     "guides": {"bed": {"through": [0.0, -0.05], "angle": 0.0}},
     "sliders": {"ram": {"pin": "D", "guide": "bed", "mass": 5.0}},
 }
-SHAPER = {
-    "fixed_points": {"O": [0.0, 0.0], "B": [0.0, -0.15]},
-    "crank": {"pivot": "O", "pin": "A", "radius": 0.05, "direction": "clockwise"},
-    "links": {"lever": {"joins": ["B", "C"], "length": 0.3}, "link": {"joins": ["C", "D"], "length": 0.2}},
-    "guides": {"slot": {"link": "lever"}, "bed": {"through": [0.0, 0.14]}},
-    "sliders": {"block": {"pin": "A", "guide": "slot"}, "ram": {"pin": "D", "guide": "bed"}},
-}
-
-TRIAD = {
-    "fixed_points": {"O": [0, 0], "E": [0.2, 0.5], "F": [0.26, 0.4]},
-    "crank": {"pivot": "O", "pin": "A", "radius": 0.03},
-    "positions": {"B": [0.15, 0.03], "C": [0.2, 0.1], "D": [0.2, -0.05]},
-    "links": {
-        "rod": {"joins": ["A", "B"]},
-        "plate": {"joins": ["B", "C", "D"], "points": {"S": [0.05, 0.01]}},
-        "arm": {"joins": ["C", "E"]},
-        "leg": {"joins": ["D", "F"]},
-    },
-}
-
-
-def changed(tables, key, value):
-    """Return the tables with one entry, at a dotted key, put in or (with None) taken out."""
-    head, _, rest = key.partition(".")
-    table = dict(tables)
-    if rest:
-        table[head] = changed(table.get(head, {}), rest, value)
-    elif value is None:
-        table.pop(head)
-    else:
-        table[head] = value
-    return table
+TRIAD = changed(linkages.TRIAD, "links.plate.points", {"S": [0.05, 0.01]})
 
 
 def solved(tables):
