@@ -120,7 +120,7 @@ def test_values_and_columns_are_those_of_analyses_and_others_say_why_not(name, b
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", ["engine", "V8", "four-bar", "shaper"])
+@pytest.mark.parametrize("name", MACHINES)
 def test_compiled_loops_give_what_analyses_and_arrays_give(name, monkeypatch):
     """Of seventy designs, because 64 are calculated at once."""
     study = Varied(*MACHINES[name])
@@ -128,8 +128,7 @@ def test_compiled_loops_give_what_analyses_and_arrays_give(name, monkeypatch):
     kernel = study.kernel([key for key in study.summary if key in study.memories[0] and key not in told])
     assert wrong_values(kernel, study, designs[:, :5]) == {}
     found = kernel(designs).values
-    few = [key for key in study.summary if key.endswith("_max")][:4]
-    few += [key for key in ("excess_work",) if key in study.summary]
+    few = [*[key for key in kernel.keys if key.endswith("_max")][:4], *({"excess_work"} & set(kernel.keys))]
     steps = study.kernel(few, steps=720)(designs).values if name in ("V8", "four-bar") else None
     monkeypatch.setattr(compiled_kernels, "compiles", lambda: False)
     rows = [kernel.keys.index(key) for key in few]

@@ -18,9 +18,7 @@ from crankwork.errors import CrankworkError
 from crankwork.study.running import Where, run_study
 from crankwork.study.study_file import load_study
 
-distributed = pytest.importorskip("distributed")
-pytest.importorskip("pyarrow")
-
+pytestmark = pytest.mark.data
 KILLS = 4
 STUDY = """\
 machine = "machine.toml"
@@ -45,6 +43,8 @@ def study(tmp_path):
 @pytest.mark.filterwarnings("default")
 def test_killed_workers_and_drivers_of_a_cluster_lose_nothing(study, tmp_path):
     """At moments that a generator chooses: a worker while a driver is at work, or that driver."""
+    import distributed
+
     run_study(study, tmp_path / "whole", Where(1))
     out, generator = tmp_path / "out", np.random.default_rng(14)
     killed, gone = {"worker": 0, "driver": 0}, set()

@@ -7,12 +7,11 @@ import math
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from crankwork.description.machine_file import template
 from crankwork.study.designs import designs_of
 from crankwork.study.study_file import read_study
-
-stats = pytest.importorskip("scipy.stats")
 
 HEAD = 'machine = "machine.toml"\nvalues = "stroke"\n[designs]\n'
 

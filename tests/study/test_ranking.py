@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import stats
 
 from crankwork.study.ranking import Histogram, Moments, Shares, best, front, thinned
 
@@ -22,12 +25,14 @@ def by_definition(costs):
     return found
 
 
-@pytest.mark.parametrize("objectives", [1, 2, 3, 5])
-@pytest.mark.parametrize("count", [0, 1, 300, 3000])
-def test_a_pareto_set_is_what_its_definition_says(objectives, count):
-    generator = np.random.default_rng(count + objectives)
-    costs = generator.normal(size=(count, objectives)).round(1 if objectives < 3 else 6)
-    assert front(costs).tolist() == by_definition(costs)
+def test_a_pareto_set_is_what_its_definition_says():
+    wrong = []
+    for objectives, count in itertools.product((1, 2, 3, 5), (0, 1, 300, 2000)):
+        generator = np.random.default_rng(count + objectives)
+        costs = generator.normal(size=(count, objectives)).round(1 if objectives < 3 else 6)
+        if front(costs).tolist() != by_definition(costs):
+            wrong.append((objectives, count))
+    assert wrong == []
 
 
 def test_a_large_pareto_set_is_thinned_and_keeps_its_ends():
@@ -76,8 +81,7 @@ def test_moments_are_those_of_all_values():
 @pytest.mark.elsewhere
 def test_indices_of_ishigamis_function():
     """With a = 7 and b = 0.1: 0.3139, 0.4424, 0 alone; 0.5576, 0.4424, 0.2437 in all (Saltelli 2008, ch. 4)."""
-    qmc = pytest.importorskip("scipy.stats").qmc
-    points = qmc.Sobol(6, rng=1).random(2**14) * 2 * np.pi - np.pi
+    points = stats.qmc.Sobol(6, rng=1).random(2**14) * 2 * np.pi - np.pi
     first, second = points[:, :3], points[:, 3:]
 
     def value(x):

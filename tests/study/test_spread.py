@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import crankwork
+from crankwork import cli
 from crankwork.study.spread_text import spread_text
 
 pytestmark = pytest.mark.elsewhere
@@ -129,44 +130,44 @@ def test_the_least_acceleration_against_draws() -> None:
     assert found.deviation == pytest.approx(float(expected.std()), rel=0.02)
 
 
-def test_the_command_tells_values_deviations_and_causes(tmp_path, capsys, monkeypatch) -> None:
-    from crankwork import cli
-
+@pytest.fixture
+def commanded(tmp_path, capsys, monkeypatch):
+    """Return what calls the command for a file with a deviation: its status, what it prints and what it complains."""
     (tmp_path / "my.toml").write_text(slider_crank(crank__radius="50 ± 0.1 mm").dump(), encoding="utf-8")
-    for language, words in (("en", "Standard deviations"), ("ru", "отклонения"), ("vi", "Độ lệch chuẩn")):
-        monkeypatch.setattr("sys.argv", ["crankwork", "spread", str(tmp_path / "my.toml"), "--lang", language])
+
+    def run(*words: str) -> tuple[object, str, str]:
+        monkeypatch.setattr("sys.argv", ["crankwork", "spread", str(tmp_path / "my.toml"), *words])
         with pytest.raises(SystemExit) as ended:
             cli.main()
-        out = capsys.readouterr().out
-        assert not ended.value.code
+        return ended.value.code, *capsys.readouterr()
+
+    return run
+
+
+def test_the_command_tells_values_deviations_and_causes(commanded) -> None:
+    for language, words in (("en", "Standard deviations"), ("ru", "отклонения"), ("vi", "Độ lệch chuẩn")):
+        code, out, _ = commanded("--lang", language)
+        assert not code
         assert words in out
         assert "crank.radius 100 %" in out
-    monkeypatch.setattr(
-        "sys.argv", ["crankwork", "spread", str(tmp_path / "my.toml"), "stroke", "--units", "imperial", "--json"]
-    )
-    with pytest.raises(SystemExit):
-        cli.main()
-    data = json.loads(capsys.readouterr().out)["spreads"]
+    data = json.loads(commanded("stroke", "--units", "imperial", "--json")[1])["spreads"]
     assert list(data) == ["stroke"]
     assert data["stroke"]["deviation"] == pytest.approx(0.2 / 25.4)
     assert data["stroke"]["unit"] == "in"
 
 
-@pytest.mark.parametrize(
-    ("changes", "keys", "message"),
-    [
-        ({}, (), "no number of the file has a deviation"),
-        ({"crank__radius": "50 ± 0.1 mm"}, ("strok",), "stroke"),
-        ({"crank__radius": "50 ± 0.1 mm"}, ("piston_velocity",), "single values|angle"),
-        ({"crank__radius": "50 ± -1 mm"}, (), "crank.radius"),
-        ({"crank__radius": "50 ± mm"}, (), "crank.radius"),
-        ({"crank__radius": "50 ± 1 kg"}, (), "crank.radius"),
-        ({"crank__radius": "50 ± 80 mm"}, (), "crank.radius"),
-    ],
-)
-def test_what_cannot_be_spread_is_refused(changes: dict[str, str], keys: tuple[str, ...], message: str) -> None:
-    with pytest.raises(crankwork.CrankworkError, match=message):
-        crankwork.spread(slider_crank(**changes), keys)
+def test_what_cannot_be_spread_is_refused() -> None:
+    for radius, key, message in (
+        (None, "", "no number of the file has a deviation"),
+        ("50 ± 0.1 mm", "strok", "stroke"),
+        ("50 ± 0.1 mm", "piston_velocity", "single values|angle"),
+        ("50 ± -1 mm", "", "crank.radius"),
+        ("50 ± mm", "", "crank.radius"),
+        ("50 ± 1 kg", "", "crank.radius"),
+        ("50 ± 80 mm", "", "crank.radius"),
+    ):
+        with pytest.raises(crankwork.CrankworkError, match=message):
+            crankwork.spread(slider_crank(**({"crank__radius": radius} if radius else {})), [key] if key else [])
 
 
 def test_a_file_with_deviations_is_the_machine_of_its_values() -> None:
@@ -176,13 +177,11 @@ def test_a_file_with_deviations_is_the_machine_of_its_values() -> None:
     assert spread.machine.deviations == {"crank.radius": pytest.approx(1e-4), "rod.length": pytest.approx(2e-3)}
 
 
-@pytest.mark.parametrize(
-    ("stated", "size"),
-    [("2 kg ± 0.5 g", 0.0005), ("2000 g ± 0.1 kg", 0.1), ("2 ± 0.1 kg", 0.1), ("2 kg ± 1 lb", 0.45359237)],
-)
-def test_a_deviation_may_have_a_unit_of_its_own(stated, size):
-    machine = crankwork.read_machine(crankwork.template("engine").replace('"0.55 kg"', f'"{stated}"'))
-    assert machine.deviations["piston.mass"] == pytest.approx(size)
+def test_a_deviation_may_have_a_unit_of_its_own():
+    sizes = {"2 kg ± 0.5 g": 0.0005, "2000 g ± 0.1 kg": 0.1, "2 ± 0.1 kg": 0.1, "2 kg ± 1 lb": 0.45359237}
+    engine = crankwork.template("engine")
+    found = [crankwork.read_machine(engine.replace('"0.55 kg"', f'"{stated}"')).deviations for stated in sizes]
+    assert [one["piston.mass"] for one in found] == pytest.approx(list(sizes.values()))
 
 
 def test_a_deviation_of_another_quantity_is_refused():
@@ -227,16 +226,10 @@ def test_equal_causes_have_equal_shares_where_draws_are_taken():
     assert [one.share for one in largest.causes] == pytest.approx([1 / 3] * 3, abs=0.06)
 
 
-@pytest.mark.parametrize("within", ["0", "-1", "11", "nan", "three"])
-def test_a_worst_case_that_is_none_is_refused(tmp_path, capsys, monkeypatch, within) -> None:
-    from crankwork import cli
-
-    (tmp_path / "my.toml").write_text(slider_crank(crank__radius="50 ± 0.1 mm").dump(), encoding="utf-8")
-    monkeypatch.setattr("sys.argv", ["crankwork", "spread", str(tmp_path / "my.toml"), f"--within={within}"])
-    with pytest.raises(SystemExit) as ended:
-        cli.main()
-    assert ended.value.code == 2
-    assert "--within 3" in capsys.readouterr().err
+def test_a_worst_case_that_is_none_is_refused(commanded) -> None:
+    for within in ("0", "-1", "11", "nan", "three"):
+        code, _, told = commanded(f"--within={within}")
+        assert (code, "--within 3" in told) == (2, True), within
 
 
 def test_draws_that_give_no_machine_are_counted_by_reason():

@@ -22,9 +22,6 @@ from crankwork.study.running import Where, run_study
 from crankwork.study.study_file import load_study
 from looks import faults
 
-pytest.importorskip("pyarrow")
-pytest.importorskip("scipy")
-
 STUDY = """\
 machine = "machine.toml"
 values = "stroke"
@@ -108,13 +105,17 @@ def found(tmp_path_factory):
     return study, run_study(study, folder / "out", Where(1))
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_figures_of_a_study_can_be_read(found, language):
-    drawn = found_drawings(*found, language)
-    assert sorted(drawn) == NAMES
-    assert {name: wrong for name, one in drawn.items() if (wrong := seen(one))} == {}
+@pytest.mark.data
+def test_figures_of_a_study_can_be_read(found):
+    wrong = {}
+    for language in LANGUAGES:
+        drawn = found_drawings(*found, language)
+        assert sorted(drawn) == NAMES
+        wrong |= {(language, name): faulty for name, one in drawn.items() if (faulty := seen(one))}
+    assert wrong == {}
 
 
+@pytest.mark.data
 def test_figures_show_the_designs_of_the_tables(found):
     drawn, data = found_drawings(*found, "en"), found_data(*found)
     dots = [one for one in drawn["pareto"].items if isinstance(one, Circle)]
@@ -130,16 +131,18 @@ def test_figures_show_the_designs_of_the_tables(found):
     assert best[0, 1] == pytest.approx(best[-1, 1], abs=0.02 * drawn["parallel.stroke"].height)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_maps_can_be_read(language):
+def test_maps_can_be_read():
     engine = Description(template("engine"))
-    drawn = map_drawings(mapped(engine, ["crank.speed=800..6000rpm:4", "rod.length=30..200mm:4"]), language)
-    assert {name: wrong for name, one in drawn.items() if (wrong := seen(one))} == {}
-    # the velocity grows as the speed does, the least ratio of the rod does not depend on it
-    assert set(drawn["map.rod_ratio"].plots[0].curves) == {"rod_ratio"}
-    assert len(drawn["map.piston_velocity_max"].plots[0].curves) > 3
-    # axes have names and symbols of the field, not keys of the file
-    titles = drawn["map.piston_velocity_max"].plots[0].titles
-    for title, key in zip((titles["x"], titles["y"]), ("rotational_speed", "rod_length"), strict=True):
-        assert QUANTITIES[key].label(language) in title
-        assert f"/{{{QUANTITIES[key].symbol(language)[0]}}}" in title
+    found, wrong = mapped(engine, ["crank.speed=800..6000rpm:4", "rod.length=30..200mm:4"]), {}
+    for language in LANGUAGES:
+        drawn = map_drawings(found, language)
+        wrong |= {(language, name): faulty for name, one in drawn.items() if (faulty := seen(one))}
+        # the velocity grows as the speed does, the least ratio of the rod does not depend on it
+        assert set(drawn["map.rod_ratio"].plots[0].curves) == {"rod_ratio"}
+        assert len(drawn["map.piston_velocity_max"].plots[0].curves) > 3
+        # axes have names and symbols of the field, not keys of the file
+        titles = drawn["map.piston_velocity_max"].plots[0].titles
+        for title, key in zip((titles["x"], titles["y"]), ("rotational_speed", "rod_length"), strict=True):
+            assert QUANTITIES[key].label(language) in title
+            assert f"/{{{QUANTITIES[key].symbol(language)[0]}}}" in title
+    assert wrong == {}
