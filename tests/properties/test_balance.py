@@ -37,7 +37,7 @@ COUNT = 512
 DEGREES = np.arange(COUNT) * (360 / COUNT)
 GRID = CrankGrid.from_degrees(DEGREES)
 ORDERS = tuple(range(1, 13))
-MANY = settings(max_examples=80)
+MANY = settings(max_examples=30)
 angles = st.floats(-360.0, 360.0)
 positions = st.floats(-1.0, 1.0)
 

@@ -20,6 +20,7 @@ from crankwork.shaft.transient import FreeMachine, Run
 from motors import LinearMotor, missed
 
 TURN = 2 * math.pi
+FEW, MANY = settings(max_examples=12), settings(max_examples=40)
 small = st.floats(-0.3, 0.3)
 
 
@@ -46,6 +47,7 @@ def torques(draw):
 fluctuations = st.floats(0.002, 0.3)
 
 
+@MANY
 @given(inertias(), torques(), fluctuations, st.floats(1, 200))
 def test_the_exact_flywheel_gives_the_fluctuation_asked_for(inertia, torque, delta, speed):
     found = flywheel(inertia, torque, speed, delta)
@@ -53,12 +55,14 @@ def test_the_exact_flywheel_gives_the_fluctuation_asked_for(inertia, torque, del
     assert true_speed(inertia + found.inertia, torque, speed).fluctuation == pytest.approx(delta, abs=1e-9)
 
 
+@MANY
 @given(st.floats(0.0, 5.0), torques(), fluctuations)
 def test_constant_inertia_makes_all_ways_the_same(inertia, torque, delta):
     found = [flywheel(Curve.constant(inertia), torque, 10.0, delta, way) for way in WAYS]
     assert [one.inertia for one in found] == pytest.approx([found[0].inertia] * 4, rel=1e-9, abs=1e-9)
 
 
+@MANY
 @given(inertias(), torques())
 def test_the_other_ways_tend_to_the_exact_one(inertia, torque):
     delta, speed = 1e-4, 10.0
@@ -68,6 +72,7 @@ def test_the_other_ways_tend_to_the_exact_one(inertia, torque):
     assert abs(wittenbauer.inertia - exact.inertia) <= delta * swing
 
 
+@MANY
 @given(inertias(), torques(), st.floats(5, 50))
 def test_kinetic_energy_gained_is_work_done(inertia, torque, speed):
     total = inertia + 50.0
@@ -79,6 +84,7 @@ def test_kinetic_energy_gained_is_work_done(inertia, torque, speed):
     assert found.mean_speed == pytest.approx(speed, rel=1e-12)
 
 
+@MANY
 @given(torques(), st.floats(0, TURN))
 def test_where_the_cycle_begins_does_not_matter(torque, by):
     """Mean and excess work of a torque that comes later."""
@@ -87,7 +93,7 @@ def test_where_the_cycle_begins_does_not_matter(torque, by):
     assert excess_work(later).work == pytest.approx(excess_work(torque).work, rel=1e-9)
 
 
-@settings(max_examples=25)
+@FEW
 @given(inertias(), torques(), st.floats(5, 40), st.floats(0.5, 20))
 def test_steady_motion_repeats_and_balances(inertia, torque, speed, stiffness):
     motor = LinearMotor(stiffness, speed - torque.mean / stiffness)
@@ -98,7 +104,7 @@ def test_steady_motion_repeats_and_balances(inertia, torque, speed, stiffness):
     assert missed(machine, found) < 1e-9
 
 
-@settings(max_examples=25)
+@FEW
 @given(st.floats(0.1, 10), st.floats(0.5, 50), st.just(0.0) | st.floats(0.001, 2.0), st.floats(1, 50))
 def test_run_down_takes_the_time_of_the_closed_form(inertia, dry, viscous, speed):
     assume(inertia * speed**2 / dry < 5000)

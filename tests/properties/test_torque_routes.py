@@ -44,6 +44,7 @@ from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
 from crankwork.mechanism.joints import SlidingJoint, group_links, joints
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at, slider_crank
+from each import for_each
 from linkages import mechanism_from
 
 pytestmark = pytest.mark.elsewhere
@@ -152,12 +153,12 @@ def check_routes(running: Running) -> None:
         assert column == pytest.approx(others[key], rel=0, abs=1e-10 * largest), key
 
 
-@pytest.mark.parametrize("name", MECHANISMS)
+@for_each("name", MECHANISMS)
 def test_all_routes_agree(name):
     check_routes(working(MECHANISMS[name]))
 
 
-@pytest.mark.parametrize("name", [name for name in MECHANISMS if name not in ("triad", "slider-crank")])
+@for_each("name", [name for name in MECHANISMS if name not in ("triad", "slider-crank")])
 def test_a_dyad_solved_as_a_group_of_any_class_gives_the_same_torque(name):
     running = working(MECHANISMS[name])
     chains = tuple(
@@ -220,13 +221,13 @@ def _two_lengths(draw, least, most):
     return (total + difference) / 2, (total - difference) / 2
 
 
-@settings(max_examples=200)
+@settings(max_examples=60)
 @given(mechanism=six_bars(), seed=st.integers(0, 1000))
 def test_all_routes_agree_on_any_six_bar(mechanism, seed):
     check_routes(working(mechanism, seed))
 
 
-@settings(max_examples=50)
+@settings(max_examples=20)
 @given(mechanism=six_bars(), seed=st.integers(0, 1000), coefficient=st.floats(0, 0.2))
 def test_friction_takes_the_power_that_the_crank_gives_more(mechanism, seed, coefficient):
     running = working(mechanism, seed)
