@@ -2,6 +2,7 @@
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -30,7 +31,6 @@ def test_the_mean_of_a_size_that_vanishes_is_that_of_the_integral_over_both_its_
 
 @for_each("gap", [1e-3, 1e-6, 1e-9])
 def test_the_mean_of_a_size_that_nearly_vanishes_is_an_elliptic_integral(gap: float) -> None:
-    mpmath = pytest.importorskip("mpmath")
     found = over(size=joint_force(ANGLE.sin, given("", gap)))
     # sqrt(g^2 + sin^2) = g sqrt(1 - m sin^2) with m = -1 / g^2
     expected = float(2 / mpmath.pi * gap * mpmath.ellipe(-1 / mpmath.mpf(gap) ** 2))

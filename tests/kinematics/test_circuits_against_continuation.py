@@ -8,7 +8,6 @@ import pytest
 from crankwork.kinematics.circuits import all_circuits
 from crankwork.kinematics.coordinates import driver_coordinate, link_angle
 from crankwork.mechanism.catalog import four_bar, stephenson_six_bar, watt_six_bar
-from each import for_each
 
 pytestmark = pytest.mark.elsewhere
 
@@ -128,7 +127,8 @@ def _apart(path, angles):
     return float(np.linalg.norm(gaps, axis=1).min())
 
 
-def compare(number):
+@pytest.mark.parametrize("number", range(40))
+def test_circuits_and_limits_are_those_of_another_continuation(number):
     random = np.random.default_rng(number)
     mechanism, loops, second = _random(random)
     paths = []
@@ -158,8 +158,3 @@ def compare(number):
         dead = loops.turned_back(path, 0)
         branches = circuit.branches(driver_coordinate(mechanism))
         assert len(branches) == max(1, len(dead))
-
-
-@for_each("number", range(40))
-def test_circuits_and_limits_are_those_of_another_continuation(number):
-    compare(number)

@@ -150,12 +150,11 @@ def test_resampling_sets_the_knots(step: float) -> None:
 
 
 @for_each("step", [0.1, 0.2, 0.3, 0.6])
-def test_resampling_at_a_step_that_is_no_binary_fraction_keeps_every_knot_once(step: float) -> None:
-    for start in (0.0, 0.35, -360.0):
-        degrees = start + np.arange(0.0, 720.0)
-        diagram, _, _ = measured_diagram(_recorded(degrees), CYCLE, step=step)
-        assert np.all(np.diff(diagram.breaks) > 0.04)
-        assert np.all(np.isfinite(diagram.segments[0].pressures))
+@for_each("start", [0.0, 0.35, -360.0])
+def test_resampling_at_a_step_that_is_no_binary_fraction_keeps_every_knot_once(step: float, start: float) -> None:
+    diagram, _, _ = measured_diagram(_recorded(start + np.arange(0.0, 720.0)), CYCLE, step=step)
+    assert np.all(np.diff(diagram.breaks) > 0.04)
+    assert np.all(np.isfinite(diagram.segments[0].pressures))
 
 
 def test_a_smooth_wrap_is_not_worth_a_warning() -> None:
@@ -180,43 +179,41 @@ def test_a_recording_that_starts_in_combustion_has_no_rough_wrap() -> None:
     assert not wrap_is_rough(diagram, wrap)
 
 
-class TestRefusals:
-    def test_too_few_samples(self) -> None:
-        error = _error(_recorded(np.linspace(0, 720, 7)))
-        assert (error.key, str(error)) == ("gas.measured", "only 7 samples; a cycle needs at least 8")
+def _without(first: int, behind: int) -> MeasuredPressure:
+    return _recorded(np.delete(np.arange(0.0, 720.0), np.arange(first, behind)))
 
-    def test_too_many_samples_are_to_be_resampled(self) -> None:
-        degrees = np.linspace(0, 720, 60_001)
-        assert str(_error(_recorded(degrees))).startswith('60000 samples in one cycle; write resample = "0.1 deg"')
-        assert measured_diagram(_recorded(degrees), CYCLE, step=0.5)[1] == 1
 
-    @for_each("wrong", [49.0, 48.0, -3.0])
-    def test_an_angle_that_does_not_rise_is_told_with_its_line(self, wrong: float) -> None:
-        degrees = np.arange(0.0, 720.0)
-        degrees[50] = wrong
-        error = _error(_recorded(degrees, first_line=2))
-        assert error.key == "gas.measured"
-        assert str(error).startswith(f"line 52: the angle goes backwards, from 49 to {wrong:g} deg")
+def _backwards(wrong: float) -> MeasuredPressure:
+    return _recorded(np.concatenate([np.arange(0.0, 50.0), [wrong], np.arange(51.0, 720.0)]))
 
-    def test_a_gap_is_told_with_its_line_and_the_usual_step(self) -> None:
-        degrees = np.delete(np.arange(0.0, 720.0), np.arange(100, 105))
-        error = _error(_recorded(degrees, first_line=2))
-        assert error.key == "gas.measured"
-        assert str(error).startswith("line 102: gap from 99 to 105 deg where the usual step is 1 deg")
 
-    def test_a_few_missing_samples_are_no_gap(self) -> None:
-        degrees = np.delete(np.arange(0.0, 720.0), np.arange(100, 103))
-        assert measured_diagram(_recorded(degrees), CYCLE)[1] == 1
+REFUSED = {
+    "too few samples": (_recorded(np.linspace(0, 720, 7)), "only 7 samples; a cycle needs at least 8"),
+    "too many samples": (
+        _recorded(np.linspace(0, 720, 60_001)),
+        '60000 samples in one cycle; write resample = "0.1 deg"',
+    ),
+    "an angle again": (_backwards(49.0), "line 52: the angle goes backwards, from 49 to 49 deg"),
+    "an angle before": (_backwards(48.0), "line 52: the angle goes backwards, from 49 to 48 deg"),
+    "an angle below zero": (_backwards(-3.0), "line 52: the angle goes backwards, from 49 to -3 deg"),
+    "a gap": (_without(100, 105), "line 102: gap from 99 to 105 deg where the usual step is 1 deg"),
+    "a degree less": (_without(719, 720), "the samples cover 718 deg; one cycle is 720 deg"),
+    "half a cycle": (_without(360, 720), "the samples cover 359 deg; one cycle is 720 deg"),
+}
 
-    @for_each(("samples", "whole"), [(720, True), (719, False), (360, False)])
-    def test_less_than_a_cycle_is_refused(self, samples: int, *, whole: bool) -> None:
-        recorded = _recorded(np.arange(0.0, float(samples)))
-        if whole:
-            assert measured_diagram(recorded, CYCLE)[1] == 1
-        else:
-            error = _error(recorded)
-            assert error.key == "gas.measured"
-            assert str(error).startswith(f"the samples cover {samples - 1} deg; one cycle is 720 deg")
+
+@for_each(("recorded", "told"), REFUSED.values(), ids=REFUSED)
+def test_what_is_no_recording_of_a_cycle_is_refused(recorded: MeasuredPressure, told: str) -> None:
+    error = _error(recorded)
+    assert error.key == "gas.measured"
+    assert str(error).startswith(told)
+
+
+def test_what_is_nearly_refused_is_taken() -> None:
+    """Many samples to be resampled, a few missing ones, and a cycle less its last sample."""
+    assert measured_diagram(_recorded(np.linspace(0, 720, 60_001)), CYCLE, step=0.5)[1] == 1
+    assert measured_diagram(_without(100, 103), CYCLE)[1] == 1
+    assert measured_diagram(_without(720, 720), CYCLE)[1] == 1
 
 
 def test_the_knots_of_the_curve_rise() -> None:

@@ -28,13 +28,10 @@ def free(inertia=2.0, potential=None, grows=0.0, falls=0.0, damping=0.0, breaks=
     return FreeMachine(reduced, breaks, **other)
 
 
-@pytest.fixture(params=["arrays", "compiled"])
+@pytest.fixture(params=[Run, pytest.param(Glide, marks=pytest.mark.compiled)], ids=["arrays", "compiled"])
 def run(request):
     """Steps of arrays, and the same steps compiled."""
-    if request.param == "arrays":
-        return Run
-    pytest.importorskip("numba")
-    return Glide
+    return request.param
 
 
 def words(course):
@@ -65,12 +62,16 @@ class TestRunDown:
         assert len(course.steps) < 400
 
 
+STIFFNESS = 50.0
+SPRING = (lambda q: STIFFNESS * (q - 3.0) ** 2 / 2, lambda q: STIFFNESS * (q - 3.0))
+HILLS = (np.cos, lambda q: -np.sin(q))
+
+
 class TestOscillation:
     def test_a_spring_with_dry_friction_loses_the_same_way_each_time(self, run):
         """x_n = x_0 - 2 n M / c, at multiples of half the period; it rests where the spring no longer moves it."""
-        c, dry = 50.0, 4.0
-        spring = (lambda q: c * (q - 3.0) ** 2 / 2, lambda q: c * (q - 3.0))
-        course = run(free(potential=spring, grows=-dry, falls=dry), 4.0, 0.0).until(10.0)
+        c, dry = STIFFNESS, 4.0
+        course = run(free(potential=SPRING, grows=-dry, falls=dry), 4.0, 0.0).until(10.0)
         assert words(course) == ["turns_back"] * (len(course.events) - 1) + ["comes_to_rest"]
         back = course.events
         half = math.pi * math.sqrt(2.0 / c)
@@ -80,9 +81,8 @@ class TestOscillation:
         assert abs(back[-1].coordinate - 3.0) <= dry / c < abs(back[-2].coordinate - 3.0)
 
     def test_damped_vibration(self, run):
-        c, d = 50.0, 2.0
-        spring = (lambda q: c * (q - 3.0) ** 2 / 2, lambda q: c * (q - 3.0))
-        course = run(free(potential=spring, damping=d), 4.0, 0.0).until(5.0)
+        c, d = STIFFNESS, 2.0
+        course = run(free(potential=SPRING, damping=d), 4.0, 0.0).until(5.0)
         decay, rate = d / 4.0, math.sqrt(c / 2 - (d / 4.0) ** 2)
         time = np.linspace(0, 5, 41)
         exact = np.exp(-decay * time) * (np.cos(rate * time) + decay / rate * np.sin(rate * time))
@@ -105,12 +105,12 @@ class TestOscillation:
         assert [one.time for one in course.events] == pytest.approx([0.0, 1.0, 2.0], abs=1e-12)
 
     def test_on_top_of_a_hill_it_stays(self, run):
-        course = run(free(potential=(np.cos, lambda q: -np.sin(q))), math.pi * 2, 0.0).until(100.0)
+        course = run(free(potential=HILLS), math.pi * 2, 0.0).until(100.0)
         assert words(course) == ["comes_to_rest"]
 
     def test_the_smallest_oscillation_is_one(self, run):
         """A thousand-millionth of a radian about the bottom."""
-        course = run(free(potential=(np.cos, lambda q: -np.sin(q))), math.pi + 1e-9, 0.0).until(20.0)
+        course = run(free(potential=HILLS), math.pi + 1e-9, 0.0).until(20.0)
         time = np.linspace(0, 20, 50)
         assert course.at(time)[0] - math.pi == pytest.approx(1e-9 * np.cos(time / math.sqrt(2)), abs=1e-14)
         assert len(course.steps) < 100
@@ -160,12 +160,12 @@ class TestBounds:
                 raise KeyboardInterrupt
             return False
 
-        course = Run(free(potential=(np.cos, lambda q: -np.sin(q))), 1.0, 0.0).until(100.0, each=impatient)
+        course = Run(free(potential=HILLS), 1.0, 0.0).until(100.0, each=impatient)
         assert words(course)[-1] == "interrupted"
         assert course.end == seen[-1]
 
     def test_too_many_steps_are_told(self, monkeypatch):
         monkeypatch.setattr("crankwork.shaft.transient.MOST_STEPS", 20)
-        course = Run(free(potential=(np.cos, lambda q: -np.sin(q))), 1.0, 0.0).until(100.0)
+        course = Run(free(potential=HILLS), 1.0, 0.0).until(100.0)
         assert words(course)[-1] == "many_steps"
         assert course.end < 100.0

@@ -1,5 +1,6 @@
 """The cycle from the heat released: formulas, limits with a closed form, conservation, and the closed diagram."""
 
+import functools
 import itertools
 import math
 import pickle
@@ -41,8 +42,12 @@ def _clearance(lengths: SliderCrank) -> float:
     return math.pi * BORE**2 / 4 * lengths.stroke / (RATIO - 1)
 
 
+@functools.cache
 def _run(data: HeatReleaseData, lengths: SliderCrank = CENTRAL) -> HeatReleaseResult:
     return heat_release(data, *cylinder_volumes(lengths, data.bore, _clearance(lengths)), dead_centres(lengths))
+
+
+VOLUME, VOLUME_RATE = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))
 
 
 # --- formulas
@@ -100,7 +105,7 @@ def test_internal_energy_is_the_integral_of_the_specific_heat(first, slope, star
 
 def test_without_heat_and_walls_the_gas_follows_the_isentrope():
     result = _run(replace(ENGINE, heat=0.0, has_wall_loss=False, heat_ratio=1.4))
-    volume = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))[0](result.trace.degrees)
+    volume = VOLUME(result.trace.degrees)
     invariant = result.trace.pressure * volume**1.4
     assert np.max(np.abs(invariant / invariant[0] - 1)) < 1e-9
 
@@ -166,13 +171,12 @@ def test_the_first_law_holds(shape, duration, advance, slope, two_stroke, offset
 def test_the_pressure_gives_back_the_burning_that_made_it():
     """The apparent heat release of the diagram, as one takes it from measured pressure."""
     result = _run(replace(ENGINE, has_wall_loss=False))
-    volume_at, volume_rate_at = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))
     burning = next(one for one in result.calculated.diagram.segments if one.start == pytest.approx(340.0))
     at = np.linspace(341.0, 389.0, 97)
     pressure = hermite(burning.knots, burning.pressures, burning.slopes, at)
     rise = np.degrees(hermite_slope(burning.knots, burning.pressures, burning.slopes, at))
     g = ENGINE.heat_ratio
-    heat = g / (g - 1) * pressure * volume_rate_at(at) + volume_at(at) * rise / (g - 1)
+    heat = g / (g - 1) * pressure * VOLUME_RATE(at) + VOLUME(at) * rise / (g - 1)
     s = (at - 340.0) / 50.0
     assert heat / 900.0 == pytest.approx(wiebe_burning_rate(s, 2.0, math.radians(50.0)), rel=1e-4, abs=1e-5)
 
@@ -180,10 +184,9 @@ def test_the_pressure_gives_back_the_burning_that_made_it():
 def test_without_walls_the_pressure_is_an_integral_over_the_burning():
     """P V^g = p1 V1^g + (g - 1) Q times the integral of V^(g - 1) dx, in one quadrature."""
     result = _run(replace(ENGINE, has_wall_loss=False))
-    volume_at, _ = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))
 
     def volume(degrees):
-        return float(volume_at(np.array([degrees]))[0])
+        return float(VOLUME(np.array([degrees]))[0])
 
     g, end = ENGINE.heat_ratio, 372.0
 
@@ -193,7 +196,7 @@ def test_without_walls_the_pressure_is_an_integral_over_the_burning():
 
     released = quad(integrand, 0.0, (end - 340.0) / 50.0, epsabs=0, epsrel=1e-12)[0]
     expected = (1e5 * volume(230.0) ** g + (g - 1) * 900.0 * released) / volume(end) ** g
-    found = result.calculated.diagram.pressure(np.array([end]), volume_at(np.array([end])))[0]
+    found = result.calculated.diagram.pressure(np.array([end]), VOLUME(np.array([end])))[0]
     assert found == pytest.approx(expected, rel=1e-8)
 
 
@@ -243,7 +246,7 @@ def test_a_march_in_small_steps_with_its_own_equations_ends_at_the_same_work():
 
 def test_the_ideal_gas_law_holds_along_the_trace():
     result = _run(ENGINE)
-    volume = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))[0](result.trace.degrees)
+    volume = VOLUME(result.trace.degrees)
     constant = result.trace.pressure * volume / result.trace.temperature
     assert constant == pytest.approx(np.full_like(constant, constant[0]), rel=1e-12)
 
@@ -310,8 +313,7 @@ def test_the_pressure_has_no_corner_where_burning_begins_and_ends():
 def test_extremes_are_those_of_the_curve():
     result = _run(ENGINE)
     values, fine = result.calculated.values, np.linspace(350.0, 400.0, 200_001)
-    volume = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))[0](fine)
-    pressure = result.calculated.diagram.pressure(fine, volume)
+    pressure = result.calculated.diagram.pressure(fine, VOLUME(fine))
     assert values["cylinder_pressure_max"] == pytest.approx(np.max(pressure), rel=1e-9)
     assert values["cylinder_pressure_max_angle"] == pytest.approx(math.radians(fine[np.argmax(pressure)]), abs=4e-5)
     rise = np.gradient(pressure, np.radians(fine))
@@ -325,7 +327,7 @@ def test_what_stands_behind_the_greatest_pressure_is_told():
     data = replace(ENGINE, heat=None, fuel_per_cycle=2.5e-5, heating_value=43e6, burning_efficiency=0.9)
     found = _run(data).calculated
     assert found.values["fuel_heat"] == pytest.approx(967.5, rel=1e-12)
-    volume = cylinder_volumes(CENTRAL, BORE, _clearance(CENTRAL))[0](np.array([230.0]))[0]
+    volume = VOLUME(np.array([230.0]))[0]
     assert found.peak["gas_mass"].value == pytest.approx(1e5 * volume / (287 * 340), rel=1e-12)
     assert abs(found.peak["pressure_rise.peak"].value) < 1e-3 * found.values["pressure_rise_max"], "no rise at the peak"
     lines = {one.key: one for one in Moment(CrankGrid.from_degrees, 0.0).steps(found.worked)}
@@ -392,7 +394,7 @@ def test_what_makes_no_sense_is_refused(changes, says):
 def test_without_scipy_the_missing_part_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy.integrate", None)
     with pytest.raises(MissingExtraError, match="dynamics"):
-        _run(ENGINE)
+        _run.__wrapped__(ENGINE)
 
 
 def test_compression_of_two_strokes_begins_when_the_last_port_shuts():

@@ -27,6 +27,7 @@ from engines import cylinder_volumes
 
 PETROL = {"p_r": 1.18e5, "p_a": 0.85e5, "p_z": 6.2e6, "n1": 1.37, "n2": 1.25}
 DIESEL = {"p_r": 1.1e5, "p_a": 0.9e5, "p_z": 8e6, "n1": 1.37, "n2": 1.26, "rho": 1.35}
+THEORY = {"petrol": PETROL, "diesel": DIESEL}
 RATIOS = {"petrol": 8.5, "diesel": 16.0}
 VALVES = Timing(30.0, 8.0, 18.0, 60.0, 55.0, 20.0)
 PORTS = Timing(25.0, 8.0, 50.0, 50.0, 62.0, 60.0, 360.0)
@@ -36,6 +37,10 @@ SCHOOLS = for_each("school", ["ru", "vi"])
 ENGINES = for_each("kind", ["petrol", "diesel"])
 OFFSETS = for_each("offset", [0.0, 0.006, -0.006])
 TIMINGS = for_each("timing", [VALVES, PORTS], ids=["valves", "ports"])
+every_curve = for_each(
+    ("school", "kind", "timing", "offset"),
+    itertools.product(["ru", "vi"], THEORY, [VALVES, PORTS], [0.0, 0.006, -0.006]),
+)
 
 
 def _space(kind: str = "petrol", offset: float = 0.0) -> tuple[VolumeAt, tuple[float, float]]:
@@ -45,7 +50,7 @@ def _space(kind: str = "petrol", offset: float = 0.0) -> tuple[VolumeAt, tuple[f
 
 
 def _rounded(kind="petrol", timing=VALVES, offset=0.0, theory=None, **options) -> RoundedDiagram:
-    theory = theory or {"petrol": PETROL, "diesel": DIESEL}[kind]
+    theory = theory or THEORY[kind]
     if timing.cycle == 360:
         theory = theory | {"p_a": 1.25e5}
     return rounded_diagram(theory, timing, Rounding(**options), *_space(kind, offset))
@@ -59,10 +64,7 @@ def _pressure(diagram: IndicatorDiagram, volume_at: VolumeAt, *degrees: float) -
 # --- the curve
 
 
-@SCHOOLS
-@ENGINES
-@TIMINGS
-@OFFSETS
+@every_curve
 def test_the_diagram_is_continuous_and_closed(school, kind, timing, offset):
     diagram = _rounded(kind, timing, offset, school=school).diagram
     volume_at, _ = _space(kind, offset)
@@ -76,10 +78,7 @@ def test_the_diagram_is_continuous_and_closed(school, kind, timing, offset):
     assert first == pytest.approx(last, rel=1e-9)
 
 
-@SCHOOLS
-@ENGINES
-@TIMINGS
-@OFFSETS
+@every_curve
 def test_the_curve_has_no_corner_but_where_a_port_closes(school, kind, timing, offset):
     diagram = _rounded(kind, timing, offset, school=school).diagram
     volume_at, _ = _space(kind, offset)
@@ -97,10 +96,7 @@ def test_the_curve_has_no_corner_but_where_a_port_closes(school, kind, timing, o
     assert max(breaks) < 1e-3 * steepest
 
 
-@SCHOOLS
-@ENGINES
-@TIMINGS
-@OFFSETS
+@every_curve
 def test_no_rounded_piece_overshoots_its_points(school, kind, timing, offset):
     diagram = _rounded(kind, timing, offset, school=school).diagram
     for segment in diagram.segments:
@@ -118,7 +114,7 @@ def test_the_greatest_pressure_is_where_it_was_put(kind, timing, offset):
     volume_at, (top, _) = _space(kind, offset)
     degrees = np.linspace(0.0, timing.cycle, 36001)
     pressure = result.diagram.pressure(degrees, volume_at(degrees))
-    p_z = (PETROL if kind == "petrol" else DIESEL)["p_z"]
+    p_z = THEORY[kind]["p_z"]
     assert np.max(pressure) == pytest.approx(0.85 * p_z, rel=1e-4)
     expected = (top + 373.0) % timing.cycle
     assert degrees[np.argmax(pressure)] == pytest.approx(expected, abs=0.02)
@@ -139,7 +135,7 @@ def test_a_top_dead_centre_just_before_zero_may_be_written_either_way():
 def test_burning_never_takes_the_pressure_below_the_compression_line(school, kind, advance):
     diagram = _rounded(kind, replace(VALVES, ignition_advance=advance), school=school).diagram
     volume_at, _ = _space(kind)
-    theory = PETROL if kind == "petrol" else DIESEL
+    theory = THEORY[kind]
     degrees = np.linspace(diagram.named["f"][0], 360.0, 500)
     line = theory["p_a"] * (volume_at(np.array([180.0])) / volume_at(degrees)) ** theory["n1"]
     assert np.all(diagram.pressure(degrees, volume_at(degrees)) > 0.999 * line)
@@ -172,7 +168,7 @@ def test_the_points_of_the_russian_school(offset):
 
 @ENGINES
 def test_the_points_of_the_vietnamese_school(kind):
-    theory = PETROL if kind == "petrol" else DIESEL
+    theory = THEORY[kind]
     result = _rounded(kind, school="vi")
     ratio, level = RATIOS[kind], 0.85 if kind == "petrol" else 1.0
     p_c = theory["p_a"] * ratio ** theory["n1"]
@@ -228,7 +224,7 @@ def test_two_strokes_without_ignition_advance_burn_on_the_vertical_where_the_cyc
     assert result.filling_factor == pytest.approx(1.0, abs=1e-13)
     volume_at, (top, _) = _space(kind, offset)
     before, after = (_pressure(result.diagram, volume_at, (top + aside) % 360)[0] for aside in (-1e-6, 1e-6))
-    theory = PETROL if kind == "petrol" else DIESEL
+    theory = THEORY[kind]
     assert after == pytest.approx(theory["p_z"], rel=1e-5)
     assert before < 0.6 * after
 
@@ -236,7 +232,7 @@ def test_two_strokes_without_ignition_advance_burn_on_the_vertical_where_the_cyc
 @ENGINES
 def test_a_diagram_written_by_hand_keeps_all_of_the_work(kind):
     volume_at, centres = _space(kind)
-    theory = PETROL if kind == "petrol" else DIESEL
+    theory = THEORY[kind]
     rho = theory.get("rho", 1.0)
     clearance = float(volume_at(np.array([360.0]))[0])
     low, high = 360.0, 400.0
@@ -259,7 +255,7 @@ def test_a_diagram_written_by_hand_keeps_all_of_the_work(kind):
 @ENGINES
 def test_theoretical_work_is_the_mean_pressure_of_the_books(kind):
     """p_i' = p_c/(eps-1) [lam(rho-1) + lam rho/(n2-1) (1 - delta^(1-n2)) - 1/(n1-1) (1 - eps^(1-n1))]."""
-    theory, epsilon = (PETROL if kind == "petrol" else DIESEL), RATIOS[kind]
+    theory, epsilon = THEORY[kind], RATIOS[kind]
     volume_at, _ = _space(kind)
     n1, n2, rho = theory["n1"], theory["n2"], theory.get("rho", 1.0)
     p_c = theory["p_a"] * epsilon**n1
@@ -282,7 +278,7 @@ def test_the_filling_factor_is_a_ratio_of_areas(kind, school):
 
     edges = [one for one in result.diagram.breaks if 180 < one < 540]
     area = sum(quad(rate, *pair, epsrel=1e-9)[0] for pair in itertools.pairwise([180.0, *edges, 540.0]))
-    theory = PETROL if kind == "petrol" else DIESEL
+    theory = THEORY[kind]
     whole = theoretical_work(theory, volume_at, (180.0, 360.0, 540.0))
     assert result.filling_factor == pytest.approx(area / whole, rel=1e-7)
 
