@@ -1,4 +1,4 @@
-"""What every figure looks like, told from its scene: where letters stand, what runs through them, and curves in grey."""
+"""What every figure looks like, told from its scene: where letters stand, what runs through them, curves in grey."""
 
 from __future__ import annotations
 
@@ -27,15 +27,11 @@ from shown import FEW, REST, figures_of, in_parts, results_of
 CONTRAST, SHADES, WIDTHS = 3.0, 0.25, 1.3
 
 
+# letters of Russian are the widest
 @in_parts(
     ("name", "language"),
-    [(name, LANGUAGES[at % 3]) for at, name in enumerate(FEW)],
-    [
-        (name, one)
-        for at, name in enumerate((*FEW, *REST))
-        for one in LANGUAGES
-        if name in REST or one != LANGUAGES[at % 3]
-    ],
+    [(name, LANGUAGES[at % 3]) for at, name in enumerate(FEW) if name != "petrol-four"],
+    [("petrol-four", "ru"), ("atkinson", "vi"), *((name, "ru" if at % 2 else "vi") for at, name in enumerate(REST))],
 )
 def test_letters_stand_on_their_paper_clear_of_lines_and_of_each_other(name, language):
     found = figures_of(name, language)

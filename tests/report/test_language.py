@@ -8,9 +8,10 @@ from crankwork.locale.numbers import number
 from crankwork.quantities import QUANTITIES
 from crankwork.report.language import displayed, label
 from crankwork.units import to_si
+from each import for_each
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("value", "language", "text"),
     [
         (4e-6, "en", "4·10⁻⁶"),
@@ -26,7 +27,7 @@ def test_a_power_of_ten_is_raised_wherever_it_is_printed(value, language, text):
     assert number(value, language) == text
 
 
-@pytest.mark.parametrize("key", [key for key, row in QUANTITIES.items() if row.unit])
+@for_each("key", [key for key, row in QUANTITIES.items() if row.unit])
 def test_the_unit_of_values_and_that_of_tables_are_told_apart(key):
     row = QUANTITIES[key]
     # what is labelled with the one and what is labelled with the other are the same amount
