@@ -9,9 +9,6 @@ import pytest
 
 from crankwork.description.machine_file import template
 
-pytest.importorskip("pyarrow")
-pytest.importorskip("scipy")
-
 STUDY = """\
 machine = "machine.toml"
 values = "stroke"
@@ -67,15 +64,20 @@ def study(tmp_path):
     return write
 
 
-@pytest.mark.parametrize(("old", "new", "answered"), WRONG.values(), ids=WRONG)
-def test_a_mistake_is_told_on_its_line(crankwork, study, old, new, answered):
-    assert old in STUDY
-    answer = crankwork("sweep", study(STUDY.replace(old, new, 1)), "-o", "out")
-    assert answer.code == 2
-    assert f"study.toml{answered}" in answer.err
+def _wrong(crankwork, study, command, text, mistakes):
+    """Return the mistakes that are not told as they should be."""
+    failures = {}
+    for name, (old, new, told) in mistakes.items():
+        assert old in text
+        answer = crankwork(command, study(text.replace(old, new, 1)), "-o", "out")
+        if answer.code != 2 or f"study.toml{told}" not in answer.err:
+            failures[name] = answer
+    return failures
 
 
-def test_all_mistakes_are_told_at_once(crankwork, study):
+def test_a_mistake_is_told_on_its_line_and_all_at_once(crankwork, study):
+    assert _wrong(crankwork, study, "sweep", STUDY, WRONG) == {}
+    assert _wrong(crankwork, study, "optimise", SEARCH, WRONG_SEARCH) == {}
     text = STUDY
     for old, new, _ in (WRONG["unknown field"], WRONG["many designs"], WRONG["unknown value"], WRONG["no direction"]):
         text = text.replace(old, new, 1)
@@ -94,6 +96,7 @@ def test_a_grid_of_too_many_designs_is_refused_with_their_number(crankwork, stud
     assert ":5: vary: 10000000000 designs are wanted" in answer.err
 
 
+@pytest.mark.data
 def test_a_study_writes_what_it_found(crankwork, study, tmp_path):
     answer = crankwork("sweep", study(), "-o", "out", "--workers", "1")
     assert answer.code == 0, answer.err
@@ -136,14 +139,6 @@ WRONG_SEARCH = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("old", "new", "answered"), WRONG_SEARCH.values(), ids=WRONG_SEARCH)
-def test_a_mistake_in_a_search_is_told_on_its_line(crankwork, study, old, new, answered):
-    assert old in SEARCH
-    answer = crankwork("optimise", study(SEARCH.replace(old, new, 1)), "-o", "out")
-    assert answer.code == 2
-    assert f"study.toml{answered}" in answer.err
-
-
 @pytest.mark.elsewhere
 def test_the_best_design_is_a_machine_file_with_its_comments(crankwork, study, tmp_path):
     """The acceleration at top dead centre, r w^2 (1 + r/l), is least with the longest rod and the shortest crank."""
@@ -184,9 +179,9 @@ def test_tables_of_the_best_machine_are_found_from_its_folder(crankwork, study, 
     assert again.code == 0, again.err
 
 
-@pytest.mark.parametrize("table", ["designs", "vary", "objectives", "limits", "search"])
-@pytest.mark.parametrize("command", ["sweep", "optimise"])
-def test_a_number_in_the_place_of_a_table_is_told(crankwork, study, command, table):
-    answer = crankwork(command, study(f'{table} = 3\nmachine = "machine.toml"\n'), "-o", "out")
-    assert answer.code == 2
-    assert f"study.toml:1: {table}: must be a table" in answer.err
+def test_a_number_in_the_place_of_a_table_is_told(crankwork, study):
+    for table in ("designs", "vary", "objectives", "limits", "search"):
+        name = study(f'{table} = 3\nmachine = "machine.toml"\n')
+        for command in ("sweep", "optimise"):
+            answer = crankwork(command, name, "-o", "out")
+            assert (answer.code, f"study.toml:1: {table}: must be a table" in answer.err) == (2, True), command
