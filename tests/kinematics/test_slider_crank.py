@@ -80,12 +80,12 @@ def _largest(exact: Array) -> float:
     return float(np.max(np.abs(exact[0])))
 
 
-every_machine = for_each(("ratio", "share"), CENTRAL + OFFSET)
+every_machine = for_each("machine", [_machine(*one) for one in CENTRAL + OFFSET])
+every_offset = for_each("machine", [_machine(*one) for one in OFFSET])
 
 
 @every_machine
-def test_displacement_is_exact_to_a_part_in_ten_trillion_of_half_the_stroke(ratio: float, share: float) -> None:
-    machine = _machine(ratio, share)
+def test_displacement_is_exact_to_a_part_in_ten_trillion_of_half_the_stroke(machine: SliderCrank) -> None:
     degrees, x, *_ = _forty_digits(machine)
     shown = piston_motion(machine, CrankGrid.from_degrees(degrees)).piston.position
     # half the stroke is the radius, unless the offset lengthens it; with an offset the displacement is a difference
@@ -95,19 +95,17 @@ def test_displacement_is_exact_to_a_part_in_ten_trillion_of_half_the_stroke(rati
 
 @every_machine
 @for_each("order", [1, 2])
-def test_transfer_functions_are_exact_relative_to_their_largest_value(ratio: float, share: float, order: int) -> None:
-    machine = _machine(ratio, share)
+def test_transfer_functions_are_exact_relative_to_their_largest_value(machine: SliderCrank, order: int) -> None:
     degrees, *exact = _forty_digits(machine)
     shown = piston_motion(machine, CrankGrid.from_degrees(degrees)).piston
     assert _error(shown[order], exact[order]) < 1e-13 * _largest(exact[order])
 
 
 @every_machine
-def test_rod_angle_and_its_derivatives_are_exact(ratio: float, share: float) -> None:
-    machine = _machine(ratio, share)
+def test_rod_angle_and_its_derivatives_are_exact(machine: SliderCrank) -> None:
     degrees, _, _, _, beta, beta_1, beta_2 = _forty_digits(machine)
     rod = piston_motion(machine, CrankGrid.from_degrees(degrees)).rod
-    assert _error(rod.position, beta) < 1e-13 * max(_largest(beta), ratio)
+    assert _error(rod.position, beta) < 1e-13 * max(_largest(beta), machine.rod_ratio)
     assert _error(rod.position_1, beta_1) < 1e-13 * _largest(beta_1)
     assert _error(rod.position_2, beta_2) < 1e-13 * _largest(beta_2)
 
@@ -130,8 +128,7 @@ def test_displacement_with_offset_near_the_top_is_that_of_forty_digits(ratio: fl
 
 
 @every_machine
-def test_the_printed_cosine_of_the_rod_is_the_safe_one(ratio: float, share: float) -> None:
-    machine = _machine(ratio, share)
+def test_the_printed_cosine_of_the_rod_is_the_safe_one(machine: SliderCrank) -> None:
     with mpmath.workdps(40):
         r, l, e = map(mpmath.mpf, machine)  # noqa: E741
         for degrees in (0.0, 33.0, 89.9999, 90.0, 215.0, 270.0):
@@ -161,8 +158,7 @@ def _in_mpmath(tree: Expression, values: dict[str, Any]) -> Any:
 
 
 @every_machine
-def test_sines_and_cosines_of_the_rod_belong_to_angles(ratio: float, share: float) -> None:
-    machine = _machine(ratio, share)
+def test_sines_and_cosines_of_the_rod_belong_to_angles(machine: SliderCrank) -> None:
     swing = rod_swing(machine, CrankGrid.from_degrees(_angles(machine)))
     assert np.all(swing.cos > 0)
     assert np.max(np.abs(swing.sin**2 + swing.cos**2 - 1)) < 1e-15
@@ -246,9 +242,8 @@ def test_a_very_long_rod_leaves_a_pure_cosine(ratio: float) -> None:
 # --- dead centres and stroke
 
 
-@for_each(("ratio", "share"), OFFSET)
-def test_dead_centres_are_those_of_forty_digits(ratio: float, share: float) -> None:
-    machine = _machine(ratio, share)
+@every_offset
+def test_dead_centres_are_those_of_forty_digits(machine: SliderCrank) -> None:
     with mpmath.workdps(40):
         r, l, e = map(mpmath.mpf, machine)  # noqa: E741
         top, bottom = mpmath.asin(e / (l + r)), mpmath.pi + mpmath.asin(e / (l - r))
@@ -267,9 +262,8 @@ def test_crank_and_rod_are_in_line_at_the_dead_centres_and_the_piston_stands_sti
     assert x[1] == pytest.approx(machine.stroke, rel=1e-14)
 
 
-@for_each(("ratio", "share"), OFFSET)
-def test_the_stroke_with_offset_is_that_of_forty_digits_and_longer_than_two_radii(ratio: float, share: float) -> None:
-    machine = _machine(ratio, share)
+@every_offset
+def test_the_stroke_with_offset_is_that_of_forty_digits_and_longer_than_two_radii(machine: SliderCrank) -> None:
     with mpmath.workdps(40):
         r, l, e = map(mpmath.mpf, machine)  # noqa: E741
         expected = mpmath.sqrt((l + r) ** 2 - e**2) - mpmath.sqrt((l - r) ** 2 - e**2)

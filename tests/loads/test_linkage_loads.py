@@ -29,7 +29,9 @@ from each import for_each
 pytestmark = pytest.mark.elsewhere
 
 GRID = CrankGrid.from_degrees(np.arange(0.0, 360, 5))
+BAR = four_bar(0.05, 0.2, 0.12, 0.18)
 CRANK = Mechanism(Crank(0.1), (), ground={"Q": (0.5, 0.0)})
+TURNING = linkage_motion(CRANK, GRID)
 
 
 @pytest.fixture(scope="module")
@@ -124,25 +126,21 @@ class TestProcess:
         assert np.mean(torque) * 2 * np.pi == pytest.approx(-500 * 0.03, rel=2e-3)
 
     def test_torque_by_the_crank_angle(self):
-        moved = linkage_motion(CRANK, GRID)
-        (torque,) = applied_loads(CRANK, moved, [TorqueOnLink("crank", np.cos)]).torques
+        (torque,) = applied_loads(CRANK, TURNING, [TorqueOnLink("crank", np.cos)]).torques
         assert torque.torque == pytest.approx(GRID.cos)
 
     def test_a_force_on_a_fixed_point_does_nothing(self):
-        moved = linkage_motion(CRANK, GRID)
-        assert applied_loads(CRANK, moved, [ForceOnPoint("Q", 1.0, 2.0)]).forces == ()
+        assert applied_loads(CRANK, TURNING, [ForceOnPoint("Q", 1.0, 2.0)]).forces == ()
 
     def test_a_force_names_its_link_where_several_meet(self):
-        bar = four_bar(0.05, 0.2, 0.12, 0.18)
-        moved = linkage_motion(bar, GRID)
+        bar, moved = BAR, linkage_motion(BAR, GRID)
         loads = [ForceOnPoint("coupler_pin", 1.0, 0.0), ForceOnPoint("coupler_pin", 1.0, 0.0, "rocker")]
         assert [one.link for one in applied_loads(bar, moved, loads).forces] == ["coupler", "rocker"]
 
 
 class TestSpring:
     def test_between_points_does_the_work_of_its_energy(self):
-        bar = four_bar(0.05, 0.2, 0.12, 0.18)
-        moved = linkage_motion(bar, GRID)
+        bar, moved = BAR, linkage_motion(BAR, GRID)
         x, y = (
             a.position - b.position for a, b in zip(moved.points["crank_pin"], moved.points["coupler_pin"], strict=True)
         )
@@ -155,9 +153,8 @@ class TestSpring:
         assert found == pytest.approx(-derivative(energy), abs=1e-9)
 
     def test_ends_that_meet_have_no_direction(self):
-        moved = linkage_motion(CRANK, GRID)
         with pytest.raises(GeometryError, match="ends of the spring"):
-            applied_loads(CRANK, moved, [Spring("crank_pin", "crank_pin", 1.0, 0.0)])
+            applied_loads(CRANK, TURNING, [Spring("crank_pin", "crank_pin", 1.0, 0.0)])
 
     def test_on_a_fixed_guide(self, shaper):
         mechanism, moved = shaper
@@ -179,17 +176,15 @@ class TestDamper:
     """What a damper takes is its coefficient times the square of the rate of its length."""
 
     def test_between_points_takes_the_square_of_the_rate_of_its_length(self):
-        bar = four_bar(0.05, 0.2, 0.12, 0.18)
-        moved = linkage_motion(bar, GRID)
+        bar, moved = BAR, linkage_motion(BAR, GRID)
         x, y = (one.position for one in moved.points["crank_pin"])
         rate = derivative(np.hypot(x - 0.18, y))
         found = reduced_torque(moved, applied_loads(bar, moved, [Damper("rocker_pivot", "crank_pin", 40.0)], -3.0))
         assert found == pytest.approx(3.0 * 40.0 * rate**2, abs=1e-9)
 
     def test_ends_that_meet_have_no_direction(self):
-        moved = linkage_motion(CRANK, GRID)
         with pytest.raises(GeometryError, match="ends of the damper"):
-            applied_loads(CRANK, moved, [Damper("crank_pin", "crank_pin", 1.0)])
+            applied_loads(CRANK, TURNING, [Damper("crank_pin", "crank_pin", 1.0)])
 
     @for_each("name", ["ram", "block"])
     def test_on_a_guide(self, shaper, name):
@@ -210,16 +205,15 @@ class TestWeight:
 
     def test_centre_between_two_points(self):
         body = replace(body_at("coupler", 2.0, 0.1, "crank_pin"), end="coupler_pin", share=0.25)
-        bar = replace(four_bar(0.05, 0.2, 0.12, 0.18), bodies=(body,))
-        (found,) = body_motions(bar, linkage_motion(bar, GRID))
-        start, end = (found.centre.x, linkage_motion(bar, GRID).points["crank_pin"].x)
-        other = linkage_motion(bar, GRID).points["coupler_pin"].x
-        for order in range(3):
-            assert start[order] == pytest.approx(0.75 * end[order] + 0.25 * other[order], abs=1e-15)
+        bar = replace(BAR, bodies=(body,))
+        moved = linkage_motion(bar, GRID)
+        (found,) = body_motions(bar, moved)
+        start, end = (np.array(moved.points[name].x) for name in ("crank_pin", "coupler_pin"))
+        assert np.array(found.centre.x) == pytest.approx(0.75 * start + 0.25 * end, abs=1e-15)
 
 
 def test_a_body_whose_turning_is_unknown_is_refused_if_it_has_inertia():
-    moved = replace(linkage_motion(CRANK, GRID), frames={}, links={})
+    moved = replace(TURNING, frames={}, links={})
     with pytest.raises(GeometryError, match="does not say how it turns"):
         body_motions(replace(CRANK, bodies=(body_at("crank", 1.0, 0.5, "crank_pin"),)), moved)
     (found,) = body_motions(replace(CRANK, bodies=(body_at("crank", 1.0, 0.0, "crank_pin"),)), moved)
@@ -227,7 +221,7 @@ def test_a_body_whose_turning_is_unknown_is_refused_if_it_has_inertia():
 
 
 def test_rates_of_a_table_are_read_where_there_are_no_frames():
-    moved = replace(linkage_motion(CRANK, GRID), frames={})
+    moved = replace(TURNING, frames={})
     (found,) = body_motions(replace(CRANK, bodies=(body_at("crank", 1.0, 0.5, "crank_pin"),)), moved)
     assert found.angle_1 == pytest.approx(1)
 
@@ -251,4 +245,4 @@ def test_a_load_on_nothing_names_what_there_is(shaper, load):
 
 
 def test_no_loads():
-    assert applied_loads(CRANK, linkage_motion(CRANK, GRID), []).forces == ()
+    assert applied_loads(CRANK, TURNING, []).forces == ()
