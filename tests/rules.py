@@ -1,11 +1,17 @@
-"""One rule checked over many members that a fixture makes: every member that breaks it is told by name."""
+"""One rule checked over many members, as over all formulas: every member that breaks it is told by name."""
 
 from __future__ import annotations
 
+import functools
+import importlib
+import pkgutil
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
 import pytest
+
+import crankwork
+from crankwork.formula.expression import FORMULAS, Formula
 
 Member = TypeVar("Member")
 
@@ -20,3 +26,17 @@ def failing(members: Mapping[str, Member], check: Callable[[Member], object]) ->
         except (Exception, pytest.fail.Exception) as error:  # noqa: BLE001 - told with the name of the member
             wrong[name] = f"{type(error).__name__}: {error}"[:600]
     return wrong
+
+
+@functools.cache
+def every_formula() -> dict[str, Formula]:
+    """Return every registered formula by name; a module that needs a package that is not installed has none."""
+    for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
+        if module.name.endswith("__main__"):
+            continue
+        try:
+            importlib.import_module(module.name)
+        except ModuleNotFoundError as absent:
+            if absent.name is None or absent.name.startswith("crankwork"):
+                raise
+    return FORMULAS

@@ -29,9 +29,8 @@ from crankwork.formula.expression import (
     text,
 )
 from crankwork.quantities import LANGUAGES
-from rules import failing
+from rules import every_formula, failing
 
-Formulas = dict[str, Formula]
 Recorded = Callable[..., Any]
 
 
@@ -47,10 +46,10 @@ def _random_arguments(formula: Formula, size: int | None = None) -> dict[str, An
     return {name: generator.uniform(*ranges.get(name, (0.1, 0.9)), size) for name in formula.arguments}
 
 
-def test_no_other_formula_has_taken_the_name(formulas: Formulas) -> None:
+def test_no_other_formula_has_taken_the_name() -> None:
     taken = [
         name
-        for name, one in formulas.items()
+        for name, one in every_formula().items()
         if getattr(importlib.import_module(one.function.__module__), name).__wrapped__ is not one.function
     ]
     assert taken == []
@@ -60,7 +59,7 @@ def test_no_other_formula_has_taken_the_name(formulas: Formulas) -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_formula_prints_with_a_symbol_for_each_argument(formulas: Formulas, language: Any) -> None:
+def test_a_formula_prints_with_a_symbol_for_each_argument(language: Any) -> None:
     def check(formula: Formula) -> None:
         shown = text(record(formula.shown), language=language)
         symbols = [symbol(name, language) for name in _printed_arguments(formula)]
@@ -68,10 +67,10 @@ def test_a_formula_prints_with_a_symbol_for_each_argument(formulas: Formulas, la
         assert [one for one in symbols if one not in shown] == []
         assert len(set(symbols)) == len(symbols), "two arguments of one formula print the same symbol"
 
-    assert failing(formulas, check) == {}
+    assert failing(every_formula(), check) == {}
 
 
-def test_a_formula_with_numbers_prints_those_numbers_and_no_symbol(formulas: Formulas) -> None:
+def test_a_formula_with_numbers_prints_those_numbers_and_no_symbol() -> None:
     def check(formula: Formula) -> None:
         values = {name: f"{1.001 + k / 1000:.3f}" for k, name in enumerate(_printed_arguments(formula))}
         shown = text(record(formula.shown), values).replace("\u00a0rad)", ")")
@@ -79,10 +78,10 @@ def test_a_formula_with_numbers_prints_those_numbers_and_no_symbol(formulas: For
         functions = {function_name(one) for one in _functions_of(record(formula.shown))}
         assert set(re.findall(r"[^\W\d_²³⁴]\w*", shown)) <= functions | {"π"}
 
-    assert failing(formulas, check) == {}
+    assert failing(every_formula(), check) == {}
 
 
-def test_a_formula_printed_with_numbers_evaluates_to_its_value(formulas: Formulas) -> None:
+def test_a_formula_printed_with_numbers_evaluates_to_its_value() -> None:
     def check(formula: Formula) -> None:
         values = _random_arguments(formula)
         shown = text(record(formula.function), {name: repr(float(value)) for name, value in values.items()})
@@ -90,7 +89,7 @@ def test_a_formula_printed_with_numbers_evaluates_to_its_value(formulas: Formula
         read_back = _value_of_text(shown, {function_name(one): one for one in _functions_of(record(formula.function))})
         assert read_back == pytest.approx(formula.function(**values), rel=1e-13)
 
-    assert failing(formulas, check) == {}
+    assert failing(every_formula(), check) == {}
 
 
 def _printed_arguments(formula: Formula) -> tuple[str, ...]:
@@ -114,7 +113,7 @@ def _functions_of(tree: Expression) -> set[np.ufunc]:
 
 
 @pytest.mark.parametrize("kind", ["float", "numpy scalar", "array", "complex array"])
-def test_the_tree_gives_the_very_same_bits_as_the_function(formulas: Formulas, kind: str) -> None:
+def test_the_tree_gives_the_very_same_bits_as_the_function(kind: str) -> None:
     def check(formula: Formula) -> None:
         values = _random_arguments(formula, None if kind in ("float", "numpy scalar") else 100)
         if kind == "float":
@@ -125,19 +124,19 @@ def test_the_tree_gives_the_very_same_bits_as_the_function(formulas: Formulas, k
         assert np.array_equal(direct, recorded)
         assert np.all(np.isfinite(direct))
 
-    assert failing(formulas, check) == {}
+    assert failing(every_formula(), check) == {}
 
 
 # --- it compiles
 
 
 @pytest.mark.compiled
-def test_a_formula_compiles_and_agrees_with_itself(formulas: Formulas) -> None:
+def test_a_formula_compiles_and_agrees_with_itself() -> None:
     """Of the formulas, the first with each operation, and of each number of arguments."""
     import numba
 
     sample, seen = {}, set[object]()
-    for name, formula in sorted(formulas.items()):
+    for name, formula in sorted(every_formula().items()):
         new = {*_operations(record(formula.function)), len(formula.arguments)} - seen
         if new:
             sample[name] = formula
@@ -154,7 +153,7 @@ def test_a_formula_compiles_and_agrees_with_itself(formulas: Formulas) -> None:
 # --- it differentiates
 
 
-def test_the_complex_step_derivative_is_that_of_forty_digits(formulas: Formulas) -> None:
+def test_the_complex_step_derivative_is_that_of_forty_digits() -> None:
     def check(formula: Formula) -> None:
         values = {name: float(value) for name, value in _random_arguments(formula).items()}
         tree = record(formula.function)
@@ -168,7 +167,7 @@ def test_the_complex_step_derivative_is_that_of_forty_digits(formulas: Formulas)
             assert abs(derivative - expected) <= 1e-13 * (size + abs(expected)), name
 
     with mpmath.workdps(40):
-        assert failing(formulas, check) == {}
+        assert failing(every_formula(), check) == {}
 
 
 _IN_MPMATH = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "power": "power"}
