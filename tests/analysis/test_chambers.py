@@ -179,32 +179,19 @@ def four_stroke(name):
 def test_two_turns_of_a_linkage_are_those_of_an_engine():
     """The chain of the textbooks, from the piston to the crank, knows nothing of chambers, loads or guides."""
     engine = crankwork.read_machine(f"""
-        [crank]
-        radius = "45 mm"
-        speed = "3000 rpm"
-        [rod]
-        length = "160 mm"
-        [cylinder]
-        bore = "86 mm"
-        compression_ratio = 9
+        crank = {{ radius = "45 mm", speed = "3000 rpm" }}
+        rod.length = "160 mm"
+        cylinder = {{ bore = "86 mm", compression_ratio = 9 }}
         [gas]
         cycle = "720 deg"
         {four_stroke("gas")}
     """)
     linkage = crankwork.read_machine(f"""
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "45 mm"
-        speed = "3000 rpm"
-        [links]
-        rod = {{ joins = ["A", "B"], length = "160 mm" }}
-        [guides]
-        bore = {{ through = "O" }}
-        [sliders]
-        piston = {{ guide = "bore", pin = "B" }}
+        fixed_points.O = ["0 mm", "0 mm"]
+        crank = {{ pivot = "O", pin = "A", radius = "45 mm", speed = "3000 rpm" }}
+        links.rod = {{ joins = ["A", "B"], length = "160 mm" }}
+        guides.bore.through = "O"
+        sliders.piston = {{ guide = "bore", pin = "B" }}
         [chambers.cylinder]
         slider = "piston"
         bore = "86 mm"
@@ -232,29 +219,16 @@ def test_two_turns_of_a_linkage_are_those_of_an_engine():
 
 
 GEARED = """
-    [fixed_points]
-    O = ["0 mm", "0 mm"]
-    Q = ["120 mm", "0 mm"]
-    [crank]
-    pivot = "O"
-    pin = "A"
-    radius = "20 mm"
-    speed = "600 rpm"
-    [geared.half]
-    pivot = "Q"
-    ratio = -0.5
-    points = {{ D = ["25 mm", "0 mm"] }}
+    fixed_points = {{ O = ["0 mm", "0 mm"], Q = ["120 mm", "0 mm"] }}
+    crank = {{ pivot = "O", pin = "A", radius = "20 mm", speed = "600 rpm" }}
+    geared.half = {{ pivot = "Q", ratio = -0.5, points.D = ["25 mm", "0 mm"] }}
+    guides.bore = {{ through = ["60 mm", "0 mm"], angle = "90 deg" }}
+    sliders.piston = {{ guide = "bore", pin = "B" }}
+    positions = {{ C = ["70 mm", "70 mm"], B = ["60 mm", "180 mm"] }}
     [links]
     a = {{ joins = ["A", "C"], length = "90 mm" }}
     b = {{ joins = ["D", "C"], length = "95 mm" }}
     rod = {{ joins = ["C", "B"], length = "120 mm" }}
-    [guides]
-    bore = {{ through = ["60 mm", "0 mm"], angle = "90 deg" }}
-    [sliders]
-    piston = {{ guide = "bore", pin = "B" }}
-    [positions]
-    C = ["70 mm", "70 mm"]
-    B = ["60 mm", "180 mm"]
     [chambers.room]
     slider = "piston"
     bore = "86 mm"
@@ -302,25 +276,14 @@ class TestMeasured:
     """Samples of a smooth pressure beside a slider that moves as a cosine."""
 
     FILE = """
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "40 mm"
-        speed = "600 rpm"
-        [guides]
-        bed = {{ through = "O" }}
-        slot = {{ link = "yoke", angle = "90 deg" }}
-        [sliders]
-        yoke = {{ guide = "bed" }}
-        block = {{ pin = "A", guide = "slot" }}
+        fixed_points.O = ["0 mm", "0 mm"]
+        crank = {{ pivot = "O", pin = "A", radius = "40 mm", speed = "600 rpm" }}
+        guides = {{ bed = {{ through = "O" }}, slot = {{ link = "yoke", angle = "90 deg" }} }}
+        sliders = {{ yoke = {{ guide = "bed" }}, block = {{ pin = "A", guide = "slot" }} }}
         [chambers.gas]
         slider = "yoke"
         area = "20 cm2"
-        [chambers.gas.measured]
-        file = "{file}"
-        pressure_unit = "bar"
+        measured = {{ file = "{file}", pressure_unit = "bar" }}
     """
 
     def read(self, folder, step):
@@ -351,13 +314,9 @@ class TestMeasured:
 
 def test_a_cylinder_needs_a_clearance_only_where_its_pressure_follows_from_the_volume():
     text = """
-        [crank]
-        radius = "300 mm"
-        speed = "250 rpm"
-        [rod]
-        length = "1.2 m"
-        [cylinder]
-        bore = "0.5 m"
+        crank = { radius = "300 mm", speed = "250 rpm" }
+        rod.length = "1.2 m"
+        cylinder.bore = "0.5 m"
         [gas]
         cycle = "360 deg"
         [gas.points]

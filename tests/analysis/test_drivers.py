@@ -43,11 +43,10 @@ def by_hand(time):
     return angle, omega, force, force * v
 
 
-@pytest.mark.parametrize("time", [0.1, 1.0, 1.7, 2.0, 3.2, 3.99])
-def test_motion_force_and_power_are_those_by_hand(time):
+def test_motion_force_and_power_are_those_by_hand():
     keys = ("link_angle.boom", "link_angular_velocity.boom", "driver_force", "driver_power")
-    found = [RESULTS.value(key, at=time) for key in keys]
-    assert found == pytest.approx(by_hand(time), rel=1e-12)
+    for time in (0.1, 1.0, 1.7, 2.0, 3.2, 3.99):
+        assert [RESULTS.value(key, at=time) for key in keys] == pytest.approx(by_hand(time), rel=1e-12), time
 
 
 def test_a_driven_piece_alone_follows_its_law():

@@ -6,7 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 import crankwork
 from crankwork.dynamics.masses import CrankGearMasses
@@ -21,19 +20,17 @@ CHAIN = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "file", [EXAMPLES / "v8-diesel.toml", MACHINES / "leaning-compressor.toml"], ids=lambda one: one.stem
-)
-def test_torque_and_side_force_are_those_of_the_linkage(file):
-    checks = crankwork.analyse(crankwork.read(file)).checks
-    assert checks["joint_torque"] < 1e-14
-    assert checks["joint_side_force"] < 1e-14
-
-
-def test_a_rod_of_inertia_without_mass_loads_the_joints_by_its_couple():
-    checks = crankwork.analyse(crankwork.read(EXAMPLES / "two-stroke.toml", ["rod.mass=0 kg"])).checks
-    assert checks["joint_torque"] < 1e-14
-    assert checks["joint_side_force"] < 1e-14
+def test_torque_and_side_force_are_those_of_the_linkage():
+    """And those of a rod of inertia without mass, which loads the joints by its couple."""
+    apart = {}
+    for file, *settings in (
+        (EXAMPLES / "v8-diesel.toml",),
+        (MACHINES / "leaning-compressor.toml",),
+        (EXAMPLES / "two-stroke.toml", "rod.mass=0 kg"),
+    ):
+        checks = crankwork.analyse(crankwork.read(file, settings)).checks
+        apart |= {(file.stem, key): checks[key] for key in ("joint_torque", "joint_side_force")}
+    assert {name: one for name, one in apart.items() if not one < 1e-14} == {}
 
 
 def test_a_rod_that_pushes_no_piston_is_measured_by_its_own_forces():
@@ -44,14 +41,14 @@ def test_a_rod_that_pushes_no_piston_is_measured_by_its_own_forces():
     assert not results.unmet
 
 
-@pytest.mark.parametrize("name", CHAIN)
-def test_a_wrong_formula_of_the_chain_is_told(name):
-    entry = FORMULAS[name]
-    own = entry.function
+def test_a_wrong_formula_of_the_chain_is_told():
     # with weight, a changing speed and a leaning cylinder every term is there
-    machine = crankwork.read(MACHINES / "leaning-compressor.toml")
-    with instead(entry, lambda *operands: 1.001 * own(*operands)):
-        assert crankwork.analyse(machine).unmet
+    machine, unnoticed = crankwork.read(MACHINES / "leaning-compressor.toml"), []
+    for name in CHAIN:
+        with instead(FORMULAS[name], lambda *operands, own=FORMULAS[name].function: 1.001 * own(*operands)):
+            if not crankwork.analyse(machine).unmet:
+                unnoticed.append(name)
+    assert unnoticed == []
 
 
 def test_an_approximate_method_is_not_compared_with_exact_joint_forces():

@@ -20,32 +20,26 @@ def crossing(columns, one, other):
     return x, y
 
 
-@pytest.mark.parametrize(
-    ("name", "link", "points"),
-    [("four-bar", "coupler", ("A", "B")), ("slider-crank", "rod", ("A", "B")), ("crank-shaper", "link", ("C", "D"))],
-)
-def test_centres_lie_where_perpendiculars_cross(name, link, points):
-    text = template(name) if name != "slider-crank" else SLIDER_CRANK
-    columns = analyse(read_machine(text), CrankGrid.from_degrees(np.arange(3.0, 360.0, 7.0))).columns
-    x, y = crossing(columns, *points)
-    assert columns[f"instant_centre_x.{link}"] == pytest.approx(x, rel=1e-9)
-    assert columns[f"instant_centre_y.{link}"] == pytest.approx(y, rel=1e-9)
+def test_centres_lie_where_perpendiculars_cross():
+    wrong = []
+    for text, link, points in (
+        (template("four-bar"), "coupler", ("A", "B")),
+        (SLIDER_CRANK, "rod", ("A", "B")),
+        (template("crank-shaper"), "link", ("C", "D")),
+    ):
+        columns = analyse(read_machine(text), CrankGrid.from_degrees(np.arange(3.0, 360.0, 7.0))).columns
+        for axis, expected in zip("xy", crossing(columns, *points), strict=True):
+            if columns[f"instant_centre_{axis}.{link}"] != pytest.approx(expected, rel=1e-9):
+                wrong.append((link, axis))
+    assert wrong == []
 
 
 SLIDER_CRANK = """
-    [fixed_points]
-    O = ["0 mm", "0 mm"]
-    [crank]
-    pivot = "O"
-    pin = "A"
-    radius = "50 mm"
-    speed = "60 rpm"
-    [links]
-    rod = { joins = ["A", "B"], length = "200 mm" }
-    [guides]
-    bed = { through = "O" }
-    [sliders]
-    piston = { pin = "B", guide = "bed" }
+    fixed_points.O = ["0 mm", "0 mm"]
+    crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "60 rpm" }
+    links.rod = { joins = ["A", "B"], length = "200 mm" }
+    guides.bed.through = "O"
+    sliders.piston = { pin = "B", guide = "bed" }
 """
 
 

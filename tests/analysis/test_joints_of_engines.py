@@ -24,7 +24,7 @@ DEGREES = np.arange(3.5, 720.0, 15.0)
 LEANING = ["cylinder.inclination=30 deg", "method.weights=true", "crank.angular_acceleration=200 rad/s2"]
 
 
-@pytest.mark.parametrize("settings", [[], LEANING, ["engine.misfire=[1]"], ["cylinder.offset=8 mm"]])
+@pytest.mark.parametrize("settings", [LEANING, ["engine.misfire=[1]"], ["cylinder.offset=8 mm"]])
 def test_they_are_those_of_the_linkage(settings):
     machine = crankwork.read_machine(FOUR, overrides=settings)
     results, solved = crankwork.analyse(machine), solve(machine, machine.method)
@@ -55,8 +55,8 @@ def test_they_are_no_further_columns_and_every_cylinder_has_its_own():
 @pytest.mark.parametrize(
     ("name", "settings"),
     [
-        ("examples/radial-five", []),
-        ("examples/radial-five", ["engine.misfire=[1]"]),
+        pytest.param("examples/radial-five", [], marks=pytest.mark.slow),
+        pytest.param("examples/radial-five", ["engine.misfire=[1]"], marks=pytest.mark.slow),
         ("tests/machines/radial-heavy", []),
     ],
 )

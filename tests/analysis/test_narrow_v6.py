@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import crankwork
-from crankwork.mechanism.mechanism import slider_crank
 
 ROOT = Path(__file__).parents[2]
 MACHINE = crankwork.read(ROOT / "examples/narrow-v6.toml")
@@ -21,15 +19,6 @@ OWN = np.degrees(np.arcsin(12.5 / (90.3 / 2 + 164)))
 @pytest.fixture(scope="module")
 def results():
     return crankwork.analyse(MACHINE, crankwork.CrankGrid.from_degrees(DEGREES))
-
-
-def test_the_torque_is_the_sum_of_engines_of_one_cylinder(results):
-    total = np.zeros_like(DEGREES)
-    for place, offset in zip(MACHINE.engine.layout.places, MACHINE.engine.offsets, strict=True):
-        lengths = MACHINE.mechanism.crank.radius, MACHINE.mechanism.dyads[0].length, offset
-        alone = crankwork.analyse(replace(MACHINE, mechanism=slider_crank(*lengths), engine=None))
-        total += alone.columns_at((DEGREES - place.firing_angle) % 720, ["crank_torque"])["crank_torque"]
-    assert results["total_torque"] == pytest.approx(total, abs=1e-12 * np.max(np.abs(total)))
 
 
 def test_pistons_come_to_dead_centre_evenly_though_the_axes_do_not_meet_the_shaft(results):

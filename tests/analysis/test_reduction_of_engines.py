@@ -49,7 +49,7 @@ def test_the_engine_has_the_energy_of_its_cylinders_and_of_what_turns_with_the_c
     assert found == pytest.approx(expected, rel=1e-13)
 
 
-@pytest.mark.parametrize("name", ["examples/v8-diesel", "examples/radial-five", "tests/machines/radial-heavy"])
-def test_torque_is_what_gas_and_weights_do_less_the_change_of_energy(name):
-    results = crankwork.analyse(crankwork.read(ROOT / f"{name}.toml"))
-    assert results.checks["torque_of_energy"] < 1e-14
+def test_torque_is_what_gas_and_weights_do_less_the_change_of_energy():
+    names = "examples/v8-diesel", "examples/radial-five", "tests/machines/radial-heavy"
+    checks = {name: crankwork.analyse(crankwork.read(ROOT / f"{name}.toml")).checks for name in names}
+    assert {name: one for name in names if not (one := checks[name]["torque_of_energy"]) < 1e-14} == {}

@@ -116,8 +116,17 @@ def test_the_end_of_a_start_is_the_steady_motion_found_apart() -> None:
 
 
 SWING = """
-[fixed_points]
-O = ["0 m", "0 m"]
+fixed_points.O = ["0 m", "0 m"]
+links.rod = { joins = ["A", "B"], length = "0.5 m" }
+guides.floor = { through = ["0 m", "-0.2 m"] }
+sliders.block = { guide = "floor", pin = "B", mass = "3 kg" }
+positions.B = ["0.5 m", "-0.2 m"]
+method.weights = true
+transient = { time = "3 s", start = "40 deg", step = "10 ms" }
+loads = [
+    { kind = "damper", slider = "block", damping = "8 N*s/m" },
+    { kind = "spring", slider = "block", stiffness = "100 N/m", free_length = "0.5 m", preload = "2 N" },
+]
 [crank]
 pivot = "O"
 pin = "A"
@@ -127,30 +136,6 @@ start = "-90 deg"
 mass = "2 kg"
 centre = ["0.1 m", "0 m"]
 inertia = "0.03 kg*m2"
-[links]
-rod = { joins = ["A", "B"], length = "0.5 m" }
-[guides]
-floor = { through = ["0 m", "-0.2 m"] }
-[sliders]
-block = { guide = "floor", pin = "B", mass = "3 kg" }
-[positions]
-B = ["0.5 m", "-0.2 m"]
-[[loads]]
-kind = "damper"
-slider = "block"
-damping = "8 N*s/m"
-[[loads]]
-kind = "spring"
-slider = "block"
-stiffness = "100 N/m"
-free_length = "0.5 m"
-preload = "2 N"
-[method]
-weights = true
-[transient]
-time = "3 s"
-start = "40 deg"
-step = "10 ms"
 """
 
 
@@ -198,9 +183,7 @@ def test_a_motor_too_weak_says_what_is_missing() -> None:
 
 
 ROCKERS = """
-[fixed_points]
-A = ["0 mm", "0 mm"]
-D = ["200 mm", "0 mm"]
+fixed_points = {{ A = ["0 mm", "0 mm"], D = ["200 mm", "0 mm"] }}
 [crank]
 pivot = "A"
 pin = "B"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,14 +29,11 @@ ENGINES = ("petrol-four", "v8-diesel", "radial-five", "two-stroke")
 PETROL = crankwork.read(EXAMPLES / "spark-engine.toml")
 LAYOUTS = {
     "I4": inline(4, (1, 3, 4, 2), spacing=0.12)[0],
-    "I6": inline(6, (1, 5, 3, 6, 2, 4), spacing=0.12)[0],
     "V6": vee(6, (1, 4, 2, 5, 3, 6), 90.0, spacing=0.12, bank_stagger=0.03, throws=(0, 120, 240), uneven=True)[0],
     "V8": vee(8, (1, 5, 4, 2, 6, 3, 7, 8), 90.0, spacing=0.12, bank_stagger=0.03)[0],
     "B4": boxer(4, (1, 4, 3, 2), spacing=0.12)[0],
     "R7": radial(7, master=0)[0],
 }
-every_layout = pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
-every_example = pytest.mark.parametrize("name", ENGINES)
 
 
 def _machine(layout, **changes) -> Machine:
@@ -43,9 +41,14 @@ def _machine(layout, **changes) -> Machine:
     return replace(PETROL, method=replace(method, inertia_rod_ratio=None), engine=Engine(layout, **changes))
 
 
-@every_layout
-def test_a_cylinder_is_the_engine_of_one_cylinder_to_the_last_bit(layout):
-    machine = _machine(layout)
+@functools.cache
+def analysed(name):
+    return crankwork.analyse(_machine(LAYOUTS[name]))
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_a_cylinder_is_the_engine_of_one_cylinder_to_the_last_bit(name):
+    machine, layout = _machine(LAYOUTS[name]), LAYOUTS[name]
     alone = crankwork.analyse(replace(machine, engine=None))
     whole = whole_engine(replace(alone.solved, machine=machine))
     degrees = np.arange(0.0, 720.0, 7.5)
@@ -56,46 +59,38 @@ def test_a_cylinder_is_the_engine_of_one_cylinder_to_the_last_bit(layout):
         if float(place.firing_angle).is_integer():
             for key, values in single.items():
                 assert np.array_equal(whole.each(key, degrees)[at][order], values), key
-    results = crankwork.analyse(machine)
+    results = analysed(name)
     assert np.array_equal(results["crank_torque.1"], alone["crank_torque"])
     for key, values in alone.columns.items():
         assert np.array_equal(results[key], values), key
 
 
-@every_layout
-def test_checks_hold(layout):
-    checks = crankwork.analyse(_machine(layout)).checks
-    assert {"engine_work", "phase_stars", "free_forces"} <= set(checks)
-    assert max(checks.values()) < 1e-10
+def test_checks_hold():
+    wrong = {}
+    for name in LAYOUTS:
+        checks = analysed(name).checks
+        assert {"engine_work", "phase_stars", "free_forces"} <= set(checks), name
+        wrong |= {(name, key): one for key, one in checks.items() if not one < 1e-10}
+    for name in ENGINES:
+        checks = crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml")).checks
+        assert ("first_law" in checks) == (name == "two-stroke"), name
+        exact = ("work", "engine_work", "free_forces")
+        assert set(exact) <= set(checks), name
+        wrong |= {(name, key): one for key, one in checks.items() if not one < (1e-10 if key in exact else 1e-8)}
+    assert wrong == {}
 
 
-@every_example
-def test_examples_hold_their_checks(name):
-    checks = crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml")).checks
-    assert checks["work"] < 1e-10
-    assert checks["engine_work"] < 1e-10
-    assert checks["free_forces"] < 1e-10
-    assert max(checks.values()) < 1e-8
-    assert ("first_law" in checks) == (name == "two-stroke")
-
-
-@every_layout
-def test_the_torque_curve_is_the_torque(layout):
-    whole = whole_engine(crankwork.analyse(_machine(layout)).solved)
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_the_torque_curve_is_the_torque_and_loads_of_a_shaft_are_in_equilibrium(name):
+    """The main bearings hold what rods and throws put on the shaft, at every crank angle."""
+    results, layout = analysed(name), LAYOUTS[name]
+    machine, whole = results.machine, whole_engine(results.solved)
     torque = engine_torque(*WholeMemory.of(whole.master)[:4])
     degrees = np.arange(3.7, 720.0, 11.31)
     found = whole.each("crank_torque", degrees)
     scale = float(np.max(np.abs(found)))
     assert torque.one(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
     assert torque.total(np.radians(degrees)) == pytest.approx(found.sum(axis=0), abs=1e-8 * scale)
-
-
-@every_layout
-def test_loads_of_a_shaft_are_in_equilibrium(layout):
-    """The main bearings hold what rods and throws put on the shaft, at every crank angle."""
-    machine = _machine(layout)
-    results = crankwork.analyse(machine)
-    whole = whole_engine(results.solved)
     degrees = np.arange(0.0, 720.0, 15.0)
     loads = bearing_loads(whole, Program(bearing_components(whole, results.memory))(CrankGrid.from_degrees(degrees)))
     radial, tangential = whole.each("radial_force", degrees), whole.each("tangential_force", degrees)
@@ -113,7 +108,7 @@ def test_loads_of_a_shaft_are_in_equilibrium(layout):
 
 def test_counterweights_take_the_load_off_the_main_bearings():
     layout = LAYOUTS["I4"]
-    bare = crankwork.analyse(_machine(layout)).listings["bearing_loads"]
+    bare = analysed("I4").listings["bearing_loads"]
     with_weights = crankwork.analyse(_machine(layout, rotating_share=1.0)).listings["bearing_loads"]
     middle = bare.names.index("main_journal.3")
     assert with_weights.columns["mean_bearing_load"][middle] < bare.columns["mean_bearing_load"][middle]
@@ -129,15 +124,15 @@ def test_full_counterweights_and_shafts_leave_nothing_of_the_first_two_orders():
     assert left[4].force.largest > 0
 
 
-@pytest.mark.parametrize("cylinders", [5, 7, 9])
-def test_a_radial_engine_of_five_or_more_has_no_free_second_order(cylinders):
-    machine = _machine(radial(cylinders, master=0)[0])
-    whole = whole_engine(crankwork.analyse(machine).solved)
-    free = {one.order: one.force.largest for one in engine_balance(whole).reciprocating}
-    assert free[2] == 0
-    # half of every reciprocating mass turns with the crank
-    single = machine.masses.reciprocating * whole.master.lengths.crank_radius * whole.master.speed**2
-    assert free[1] == pytest.approx(cylinders / 2 * single, rel=0.02)
+def test_a_radial_engine_of_five_or_more_has_no_free_second_order():
+    for cylinders in (5, 9):
+        machine = _machine(radial(cylinders, master=0)[0])
+        whole = whole_engine(crankwork.analyse(machine).solved)
+        free = {one.order: one.force.largest for one in engine_balance(whole).reciprocating}
+        assert free[2] == 0, cylinders
+        # half of every reciprocating mass turns with the crank
+        single = machine.masses.reciprocating * whole.master.lengths.crank_radius * whole.master.speed**2
+        assert free[1] == pytest.approx(cylinders / 2 * single, rel=0.02), cylinders
 
 
 def test_the_torque_of_an_articulated_cylinder_is_that_of_the_power_of_its_piston_and_its_knuckle_pin():
@@ -176,7 +171,7 @@ def test_the_flywheel_gives_the_wanted_fluctuation():
 
 
 def test_excess_work_is_that_of_a_fine_sum():
-    results = crankwork.analyse(_machine(LAYOUTS["I4"]))
+    results = analysed("I4")
     whole = whole_engine(results.solved)
     degrees = np.linspace(0.0, 720.0, 14401)
     torque = whole.each("crank_torque", degrees).sum(axis=0)
@@ -186,7 +181,7 @@ def test_excess_work_is_that_of_a_fine_sum():
 
 def test_specific_loads_need_the_sizes():
     layout = LAYOUTS["I4"]
-    assert "bearing_pressure" not in crankwork.analyse(_machine(layout)).listings["bearing_loads"].columns
+    assert "bearing_pressure" not in analysed("I4").listings["bearing_loads"].columns
     sized = crankwork.analyse(_machine(layout, bearings=Bearings(0.06, 0.03)))
     listing = sized.listings["bearing_loads"]
     largest = listing.columns["bearing_load_max"][0] / (0.06 * 0.03)
@@ -195,10 +190,9 @@ def test_specific_loads_need_the_sizes():
 
 
 def test_crankpins_that_only_differ_in_time_are_listed_once():
-    names = crankwork.analyse(_machine(LAYOUTS["I4"])).listings["bearing_loads"].names
-    assert [name for name in names if name.startswith("crankpin")] == ["crankpin.1"]
-    names = crankwork.analyse(_machine(LAYOUTS["V8"])).listings["bearing_loads"].names
-    assert [name for name in names if name.startswith("crankpin")] == ["crankpin.1", "crankpin.4"]
+    names = {layout: analysed(layout).listings["bearing_loads"].names for layout in ("I4", "V8")}
+    pins = {layout: [name for name in every if name.startswith("crankpin")] for layout, every in names.items()}
+    assert pins == {"I4": ["crankpin.1"], "V8": ["crankpin.1", "crankpin.4"]}
 
 
 def test_weights_act_along_each_bank():

@@ -10,6 +10,7 @@ from scipy import optimize as scipy_optimize
 import crankwork
 from crankwork.errors import CrankworkError
 
+pytestmark = pytest.mark.usefixtures("by_arrays")
 SLIDER_CRANK = crankwork.template("slider-crank")
 FOUR_BAR = crankwork.template("four-bar")
 V_TWO = (Path(__file__).parents[1] / "machines" / "v-two.toml").read_text(encoding="utf-8")
@@ -22,9 +23,8 @@ def of(file, *asked, **more):
 
 @pytest.mark.elsewhere
 @pytest.mark.parametrize("way", ["slsqp", "trust-constr", "evolution"])
-def test_the_least_acceleration_of_a_stroke(way, monkeypatch, tmp_path):
+def test_the_least_acceleration_of_a_stroke(way):
     """The acceleration at top dead centre, r w^2 (1 + r/l), is least with the longest rod and the shortest crank."""
-    monkeypatch.setattr("crankwork.kernel.compiled.compiles", lambda: False)
     found = of(SLIDER_CRANK, "piston_acceleration_max", SIZES, limits=["stroke >= 90 mm"], way=way)
     w, r, rod = found.results.summary["speed"], 0.045, 0.22
     assert found.fields == {"rod.length": pytest.approx(rod, rel=1e-9), "crank.radius": pytest.approx(r, rel=1e-8)}

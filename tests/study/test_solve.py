@@ -14,33 +14,26 @@ from crankwork.study.solution import solution_data, solution_text
 from crankwork.study.sought import sought_number
 from crankwork.units import coherent_unit
 
+pytestmark = pytest.mark.usefixtures("by_arrays")
 ENGINE = Description(crankwork.template("engine"))
 FOUR_BAR = Description(crankwork.template("four-bar"))
 # one stroke down with gas, which a valve opens; the pressure then falls at once
 VALVE = """
 format = 2
-[crank]
-radius = "45 mm"
-speed = "1500 rpm"
-[rod]
-ratio = 0.25
-[cylinder]
-bore = "85 mm"
-compression_ratio = 9
+crank = { radius = "45 mm", speed = "1500 rpm" }
+rod.ratio = 0.25
+cylinder = { bore = "85 mm", compression_ratio = 9 }
 [gas]
 cycle = "360 deg"
 pressures = "absolute"
+pieces = [
+    { law = "polytropic", exponent = 1.3, points = ["t", "b"] },
+    { law = "constant", points = ["b", "e"] },
+]
 [gas.points]
 t = { angle = "0 deg", pressure = "3 MPa" }
 b = { angle = "140 deg", pressure = "0.11 MPa" }
 e = { angle = "360 deg", pressure = "3 MPa" }
-[[gas.pieces]]
-law = "polytropic"
-exponent = 1.3
-points = ["t", "b"]
-[[gas.pieces]]
-law = "constant"
-points = ["b", "e"]
 """
 
 

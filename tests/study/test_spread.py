@@ -13,7 +13,7 @@ import crankwork
 from crankwork import cli
 from crankwork.study.spread_text import spread_text
 
-pytestmark = pytest.mark.elsewhere
+pytestmark = [pytest.mark.elsewhere, pytest.mark.usefixtures("by_arrays")]
 
 COUNT = 100_000
 
@@ -73,19 +73,11 @@ def test_a_value_at_its_least_spreads_by_its_curvature() -> None:
 
 
 OFFSET = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-[crank]
-pivot = "O"
-pin = "A"
-radius = "50 mm"
-speed = "60 rpm"
-[links]
-rod = { joins = ["A", "B"], length = "200 mm" }
-[guides]
-bed = { through = ["0 mm", "0 ± 2 mm"] }
-[sliders]
-ram = { guide = "bed", pin = "B" }
+    fixed_points.O = ["0 mm", "0 mm"]
+    crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "60 rpm" }
+    links.rod = { joins = ["A", "B"], length = "200 mm" }
+    guides.bed.through = ["0 mm", "0 ± 2 mm"]
+    sliders.ram = { guide = "bed", pin = "B" }
 """
 
 
@@ -104,10 +96,12 @@ def test_where_the_largest_of_two_peaks_changes_draws_are_taken_and_told() -> No
     assert one.worst == pytest.approx((math.asin(0.05 / 0.2), math.asin(0.056 / 0.2)))
 
 
-def test_draws_calculated_at_once_are_those_analysed_one_by_one(monkeypatch) -> None:
+@pytest.mark.parametrize("way", ["arrays", pytest.param("compiled", marks=pytest.mark.compiled)])
+def test_draws_calculated_at_once_are_those_analysed_one_by_one(monkeypatch, way) -> None:
     """With a rod so short the least acceleration leaves the bottom dead centre, and for some draws does not."""
     description = slider_crank(crank__radius="50 ± 0.5 mm", rod__length="192 ± 2 mm", crank__speed="1500 rpm ± 1 %")
     keys = ["piston_acceleration_min", "piston_acceleration_min_angle"]
+    monkeypatch.setattr("crankwork.kernel.compiled.compiles", lambda: way == "compiled")
     at_once = crankwork.spread(description, keys, samples=150)
     assert at_once[keys[1]].is_sampled
     monkeypatch.setattr("crankwork.study.spread._Beside.compile", lambda *_: None)

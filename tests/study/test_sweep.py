@@ -10,9 +10,7 @@ from crankwork.kernel import compiled as compiled_kernels
 FOUR_BAR = crankwork.template("four-bar")
 
 
-@pytest.fixture(autouse=True)
-def by_arrays(monkeypatch):
-    monkeypatch.setattr(compiled_kernels, "compiles", lambda: False)
+pytestmark = pytest.mark.usefixtures("by_arrays")
 
 
 def test_values_are_those_of_single_analyses():
