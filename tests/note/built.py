@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import crankwork
+import notes
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Known
@@ -21,7 +22,7 @@ from crankwork.note.engine_lines import engine_lines
 from crankwork.note.groups import Group
 from crankwork.note.linkage_lines import linkage_lines
 from crankwork.note.options import NoteOptions
-from crankwork.quantities import LANGUAGES
+from crankwork.quantities import Language
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -149,7 +150,10 @@ def source(name: str) -> str:
 
 @cache
 def results(case: str) -> crankwork.Results:
+    """Return the results of a machine by the method of its file or another one."""
     name, _, method = case.partition(": ")
+    if not method and (EXAMPLES / f"{name}.toml").exists():
+        return notes.results(name)
     one = machine(name)
     return crankwork.analyse(crankwork.with_method(one, method) if method else one)
 
@@ -167,7 +171,7 @@ def lines(case: str, group: str, *degrees: float) -> dict:
 
 
 @cache
-def note(case: str, language: str = "en") -> Note:
+def note(case: str, language: Language = "en") -> Note:
     return note_of(results(case), NoteOptions(language=language, figures=False))
 
 
@@ -180,6 +184,11 @@ def remembered(shown: crankwork.Results) -> Iterator[Known]:
             seen.add((id(one.node), one.key))
             yield one
             stack.extend(one.node.operands)
+
+
+def schools(case: str) -> tuple[Language, Language]:
+    """Return the languages in which the note of a machine is read where not all three are: notes differ by school."""
+    return "en", "ru" if len(case) % 2 else "vi"
 
 
 # --- rules that hold for every machine
@@ -206,7 +215,3 @@ def broken(rule: Callable[..., object], cases: Iterable) -> dict[str, object]:
         if said:
             found[case] = said
     return found
-
-
-def in_every_language(cases: Iterable[str]) -> list[tuple[str, str]]:
-    return [(case, language) for case in cases for language in LANGUAGES]

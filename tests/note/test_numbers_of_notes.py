@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from crankwork.note.options import NoteOptions
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.language import key_unit, reader_units
 from crankwork.units import from_si, shown_in
-from note.built import broken, every_machine, note, remembered, results
+from note.built import broken, every_machine, note, remembered, results, schools
 
 NUMBER = re.compile(r"[-−]?\d+([.,]\d+)?(·10\^?\{?[-−]?\d+\}?|[eE][-+−]?\d+)?")
 # numbers of rows, that is of positions and cylinders, and columns too short to tell one from another
@@ -90,7 +91,10 @@ class Held:
             for grid in grids:
                 listed += Program(varying)(grid).items()
             listed += [("crank_angle", grid.angle) for grid in grids]
-        self.columns = [one for key, column in listed for one in in_units(key, np.asarray(column, dtype=float), area)]
+        columns = [one for key, column in listed for one in in_units(key, np.asarray(column, dtype=float), area)]
+        # one below the other, with where each ends
+        self.column, sizes = np.concatenate(columns), [one.size for one in columns]
+        self.ends = np.repeat(np.cumsum(sizes), sizes)
         every = list(in_order(results.memory.values()))
         single = [(one.key, one.value) for one in every if not one.varies]
         reached = [one.node.at for one in every if isinstance(one.node, Found)]
@@ -109,21 +113,20 @@ class Held:
         """Return whether printed numbers are a stretch of a column, single values each, or numbers of rows."""
         if np.all(values == values[0] + np.arange(values.size)) and values[0] in (0, 1, 2):
             return True
-        for column in self.columns:
-            first = column[: max(column.size - values.size + 1, 0)]
-            for start in np.flatnonzero(np.abs(first - values[0]) <= halves[0]):
-                if np.all(np.abs(column[start : start + values.size] - values) <= halves):
-                    return True
+        starts = np.flatnonzero(np.abs(self.column - values[0]) <= halves[0])
+        for start in starts[starts + values.size <= self.ends[starts]]:
+            if np.all(np.abs(self.column[start : start + values.size] - values) <= halves):
+                return True
         near = np.searchsorted(self.values, [values - halves, values + halves])
         return bool(np.all(near[1] > near[0]))
 
 
 def not_held_in_tables(case: str) -> list[tuple]:
-    """Return the columns of tables that the results do not hold, as a school of each method has them."""
+    """Return the columns of tables that the results do not hold, as two schools have them."""
     found = results(case)
     with shown_in(reader_units(found)):
         held, unknown, label = Held(as_engine(found)), set(), ""
-    for language in ("en", "ru" if found.method.name == "exact" else "vi"):
+    for language in schools(case):
         for table in note(case, language).blocks:
             # a table that goes on has no label of its own
             label = getattr(table, "label", "") or label
@@ -169,13 +172,12 @@ def not_held(results: Results, note: Note) -> set[str]:
         step = block.step if isinstance(block, Equation) else None
         if not hasattr(step, "value"):
             continue
-        held = [results.summary[step.key]] if step.key in results.summary else []
-        held += rows[base_key(step.key)]
+        held = [results.summary.get(step.key, math.nan), *rows[base_key(step.key)]]
         # a cylinder with an articulated rod has a mark in its lines
         names = (step.key, step.key.rpartition(".")[0])
         kept = [one for name in names if name for one in known.get(name, ())]
-        held += [moment.value(one) for one in kept for moment in (at if one.varies else at[:1])]
-        if not any(is_same(value, step) for value in held):
+        found_there = (moment.value(one) for one in kept for moment in (at if one.varies else at[:1]))
+        if not any(is_same(value, step) for value in chain(held, found_there)):
             found.add(base_key(step.key))
     return found
 

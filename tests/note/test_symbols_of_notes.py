@@ -1,0 +1,198 @@
+"""Every symbol of a note is explained no later than it comes first, stands for one thing, and is set alike."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter, defaultdict
+from dataclasses import replace
+
+import pytest
+
+from crankwork.formula.expression import Formula, symbol
+from crankwork.formula.lines import FormulaLine, symbols_of
+from crankwork.notation import ARGUMENTS
+from crankwork.note.document import Equation, Math, Note, Table
+from crankwork.note.equations import equation_symbol, own_key, printed_equation, value_symbol
+from crankwork.note.layout import Upright
+from crankwork.note.symbols import symbol_box
+from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.report.language import symbol as key_symbol
+from note.built import SOME, broken, note, schools, source
+from notes import blocks, printed, tables
+
+OTHERS = (
+    "spark-engine: exact", "v8-diesel", "radial-five", "narrow-v6", "two-stroke", "atkinson", "beta-stirling",
+    "opposed-pistons", "excavator-boom", "knuckle-press", "andrews-squeezer", "parallelogram", "press-start",
+)  # fmt: skip
+# what may stand flat: units after a comma, and names that the file gives; z is also the point where burning ends
+UNIT = re.compile(r"^, [^,]+$")
+FLAT = {"–", "", "z"}
+# letters that books of a school give two things: moving links and revolutions, stroke and force along the rod, angle of
+# the crank and excess of air, of the rod and molar change; pressure in the cylinder by two ways, and transfer functions
+# by two names
+SCHOOL = {"en": "n", "ru": "nS", "vi": "nαβ"}
+SAME = {"p", "p₁", "V", "x′", "x″", "S_x′", "S_x″"}
+# what is found in several ways
+WAYS = ("flywheel_inertia", "whole_inertia", "wittenbauer_slope", "excess_work")
+# wanted and reached
+SPEED = {"δ"}
+
+
+def every_note(rule):
+    """Return a rule of notes as a test: of some machines in every language, of more in two."""
+    some = [(case, language) for case in SOME for language in LANGUAGES]
+    more = [(case, language) for case in OTHERS for language in schools(case)]
+
+    @pytest.mark.parametrize(
+        "notes", [pytest.param(some, id="some"), pytest.param(more, id="more", marks=pytest.mark.slow)]
+    )
+    def test(notes):
+        assert broken(lambda case, language: rule(case, note(case, language)), notes) == {}
+
+    return test
+
+
+def needed(step: FormulaLine, language: str) -> dict[str, tuple[str, ...]]:
+    """Return the symbols that must be known by the symbols of a formula as they are printed."""
+    named = dict(step.named)
+    found: dict[str, tuple[str, ...]] = {}
+    for name in symbols_of(step.expression):
+        if name in named:
+            found[value_symbol(named[name], language)] = (key_symbol(own_key(named[name]).partition(".")[0], language),)
+        elif name != "pi":
+            entry = ARGUMENTS[name]
+            of_angles = any(mark in entry.pattern for mark in ("sin", "cos"))
+            bases = [QUANTITIES[key].symbol(language) for key in (entry.quantity, entry.extra) if key]
+            found[symbol(name, language)] = tuple(bases) if of_angles else (symbol(name, language),)
+    return found
+
+
+def unexplained(one: Note) -> list[str]:
+    """Return the symbols of equations that nothing explains."""
+    known: set[str] = set()
+    missing: list[str] = []
+    for block in blocks(one, Equation):
+        known |= {entry.symbol for entry in block.legend}
+        kind = getattr(block.step, "key", "").partition(".")[0]
+        known |= {QUANTITIES[kind].symbol(one.language)} if kind in QUANTITIES and block.symbol in known else set()
+        if isinstance(block.step, FormulaLine):
+            symbols = needed(block.step, one.language)
+            # one of a kind is explained for all of them
+            known |= {base for printed, wanted in symbols.items() for base in wanted if printed in known}
+            for printed, wanted in symbols.items():
+                if not ({printed} <= known or set(wanted) <= known):
+                    missing.append(f"{printed} in {printed_equation(block, one.language).text}")
+        known.add(block.symbol or equation_symbol(block.step, one.language))
+    return missing
+
+
+def ambiguous(one: Note) -> set[str]:
+    """Return the symbols of equations that stand for two things, but for those of the school."""
+    meanings, values = defaultdict(set), defaultdict(set)
+    for block in blocks(one, Equation):
+        for entry in block.legend:
+            meanings[entry.symbol].add(entry.text)
+        if not isinstance(block.step, Formula) and not block.step.key.startswith(WAYS):
+            values[block.symbol or equation_symbol(block.step, one.language)].add(block.step.key)
+    twice = {shown for found in (meanings, values) for shown, of in found.items() if len(of) > 1}
+    return twice - {*SCHOOL[one.language], *SAME}
+
+
+def flat(one: Note, text: str) -> set[str]:
+    """Return the symbols of equations that stand flat in a table, but what a file has."""
+    worked, found = blocks(one, Equation), set()
+    known = {block.symbol or equation_symbol(block.step, one.language) for block in worked}
+    known |= {entry.symbol for block in worked for entry in block.legend}
+    for table in blocks(one, Table):
+        runs = [run for heading in table.headings for run in heading]
+        # names and symbols stand in the first two columns
+        runs += [cell for row in table.rows for cell in row[:2]]
+        for run in runs:
+            if isinstance(run, str) and not UNIT.match(run):
+                found |= {word for word in re.split(r"[\s,;()=]+", run) if word in known and word not in text}
+    return found - FLAT
+
+
+def upright(one: Note) -> list[str]:
+    """Return the symbols above columns whose letters do not slant."""
+    runs = [run for table in blocks(one, Table) for heading in table.headings for run in heading]
+    shown = [run.content for run in runs if isinstance(run, Math) and isinstance(run.content, str)]
+    return [content for content in shown if symbol_box(content) == Upright(content)]
+
+
+def repeated(one: Note) -> set[str]:
+    """Return the symbols that two rows of the tables of values have."""
+    rows = [row for table in blocks(one, Table) if table.label in ("t:data", "t:summary") for row in table.rows]
+    shown = Counter(row[1].content for row in rows if isinstance(row[1], Math))
+    return {content for content, count in shown.items() if count > 1} - SPEED
+
+
+test_every_symbol_of_every_formula_is_explained = every_note(lambda _, one: unexplained(one))
+test_a_symbol_of_an_equation_stands_for_one_thing = every_note(lambda _, one: ambiguous(one))
+test_no_symbol_of_an_equation_stands_flat_in_a_table = every_note(
+    lambda case, one: flat(one, source(case.partition(": ")[0]))
+)
+test_every_symbol_of_a_table_has_letters_that_slant = every_note(lambda _, one: upright(one))
+test_a_symbol_of_a_table_of_values_stands_for_one_row = every_note(lambda _, one: repeated(one))
+
+
+def test_a_symbol_without_explanation_is_found():
+    one = note("slider-crank")
+    bare = [Equation(block.step) if isinstance(block, Equation) else block for block in one.blocks]
+    assert unexplained(replace(one, blocks=tuple(bare)))
+
+
+def test_the_numbers_of_a_substance_stay_at_their_letters():
+    box = symbol_box("M_H₂O")
+    assert [type(part).__name__ for part in box.below.parts] == ["Script", "Upright"]
+
+
+# equations of notes as they begin
+PRINTED = {
+    # a volume at a point of the diagram is not the clearance volume, nor an exponent a rotational speed
+    ("spark-engine", "ru"): (
+        "V_(c1) = V_c + F_п·S_x = ",
+        "p_(c1) = p_(a)·(V_(a)/V_(c1))^n_1 = ",
+        # the inertia force has a rod ratio of its own
+        "j_ин = R·ω²·(cos φ + λ_ин·cos 2φ) = ",
+        "P_j = −m_j·j_ин = ",
+        # integrals say what they are
+        "L_i = ∮ p dV = 905,655",
+        "M_ср = 1/φ_ц·∫ M_кр dφ = 72,1365",
+    ),
+    ("v8-diesel", "ru"): ("T_5 = T(300°) = ", "M_кр,5 = T_5·R = ", "δ = L_изб/(J_Σ·ω²) = "),
+    ("petrol-four", "ru"): (
+        "Q_r = 1000·G_т·(M_2·h_μ,r − M_1·h_μ,0) = ",
+        "M_кш,3 = M_кш,2 + M_кр,2 = ",
+        "L_изб = max ∫(M_Σ − M_Σср) dφ − min ∫(M_Σ − M_Σср) dφ = ",
+    ),
+    # the first two orders of the motion as textbooks have them
+    ("slider-crank", "en"): (
+        "x_I = r − r·cos φ = ",
+        "v_I = r·ω·sin φ = ",
+        "a_I = r·ω²·cos φ = ",
+        "x_II = (r·λ − r·λ·cos 2φ)/4 = ",
+        "v_II = r·λ·ω/2·sin 2φ = ",
+        "a_II = r·λ·ω²·cos 2φ = ",
+    ),
+    # each order from the transfer function of its own order
+    ("v8-diesel", "en"): ("v_I = x′_I·ω = ", "v_II = x′_II·ω = ", "a_I = x″_I·ω² = ", "a_II = x″_II·ω² = "),
+}
+
+
+def not_printed(case: str, language: str) -> list[str]:
+    shown = printed(note(case, language))
+    return [begins for begins in PRINTED[case, language] if not any(one.startswith(begins) for one in shown)]
+
+
+def test_equations_read_as_those_of_books():
+    assert broken(not_printed, PRINTED) == {}
+
+
+@pytest.mark.parametrize("name", ["petrol-four", "radial-five"])
+def test_what_is_put_into_the_cycle_stands_in_the_table_of_its_data(name):
+    rows = {row[1].content: row for row in tables(note(name, "ru"))["cycle_data"].rows}
+    assert {"C", "H", "O", "a_m", "b_m", "c", "m", "m_r"} <= rows.keys()
+    assert (rows["C"][2], rows["a_m"][2:]) == ("0,855", ("0,034", "МПа"))
+    assert "принято" in rows["C"][0]
+    assert ("ξ_вп" in rows) == (name == "radial-five")
