@@ -9,7 +9,7 @@ import re
 import shutil
 import sys
 from dataclasses import replace
-from pathlib import Path
+from functools import partial
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -33,8 +33,8 @@ from crankwork.show.moving import data
 from crankwork.show.moving_svg import moving_svg
 from crankwork.show.scene import Box, Circle, Drawing, Polyline, Text, extent, rectangle
 from crankwork.show.svg import svg
-
-ROOT = Path(__file__).parents[2]
+from each import for_each
+from shown import FILES, film_of_file, in_parts, machine_of, results_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -47,7 +47,7 @@ V_ENGINE = Mechanism(
 )
 
 MACHINES = {
-    "engine": read(ROOT / "src" / "crankwork" / "description" / "templates" / "engine.toml"),
+    "engine": machine_of("template engine"),
     "offset": Machine(slider_crank(0.05, 0.13, 0.04), 100.0),
     "long": Machine(slider_crank(0.02, 0.4), 100.0, cylinder=Cylinder(0.01)),
     "short": Machine(slider_crank(0.05, 0.052), 100.0, cylinder=Cylinder(0.4, compression_ratio=1.5)),
@@ -56,19 +56,14 @@ MACHINES = {
     "two rods": Machine(V_ENGINE, 100.0),
 }
 
-ENGINES = ("radial-five", "v8-diesel", "petrol-four", "narrow-v6", "two-stroke", "spark-engine")
+# one cylinder, several in a row, and master with articulated rods; and one more of each
+FEW, REST = ("spark-engine", "petrol-four", "radial-five"), ("v8-diesel", "narrow-v6", "two-stroke")
+ENGINES = (*FEW, *REST)
 
 
-@pytest.fixture(params=MACHINES, name="machine")
-def _machine(request):
-    return MACHINES[request.param]
-
-
-@pytest.fixture(params=ENGINES, scope="module", name="engine")
-def _engine(request):
+def _engine(name):
     """Return results of an engine and its film."""
-    results = analyse(read(ROOT / "examples" / f"{request.param}.toml"), method="exact")
-    return results, moving_drawing(results)
+    return results_of(name, "exact"), film_of_file(name, "exact")
 
 
 def _part(film, name):
@@ -96,8 +91,9 @@ def _scale(film):
     return float(bar.points[1, 0] - bar.points[0, 0]) / (float(text.text.split()[0]) * unit)
 
 
-def test_pistons_are_where_the_formulas_of_their_cylinder_say(engine):
-    results, film = engine
+@in_parts("name", FEW, REST)
+def test_pistons_are_where_the_formulas_of_their_cylinder_say(name):
+    results, film = _engine(name)
     degrees = np.mod(film.angles, results.machine.cycle)
     moved, scale = _column(results, "piston_displacement", degrees), _scale(film)
     shaft = next(one for one in film.parts if one.name.startswith("side.crank.")).shift[0]
@@ -114,8 +110,9 @@ def test_pistons_are_where_the_formulas_of_their_cylinder_say(engine):
         assert 0.97 * results.machine.cylinder.bore < np.ptp(outline[:, 1]) / scale < results.machine.cylinder.bore
 
 
-def test_rods_reach_from_their_crankpin_to_their_piston_pin(engine):
-    results, film = engine
+@in_parts("name", FEW, REST)
+def test_rods_reach_from_their_crankpin_to_their_piston_pin(name):
+    results, film = _engine(name)
     scale, whole = _scale(film), results.machine.engine
     for at, place in enumerate(_places(results)):
         rod, piston = _part(film, f"side.rod.{at + 1}"), _part(film, f"side.piston.{at + 1}")
@@ -131,8 +128,9 @@ def test_rods_reach_from_their_crankpin_to_their_piston_pin(engine):
             assert np.hypot(*(pins - rod.shift[frame]).T).min() < 1e-6
 
 
-def test_gas_fills_the_cylinder_as_high_as_its_volume(engine):
-    results, film = engine
+@in_parts("name", FEW, REST)
+def test_gas_fills_the_cylinder_as_high_as_its_volume(name):
+    results, film = _engine(name)
     degrees, scale = np.mod(film.angles, results.machine.cycle), _scale(film)
     area, pressure = math.pi / 4 * results.machine.cylinder.bore**2, _column(results, "gas_pressure", degrees)
     volume = _column(results, "cylinder_volume", degrees)
@@ -147,8 +145,9 @@ def test_gas_fills_the_cylinder_as_high_as_its_volume(engine):
         assert np.all(np.diff(one.tint[np.argsort(pressure[at])]) > -1e-9)
 
 
-def test_flashes_follow_the_firing_order_from_ignition_or_the_top_dead_centre(engine):
-    results, film = engine
+@in_parts("name", FEW, REST)
+def test_flashes_follow_the_firing_order_from_ignition_or_the_top_dead_centre(name):
+    results, film = _engine(name)
     machine = results.machine
     timing = getattr(getattr(machine.gas, "calculated", None), "timing", None)
     advance = timing.ignition_advance if timing else 0.0
@@ -169,8 +168,9 @@ def test_flashes_follow_the_firing_order_from_ignition_or_the_top_dead_centre(en
         assert advance - machine.cycle / film.frames < after * machine.cycle / film.frames < 30 + advance
 
 
-def test_four_strokes_take_two_turns(engine):
-    results, film = engine
+@in_parts("name", FEW, REST)
+def test_four_strokes_take_two_turns(name):
+    results, film = _engine(name)
     assert film.angles[-1] == results.machine.cycle
     assert film.seconds == 4 * results.machine.cycle / 360
     assert film.readouts[0] == "/{φ} = 0°"
@@ -178,11 +178,10 @@ def test_four_strokes_take_two_turns(engine):
     assert film.still().items[-1].text == "/{φ} = 60°"
 
 
-def test_the_view_from_the_side_shows_every_cylinder_at_its_pitch(engine):
-    results, film = engine
+@in_parts("name", FEW[1:2], ["v8-diesel", "narrow-v6", "two-stroke"])
+def test_the_view_from_the_side_shows_every_cylinder_at_its_pitch(name):
+    results, film = _engine(name)
     whole, scale = results.machine.engine, _scale(film)
-    if whole is None or whole.layout.kind == "radial":
-        return
     seen = {int(one.name.rpartition(".")[2]): one for one in film.parts if re.match(r"row\.\d+\.piston\.", one.name)}
     assert sorted(seen) == [one.number for one in whole.layout.places]
     first = whole.layout.places[0]
@@ -195,18 +194,11 @@ def test_the_view_from_the_side_shows_every_cylinder_at_its_pitch(engine):
         np.testing.assert_allclose(up - up[0], side - side[0], atol=1e-9)
 
 
-def test_nothing_leaves_the_paper_and_pistons_stay_in_their_bores(engine):
-    _, film = engine
+@in_parts("film", [*(partial(moving_drawing, one) for one in MACHINES.values()), partial(film_of_file, "petrol-four")],
+          [partial(film_of_file, name) for name in ENGINES])  # fmt: skip
+def test_nothing_leaves_the_picture(film):
+    film = film()
     for frame in range(0, film.frames, 9):
-        for one in map(extent, film.still(frame).items):
-            assert min(one.left, one.bottom) >= 0
-            assert one.right <= film.ground.width
-            assert one.top <= film.ground.height
-
-
-def test_nothing_leaves_the_picture(machine):
-    film = moving_drawing(machine)
-    for frame in range(0, film.frames, 5):
         for one in map(extent, film.still(frame).items):
             assert min(one.left, one.bottom) >= 0
             assert one.right <= film.ground.width
@@ -269,9 +261,12 @@ def _step_at(style, name, share):
     return re.sub(r"-?[\d.]+", lambda _: f"{next(values):.4f}", steps[0][1])
 
 
-@pytest.mark.parametrize("share", [0.0, 0.131, 0.5, 0.8765])
-def test_a_browser_plays_what_the_frames_say(engine, share):
-    _, film = engine
+PLAYED = [(name, share) for name in ("spark-engine", "petrol-four", "radial-five") for share in (0.131, 0.5, 0.8765)]
+
+
+@in_parts(("name", "share"), PLAYED[:1], [("spark-engine", 0.0), *PLAYED[1:]])
+def test_a_browser_plays_what_the_frames_say(name, share):
+    _, film = _engine(name)
     shown, at = _played(moving_svg(film), share), share * film.frames
     assert shown.keys() == {one.name for one in film.parts}
     for one in film.parts:
@@ -287,15 +282,21 @@ def test_a_browser_plays_what_the_frames_say(engine, share):
         np.testing.assert_allclose((shown[one.name] @ (1.0, 0.0, 1.0))[:2], end, atol=0.2, err_msg=one.name)
 
 
-def test_a_picture_moves_without_a_script_and_rests_where_motion_is_unwanted(machine):
-    text = moving_svg(moving_drawing(machine), "colour").decode()
+@for_each("name", ("engine", "two rods"))
+def test_a_picture_moves_without_a_script_and_rests_where_motion_is_unwanted(name):
+    film = moving_drawing(MACHINES[name], seconds=2.5, frames=40)
+    text = moving_svg(film, "colour").decode()
     ET.fromstring(text)  # noqa: S314 - our own text
     assert "@keyframes m1{" in text
     assert "infinite" in text
     assert "@media (prefers-reduced-motion: reduce){.moves{animation-play-state:paused}}" in text
     assert "@media (prefers-color-scheme: dark){svg{fill:#e8e8e8}" in text
     assert '[fill="#ffffff"]{fill:#14171c}' in text
-    assert "prefers-color-scheme" not in moving_svg(moving_drawing(machine), "dark").decode()
+    assert "prefers-color-scheme" not in moving_svg(film, "dark").decode()
+    assert film.seconds == pytest.approx(2.5 * film.angles[-1] / 360)
+    assert film.frames == 40
+    assert f".moves{{animation:{film.seconds:g}s linear" in text
+    assert text.encode() == moving_svg(moving_drawing(MACHINES[name], seconds=2.5, frames=40), "colour")
 
 
 def test_what_a_page_moves_by_itself_has_neither_style_nor_script():
@@ -316,19 +317,12 @@ def test_what_a_page_moves_by_itself_has_neither_style_nor_script():
     assert told["parts"]["side.crank.1"]["turn"][-1] == pytest.approx(720 - 90)
 
 
-def test_one_passage_takes_the_time_asked_for(machine):
-    film = moving_drawing(machine, seconds=2.5, frames=40)
-    assert film.seconds == pytest.approx(2.5 * film.angles[-1] / 360)
-    assert film.frames == 40
-    assert f".moves{{animation:{film.seconds:g}s linear" in moving_svg(film).decode()
-
-
-@pytest.mark.parametrize("ending", FORMATS)
+@for_each("ending", FORMATS)
 def test_every_format_takes_a_still(ending):
     assert len(FORMATS[ending](moving_drawing(MACHINES["engine"]).still(20), "print")) > 1000
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@for_each("language", LANGUAGES)
 def test_titles_are_kept_whatever_they_hold(language):
     machine = replace(MACHINES["engine"], title='A & B <c> "d" \U0001f600\x00\x0b\ud800')
     tree = ET.fromstring(moving_svg(moving_drawing(machine, language=language)))  # noqa: S314 - our own text
@@ -348,14 +342,12 @@ def test_title_and_description_are_in_the_language():
     assert "một vòng quay trong 4 s" in tree.findtext(f"{SVG}desc")
 
 
-def test_a_drawing_is_the_same_every_time_and_not_large(engine):
-    results, film = engine
-    text = moving_svg(film, "colour")
-    assert text == moving_svg(moving_drawing(results), "colour")
-    assert len(text) < 350_000
+@in_parts("name", FEW[:1], ENGINES[1:])
+def test_the_picture_of_an_engine_is_not_large(name):
+    assert len(moving_svg(_engine(name)[1], "colour")) < 350_000
 
 
-@pytest.mark.parametrize(("seconds", "frames"), [(0.0, 72), (math.nan, 72), (4.0, 3)])
+@for_each(("seconds", "frames"), [(0.0, 72), (math.nan, 72), (4.0, 3)])
 def test_nonsense_is_refused(seconds, frames):
     with pytest.raises(CrankworkError):
         moving_drawing(MACHINES["offset"], seconds=seconds, frames=frames)
@@ -367,18 +359,18 @@ def _tip(film, name):
     return np.broadcast_to(head.shift, (len(film.angles), 2)) - shaft.shift
 
 
-@pytest.mark.parametrize("name", ["spark-engine", "petrol-four", "radial-five", "double-acting-steam"])
-def test_arrows_of_forces_balance_at_the_piston_pin_and_at_the_crank(name):
-    results = analyse(read(ROOT / "examples" / f"{name}.toml"), method="exact")
+@for_each("name", ["double-acting-steam", "atkinson"])
+def test_arrows_of_joint_forces_are_as_long_as_they_are_large(name):
+    results = results_of(name)
     film = moving_drawing(results, forces=True, frames=48)
-    if name == "double-acting-steam":
-        shown, moved = (
-            _part(film, "force.A.head"),
-            results.columns_at(film.angles % 360, ["joint_force.A"])["joint_force.A"],
-        )
-        length = np.hypot(*(shown.shift - _part(film, "force.A.shaft").shift).T)
-        np.testing.assert_allclose(length / length.max(), moved / moved.max(), atol=1e-9)
-        return
+    forces = results.columns_at(film.angles % 360, ["joint_force.A"])["joint_force.A"]
+    length = np.hypot(*_tip(film, "A").T)
+    np.testing.assert_allclose(length / length.max(), forces / forces.max(), atol=1e-9)
+
+
+@in_parts("name", ["spark-engine", "radial-five"], ["petrol-four"])
+def test_arrows_of_forces_balance_at_the_piston_pin_and_at_the_crank(name):
+    film = moving_drawing(results_of(name, "exact"), forces=True, frames=48)
     piston, wall, rod, across = (
         _tip(film, f"{key}.1") for key in ("piston_force", "side_force", "rod_force", "tangential_force")
     )
@@ -401,8 +393,9 @@ def test_arrows_of_forces_balance_at_the_piston_pin_and_at_the_crank(name):
     assert np.all(beyond[told[2].tint > 0] > 3)
 
 
+@pytest.mark.slow
 def test_a_gif_is_small_and_takes_the_time_of_the_film():
-    film = moving_drawing(analyse(read(ROOT / "examples" / "radial-five.toml")))
+    film = film_of_file("petrol-four")
     data = gif(film)
     assert len(data) < 3e6
     with Image.open(io.BytesIO(data)) as picture:
@@ -430,11 +423,10 @@ def test_a_film_goes_through_ffmpeg_frame_by_frame_where_there_is_one(tmp_path, 
 
 
 def test_where_nothing_burns_nothing_flashes():
-    results = analyse(read(ROOT / "examples" / "petrol-four.toml", ["engine.misfire=[2]"]))
+    results = analyse(read(FILES["petrol-four"], ["engine.misfire=[2]"]))
     flashes = {one.name for one in moving_drawing(results, frames=24).parts if ".flash." in one.name}
     assert flashes == {"side.flash.1", "row.1.flash.1", "row.1.flash.3", "row.1.flash.4"}
-    compressor = analyse(read(ROOT / "src" / "crankwork" / "description" / "templates" / "compressor.toml"))
-    names = {one.name for one in moving_drawing(compressor, frames=24).parts}
+    names = {one.name for one in film_of_file("template compressor").parts}
     assert "side.gas.1" in names
     assert not any("flash" in one for one in names)
 
@@ -457,14 +449,10 @@ def _walls_beside(film, along, middle, half):
     return min(min(one) for one in ends), max(max(one) for one in ends)
 
 
-PISTONS = (*ENGINES, "double-acting-steam", "opposed-pistons", "beta-stirling", "atkinson")
-
-
-@pytest.mark.parametrize("name", PISTONS)
+@in_parts("name", ["petrol-four", "double-acting-steam"], [*FEW, *REST, "opposed-pistons", "beta-stirling", "atkinson"])
 def test_pistons_stay_in_their_bores(name):
     """At every angle, and their rods go through crossheads where gas is on both sides."""
-    results = analyse(read(ROOT / "examples" / f"{name}.toml"))
-    film = moving_drawing(results)
+    results, film = results_of(name), film_of_file(name)
     walled = {int(one.name.rpartition(".")[2]) for one in film.parts if one.name.startswith("side.gas.")}
     sliders = {face.slider for one in results.machine.chambers.values() for face in one.faces}
     names = [f"side.piston.{one}" for one in walled] or [f"block.{one}" for one in sliders]
@@ -481,10 +469,16 @@ def test_pistons_stay_in_their_bores(name):
         assert moved.max() + outline[:, 0].max() <= high + 0.5, one
 
 
-@pytest.mark.parametrize("film_of_kind", [gif, mp4])
-def test_films_tell_how_much_of_them_is_done(film_of_kind):
+def test_a_gif_tells_how_much_of_it_is_done():
     told = []
-    if film_of_kind is mp4 and shutil.which("ffmpeg") is None:
+    gif(moving_drawing(MACHINES["lying"], frames=24), told=told.append)
+    assert told == pytest.approx([10 / 24, 20 / 24, 1.0])
+
+
+@pytest.mark.programs
+def test_a_film_tells_how_much_of_it_is_done():
+    if shutil.which("ffmpeg") is None:
         pytest.skip("there is no ffmpeg")
-    film_of_kind(moving_drawing(MACHINES["lying"], frames=24), told=told.append)
+    told = []
+    mp4(moving_drawing(MACHINES["lying"], frames=24), told=told.append)
     assert told == pytest.approx([10 / 24, 20 / 24, 1.0])

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from crankwork import analyse, read, read_machine
 from crankwork.analysis.skeleton import skeleton
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
@@ -20,19 +19,20 @@ from crankwork.mechanism.structure import structure
 from crankwork.report.drawing import drawn, moving_drawing
 from crankwork.show.moving_svg import moving_svg
 from crankwork.show.scene import Polyline, extent
+from each import for_each
 from linkages import LINKAGES, SHAPER
+from shown import film_of_file, in_parts, results_of
 
-ROOT = Path(__file__).parents[2]
 FRAMES = 24
 
 
-@pytest.fixture(params=LINKAGES, name="linkage")
-def _linkage(request):
-    return LINKAGES[request.param]
+# a slot carried by a link, a group of class III, and a slider that a slider carries
+FEW = ("described shaper", "class III", "carried yoke")
 
 
-def _film(linkage, **options):
-    return moving_drawing(linkage, frames=FRAMES, **options)
+@functools.cache
+def _film_of(name):
+    return moving_drawing(LINKAGES[name], frames=FRAMES)
 
 
 def _parts(film, kind):
@@ -45,47 +45,24 @@ def _corners(part, frame):
     return outline.points
 
 
-def test_joints_are_where_the_motion_says(linkage):
-    film, shape = _film(linkage), skeleton(linkage)
+@in_parts("name", FEW, [name for name in LINKAGES if name not in FEW])
+def test_joints_links_and_blocks_are_where_the_motion_says(name):
+    linkage, film = LINKAGES[name], _film_of(name)
+    shape = skeleton(linkage)
     moving = linkage_motion(linkage, CrankGrid.from_degrees(np.arange(FRAMES + 1) * 360 / FRAMES))
-    joints = _parts(film, "joint")
+    joints = {name: np.broadcast_to(one.shift, (FRAMES + 1, 2)) for name, one in _parts(film, "joint").items()}
     pivot = next(name for name, at in shape.pivots.items() if at == linkage.crank.pivot)
-    centre, pin = joints[pivot].shift, joints[linkage.crank.pin].shift
+    centre, pin = joints[pivot], joints[linkage.crank.pin]
     scale = np.hypot(*(pin - centre).T).mean() / linkage.crank.radius
     expected = {name: at for name, at in moving.points.items() if name in shape.letters and name not in shape.pivots}
     assert joints.keys() == {*expected, *shape.pivots}
-    for name, point in expected.items():
+    for joint, point in expected.items():
         place = np.column_stack([point.x.position, point.y.position]) - linkage.crank.pivot
-        np.testing.assert_allclose(joints[name].shift - centre, scale * place, atol=1e-6)
-
-
-def test_links_keep_their_length_and_end_in_their_joints(linkage):
-    film, shape = _film(linkage), skeleton(linkage)
-    joints = {name: np.broadcast_to(one.shift, (FRAMES + 1, 2)) for name, one in _parts(film, "joint").items()}
-    for name, link in _parts(film, "link").items():
-        member = shape.member(name.rpartition(".")[0])
-        for frame in (0, 5, 11, 20):
-            nodes = _corners(link, frame)
-            ends = [one for one in member.points if np.hypot(*(nodes - joints[one][frame]).T).min() < 1e-6]
-            assert len(ends) >= min(1, len(member.points)), name
-            assert np.hypot(*(nodes[1] - nodes[0])) == pytest.approx(
-                np.hypot(*np.diff(_corners(link, 0)[:2], axis=0)[0])
-            )
-
-
-def test_every_link_is_drawn_and_numbered(linkage):
-    film, shape = _film(linkage), skeleton(linkage)
-    names = [one.name.split(".") for one in film.parts]
-    assert {one.name for one in shape.members} <= {one[1] for one in names if one[0] in {"link", "slot", "block"}}
-    written = [one.items[0].text for one in _parts(film, "text").values()]
-    assert sorted(int(one) for one in written if one.isdecimal()) == list(range(len(shape.members) + 1))
-
-
-def test_blocks_stay_in_their_slots(linkage):
-    film, shape = _film(linkage), skeleton(linkage)
+        np.testing.assert_allclose(joints[joint] - centre, scale * place, atol=1e-6)
+    _check_links(film, shape, joints)
     slots = {name.rpartition(".")[0]: one for name, one in _parts(film, "slot").items()}
-    for name, block in _parts(film, "block").items():
-        guide = shape.member(name).guide
+    for member, block in _parts(film, "block").items():
+        guide = shape.member(member).guide
         if guide.link:
             slot = slots[guide.link]
             turn = np.radians(slot.turn)
@@ -93,20 +70,33 @@ def test_blocks_stay_in_their_slots(linkage):
             assert np.all(np.abs(along) < 0.96 * slot.items[0].points[:, 0].max())
 
 
-def test_nothing_leaves_the_picture(linkage):
-    film = _film(linkage)
+def _check_links(film, shape, joints):
+    """Check that links keep their length and end in their joints."""
+    for name, link in _parts(film, "link").items():
+        member = shape.member(name.rpartition(".")[0])
+        for frame in (0, 5, 11, 20):
+            nodes = _corners(link, frame)
+            ends = [one for one in member.points if np.hypot(*(nodes - joints[one][frame]).T).min() < 1e-6]
+            assert len(ends) >= min(1, len(member.points)), name
+            first = _corners(link, 0)
+            assert np.hypot(*(nodes[1] - nodes[0])) == pytest.approx(np.hypot(*(first[1] - first[0])))
+
+
+@in_parts("name", FEW, [name for name in LINKAGES if name not in FEW])
+def test_every_link_is_drawn_and_numbered_and_nothing_leaves_the_small_picture(name):
+    film, shape = _film_of(name), skeleton(LINKAGES[name])
+    names = [one.name.split(".") for one in film.parts]
+    assert {one.name for one in shape.members} <= {one[1] for one in names if one[0] in {"link", "slot", "block"}}
+    written = [one.items[0].text for one in _parts(film, "text").values()]
+    assert sorted(int(one) for one in written if one.isdecimal()) == list(range(len(shape.members) + 1))
     for frame in range(0, FRAMES, 5):
         drawn = film.still(frame)
         for one in map(extent, drawn.items):
-            assert one.left >= 0
-            assert one.bottom >= 0
+            assert min(one.left, one.bottom) >= 0
             assert one.right <= drawn.width
             assert one.top <= drawn.height
-
-
-def test_a_drawing_is_small_quick_to_read_and_the_same_every_time(linkage):
-    text = moving_svg(_film(linkage))
-    assert text == moving_svg(_film(linkage))
+    text = moving_svg(film)
+    assert text == moving_svg(moving_drawing(LINKAGES[name], frames=FRAMES))
     assert len(text) < 70_000
 
 
@@ -115,7 +105,7 @@ def test_numbers_follow_the_formula_of_structure():
     members = skeleton(LINKAGES["described shaper"], found.links).members
     assert {one.name: one.number for one in members} == {"crank": 1, "lever": 2, "link": 3, "block": 4, "ram": 5}
     machine = Machine(LINKAGES["described shaper"], 10.0, linkage=linkage_from(SHAPER)[0])
-    assert "4 – block" in _film(machine).about
+    assert "4 – block" in moving_drawing(machine, frames=FRAMES).about
 
 
 def test_points_keep_the_names_of_the_owner_and_catalog_points_get_letters():
@@ -125,11 +115,10 @@ def test_points_keep_the_names_of_the_owner_and_catalog_points_get_letters():
     assert set(skeleton(slider_crank(0.05, 0.2)).letters.values()) == {"O", "A", "B"}
 
 
-@pytest.mark.parametrize("name", ["opposed-pistons", "beta-stirling", "double-acting-steam"])
+@for_each("name", ["opposed-pistons", "beta-stirling", "double-acting-steam"])
 def test_gas_of_a_linkage_ends_at_its_pistons_and_heads(name):
     """The pistons move as their linkage says, the gas between them is as long as its volume says."""
-    results = analyse(read_machine((ROOT / "examples" / f"{name}.toml").read_text("utf-8")))
-    film = moving_drawing(results)
+    results, film = results_of(name), film_of_file(name)
     assert "block" in {one.name.partition(".")[0] for one in film.parts}
     pistons, gases = _parts(film, "block"), _parts(film, "gas")
     assert gases.keys() == results.machine.chambers.keys()
@@ -152,11 +141,10 @@ def test_gas_of_a_linkage_ends_at_its_pistons_and_heads(name):
         assert np.all(np.diff(one.tint[np.argsort(pressure)]) > -1e-9)
 
 
-@pytest.mark.parametrize("name", ["opposed-pistons", "beta-stirling", "double-acting-steam", "atkinson"])
+@in_parts("name", ["double-acting-steam", "atkinson"], ["opposed-pistons", "beta-stirling"])
 def test_gas_of_a_linkage_is_darker_the_higher_its_pressure_in_all_its_chambers(name):
     """Of every still: what is filled between pistons, by the pressure that its chamber has at that angle."""
-    results = analyse(read_machine((ROOT / "examples" / f"{name}.toml").read_text("utf-8")))
-    film = moving_drawing(results)
+    results, film = results_of(name), film_of_file(name)
     keys = [f"gas_pressure.{one}" for one in results.machine.chambers]
     columns = results.columns_at(np.mod(film.angles[:-1], results.machine.cycle), keys)
     seen = []
@@ -170,7 +158,7 @@ def test_gas_of_a_linkage_is_darker_the_higher_its_pressure_in_all_its_chambers(
 
 
 def test_a_piston_with_gas_on_both_sides_has_a_rod_and_a_crosshead():
-    film = moving_drawing(analyse(read(ROOT / "examples" / "double-acting-steam.toml")))
+    film = film_of_file("double-acting-steam")
     parts = {one.name: one for one in film.parts}
     piston, head, rod, joint = (
         parts[name] for name in ("block.piston", "crosshead.piston", "link.piston.1", "joint.B")
@@ -186,16 +174,15 @@ def test_a_piston_with_gas_on_both_sides_has_a_rod_and_a_crosshead():
     assert head.shift[:, 0].min() + head.items[0].points[:, 0].min() > cover
 
 
-DRAWN = ("opposed-pistons", "excavator-boom", "atkinson", "andrews-squeezer", "knuckle-press", "double-acting-steam",
+DRAWN = ("opposed-pistons", "excavator-boom", "andrews-squeezer", "knuckle-press", "double-acting-steam",
          "press-geometry", "press-start", "parallelogram")  # fmt: skip
 
 
-@pytest.mark.parametrize("name", DRAWN)
+@in_parts("name", ["atkinson"], DRAWN)
 def test_numbers_stand_beside_their_links(name):
     """Those of all links are there; at most angles no other link is nearer."""
-    machine = read(ROOT / "examples" / f"{name}.toml")
-    film = moving_drawing(analyse(machine))
-    found, _ = structure(machine.linkage)
+    film = film_of_file(name)
+    found, _ = structure(results_of(name).machine.linkage)
     numbers = {str(at): link for at, link in enumerate(found.links, start=1)}
     texts = {one.items[0].text: one for one in film.parts if one.name.startswith("text.")}
     assert texts.keys() >= numbers.keys()
@@ -225,7 +212,7 @@ def _distance(at, item):
 
 
 def test_the_scale_of_large_forces_is_told_in_kilonewtons():
-    results = analyse(read(ROOT / "examples" / "excavator-boom.toml"))
+    results = results_of("excavator-boom")
     told = re.search(r"= ([\d.]+) (k?N)/mm", drawn(results, "svg", "print", 1.0, forces=True).decode())
     assert told[2] == "kN"
     assert float(told[1]) == 10
