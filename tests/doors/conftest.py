@@ -1,12 +1,9 @@
-"""The command line as a user meets it: in this process for speed, as a program where it matters."""
+"""The command line as a user meets it, in this process for speed."""
 
 from __future__ import annotations
 
 import json
-import os
 import re
-import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -16,10 +13,6 @@ import pytest
 
 from crankwork import cli
 from crankwork.description.machine_file import template
-
-SOURCE = Path(cli.__file__).parents[2]
-# file:line: key: what is wrong; what to write instead
-LINE = re.compile(r"(?P<place>[^\n]+?:\d+): (?P<key>[^\s:][^:\n]*): (?P<message>[^\n]+)")
 
 
 class Answer(NamedTuple):
@@ -62,43 +55,6 @@ def crankwork(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str
         return Answer(int(ended.value.code or 0), out, err)
 
     return run
-
-
-@pytest.fixture
-def program() -> Callable[..., subprocess.CompletedProcess[bytes]]:
-    """Run a command as a program of its own."""
-
-    def run(*arguments: str, env: dict[str, str] | None = None) -> subprocess.CompletedProcess[bytes]:
-        words, variables = command(*arguments), environment() | (env or {})
-        return subprocess.run(words, env=variables, capture_output=True, timeout=60, check=False)
-
-    return run
-
-
-def command(*arguments: str) -> list[str]:
-    """Return the words that start the program."""
-    return [sys.executable, "-m", "crankwork", *arguments]
-
-
-def environment() -> dict[str, str]:
-    """Return an environment in which the program is found."""
-    return os.environ | {"PYTHONPATH": str(SOURCE)}
-
-
-@pytest.fixture
-def spawn() -> Callable[..., subprocess.Popen[bytes]]:
-    """Start a command and do not wait for it."""
-
-    def start(*arguments: str) -> subprocess.Popen[bytes]:
-        # what is run behind a shell would go on ignoring interrupts
-        before = signal.signal(signal.SIGINT, signal.default_int_handler)
-        try:
-            words, streams = command(*arguments), {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-            return subprocess.Popen(words, env=environment(), **streams)
-        finally:
-            signal.signal(signal.SIGINT, before)
-
-    return start
 
 
 @pytest.fixture

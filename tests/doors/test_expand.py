@@ -6,6 +6,8 @@ import json
 import tomllib
 from pathlib import Path
 
+import pytest
+
 from crankwork.description.machine_file import template
 
 
@@ -26,17 +28,20 @@ def test_a_file_written_out_can_be_run_and_gives_its_torque_by_the_same_name(cra
         assert float(lines[1][-2].replace(",", ".")) > 0
 
 
-def test_what_cannot_be_written_out_is_told_above(crankwork):
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        ("ru", "# не записано: [bearings], размеры"),
+        pytest.param("en", "# not written out: [bearings], their sizes", marks=pytest.mark.slow),
+        pytest.param("vi", "# không ghi ra: [bearings], kích thước", marks=pytest.mark.slow),
+    ],
+)
+def test_what_cannot_be_written_out_is_told_above(crankwork, language, told):
     Path("my.toml").write_text(template("whole-engine"), "utf-8")
-    for language, told in {
-        "en": "# not written out: [bearings], their sizes",
-        "ru": "# не записано: [bearings], размеры",
-        "vi": "# không ghi ra: [bearings], kích thước",
-    }.items():
-        answer = crankwork("check", "my.toml", "--expand", "--lang", language)
-        assert (answer.code, answer.err) == (0, "")
-        head = answer.out.partition("\nformat")[0]
-        assert [one for one in (told, "[engine]", "[bearings]") if one not in head] == [], language
+    answer = crankwork("check", "my.toml", "--expand", "--lang", language)
+    assert (answer.code, answer.err) == (0, "")
+    head = answer.out.partition("\nformat")[0]
+    assert [one for one in (told, "[engine]", "[bearings]") if one not in head] == []
 
 
 def test_a_method_that_is_not_exact_can_be_set_aside(crankwork, check_refusals):

@@ -64,6 +64,7 @@ def test_a_wrong_axis_is_named_with_what_to_write(machine, check_refusals):
     check_refusals((("map", machine, *options), told) for options, told in WRONG)
 
 
+@pytest.mark.slow
 def test_processes_find_what_one_finds(crankwork, machine):
     over = ("--over", "crank.speed=1000..3000rpm:4", "--over", "rod.length=40..200mm:8")
     found = {}
@@ -76,6 +77,7 @@ def test_processes_find_what_one_finds(crankwork, machine):
     assert found["1"] == found["2"]
 
 
+@pytest.mark.slow
 def test_many_points_calculated_together_are_those_of_analyses(monkeypatch):
     description, over = Description(template("engine")), ("crank.speed=1000..3000rpm:6", "rod.length=150..170mm:6")
     together = mapping.mapped(description, over)

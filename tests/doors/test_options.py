@@ -160,7 +160,7 @@ def test_a_setting_of_a_list_is_named_for_its_entries(machine_file, check_refusa
 
 def test_a_step_is_in_degrees(crankwork, machine_file) -> None:
     name, rows = machine_file(name="slider-crank"), {}
-    for step in ("15", "15 deg", "15deg", "15°", "15.0", "1.5e1"):
+    for step in ("15", "15 deg", "15°", "1.5e1"):
         answer = crankwork("run", name, "--step", step, "-o", step, "--no-figures")
         assert answer.code == 0, answer.err
         rows[step] = Path(step, "tables/forces.csv").read_text("utf-8").splitlines()

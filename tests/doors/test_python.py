@@ -26,7 +26,7 @@ EXAMPLES = ROOT / "examples"
 
 @pytest.fixture(scope="module")
 def engine() -> crankwork.Results:
-    return crankwork.analyse(crankwork.load(EXAMPLES / "v8-diesel.toml"))
+    return crankwork.analyse(crankwork.load(EXAMPLES / "petrol-four.toml"))
 
 
 @pytest.fixture(scope="module")
@@ -57,8 +57,8 @@ def test_results_are_shown_in_fifteen_lines(engine: crankwork.Results, linkage: 
     for one in (engine, linkage):
         assert len(repr(one).splitlines()) <= 15
         assert len(repr(one)) < 2000
-        assert len(one._repr_html_()) < 100_000
-        assert "<img" in one._repr_html_()
+        page = one._repr_html_()
+        assert (len(page) < 100_000, "<img" in page) == (True, True)
 
 
 def test_results_are_a_mapping_of_what_they_know(engine: crankwork.Results) -> None:
@@ -102,9 +102,9 @@ def test_results_of_every_kind_of_machine_are_written_as_data(
     import xarray as xr
     from scipy.io import loadmat
 
-    names = ("slider-crank", "excavator-boom", "punching-machine", "petrol-four")
+    names = ("slider-crank", "excavator-boom", "punching-machine")
     others = {name: crankwork.analyse(crankwork.load(EXAMPLES / f"{name}.toml")) for name in names}
-    for name, results in {"v8-diesel": engine, "knuckle-press": linkage, **others}.items():
+    for name, results in {"petrol-four": engine, "knuckle-press": linkage, **others}.items():
         key = next(key for key in results.columns if "." not in key and key not in ("crank_angle", "time"))
         for ending in ("nc", "parquet", "mat"):
             results.write(f"{name}.{ending}")
@@ -117,7 +117,7 @@ def test_results_of_every_kind_of_machine_are_written_as_data(
             assert data.attrs["source"].startswith("crankwork ")
             assert len(data.attrs["machine_file_sha256"]) == 64
     with pytest.raises(crankwork.CrankworkError, match=r"is there already|exists"):
-        engine.write("v8-diesel.nc")
+        engine.write("petrol-four.nc")
     with pytest.raises(crankwork.CrankworkError, match=r"\.nc, \.parquet, \.mat"):
         engine.write("my.csv")
 

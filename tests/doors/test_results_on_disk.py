@@ -179,7 +179,7 @@ def test_a_run_keeps_the_pressure_it_reads_wherever_it_lies(crankwork, machine_f
     before = _contents("out")
     file = machine_file(text=MEASURED.replace("NAME", name))
     for _ in range(2):
-        answer = crankwork("run", file, "-o", "out", "--overwrite", "--no-figures")
+        answer = crankwork("run", file, "-o", "out", "--overwrite", "--no-figures", "--step", "30")
         refused = "out/tables/forces.csv: is what this run reads; move it away or choose another name or folder\n"
         assert (answer.code, answer.err) == ((2, refused) if name == "forces" else (0, ""))
         assert before.items() <= _contents("out").items()
