@@ -20,6 +20,7 @@ from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
 from each import for_each
+from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere
 
@@ -103,7 +104,7 @@ def test_pressure_and_load_ratio_are_those_of_the_inertia_forces():
     pin = -0.7 * a / np.cos(beta) * np.exp(-1j * beta) + 0.6 * 0.04 * w**2 * np.exp(1j * phi)
     load = np.abs(pin)
     assert load.max() == pytest.approx(0.04 * w**2 * (0.6 + 0.7 * (1 + 0.04 / 0.14)), rel=1e-12), "at the top"
-    listing = crankwork.analyse(crankwork.read_machine(WITHOUT_GAS)).listings["bearing_loads"]
+    listing = analysed(WITHOUT_GAS).listings["bearing_loads"]
     found = {key: values[listing.names.index("crankpin.1")] for key, values in listing.columns.items()}
     assert found["bearing_load_ratio"] == pytest.approx(load.max() / load.mean(), rel=1e-9)
     assert found["bearing_pressure"] == pytest.approx(load.mean() / (0.05 * 0.025), rel=1e-9)

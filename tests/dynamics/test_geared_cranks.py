@@ -14,6 +14,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
 from each import for_each
+from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere
 FILE = Path(__file__).parent.parent / "machines" / "geared-five-bar.toml"
@@ -57,7 +58,7 @@ def test_a_load_on_the_geared_crank_alone_comes_by_the_ratio():
     text = text.replace(
         'kind = "force"\npoint = "C"\nx = "30 N"\ny = "-50 N"', 'kind = "torque"\nlink = "second"\ntorque = ["7 N*m"]'
     )
-    results = crankwork.analyse(crankwork.read_machine(text))
+    results = analysed(text)
     # the load turns with 7 N m where the geared crank turns -2 times as fast: it hands 14 N m to the crank
     assert results["balancing_torque"] == pytest.approx(14.0, rel=1e-13)
 

@@ -14,6 +14,7 @@ from crankwork.note.options import NoteOptions
 from crankwork.note.web import web
 from crankwork.report.summary import summary_text
 from each import for_each
+from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere
 
@@ -106,7 +107,7 @@ def by_equilibrium(angle, share):
 
 @for_each("share", [0.5, 1.0, -0.2])
 def test_every_joint_of_coupled_wheels_with_three_cranks(share):
-    results = crankwork.analyse(crankwork.read_machine(WHEELS.replace("SHARE", str(share))))
+    results = analysed(WHEELS.replace("SHARE", str(share)))
     for degrees in (12.0, 30.0, 77.0, 90.0, 144.0, 201.0, 300.0, 359.0):
         o_x, o_y, a_x, a_y, b_x, b_y, p_x, p_y, c_x, c_y, _, _, torque = by_equilibrium(math.radians(degrees), share)
         size = max(map(abs, (a_x, a_y, b_x, b_y, c_x, c_y)))
@@ -140,7 +141,7 @@ of = "second"
     text = text.replace(
         'points = { C = ["2200 mm", "0 mm"] }', 'points = { C = ["2200 mm", "0 mm"], D = ["3000 mm", "0 mm"] }'
     )
-    results = crankwork.analyse(crankwork.read_machine(text.replace("[[loads]]", more + "[[loads]]", 1)))
+    results = analysed(text.replace("[[loads]]", more + "[[loads]]", 1))
     assert results.value("mobility") == -1.0
     for degrees in (20.0, 77.0, 250.0):
         along = [results.value(f"axial_force.{name}", at=degrees) for name in ("second", "third", "fourth")]
@@ -157,7 +158,7 @@ of = "second"
 
 @for_each("language", LANGUAGES)
 def test_it_is_told_and_explained(language):
-    results = crankwork.analyse(crankwork.read_machine(WHEELS.replace("SHARE", "0.5")))
+    results = analysed(WHEELS.replace("SHARE", "0.5"))
     assert "third" in summary_text(results, language=language)
     explained = results.explain("axial_force.third", at=40, language=language)
     assert re.search("second", explained)
@@ -167,8 +168,8 @@ def test_it_is_told_and_explained(language):
 
 def test_without_a_share_everything_but_joint_forces_is_known():
     """The link does no work: torques are those with any share, and the motion."""
-    shared = crankwork.analyse(crankwork.read_machine(WHEELS.replace("SHARE", "0.5")))
-    results = crankwork.analyse(crankwork.read_machine(WHEELS.replace('share = SHARE\nof = "second"\n', "")))
+    shared = analysed(WHEELS.replace("SHARE", "0.5"))
+    results = analysed(WHEELS.replace('share = SHARE\nof = "second"\n', ""))
     assert [one.values["name"] for one in results.notices if one.code == "redundant_unshared"] == ["third"]
     assert results.value("mobility") == 0.0
     assert not results.unmet
@@ -191,7 +192,7 @@ def test_two_links_too_many_without_shares():
         'points = { C = ["2200 mm", "0 mm"] }', 'points = { C = ["2200 mm", "0 mm"], D = ["3000 mm", "0 mm"] }'
     )
     fourth = '[links.fourth]\njoins = ["R", "D"]\nlength = "300 mm"\n'
-    results = crankwork.analyse(crankwork.read_machine(text.replace("[[loads]]", fourth + "[[loads]]", 1)))
+    results = analysed(text.replace("[[loads]]", fourth + "[[loads]]", 1))
     assert {one.values["name"] for one in results.notices if one.code == "redundant_unshared"} == {"third", "fourth"}
 
 

@@ -13,6 +13,7 @@ from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
 from each import for_each
+from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere
 FILE = Path(__file__).parent.parent / "machines" / "toothed-five-bar.toml"
@@ -36,7 +37,7 @@ def test_a_torque_on_the_geared_crank_presses_its_teeth():
     )
     text += '[positions]\nC = ["110 mm", "200 mm"]\n'
     text += '[[loads]]\nkind = "torque"\nlink = "second"\ntorque = ["7 N*m"]\n'
-    results = crankwork.analyse(crankwork.read_machine(text))
+    results = analysed(text)
     # pitch radii of 120 and 60 mm
     across = 7 / 0.06
     assert np.abs(results["tooth_force.second"]) == pytest.approx(across, rel=1e-13)
@@ -68,8 +69,8 @@ def test_the_pivots_bear_what_one_system_of_all_links_gives(ratio):
 def test_the_power_of_the_teeth_is_that_of_the_torque_that_passes(ratio):
     """Where wheels touch both move alike, and what the teeth give the one they take from the other."""
     results = crankwork.analyse(lifted(ratio))
-    plain = crankwork.analyse(crankwork.read_machine(TEXT.replace('pressure_angle = "20 deg"\n', "").replace(
-        "ratio = -2", f"ratio = {ratio}").replace('E = ["180 mm", "0 mm"]', 'E = ["180 mm", "15 mm"]')))  # fmt: skip
+    plain = analysed(TEXT.replace('pressure_angle = "20 deg"\n', "").replace(
+        "ratio = -2", f"ratio = {ratio}").replace('E = ["180 mm", "0 mm"]', 'E = ["180 mm", "15 mm"]'))  # fmt: skip
     found, without = results.columns_at(DEGREES), plain.columns_at(DEGREES)
     assert found["balancing_torque"] == pytest.approx(without["balancing_torque"], rel=1e-12)
     i, e = float(ratio), np.array([0.18, 0.015])

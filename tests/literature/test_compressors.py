@@ -19,6 +19,7 @@ import pytest
 import crankwork
 from crankwork.analysis import Results
 from each import for_each
+from machine_texts import analysed
 
 GEAR = """
 fixed_points.O = ["0 mm", "0 mm"]
@@ -136,7 +137,7 @@ PRINTED = [(name, key, *one) for name, case in CASES.items() for key, one in cas
 
 @pytest.fixture(scope="module")
 def results() -> dict[str, Results]:
-    return {name: crankwork.analyse(crankwork.read_machine(case.text)) for name, case in CASES.items()}
+    return {name: analysed(case.text) for name, case in CASES.items()}
 
 
 @for_each(("name", "key", "value", "tolerance"), PRINTED, ids=[f"{one[0]}: {one[1]}" for one in PRINTED])
@@ -191,7 +192,7 @@ def test_rajput_20_8() -> None:
     text = stage((291.43, 300.0), 0.04, 'suction = "0.96 bar"; discharge = "6 bar"; compression_exponent = 1.3;'
                  ' temperature = "303 K"; free_pressure = "1 bar"; free_temperature = "288 K"', 500.0, (0.9, 0.85),
                  BOTH)  # fmt: skip
-    found = crankwork.analyse(crankwork.read_machine(text))
+    found = analysed(text)
     assert found["free_air_delivery"] == pytest.approx(16 / 60, rel=5e-5)
     assert found["motor_power"] == pytest.approx(83.65e3, rel=1e-4)
 
@@ -202,7 +203,7 @@ def test_rajput_20_10() -> None:
     for clearance in (0.02, 0.02 + 0.55 / 88):
         text = stage((500.0, 880.0), clearance, 'suction = "1.025 bar"; discharge = "8.2 bar";'
                      ' compression_exponent = 1.3')  # fmt: skip
-        flows.append(crankwork.analyse(crankwork.read_machine(text)))
+        flows.append(analysed(text))
     one, other = flows
     assert one["clearance_volumetric_efficiency.head"] == pytest.approx(0.920981897176, rel=1e-11)
     assert other["clearance_volumetric_efficiency.head"] == pytest.approx(0.896288740043, rel=1e-11)
@@ -221,7 +222,7 @@ def test_rajput_20_27() -> None:
         valves = f'suction = "{low!r} bar"\ndischarge = "{high!r} bar"\ncompression_exponent = 1.25'
         side = SIDE.format(name=f"stage{number + 1}", bore=1.0, sense=1, clearance="", valves=valves)
         text += side.replace('bore = "1.0 mm"', f'area = "{area!r} m2"')
-    found = crankwork.analyse(crankwork.read_machine(text))
+    found = analysed(text)
     assert -found["indicated_power"] == pytest.approx(1297727.2017, rel=1e-11)
     assert found["isothermal_power"] == pytest.approx(1146628.12633, rel=1e-11)
     assert found["isothermal_efficiency"] == pytest.approx(0.883566380382, rel=1e-11)
@@ -229,7 +230,7 @@ def test_rajput_20_27() -> None:
     single = gear + SIDE.format(name="all", bore=1.0, sense=1, clearance="", valves=(
         'suction = "1.05 bar"\ndischarge = "40 bar"\ncompression_exponent = 1.25'
     )).replace('bore = "1.0 mm"', f'area = "{swept / 0.2!r} m2"')  # fmt: skip
-    alone = -crankwork.analyse(crankwork.read_machine(single))["indicated_power.all"]
+    alone = -analysed(single)["indicated_power.all"]
     assert alone == pytest.approx(1686780.23364, rel=1e-11)
     assert 1 + found["indicated_power"] / alone == pytest.approx(0.230648322867, rel=1e-10)
 
@@ -285,7 +286,7 @@ def pump(sizes: tuple[float, float, float], heads: tuple[float, float], more: st
     """Return the results of a plunger moved as a cosine: its bore and crank radius [mm], speed [rpm], heads [m]."""
     (bore, radius, speed), (low, high) = sizes, [METRE * one for one in heads]
     text = PUMP.format(bore=bore, radius=radius, speed=speed, low=low, high=high, more=more, turning=turning)
-    return crankwork.analyse(crankwork.read_machine(text))
+    return analysed(text)
 
 
 @for_each(

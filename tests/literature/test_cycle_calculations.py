@@ -14,7 +14,6 @@ Internal_Combustion_Engine_by_M._l._Mathur_and_R._P._Sharma/ch2_2.ipynb, and sec
 
 import pytest
 
-import crankwork
 from crankwork.analysis import Results
 from crankwork.formula.known import given
 from crankwork.formula.worked import Worked
@@ -23,6 +22,7 @@ from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.grinevetsky import grinevetsky
 from crankwork.working_cycle.heat_capacities import fresh_heat
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
+from machine_texts import analysed
 
 RANKINE = 5 / 9
 PSI = 6894.757293168361
@@ -86,7 +86,7 @@ def of_file(cylinder: str, cycle: str) -> Results:
         cylinder = {{ bore = "200 mm", {cylinder} }}
         cycle = {{ corners = "sharp", {cycle}, adiabatic_exponent = 1.4 }}
     """
-    return crankwork.analyse(crankwork.read_machine(text))
+    return analysed(text)
 
 
 def test_rajput_3_21() -> None:

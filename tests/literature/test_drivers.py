@@ -15,13 +15,9 @@ import pytest
 
 import crankwork
 from each import for_each
+from machine_texts import analysed
 
 LBF, INCH = 4.4482216152605, 0.0254
-
-
-def analysed(text: str) -> crankwork.Results:
-    """Return the results of a machine file."""
-    return crankwork.analyse(crankwork.read_machine(text))
 
 
 class TestWindow:

@@ -8,6 +8,7 @@ import pytest
 
 import crankwork
 from each import for_each
+from machine_texts import analysed
 
 mp.mp.dps = 30
 GRAVITY = "9.81"
@@ -33,10 +34,6 @@ transient = {{ time = "{time} s", step = "{step} s" }}
 """
 
 
-def let_go(text: str) -> crankwork.Results:
-    return crankwork.analyse(crankwork.read_machine(text))
-
-
 def events(results: crankwork.Results, word: str) -> list[dict[str, float]]:
     listing = results.listings["transient_events"]
     return [
@@ -48,7 +45,7 @@ def events(results: crankwork.Results, word: str) -> list[dict[str, float]]:
 
 @for_each("amplitude", PERIODS)
 def test_periods_of_a_pendulum(amplitude: int) -> None:
-    results = let_go(PENDULUM.format(start=-90 - amplitude, time=2.9 * PERIODS[amplitude], step=0.1))
+    results = analysed(PENDULUM.format(start=-90 - amplitude, time=2.9 * PERIODS[amplitude], step=0.1))
     back = events(results, "turns_back")
     assert [one["time"] for one in back] == pytest.approx(PERIODS[amplitude] * np.arange(1, 6) / 2, rel=1e-12)
     assert back[0]["crank_angle"] == pytest.approx(math.radians(2 * amplitude), rel=1e-12)
@@ -56,7 +53,7 @@ def test_periods_of_a_pendulum(amplitude: int) -> None:
 
 def test_the_pendulum_let_go_from_the_horizontal() -> None:
     """IFToMM benchmark A01; positions by Jacobi's elliptic functions."""
-    results = let_go(PENDULUM.format(start=180, time=10, step=0.01))
+    results = analysed(PENDULUM.format(start=180, time=10, step=0.01))
     columns = results.listings["transient"].columns
     angle = math.pi + columns["crank_angle"]
     for time, x, y in (
@@ -110,7 +107,7 @@ def turned(count: int, time: float) -> tuple[float, float]:
 @for_each("count", [1, 2, 6])
 def test_the_n_four_bar_over_ten_seconds(count: int) -> None:
     """It passes two change points of every parallelogram each turn."""
-    results = let_go(four_bars(count, 10.0))
+    results = analysed(four_bars(count, 10.0))
     angle, rate = turned(count, 10.0)
     assert -results.summary["final_turn"] == pytest.approx(angle, abs=1e-9)
     assert -results.summary["final_speed"] == pytest.approx(rate, abs=1e-9)
@@ -139,7 +136,7 @@ method = { weights = true, gravity = "9.81 m/s2" }
 
 def test_a_collar_falls_onto_a_spring() -> None:
     """Meriam and Kraige, 6/11: 2.54 m/s where the links are level, the spring of 30 kN/m gives way by 60.1 mm."""
-    fallen = let_go(
+    fallen = analysed(
         COLLAR + 'transient = { time = "2 s", start = "45 deg", stops = ["0 deg", "90 deg"], until = "rest" }'
     )
     (met,) = events(fallen, "stop")
@@ -147,7 +144,7 @@ def test_a_collar_falls_onto_a_spring() -> None:
     assert speed == pytest.approx(2.54, rel=2e-3)
     assert speed == pytest.approx(2.54390445667142, rel=1e-12)
     sinking = COLLAR + 'loads = [{ kind = "spring", slider = "collar", stiffness = "30000 N/m" }]\n'
-    sunk = let_go(sinking + f'transient = {{ time = "0.1 s", speed = "{met["crank_speed"]!r} rad/s" }}')
+    sunk = analysed(sinking + f'transient = {{ time = "0.1 s", speed = "{met["crank_speed"]!r} rad/s" }}')
     way = 0.375 * math.sin(-events(sunk, "turns_back")[0]["crank_angle"])
     assert way == pytest.approx(0.0601, rel=2e-3)
     assert way == pytest.approx(0.06013928424680485, rel=1e-11)
@@ -155,7 +152,7 @@ def test_a_collar_falls_onto_a_spring() -> None:
 
 def test_a_damper_on_a_yoke_slows_a_wheel_down() -> None:
     """J w' = -d (r sin phi)^2 w, so that w = w0 - d r^2 / J (phi / 2 - sin 2 phi / 4)."""
-    results = let_go("""
+    results = analysed("""
         fixed_points.O = ["0 m", "0 m"]
         crank = { pivot = "O", pin = "A", radius = "0.1 m", speed = "60 rpm", inertia = "2 kg*m2" }
         guides = { slot = { link = "yoke", angle = "90 deg" }, bed = { through = "O", angle = "0 deg" } }

@@ -16,6 +16,7 @@ import math
 import pytest
 
 import crankwork
+from machine_texts import analysed
 
 ENGINE = """
 crank = {{ stroke = "{stroke} m", speed = "{speed} rpm" }}
@@ -36,7 +37,7 @@ def test_nag_3_4() -> None:
     mean = 5.5e-4 / 0.06 * 147 * 10
     order = f", firing_order = {list(range(1, 13))}"
     text = ENGINE.format(stroke=1.2, speed=150, bore=0.8, cylinders=12, strokes=2, cycle=360, mean=mean, order=order)
-    found = crankwork.analyse(crankwork.read_machine(text))
+    found = analysed(text)
     assert found["indicated_mean_pressure"] == pytest.approx(1.3475e6, rel=1e-12)
     assert found["engine_indicated_power"] == pytest.approx(24383785.5401, rel=1e-11)
 
@@ -45,7 +46,7 @@ def test_gupta_16_5() -> None:
     """The loop of the gas exchange, 25 mm2, taken off that of the work, 475 mm2, over 50 mm and 0.8333 bar/mm."""
     mean = (475 - 25) / 50 * 0.8333
     text = ENGINE.format(stroke=0.16, speed=500, bore=0.15, cylinders=1, strokes=4, cycle=720, mean=mean, order="")
-    found = crankwork.analyse(crankwork.read_machine(text))
+    found = analysed(text)
     assert found["indicated_mean_pressure"] == pytest.approx(7.4997e5, rel=1e-12)
     assert found["indicated_power"] == pytest.approx(8835.37590905, rel=1e-11)
 

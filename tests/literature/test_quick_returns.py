@@ -8,8 +8,7 @@ import math
 
 import pytest
 
-import crankwork
-from crankwork.kinematics.crank_grid import CrankGrid
+from machine_texts import analysed
 
 SLOTTED_LEVER = """
     fixed_points = {{ O = ["0 mm", "{centres} mm"], A = ["0 mm", "0 mm"] }}
@@ -19,11 +18,6 @@ SLOTTED_LEVER = """
     guides = {{ slot = {{ link = "lever" }}, bed = {{ through = ["0 mm", "{bed} mm"] }} }}
     sliders = {{ block = {{ pin = "B", guide = "slot" }}, ram = {{ pin = "R", guide = "bed" }} }}
 """
-
-
-def analysed(text, *degrees):
-    grid = CrankGrid.from_degrees(degrees) if degrees else None
-    return crankwork.analyse(crankwork.read_machine(text), grid)
 
 
 def test_crank_and_slotted_lever():

@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import pytest
 
-from crankwork.analysis import Results, analyse
-from crankwork.description.machine_file import read_machine
+from crankwork.analysis import Results
 from each import for_each
+from machine_texts import analysed
 
 
 class Case(NamedTuple):
@@ -297,13 +297,9 @@ CASES = {
 PRINTED = [(name, key, *one) for name, case in CASES.items() for key, one in case.printed.items()]
 
 
-def found(text: str) -> Results:
-    return analyse(read_machine("\n".join(line.strip() for line in text.splitlines())))
-
-
 @pytest.fixture(scope="module")
 def results() -> dict[str, Results]:
-    return {name: found(case.text) for name, case in CASES.items()}
+    return {name: analysed(case.text) for name, case in CASES.items()}
 
 
 @for_each(("name", "key", "value", "tolerance"), PRINTED, ids=[f"{one[0]}: {one[1]}" for one in PRINTED])
@@ -325,7 +321,7 @@ def test_the_routes_agree(results: dict[str, Results], name: str) -> None:
 )
 def test_a_flywheel_from_rest(mass: str, torque: str, acceleration: float, energy: float) -> None:
     """Its radius of gyration is 1 m; pages 573 and 175."""
-    results = found(f"""
+    results = analysed(f"""
         fixed_points.O = ["0 mm", "0 mm"]
         crank.pivot = "O"
         crank.pin = "A"
@@ -363,7 +359,7 @@ def test_force_of_a_press(slope: str, together: float, blank: float | None) -> N
     From the same repository, A_Textbook_of_Production_Engineering_by_P._C._Sharma/Chapter2_2.ipynb: blanked and pierced
     together 50.27 kN, staggered 33.5 kN, with shear on the punch 23.8 kN; the work is the same.
     """
-    results = found(BLANKING.format(more=STROKE + slope))
+    results = analysed(BLANKING.format(more=STROKE + slope))
     assert results["shearing_force.1"] + results["shearing_force.2"] == pytest.approx(together, rel=1e-11)
     if blank is not None:
         assert results["shearing_force.1"] == pytest.approx(blank, rel=1e-11)

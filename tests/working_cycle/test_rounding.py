@@ -292,17 +292,6 @@ def test_scaling_all_pressures_changes_nothing_else(scale, school):
     assert other.diagram.named["f"][1] == pytest.approx(scale * one.diagram.named["f"][1], rel=1e-12)
 
 
-def test_the_share_grows_with_the_peak_and_shrinks_with_early_valves():
-    low, high = (_rounded(peak_level=level).filling_factor for level in (0.82, 0.92))
-    assert low < high
-    usual, early_exhaust, early_spark = (
-        _rounded(timing=replace(VALVES, **changes)).filling_factor
-        for changes in ({}, {"exhaust_opens": 75.0}, {"ignition_advance": 45.0})
-    )
-    assert early_exhaust < usual
-    assert early_spark < usual
-
-
 @ENGINES
 @SCHOOLS
 @TIMINGS
