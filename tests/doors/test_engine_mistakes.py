@@ -80,16 +80,24 @@ MISTAKES = {
     "metric or not": ("narrow-v6", 'kind = "petrol"', 'kind = "petrol"\npower = "80 hp"', "cycle.power",
                       '"80 PS" for the first, "80 hp(I)" for the second, or the power in kW'),
     "heat of a dozen cylinders": ("two-stroke", "560 J", "56 kJ", "cycle", "more than any fuel gives; write less"),
+    "no radius, as a power would give": ("petrol-four", 'radius = "39 mm"\n', "", "crank.radius", "is missing"),
     "intake below the residual gas": ("petrol-four", '"0.085 MPa"', '"0.005 MPa"', "cycle", "no fresh charge"),
 }  # fmt: skip
 
 
+def engine(name, *changes):
+    """Write the file of an engine with pieces of an example replaced."""
+    text = (EXAMPLES / f"{name}.toml").read_text("utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    Path("engine.toml").write_text(text, "utf-8")
+    return "engine.toml"
+
+
 @for_each(("name", "old", "new", "key", "advice"), MISTAKES.values(), ids=list(MISTAKES))
 def test_a_mistake_is_told_with_its_fix(crankwork, name, old, new, key, advice):
-    text = (EXAMPLES / f"{name}.toml").read_text("utf-8")
-    assert old in text
-    Path("engine.toml").write_text(text.replace(old, new, 1), "utf-8")
-    answer = crankwork("check", "engine.toml")
+    answer = crankwork("check", engine(name, (old, new)))
     assert answer.code == 2
     assert "Traceback" not in answer.err
     told = [line for line in answer.mistakes if f": {key}: " in line]
@@ -97,106 +105,93 @@ def test_a_mistake_is_told_with_its_fix(crankwork, name, old, new, key, advice):
     assert advice in told[0]
 
 
-def test_gas_hotter_than_the_laws_of_heat_reach_is_refused(crankwork):
-    hot = ("--set", "cylinder.compression_ratio=100", "--set", "cycle.compression_exponent=3")
-    answer = crankwork("check", str(EXAMPLES / "radial-five.toml"), *hot)
-    assert answer.code == 2
-    assert "K, for which no heat capacities are known; lower compression_ratio" in answer.err
+SETTINGS = {
+    "gas hotter than the laws of heat reach": (
+        "radial-five", ("cylinder.compression_ratio=100", "cycle.compression_exponent=3"),
+        "cycle: the gas reaches", "K, for which no heat capacities are known; lower compression_ratio",
+    ),
+    "a W without bank angles": ("v8-diesel", ("engine.layout=W",), "engine.bank_angles: ", "is missing"),
+    "a cylinder that its walls cool at once": (
+        "two-stroke", ("crank.speed=0.001 rpm",), "cycle: the pressure cannot be followed from 344 to 392 deg: at",
+        "changes too fast; correct speed, bore",
+    ),
+}  # fmt: skip
 
 
-def test_a_cylinder_that_its_walls_cool_at_once_is_refused_in_seconds(crankwork):
-    answer = crankwork("check", str(EXAMPLES / "two-stroke.toml"), "--set", "crank.speed=0.001 rpm")
+@for_each("case", SETTINGS.values(), ids=list(SETTINGS))
+def test_settings_that_cannot_be_are_refused_with_what_to_correct(crankwork, case):
+    name, settings, wrong, advice = case
+    answer = crankwork("check", engine(name), *(word for one in settings for word in ("--set", one)))
     assert answer.code == 2
-    assert "cycle: the pressure cannot be followed from 344 to 392 deg: at" in answer.err
-    assert "changes too fast; correct speed, bore" in answer.err
+    assert wrong in answer.err
+    assert advice in answer.err
 
 
 def test_several_mistakes_at_once(crankwork):
-    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
-    text = text.replace(ORDER, "firing_order = [1, 1, 4, 2]").replace('"0.085 MPa"', "0.085").replace("rod]", "rood]")
-    Path("engine.toml").write_text(text, "utf-8")
-    answer = crankwork("check", "engine.toml")
+    changes = (ORDER, "firing_order = [1, 1, 4, 2]"), ('"0.085 MPa"', "0.085"), ("rod]", "rood]")
+    answer = crankwork("check", engine("petrol-four", *changes))
     assert answer.code == 2
     assert len(answer.mistakes) >= 2
     assert "did you mean rod" in answer.err
 
 
 def test_uneven_intervals_are_said_with_the_intervals(crankwork):
-    text = (EXAMPLES / "v8-diesel.toml").read_text("utf-8")
     throws = 'throws = ["0 deg", "90 deg", "270 deg", "180 deg"]'
-    text = text.replace('bank_angle = "90 deg"', f'bank_angle = "60 deg"\n{throws}')
-    Path("engine.toml").write_text(text, "utf-8")
-    answer = crankwork("check", "engine.toml")
+    change = ('bank_angle = "90 deg"', f'bank_angle = "60 deg"\n{throws}')
+    answer = crankwork("check", engine("v8-diesel", change))
     assert answer.code == 0
     assert "uneven intervals" in answer.out
-    Path("engine.toml").write_text(text.replace("[engine]", "[engine]\nuneven = true"), "utf-8")
-    assert "uneven" not in crankwork("check", "engine.toml").out
+    meant = engine("v8-diesel", change, ("[engine]", "[engine]\nuneven = true"))
+    assert "uneven" not in crankwork("check", meant).out
 
 
-@for_each(
-    ("old", "new", "said"),
-    [
-        ("compression_ratio = 8.5", "compression_ratio = 14.5", "knock"),
-        ("excess_air = 0.96", "excess_air = 2.5", "excess air"),
-        ('"1060 K"', '"700 K"', "residual gas"),
-        ("compression_exponent = 1.377", "compression_exponent = 1.6", "compression"),
-    ],
-)
-def test_values_outside_a_correlation_are_said_and_used(crankwork, old, new, said):
-    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
-    before = crankwork("run", str(EXAMPLES / "petrol-four.toml"), "--json")
-    Path("engine.toml").write_text(text.replace(old, new), "utf-8")
-    answer = crankwork("check", "engine.toml")
-    assert answer.code == 0
-    assert any(said in line for line in answer.out.splitlines() if line.startswith("note:")), answer.out
-    assert crankwork("run", "engine.toml", "--json").out != before.out
+OUTSIDE = {
+    ("compression_ratio = 8.5", "compression_ratio = 14.5"): "knock",
+    ("excess_air = 0.96", "excess_air = 2.5"): "excess air",
+    ('"1060 K"', '"700 K"'): "residual gas",
+    ("compression_exponent = 1.377", "compression_exponent = 1.6"): "compression",
+}
+
+
+def test_values_outside_a_correlation_are_said_and_used(crankwork):
+    found = {}
+    before = crankwork("run", engine("petrol-four"), "--json").out
+    for change, said in OUTSIDE.items():
+        answer = crankwork("run", engine("petrol-four", change), "--json")
+        notes = [line for line in crankwork("check", "engine.toml").out.splitlines() if line.startswith("note:")]
+        found[change] = (answer.code, answer.out != before, [said for line in notes if said in line][:1])
+    assert found == {change: (0, True, [said]) for change, said in OUTSIDE.items()}
 
 
 def test_measured_pressure_over_half_a_cycle_is_refused(crankwork):
     angle = np.arange(0.0, 361.0, 1.0)
     Path("p.csv").write_text("\n".join(["angle,p", *(f"{one},{0.2 + 0.1 * np.cos(np.radians(one))}" for one in angle)]))
-    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
-    head, tail = text.split("[cycle]")
     gas = '[gas]\ncycle = "720 deg"\n[gas.measured]\nfile = "p.csv"\npressure_unit = "MPa"\n'
-    Path("engine.toml").write_text(head + gas + "[bearings]" + tail.split("[bearings]")[1], "utf-8")
-    answer = crankwork("check", "engine.toml")
+    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
+    cycle = text[text.index("[cycle]") : text.index("[bearings]")]
+    answer = crankwork("check", engine("petrol-four", (cycle, gas)))
     assert answer.code == 2
     assert "gas.measured" in answer.err
     assert "720" in answer.err
 
 
 def test_power_gives_bore_and_stroke(crankwork):
-    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8")
-    text = text.replace('radius = "39 mm"\n', "").replace('bore = "78 mm"\n', "")
-    Path("engine.toml").write_text(text.replace('kind = "petrol"', 'kind = "petrol"\npower = "60 kW"'), "utf-8")
-    answer = crankwork("check", "engine.toml")
+    changes = (
+        ('radius = "39 mm"\n', ""),
+        ('bore = "78 mm"\n', ""),
+        ('kind = "petrol"', 'kind = "petrol"\npower = "60 kW"'),
+    )
+    answer = crankwork("check", engine("petrol-four", *changes))
     assert answer.code == 0
     assert "rounded to 78 and 78 mm" in answer.out
-    assert "78 mm" in answer.out
-
-
-def test_without_a_power_the_crank_needs_its_radius(crankwork):
-    text = (EXAMPLES / "petrol-four.toml").read_text("utf-8").replace('radius = "39 mm"\n', "")
-    Path("engine.toml").write_text(text, "utf-8")
-    answer = crankwork("check", "engine.toml")
-    assert answer.code == 2
-    assert "crank.radius: is missing" in answer.err
 
 
 def test_forces_per_area_and_the_speed_are_those_of_the_file(crankwork):
-    path = str(EXAMPLES / "petrol-four.toml")
-    answer = crankwork("run", path, "--per-area", "-o", "out", "--no-figures")
+    answer = crankwork("run", engine("petrol-four"), "--per-area", "-o", "out", "--no-figures")
     assert answer.code == 0, answer.err
     assert "5600 rpm" in answer.out
     heading = Path("out/tables/bearings.csv").read_text("utf-8").splitlines()[0]
     assert "crankpin_load.1 [MPa]" in heading
-
-
-def test_a_w_without_bank_angles_is_told_so(crankwork):
-    answer = crankwork("check", str(EXAMPLES / "v8-diesel.toml"), "--set", "engine.layout=W")
-    assert answer.code == 2
-    assert "engine.bank_angles" in answer.err
-    assert "is missing" in answer.err
 
 
 def test_an_engine_of_which_only_the_motion_is_known_says_so(crankwork):
