@@ -12,16 +12,10 @@ from crankwork.description.machine_file import read
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "spark-engine.toml")
 NO_WORK = """
-[crank]
-radius = "45 mm"
-speed = "3000 rpm"
-[rod]
-ratio = 0.3
-[piston]
-mass = "0.6 kg"
-[cylinder]
-bore = "85 mm"
-compression_ratio = 9
+crank = { radius = "45 mm", speed = "3000 rpm" }
+rod.ratio = 0.3
+piston.mass = "0.6 kg"
+cylinder = { bore = "85 mm", compression_ratio = 9 }
 [gas]
 cycle = "720 deg"
 points = { a = { angle = "0 deg", pressure = "0.5 MPa" }, b = { angle = "720 deg" } }

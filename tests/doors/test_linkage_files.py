@@ -65,34 +65,21 @@ def test_any_name_comes_back_in_the_tables_and_the_workbook(crankwork, machine_f
     assert failures == {}
 
 
-def test_a_setting_changes_the_linkage(crankwork, machine_file) -> None:
+def test_a_setting_changes_the_linkage_and_check_names_mobility_and_structure(crankwork, machine_file) -> None:
     name = machine_file(name="toggle-press")
     settings = ("--set", "links.rod.length=225 mm", "--set", "crank.speed=30 rpm")
     plain, changed = (json.loads(crankwork("run", name, "--json", *one).out)["summary"] for one in ((), settings))
     assert plain["slider_stroke.ram"] != changed["slider_stroke.ram"]
     assert (plain["rotational_speed"]["value"], changed["rotational_speed"]["value"]) == (60, 30)
-
-
-def test_check_names_mobility_and_structure(crankwork, machine_file) -> None:
-    out = crankwork("check", machine_file(name="toggle-press")).out
+    out = crankwork("check", name).out
     assert "mobility W = 3·5 − 2·7 = 1 (Chebyshev)" in out
     assert "structure I(0,1) -> II(2,3) -> II(4,5), mechanism of class II" in out
 
 
 CLASS_III = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-E = ["200 mm", "250 mm"]
-F = ["300 mm", "-50 mm"]
-[crank]
-pivot = "O"
-pin = "A"
-radius = "10 mm"
-speed = "60 rpm"
-[positions]
-B = ["150 mm", "30 mm"]
-C = ["200 mm", "100 mm"]
-D = ["200 mm", "-50 mm"]
+fixed_points = { O = ["0 mm", "0 mm"], E = ["200 mm", "250 mm"], F = ["300 mm", "-50 mm"] }
+crank = { pivot = "O", pin = "A", radius = "10 mm", speed = "60 rpm" }
+positions = { B = ["150 mm", "30 mm"], C = ["200 mm", "100 mm"], D = ["200 mm", "-50 mm"] }
 [links]
 rod = { joins = ["A", "B"] }
 plate = { joins = ["B", "C", "D"], mass = "2 kg", inertia = "0.01 kg*m2", centre = ["40 mm", "0 mm"] }

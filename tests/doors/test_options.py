@@ -103,10 +103,15 @@ def test_a_speed_in_radians_is_that_speed_whatever_pi_a_document_has(crankwork, 
     assert found == {(name, speed): one for name in ("slider-crank", "four-bar") for speed, one in wanted.items()}
 
 
-def test_forces_per_area_need_the_bore(machine_file, check_refusals) -> None:
-    sentence = "--per-area: needs the piston area; give cylinder.bore in the file, or leave this option out"
-    for text in ('[crank]\nradius = "45 mm"\nspeed = "3000 rpm"\n[rod]\nratio = 0.3\n', template("four-bar")):
-        check_refusals([(("run", machine_file(text=text), "--per-area"), sentence)])
+def test_what_a_machine_or_its_method_does_not_have_is_told(machine_file, check_refusals) -> None:
+    bore = "--per-area: needs the piston area; give cylinder.bore in the file, or leave this option out"
+    cylinder = "--set engine.misfire[1]: there is no cylinder 6; write numbers from 1 to 4"
+    bare = machine_file(text='[crank]\nradius = "45 mm"\nspeed = "3000 rpm"\n[rod]\nratio = 0.3\n')
+    check_refusals([(("run", bare, "--per-area"), bore)])
+    check_refusals([(("run", machine_file(name="four-bar"), "--per-area"), bore)])
+    check_refusals([(("run", machine_file(name="whole-engine"), "--set", "engine.misfire=[6]"), cylinder)])
+    asked = ("explain", machine_file(), "rod_transverse_force", "--method", "textbook")
+    check_refusals([(asked, "by its method, textbook")])
 
 
 def test_an_angle_is_read_as_it_is_printed(crankwork, machine_file, check_mistakes) -> None:
@@ -116,11 +121,6 @@ def test_an_angle_is_read_as_it_is_printed(crankwork, machine_file, check_mistak
     answer = crankwork(*asked, "vi", "--at", "abc")
     check_mistakes(answer)
     assert answer.err == '--at: "abc": không phải số kèm đơn vị; hãy ghi như "30 deg"\n'
-
-
-def test_a_result_that_the_method_does_not_give_is_told_with_the_method(machine_file, check_refusals) -> None:
-    asked = ("explain", machine_file(), "rod_transverse_force", "--method", "textbook")
-    check_refusals([(asked, "by its method, textbook")])
 
 
 def test_a_setting_replaces_what_says_the_same(crankwork, machine_file) -> None:
@@ -151,11 +151,6 @@ def test_a_setting_is_read_as_in_the_file_and_the_last_of_two_counts(crankwork, 
         _summary(crankwork, name, *(word for one in some for word in ("--set", one)))[key] for some, key, _ in settings
     ]
     assert found == pytest.approx([value for *_, value in settings])
-
-
-def test_a_setting_of_a_list_is_named_for_its_entries(machine_file, check_refusals) -> None:
-    told = "--set engine.misfire[1]: there is no cylinder 6; write numbers from 1 to 4"
-    check_refusals([(("run", machine_file(name="whole-engine"), "--set", "engine.misfire=[6]"), told)])
 
 
 def test_a_step_is_in_degrees(crankwork, machine_file) -> None:

@@ -19,21 +19,12 @@ CHECKOUT = Path(__file__).parents[2]
 EXAMPLES = CHECKOUT / "examples"
 PRESS = str(EXAMPLES / "press.toml")
 HOSTILE = "# $x$ *a* <b> & \\e"
-NAMES = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-"C<#$*&\\\\>" = ["200 mm", "0 mm"]
-[crank]
-pivot = "O"
-pin = "A"
-radius = "62.5 mm"
-speed = "100 rpm"
-[links]
-"co up#$*<>&\\\\" = { joins = ["A", "B_1"], length = "175 mm", mass = "1.5 kg", centre = ["80 mm", "40 mm"] }
-"r/2" = { joins = ["C<#$*&\\\\>", "B_1"], length = "112.5 mm", mass = "1 kg", centre = ["56 mm", "0 mm"] }
-[branch]
-B_1 = 1
-"""
+NAMES = {
+    "coupler =": '"co up#$*<>&\\\\" =',
+    "rocker  =": '"r/2" =',
+    "\nC =": '\n"C<#$*&\\\\>" =',
+    '"C", "B"': '"C<#$*&\\\\>", "B"',
+}
 FORMATS = [pytest.param(".pdf", marks=pytest.mark.programs), ".docx", ".html"]
 
 
@@ -65,7 +56,7 @@ def test_a_note_is_written_and_said_in_its_language(crankwork) -> None:
 
 @pytest.mark.parametrize("ending", FORMATS)
 def test_title_and_author_come_out_as_they_went_in_and_names_too(crankwork, machine_file, ending) -> None:
-    name, author = machine_file(text=NAMES), "Петров П. П. # $y$"
+    name, author = machine_file(*NAMES.items(), name="four-bar"), "Петров П. П. # $y$"
     options = ("--title", HOSTILE, "--author", author, "--no-figures", "--lang", "ru")
     answer = crankwork("report", name, "-o", f"a{ending}", *options)
     assert (answer.out, answer.err) == (f"Записано в a{ending}\n", "")
