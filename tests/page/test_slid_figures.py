@@ -12,7 +12,58 @@ from crankwork.page.sliders import Live
 from crankwork.report.figures import drawings
 from crankwork.report.language import displayed
 from crankwork.study.sliders import moved
-from page.slid import design, live, move, results
+from page.slid import design, document, live, move, results
+
+
+def test_columns_and_values_of_another_design_make_its_curves(stored):
+    """What a page stores says which column, which value and which factor each curve is."""
+    failures, compared = [], {}
+    for name, speed in (("four-bar", 90), ("engine", 2000)):
+        data = stored(document(name, "vi").encode())
+        expected = results(name, design(name, crank_radius=48, crank_speed=speed))
+        every = drawings(expected, only=set(data["figures"]))
+        compared[name] = 0
+        for figure, one in data["figures"].items():
+            for at, plot in enumerate(one["plots"]):
+                for curve, made in plot.get("curves", {}).items():
+                    graph = every[figure].plots[at]
+                    places = dict(zip("xy", graph.curves[curve], strict=True))
+                    angles = type(expected.grid).from_degrees(graph.angles.get(curve, places["x"]))
+                    for axis, (key, factor) in made.items():
+                        column = (
+                            expected.memory[key].value if axis == "level" else expected.columns_at(angles, [key])[key]
+                        )
+                        wanted = np.ma.masked_invalid(places.get(axis, places["y"]))
+                        is_right = np.ma.allclose(factor * column, wanted, rtol=1e-9, atol=1e-9)
+                        failures += [] if is_right else [(name, figure, curve, axis)]
+                        compared[name] += 1
+        for key, (factor, origin, _) in data["sliders"]["values"].items():
+            value = expected.summary[key]
+            is_right = factor * value + origin == pytest.approx(displayed(key, value), rel=1e-9, abs=1e-9)
+            failures += [] if is_right else [(name, key)]
+    assert failures == []
+    assert compared == {"four-bar": 29, "engine": 22}
+
+
+def test_what_polynomials_do_not_follow_is_named_and_links_stand_upon_joints(stored):
+    data = stored(document("four-bar", "vi").encode())
+    rocker = ("link_swing", "link_angle_max", "link_angle_max_angle", "link_angle_min", "link_angle_min_angle")
+    assert data["sliders"]["filed"] == [
+        "link_angle.rocker", *(f"{one}.rocker" for one in rocker), "time_ratio.rocker",
+        *(f"free_force.{order}" for order in range(1, 5)), "counterweight_moment", "counterweight_angle",
+    ]  # fmt: skip
+    plans = ["position_plans", "velocity_plan", "acceleration_plan", "centrodes", "force_plans", "zhukovsky_lever"]
+    assert [name for name, one in data["figures"].items() if one.get("filed")] == plans
+    joints = data["sliders"]["joints"]
+    places = ("A", "B", "P", "rocker.centre")
+    assert joints["joints"] == {f"joint.{one}": [f"point_x.{one}", f"point_y.{one}"] for one in places}
+    assert joints["links"] == {
+        "link.crank.1": ["joint.O", "joint.A"],
+        "link.coupler.1": ["joint.A", "joint.B", "joint.P"],
+        "link.rocker.1": ["joint.C", "joint.B"],
+    }
+    labels = [one.removeprefix("joint.") for one, *_ in joints["labels"].values()]
+    assert labels == ["O", "A", "B", "P", "O", "rocker.centre", "O"]
 
 
 def drawn(page, figure, curve):

@@ -7,14 +7,19 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable, Generator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
-from playwright.sync_api import Browser, Page
 
 from crankwork import cli
+from studio.hands import settled
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserContext, Page
+
+USUAL = {"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce"}
 
 
 class Started(NamedTuple):
@@ -63,17 +68,22 @@ def started(tmp_path_factory: pytest.TempPathFactory) -> Generator[Started]:
         assert one.complaints.read_text() == ""
 
 
+@pytest.fixture(scope="session")
+def window(browser: Browser) -> Generator[BrowserContext]:
+    """A window of the usual look, in which pages come and go."""
+    context = browser.new_context(**USUAL)
+    yield context
+    context.close()
+
+
 @pytest.fixture
-def seen(browser: Browser, started: Started) -> Generator[Callable[..., Page]]:
+def seen(browser: Browser, started: Started, window: BrowserContext) -> Generator[Callable[..., Page]]:
     """Open the studio; no script may fail, and nothing may be asked of anybody else."""
-    contexts, asked, failed = [], [], []
+    pages, asked, failed = [], [], []
 
     def open_studio(one: Started = started, language: str = "en", **look: object) -> Page:
-        context = browser.new_context(
-            **{"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", **look}
-        )
-        contexts.append(context)
-        page = context.new_page()
+        page = (browser.new_context(**USUAL | look) if look else window).new_page()
+        pages.append(page)
         page.set_default_timeout(60_000)
         page.on("request", lambda request: asked.append(request.url))
         page.on("pageerror", lambda error: failed.append(str(error)))
@@ -83,7 +93,25 @@ def seen(browser: Browser, started: Started) -> Generator[Callable[..., Page]]:
         return page
 
     yield open_studio
-    for context in contexts:
-        context.close()
+    for page in pages:
+        (page if page.context == window else page.context).close()
     assert failed == []
     assert [url for url in asked if not url.startswith(("http://127.0.0.1:", "data:", "blob:http://127.0.0.1:"))] == []
+
+
+@pytest.fixture
+def filed(seen: Callable[..., Page], tmp_path: Path) -> Generator[Callable[..., tuple[Page, Path]]]:
+    """Start a studio with a file; return the page that shows it, and the file. Nothing may fail in it."""
+    with ExitStack() as running:
+
+        def open_file(text: str, name: str = "mine.toml") -> tuple[Page, Path]:
+            path = tmp_path / name
+            path.write_text(text, encoding="utf-8")
+            one = running.enter_context(studio_of(tmp_path, str(path)))
+            page = seen(one)
+            running.callback(lambda: one.complaints.read_text() and pytest.fail(one.complaints.read_text()))
+            running.callback(page.close)
+            settled(page)
+            return page, path
+
+        yield open_file

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import re
 
-from tests.studio.hands import begin, draw_slider_crank, field, settled, source
-
-
-def said(page):
-    return page.locator("#told").inner_text()
+from studio.hands import (
+    begin,
+    draw_slider_crank,
+    field,
+    pressed,
+    refused,
+    said,
+    settled,
+    slider_of,
+    source,
+    sourced,
+    undone,
+)
 
 
 def focused(page):
@@ -44,9 +52,7 @@ def test_all_that_can_be_done_is_listed_and_done(seen):
         page.locator("#title").click()
         page.keyboard.press("/")
         page.keyboard.type(words)
-        page.keyboard.press("ArrowDown")
-        page.keyboard.press("ArrowUp")
-        page.keyboard.press("Enter")
+        pressed(page, "ArrowDown", "ArrowUp", "Enter")
         settled(page)
         assert (source(page) == text) is (words == "redo")
     page.keyboard.press("/")
@@ -83,18 +89,15 @@ def test_the_machine_is_one_stop_and_arrows_go_from_pin_to_link(seen):
     assert focused(page) == "svg"
     page.keyboard.press("m")
     assert "length" in said(page)
-    page.keyboard.press("ArrowUp")
-    settled(page)
-    page.keyboard.press("ArrowUp")
-    settled(page)
+    for _ in range(2):
+        page.keyboard.press("ArrowUp")
+        settled(page)
     assert field(page, "links.rocker.length").input_value() == "114.7 mm"
     assert focused(page) == "svg"
-    page.keyboard.press("m")
-    page.keyboard.press("Space")
+    pressed(page, "m", "Space")
     assert page.locator("#play").get_attribute("aria-pressed") == "true"
     page.keyboard.press("Space")
-    page.locator("#undo").click()
-    settled(page)
+    undone(page)
     assert field(page, "links.rocker.length").input_value() == "112.5 mm"
 
 
@@ -105,17 +108,14 @@ def test_a_pin_that_is_moved_by_keys_turns_the_machine(seen):
     while not said(page).startswith("piston"):
         page.keyboard.press("ArrowRight")
     text, shown = source(page), page.locator("#shown").inner_text()
-    page.keyboard.press("m")
-    page.keyboard.press("ArrowRight")
+    pressed(page, "m", "ArrowRight")
     assert page.locator("#shown").inner_text() != shown
     assert source(page) == text
-    page.keyboard.press("Escape")
-    page.keyboard.press("Escape")
+    pressed(page, "Escape", "Escape")
     assert said(page) == ""
     assert page.locator("#film .chosen").count() == 0
     # what was moved of one machine is not moved of the next
-    page.keyboard.press("ArrowRight")
-    page.keyboard.press("m")
+    pressed(page, "ArrowRight", "m")
     begin(page, "slider-crank")
     text = source(page)
     page.locator("#film svg").focus()
@@ -126,36 +126,66 @@ def test_a_pin_that_is_moved_by_keys_turns_the_machine(seen):
 
 def test_everything_that_a_number_reaches_is_lit(seen):
     page = seen()
+
+    def lit():
+        page.wait_for_selector("body.lit")
+        found = page.locator("#results .reached [data-key]")
+        return found.evaluate_all("all => all.map((one) => one.dataset.key)")
+
     field(page, "crank.speed").click(modifiers=["Alt"])
-    page.wait_for_selector("body.lit")
-    lit = page.locator("#results .reached [data-key]").evaluate_all("all => all.map((one) => one.dataset.key)")
-    assert "speed" in lit
-    assert not [one for one in lit if one.startswith(("transmission_angle", "link_swing"))]
+    reached = lit()
+    assert "speed" in reached
+    assert not [one for one in reached if one.startswith(("transmission_angle", "link_swing"))]
     curves = page.locator(".figures .reached").evaluate_all("all => all.map((one) => one.dataset.curve)")
     assert {one.partition(".")[0] for one in curves} == {"link_angular_velocity", "link_angular_acceleration"} | {
         one.partition(".")[0] for one in curves if "point" in one or "reduced" in one
     }
-    assert not [one for one in curves if one.startswith("link_angle")]
-    assert said(page) == f"crank.speed reaches {len(lit)} values"
+    assert said(page) == f"crank.speed reaches {len(reached)} values"
     page.keyboard.press("Escape")
     assert page.locator("body.lit").count() == 0
     field(page, "links.rocker.length").focus()
     page.keyboard.press("Alt+Enter")
-    page.wait_for_selector("body.lit")
-    lit = page.locator("#results .reached [data-key]").evaluate_all("all => all.map((one) => one.dataset.key)")
-    assert "speed" not in lit
-    assert [one for one in lit if one.startswith("transmission_angle")]
+    reached = lit()
+    assert "speed" not in reached
+    assert [one for one in reached if one.startswith("transmission_angle")]
 
 
-def test_a_pin_of_a_drawing_is_carried_by_keys(seen):
+def test_sliders_and_fields_are_moved_by_keys_and_every_one_is_reached(seen):
+    page = seen()
+    slider = slider_of(page, "crank.radius")
+    slider.focus()
+    pressed(page, *["ArrowRight"] * 5)
+    settled(page)
+    # however far it goes it is one step
+    value = slider.evaluate("one => one.valueAsNumber")
+    assert value > 62.5
+    assert f'radius = "{value:g} mm"' in source(page)
+    assert "crank.radius" in page.locator("#undo").get_attribute("title")
+    undone(page)
+    assert 'radius = "62.5 mm"' in source(page)
+    reached = set()
+    page.locator("#title").click()
+    for _ in range(150):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.dataset.of || ''"))
+    assert reached >= {
+        *("template", "open", "save", "share", "pin", "export", "language", "play", "slider", "form-tab", "add"),
+        *("field-crank.radius", "field-links.coupler.length"),
+    }
+    page.evaluate("document.activeElement.blur()")
+    field(page, "crank.speed").focus()
+    for key, other in (("ArrowUp", "crank.radius"), ("ArrowDown", "crank.speed")):
+        page.keyboard.press(key)
+        assert focused(page) == f"field-{other}"
+
+
+def test_a_pin_of_a_drawing_is_drawn_and_carried_by_keys(seen):
     page = seen()
     draw_slider_crank(page)
+    assert 'radius = "25 mm"' in source(page)
+    assert refused(page) == []
+    assert page.locator("#film [data-part]").count() > 0
     page.locator("#draw").focus()
-    page.keyboard.press("Enter")
-    for key in ("ArrowUp",) * 5:
-        page.keyboard.press(key)
-    for key in ("m", "ArrowUp", "Escape", "m", "ArrowUp", "Enter"):
-        page.keyboard.press(key)
-    page.wait_for_function("() => document.getElementById('source').value.includes('radius = \"30 mm\"')")
-    settled(page)
-    assert page.locator("#refusals li").count() == 0
+    pressed(page, "Enter", *["ArrowUp"] * 5, "m", "ArrowUp", "Escape", "m", "ArrowUp", "Enter")
+    sourced(page, 'radius = "30 mm"')
+    assert refused(page) == []

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
-from tests.studio.hands import settled
-from tests.studio.test_answers import EXAMPLES
 
 import crankwork
 from crankwork.report.figures import drawings
 from crankwork.studio.answers import Studio
+from studio.hands import begin, hold, let_go, prepared, settled, slider_of, with_figure
 
-TEXTS = {one.stem: one.read_text("utf-8") for one in EXAMPLES}
-HELD = """([key, share]) => {
-  const slider = document.querySelector(`[data-slides="${key}"]`);
-  slider.value = slider.valueAsNumber * (1 + share);
-  slider.dispatchEvent(new Event("input"));
-  return document.body.dataset.waits;
-}"""
+EXAMPLES = Path(__file__).parents[2] / "examples"
+TEXTS = {name: (EXAMPLES / f"{name}.toml").read_text("utf-8") for name in ("petrol-four", "v8-diesel")}
 PARTS = "all => Object.fromEntries(all.map((one) => [one.dataset.part, one.getAttribute('transform')]))"
 # sizes of what stands still, hatchings left out, whose strokes are counted anew
 STANDING = """all => all.filter((one) => one.getAttribute("d").split("M").length < 4).map((one) => {
@@ -34,12 +29,6 @@ RATIO = """() => {
   const part = (one) => document.querySelector(`#film [data-part="joint.${one}"]`);
   const [o, a, b] = ["O", "A", "B"].map((one) => part(one).transform.baseVal.consolidate().matrix);
   return Math.hypot(a.e - o.e, a.f - o.f) / Math.hypot(b.e - a.e, b.f - a.f);
-}"""
-MOVED = """value => {
-  const slider = document.querySelector('[data-slides="crank.radius"]');
-  slider.value = value;
-  slider.dispatchEvent(new Event("input"));
-  return document.body.dataset.waits;
 }"""
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 
@@ -56,34 +45,21 @@ def numbers(parts):
     }
 
 
-@pytest.mark.parametrize(("name", "share"), [("petrol-four", -0.15), ("v8-diesel", 0.1)])
-def test_the_machine_and_its_diagrams_follow_a_held_ratio_without_asking(seen, start, tmp_path, name, share):
-    path = tmp_path / "my.toml"
-    path.write_text(TEXTS[name], "utf-8")
-    with start(tmp_path, str(path)) as own:
-        page = seen(own)
-        settled(page)
-        held_and_let(page, share, diagram="crankpin_load" if name == "petrol-four" else "rod_forces")
-    assert own.complaints.read_text() == ""
-
-
-def held_and_let(page, share, diagram):
-    """Hold the ratio, let it go, and compare what is seen."""
-    page.select_option("#add", diagram)
-    page.wait_for_selector(f'[data-name="{diagram}"]')
-    settled(page)
-    page.locator('[data-slides="rod.ratio"]').hover()
-    page.wait_for_function("() => document.body.dataset.prepares === 'false'")
-    page.wait_for_function("() => globalThis.steps")
+@pytest.mark.parametrize(
+    ("name", "share", "diagram"), [("petrol-four", -0.15, "crankpin_load"), ("v8-diesel", 0.1, "rod_forces")]
+)
+def test_the_machine_and_its_diagrams_follow_a_held_ratio_without_asking(filed, name, share, diagram):
+    page, _ = filed(TEXTS[name])
+    with_figure(page, diagram)
+    prepared(page, "rod.ratio")
     page.locator("#bar input[type=range]").evaluate("one => { one.value = 97; one.dispatchEvent(new Event('input')); }")
-    assert page.evaluate(HELD, ["rod.ratio", share]) == "false"
+    assert hold(page, "rod.ratio", share=share) == "false"
     held, standing = (
         page.locator("#film [data-part]").evaluate_all(PARTS),
         page.locator("#film svg > path").evaluate_all(STANDING),
     )
     least = page.evaluate(LEAST, diagram)
-    page.locator('[data-slides="rod.ratio"]').dispatch_event("change")
-    settled(page)
+    let_go(page, "rod.ratio")
     # a narrow dip is as deep
     assert least == pytest.approx(page.evaluate(LEAST, diagram), abs=0.6)
     let = page.locator("#film [data-part]").evaluate_all(PARTS)
@@ -144,70 +120,45 @@ def _apart(point, line):
 
 def test_a_legend_follows_and_a_number_slid_beyond_the_machines_around_is_asked_for(seen):
     page = seen()
-    page.select_option("#template", "engine")
-    page.wait_for_selector('[data-name="kinematics"]')
-    settled(page)
-    page.select_option("#add", "torque")
-    page.wait_for_selector('[data-name="torque"]')
-    settled(page)
-    page.locator('[data-slides="rod.length"]').hover()
-    page.wait_for_function("() => document.body.dataset.prepares === 'false'")
-    page.wait_for_function("() => globalThis.steps")
+    begin(page, "engine")
+    with_figure(page, "torque")
+    prepared(page, "rod.length")
     drawn = page.locator("#film svg")
-    stated = page.locator('[data-name="torque"] [data-curve=legend] + *').last.text_content()
-    assert page.evaluate(HELD, ["rod.length", 0.2]) == "false"
-    inside = drawn.inner_html()
     legend = page.locator('[data-name="torque"] [data-curve=legend] + *').last
-    held = legend.text_content()
+    stated = legend.text_content()
+    assert hold(page, "rod.length", share=0.2) == "false"
+    inside, held = drawn.inner_html(), legend.text_content()
     assert "34.94" in stated != held
-    slider = page.locator('[data-slides="rod.length"]')
-    slider.dispatch_event("change")
-    settled(page)
+    let_go(page, "rod.length")
     # what is written of the mean torque is what the server writes
     assert legend.text_content() == held
-    slider.hover()
-    page.wait_for_function("() => document.body.dataset.prepares === 'false'")
-    assert page.evaluate(HELD, ["rod.length", 0.4]) == "true"
+    prepared(page, "rod.length")
+    assert hold(page, "rod.length", share=0.4) == "true"
     settled(page)
     assert drawn.inner_html() != inside
-    page.locator('[data-slides="rod.length"]').dispatch_event("change")
-    settled(page)
 
 
-def test_a_number_held_beyond_the_last_machine_is_asked_for(seen):
+def test_a_machine_that_is_held_again_stands_upon_its_own_paper_and_beyond_the_last_is_asked_for(seen):
     page = seen()
-    page.select_option("#template", "four-bar")
-    page.wait_for_selector('[data-name="links"]')
-    settled(page)
-    slider = page.locator('[data-slides="crank.radius"]')
-    slider.hover()
-    page.wait_for_function("() => document.body.dataset.prepares === 'false'")
-    page.wait_for_function("() => globalThis.steps")
-    assert page.evaluate(HELD, ["crank.radius", 0.2]) == "false"
+    for held in (75, 50, 45):
+        if held == 45:
+            # sooner than it is prepared
+            hold(page, "crank.radius", held)
+            settled(page)
+        else:
+            prepared(page, "crank.radius")
+            assert hold(page, "crank.radius", held) == "false"
+        assert page.evaluate(RATIO) == pytest.approx(held / 175, rel=3e-3)
+        let_go(page, "crank.radius")
+        assert page.evaluate(RATIO) == pytest.approx(held / 175, rel=3e-3)
+    begin(page, "four-bar")
+    prepared(page, "crank.radius")
+    assert hold(page, "crank.radius", share=0.2) == "false"
     # a quarter more is the last that was analysed beforehand: half more does not turn
-    assert page.evaluate(HELD, ["crank.radius", 0.06]) == "true"
-    slider.dispatch_event("change")
-    settled(page)
-
-
-def test_a_machine_that_is_held_again_stands_upon_its_own_paper(seen):
-    page = seen()
-    page.locator('[data-slides="crank.radius"]').hover()
-    ready = "() => document.body.dataset.prepares === 'false' && globalThis.steps"
-    page.wait_for_function(ready)
-    for held, waits in ((75, "false"), (50, "false"), (45, None)):
-        if waits:
-            page.wait_for_function(ready)
-        asked = page.evaluate(MOVED, held)
-        assert waits in (asked, None)
-        page.wait_for_function("() => document.body.dataset.waits === 'false'")
-        assert page.evaluate(RATIO) == pytest.approx(held / 175, rel=3e-3)
-        page.locator('[data-slides="crank.radius"]').dispatch_event("change")
-        settled(page)
-        assert page.evaluate(RATIO) == pytest.approx(held / 175, rel=3e-3)
+    assert hold(page, "crank.radius", share=0.06) == "true"
+    let_go(page, "crank.radius")
 
 
 def test_a_slider_of_what_is_nothing_reaches_as_far_as_the_machine(seen):
-    slider = seen().locator('[data-slides="fixed_points.C[2]"]')
-    assert slider.input_value() == "0"
-    assert [slider.get_attribute(one) for one in ("min", "max")] == ["-200", "200"]
+    slider = slider_of(seen(), "fixed_points.C[2]")
+    assert [slider.input_value(), *map(slider.get_attribute, ("min", "max"))] == ["0", "-200", "200"]

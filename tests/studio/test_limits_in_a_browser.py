@@ -6,7 +6,8 @@ import itertools
 import math
 
 import pytest
-from tests.studio.hands import settled, source
+
+from studio.hands import beside, carried, middle, settled, source, sourced, undone
 
 FOUR_BAR = """format = 2
 [fixed_points]
@@ -45,35 +46,31 @@ def four_bar(crank, coupler, rocker, frame, along=0.0, across=20.0):
 
 
 def opened(page, text):
+    """Write a machine, and wait until it stands there instead of the other one."""
     page.locator("#text-tab").click()
+    before = page.locator("#results").inner_html()
     page.locator("#source").fill(text)
-    page.wait_for_function("() => !document.body.classList.contains('stale') && document.querySelector('#film svg')")
+    page.wait_for_function(
+        "before => document.getElementById('results').innerHTML !== before && !document.body.matches('.stale')",
+        arg=before,
+    )
     settled(page)
-    page.wait_for_timeout(500)
-    settled(page)
-
-
-def middle(page, part):
-    box = page.locator(f'#film [data-part="joint.{part}"]').bounding_box()
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
 def turned_by(page, part, pivot, degrees, step=4.0):
     """Drag a joint about another one, the pointer ahead of it by steps."""
     (x, y), (u, v) = middle(page, part), middle(page, pivot)
     radius, start = math.hypot(x - u, y - v), math.atan2(v - y, x - u)
-    page.mouse.move(x, y)
-    page.mouse.down()
-    for k in range(1, round(abs(degrees) / step) + 1):
-        turn = start + math.copysign(math.radians(k * step), degrees)
-        page.mouse.move(u + radius * math.cos(turn), v - radius * math.sin(turn))
+    turns = [start + math.copysign(math.radians(k * step), degrees) for k in range(1, round(abs(degrees) / step) + 1)]
+    ways = [(u + radius * math.cos(one), v - radius * math.sin(one)) for one in turns]
+    carried(page, x, y, *ways, steps=1, up=False)
 
 
 def test_a_parallelogram_stays_one_through_its_change_points_and_b_makes_it_the_other(seen):
     page = seen()
     opened(page, four_bar(50, 120, 50, 120))
     turned_by(page, "A", "O", 84)
-    said = page.locator("#chip").inner_text()
+    said = beside(page)
     assert said.startswith("change point at 90.0°: coupler, rocker go straight on at B; B puts them together")
     assert page.locator("#film .limits .ghost").count() == 2
     page.mouse.up()
@@ -83,8 +80,7 @@ def test_a_parallelogram_stays_one_through_its_change_points_and_b_makes_it_the_
     assert (ay, bx - ax) == pytest.approx((by, middle(page, "C")[0] - middle(page, "O")[0]), abs=2.0)
     text = source(page)
     page.keyboard.press("b")
-    page.wait_for_function("() => document.getElementById('source').value.includes('B = -1')")
-    settled(page)
+    sourced(page, "B = -1")
     assert page.locator("#undo").get_attribute("title") == "B the other way"
     assert abs(middle(page, "B")[1] - middle(page, "A")[1]) > 20
     crossed = source(page)
@@ -92,8 +88,7 @@ def test_a_parallelogram_stays_one_through_its_change_points_and_b_makes_it_the_
     page.wait_for_selector(".figures svg")
     settled(page)
     assert source(page) == crossed
-    page.locator("#undo").click()
-    settled(page)
+    undone(page)
     assert source(page) == text
 
 
@@ -101,11 +96,11 @@ def test_an_in_line_slider_crank_shows_both_ways_on_where_its_pin_passes_the_sha
     page = seen()
     opened(page, IN_LINE)
     turned_by(page, "A", "O", 84)
-    assert page.locator("#chip").inner_text().startswith("change point at 90.0°: rod go")
+    assert beside(page).startswith("change point at 90.0°: rod go")
     assert page.locator("#film .limits .ghost").count() == 2
     page.mouse.up()
     page.keyboard.press("b")
-    page.wait_for_function("() => document.getElementById('source').value.includes('B = -1')")
+    sourced(page, "B = -1")
 
 
 def test_where_a_path_crosses_itself_the_machine_goes_straight_on(seen):
@@ -113,7 +108,6 @@ def test_where_a_path_crosses_itself_the_machine_goes_straight_on(seen):
     # the path of P is an eight
     opened(page, four_bar(30, 100, 60, 100, 50, 0))
     angles = []
-    page.locator("#slider").focus()
     track = page.evaluate("""() => {
       const part = document.querySelector('#film [data-part="joint.P"]');
       const slider = document.getElementById('slider');
@@ -149,6 +143,5 @@ def test_a_crank_that_swings_says_what_a_full_turn_needs_and_takes_it_by_one_cli
     settled(page)
     assert source(page) == text.replace('"60 mm", points', '"80.1 mm", points')
     assert page.locator("#turn").is_hidden()
-    page.locator("#undo").click()
-    settled(page)
+    undone(page)
     assert source(page) == text
