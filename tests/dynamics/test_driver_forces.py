@@ -1,10 +1,12 @@
 """Force, torque and power of drivers that are no crank: by closed forms and by every route."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+import driven
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_wrenches
 from crankwork.dynamics.routes import ROUTES, by_groups
@@ -18,9 +20,10 @@ from crankwork.loads.load import applied_loads
 from crankwork.loads.process import ForceOnPoint, TorqueOnLink
 from crankwork.loads.weight import Weight
 from crankwork.mechanism.chain import Chain, ChainLink
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
+from crankwork.mechanism.driver import Cylinder, DrivingSlider
 from crankwork.mechanism.dyads import RRP, RRR, Guide
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
+from driven import there_and_back
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere
@@ -28,32 +31,17 @@ GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
 DENSE = CrankGrid.steps(1.0, 360.0)
 
 
-def there_and_back(low, high):
-    """Return a law from one value to another and back in 5 s."""
-    return Law((Segment("3-4-5", high, 0.45), Segment("dwell", high, 0.15), Segment("cycloidal", low, 0.4)), 5.0, low)
-
-
-BOOM = Mechanism(
-    Cylinder("A", "B", there_and_back(0.8, 1.2)),
-    (RRR("A", "O", "B", "cylinder", "boom", 0.8, 0.9, branch=-1),),
-    (body_at("boom", 120.0, 30.0, "T"),),
-    ground={"O": (0.1, 0.5), "A": (0.4, -0.2)},
-    points=(LinkPoint("T", "boom", 2.0, 0.1),),
+BOOM = replace(driven.BOOM, bodies=(body_at("boom", 120.0, 30.0, "T"),))
+ELBOW = replace(
+    driven.ELBOW,
+    bodies=(body_at("upper", 4.0, 0.2, "P"), body_at("rocker", 3.0, 0.1, "D"), body_at("lower", 2.0, 0.05, "D")),
 )
-TURNED_ROUND = Mechanism(Cylinder("B", "A", BOOM.driver.law), BOOM.dyads, BOOM.bodies, BOOM.ground, BOOM.points)
-CHAIN = Mechanism(
-    BOOM.driver,
-    (
-        Chain(
-            (
-                ChainLink("cylinder", (0.4, -0.2), 2.0, {"A": (0.0, 0.0), "B": (0.8, 0.0)}),
-                ChainLink("boom", (0.1, 0.5), -0.3, {"O": (0.0, 0.0), "B": (0.9, 0.0)}),
-            ),
-            (), frozenset({"A", "O"}), 0.8, 0.9,
-        ),
-    ),
-    BOOM.bodies, BOOM.ground, BOOM.points,
-)  # fmt: skip
+TURNED_ROUND = replace(BOOM, driver=Cylinder("B", "A", BOOM.driver.law))
+LINKS = (
+    ChainLink("cylinder", (0.4, -0.2), 2.0, {"A": (0.0, 0.0), "B": (0.8, 0.0)}),
+    ChainLink("boom", (0.1, 0.5), -0.3, {"O": (0.0, 0.0), "B": (0.9, 0.0)}),
+)
+CHAIN = replace(BOOM, dyads=(Chain(LINKS, (), frozenset({"A", "O"}), 0.8, 0.9),))
 DRIVEN = Mechanism(
     DrivingSlider("piston", Guide((0.0, 0.01), 0.2), there_and_back(0.18, 0.22)),
     (RRR("B", "O", "A", "rod", "arm", 0.2, 0.05),),
@@ -66,16 +54,6 @@ PUSHED = Mechanism(
     (RRP("A", "C", "cylinder", 0.35, (0.0, 0.3), 0.1, block="ram"), RRR("C", "D", "E", "link", "arm", 0.4, 0.3)),
     (body_at("ram", 3.0, 0.0, "C"), body_at("link", 2.0, 0.1, "E")),
     ground={"A": (0.0, 0.0), "D": (0.6, 0.5)},
-)
-ELBOW = Mechanism(
-    LinkMotor(("upper", "lower"), "C", (0.5, 0.4), 2.0, there_and_back(0.0, 0.5)),
-    (
-        RRR("O", "E", "D", "third_side", "rocker", 0.7, 0.6),
-        RRR("O", "D", "C", "upper", "lower", 0.5, 0.4),
-    ),
-    (body_at("upper", 4.0, 0.2, "P"), body_at("rocker", 3.0, 0.1, "D"), body_at("lower", 2.0, 0.05, "D")),
-    ground={"O": (0.0, 0.0), "E": (0.6, 0.1)},
-    points=(LinkPoint("P", "upper", 0.3, 0.05),),
 )
 EVERY = {
     "boom": (BOOM, "boom"), "turned round": (TURNED_ROUND, "boom"), "chain": (CHAIN, "boom"), "driven": (DRIVEN, "arm"),

@@ -19,46 +19,31 @@ from machine_texts import analysed
 pytestmark = pytest.mark.elsewhere
 
 WHEELS = """
-[fixed_points]
-O = ["0 mm", "0 mm"]
-P = ["1000 mm", "0 mm"]
-Q = ["2200 mm", "0 mm"]
-[crank]
-pivot = "O"
-pin = "A"
-radius = "300 mm"
-speed = "60 rpm"
-[links.rod]
-joins = ["A", "B"]
-length = "1000 mm"
-points = { C = ["2200 mm", "0 mm"] }
-mass = "80 kg"
-inertia = "12 kg*m2"
-centre = ["900 mm", "40 mm"]
-[links.second]
-joins = ["P", "B"]
-length = "300 mm"
-mass = "20 kg"
-inertia = "0.5 kg*m2"
-centre = ["100 mm", "30 mm"]
-[links.third]
-joins = ["Q", "C"]
-length = "300 mm"
-share = SHARE
-of = "second"
-[[loads]]
-kind = "torque"
-link = "second"
-torque = ["-300 N*m"]
-[[loads]]
-kind = "force"
-point = "B"
-link = "rod"
-x = "500 N"
-y = "-900 N"
-[method]
-weights = true
+fixed_points = { O = ["0 mm", "0 mm"], P = ["1000 mm", "0 mm"], Q = ["2200 mm", "0 mm"] }
+crank = { pivot = "O", pin = "A", radius = "300 mm", speed = "60 rpm" }
+links.rod.joins = ["A", "B"]
+links.rod.length = "1000 mm"
+links.rod.points = { C = ["2200 mm", "0 mm"] }
+links.rod.mass = "80 kg"
+links.rod.inertia = "12 kg*m2"
+links.rod.centre = ["900 mm", "40 mm"]
+links.second = { joins = ["P", "B"], length = "300 mm", mass = "20 kg", inertia = "0.5 kg*m2", \
+    centre = ["100 mm", "30 mm"] }
+links.third = { joins = ["Q", "C"], length = "300 mm", share = SHARE, of = "second" }
+loads = [
+    { kind = "torque", link = "second", torque = ["-300 N*m"] },
+    { kind = "force", point = "B", link = "rod", x = "500 N", y = "-900 N" },
+]
+method.weights = true
 """
+UNSHARED = WHEELS.replace(', share = SHARE, of = "second"', "")
+
+
+def with_fourth(text, share=""):
+    """Return the text with a fourth wheel."""
+    text = text.replace('Q = ["2200 mm", "0 mm"]', 'Q = ["2200 mm", "0 mm"], R = ["3000 mm", "0 mm"]')
+    text = text.replace('C = ["2200 mm", "0 mm"]', 'C = ["2200 mm", "0 mm"], D = ["3000 mm", "0 mm"]')
+    return text + f'links.fourth = {{ joins = ["R", "D"], length = "300 mm"{share} }}\n'
 
 
 def by_equilibrium(angle, share):
@@ -130,18 +115,7 @@ def test_every_joint_of_coupled_wheels_with_three_cranks(share):
 
 def test_four_coupled_wheels_share_at_once():
     """Two links too many, each with its share; the rod with all four is in balance about A."""
-    more = """[links.fourth]
-joins = ["R", "D"]
-length = "300 mm"
-share = 0.25
-of = "second"
-"""
-    text = WHEELS.replace("SHARE", "0.5").replace("[links.rod]", "points = {}\n[links.rod]", 0)
-    text = text.replace("[crank]", 'R = ["3000 mm", "0 mm"]\n[crank]', 1)
-    text = text.replace(
-        'points = { C = ["2200 mm", "0 mm"] }', 'points = { C = ["2200 mm", "0 mm"], D = ["3000 mm", "0 mm"] }'
-    )
-    results = analysed(text.replace("[[loads]]", more + "[[loads]]", 1))
+    results = analysed(with_fourth(WHEELS.replace("SHARE", "0.5"), ', share = 0.25, of = "second"'))
     assert results.value("mobility") == -1.0
     for degrees in (20.0, 77.0, 250.0):
         along = [results.value(f"axial_force.{name}", at=degrees) for name in ("second", "third", "fourth")]
@@ -169,7 +143,7 @@ def test_it_is_told_and_explained(language):
 def test_without_a_share_everything_but_joint_forces_is_known():
     """The link does no work: torques are those with any share, and the motion."""
     shared = analysed(WHEELS.replace("SHARE", "0.5"))
-    results = analysed(WHEELS.replace('share = SHARE\nof = "second"\n', ""))
+    results = analysed(UNSHARED)
     assert [one.values["name"] for one in results.notices if one.code == "redundant_unshared"] == ["third"]
     assert results.value("mobility") == 0.0
     assert not results.unmet
@@ -185,26 +159,19 @@ def test_without_a_share_everything_but_joint_forces_is_known():
 
 
 def test_two_links_too_many_without_shares():
-    text = WHEELS.replace('share = SHARE\nof = "second"\n', "").replace(
-        "[crank]", 'R = ["3000 mm", "0 mm"]\n[crank]', 1
-    )
-    text = text.replace(
-        'points = { C = ["2200 mm", "0 mm"] }', 'points = { C = ["2200 mm", "0 mm"], D = ["3000 mm", "0 mm"] }'
-    )
-    fourth = '[links.fourth]\njoins = ["R", "D"]\nlength = "300 mm"\n'
-    results = analysed(text.replace("[[loads]]", fourth + "[[loads]]", 1))
+    results = analysed(with_fourth(UNSHARED))
     assert {one.values["name"] for one in results.notices if one.code == "redundant_unshared"} == {"third", "fourth"}
 
 
 MISTAKES = {
-    "no other": ('of = "second"\n', "", "links.third.of", 'like of = "rod"'),
-    "no share": ("share = SHARE\n", "", "links.third.share", "like share = 0.5"),
-    "a mass": ('of = "second"', 'of = "second"\nmass = "2 kg"\ncentre = "C"', "links.third.mass", "taken without mass"),
+    "no other": (', of = "second"', "", "links.third.of", 'like of = "rod"'),
+    "no share": (", share = SHARE", "", "links.third.share", "like share = 0.5"),
+    "a mass": ('of = "second"', 'of = "second", mass = "2 kg", centre = "C"', "links.third.mass", "taken without mass"),
     "nobody": ('of = "second"', 'of = "sec"', "links.third.of", "there is rod, second"),
     "a link of three joints": ('of = "second"', 'of = "rod"', "links.third.of", "rod has not two joints"),
-    "too long": ('joins = ["Q", "C"]\nlength = "300 mm"', 'joins = ["Q", "C"]\nlength = "310 mm"', "links.third",
+    "too long": ('joins = ["Q", "C"], length = "300 mm"', 'joins = ["Q", "C"], length = "310 mm"', "links.third",
                  "and does not fit"),
-    "not one too many": ('points = { C = ["2200 mm", "0 mm"] }\n', "", "links.third.share",
+    "not one too many": ('links.rod.points = { C = ["2200 mm", "0 mm"] }\n', "", "links.third.share",
                          "third has not two joints"),
     "shares of all": ("SHARE", "1e4", "links.third.share", "1000"),
 }  # fmt: skip
@@ -221,10 +188,7 @@ def test_what_cannot_be_shared_is_told(old, new, key, advice):
 
 def test_a_link_that_is_needed_has_no_share():
     text = WHEELS.replace("SHARE", "0.5")
-    head, _, rest = text.partition("[links.third]")
-    text = head.replace(
-        'joins = ["P", "B"]\nlength = "300 mm"', 'joins = ["P", "B"]\nlength = "300 mm"\nshare = 1.0\nof = "rod"'
-    )
-    text += rest[rest.index("[[loads]]") :]
+    text = re.sub(r"links\.third = .*\n", "", text)
+    text = text.replace('joins = ["P", "B"]', 'share = 1.0, of = "rod", joins = ["P", "B"]')
     with pytest.raises(CrankworkError, match=r"links\.second\.share: second is not one link too many"):
         crankwork.read_machine(text)

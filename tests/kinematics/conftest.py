@@ -2,17 +2,9 @@
 
 import pytest
 
-from crankwork.mechanism.catalog import (
-    crank_shaper,
-    four_bar,
-    scotch_yoke,
-    slotted_press,
-    stephenson_six_bar,
-    watt_six_bar,
-    whitworth,
-)
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
+from linkages import LINKAGES as DRAWN
 
 CRANK = Crank(0.05, start=0.3, pin="A")
 FOUR_BAR = RRR("A", "B", "C", "rod", "rocker", 0.2, 0.12)
@@ -56,12 +48,8 @@ LINKAGES = {
         (FOUR_BAR, RPP("O", "yoke", "yoke_block", Guide((0.01, 0.0), 1.3), Guide((0.02, 0.03), 0.4, "rod"))),
         ground={"B": (0.18, 0.0), "O": (0.0, 0.1)},
     ),
-    "crank shaper": crank_shaper(0.05, 0.15, 0.3, 0.2, 0.14),
-    "whitworth": whitworth(0.05, 0.02, 0.06, 0.3, 0.01),
-    "scotch yoke": scotch_yoke(0.05, 1.1),
-    "watt": watt_six_bar(four_bar(0.05, 0.2, 0.12, 0.18), (0.08, 0.05), 0.2, 0.15, (0.4, 0.0)),
-    "stephenson": stephenson_six_bar(four_bar(0.05, 0.2, 0.12, 0.18), (0.1, 0.05), 0.25, 0.15, (0.25, 0.2)),
-    "slotted press": slotted_press(),
+    "crank shaper": DRAWN["shaper"],
+    **{name: DRAWN[name] for name in ("whitworth", "scotch yoke", "watt", "stephenson", "slotted press")},
 }
 
 

@@ -12,24 +12,12 @@ from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.dyads import RRP, RRR, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
+from driven import BOOM, ELBOW, there_and_back
 from each import for_each
 from motions import coordinates, not_alike, remembered
 
 pytestmark = pytest.mark.elsewhere
 GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
-
-
-def there_and_back(low, high, kind="3-4-5"):
-    """Return a law from one value to another and back in 5 s."""
-    return Law((Segment(kind, high, 0.45), Segment("dwell", high, 0.15), Segment(kind, low, 0.4)), 5.0, low)
-
-
-BOOM = Mechanism(
-    Cylinder("A", "B", there_and_back(0.8, 1.2)),
-    (RRR("A", "O", "B", "cylinder", "boom", 0.8, 0.9, branch=-1),),
-    ground={"O": (0.1, 0.5), "A": (0.4, -0.2)},
-    points=(LinkPoint("T", "boom", 2.0, 0.1),),
-)
 
 
 class TestCylinderOnABoom:
@@ -125,18 +113,6 @@ def test_a_cylinder_that_pushes_a_slider():
     gamma_1 = -across / q / reach
     assert angle.position_1 == pytest.approx(gamma_1, rel=1e-12)
     assert angle.position_2 == pytest.approx(across / q**2 / reach + across / reach**3, rel=1e-11)
-
-
-ELBOW = Mechanism(
-    # a motor in the pin C of two links; the second drives a rocker
-    LinkMotor(("upper", "lower"), "C", (0.5, 0.4), 2.0, there_and_back(0.0, 0.5)),
-    (
-        RRR("O", "E", "D", "third_side", "rocker", 0.7, 0.6),
-        RRR("O", "D", "C", "upper", "lower", 0.5, 0.4),
-    ),
-    ground={"O": (0.0, 0.0), "E": (0.6, 0.1)},
-    points=(LinkPoint("P", "upper", 0.3, 0.05),),
-)
 
 
 def test_a_motor_between_two_links_opens_their_angle():
