@@ -9,3 +9,15 @@ def analysed(text: str, *degrees: float) -> crankwork.Results:
     """Return the results of a machine file, at its own crank angles or at some others."""
     grid = crankwork.CrankGrid.from_degrees(degrees) if degrees else None
     return crankwork.analyse(crankwork.read_machine(text), grid)
+
+
+# a geared five-bar without masses, and a torque on its second crank
+FIVE_BAR = """
+fixed_points = { O = ["0 mm", "0 mm"], E = ["180 mm", "0 mm"] }
+crank = { pivot = "O", pin = "A", radius = "60 mm", speed = "240 rpm" }
+geared.second = { pivot = "E", ratio = -2, points = { D = ["45 mm", "0 mm"] } }
+links.left = { joins = ["A", "C"], length = "200 mm" }
+links.right = { joins = ["D", "C"], length = "210 mm" }
+positions.C = ["110 mm", "200 mm"]
+loads = [{ kind = "torque", link = "second", torque = ["7 N*m"] }]
+"""

@@ -14,7 +14,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
 from each import for_each
-from machine_texts import analysed
+from machine_texts import FIVE_BAR, analysed
 
 pytestmark = pytest.mark.elsewhere
 FILE = Path(__file__).parent.parent / "machines" / "geared-five-bar.toml"
@@ -47,18 +47,7 @@ def test_pivots_have_the_names_of_their_points():
 
 
 def test_a_load_on_the_geared_crank_alone_comes_by_the_ratio():
-    text = TEXT.partition("[links.left]")[0].replace('mass = "0.5 kg"\ncentre = ["20 mm", "0 mm"]', "")
-    text = text.replace('mass = "0.6 kg"\ninertia = "0.0012 kg*m2"\ncentre = ["25 mm", "0 mm"]', "")
-    text += TEXT[TEXT.index("[links.left]") :].replace("weights = true", "weights = false")
-    for mass in (
-        'mass = "0.8 kg"\ninertia = "0.003 kg*m2"\ncentre = ["100 mm", "0 mm"]',
-        'mass = "0.9 kg"\ninertia = "0.0035 kg*m2"\ncentre = ["100 mm", "5 mm"]',
-    ):
-        text = text.replace(mass, "")
-    text = text.replace(
-        'kind = "force"\npoint = "C"\nx = "30 N"\ny = "-50 N"', 'kind = "torque"\nlink = "second"\ntorque = ["7 N*m"]'
-    )
-    results = analysed(text)
+    results = analysed(FIVE_BAR)
     # the load turns with 7 N m where the geared crank turns -2 times as fast: it hands 14 N m to the crank
     assert results["balancing_torque"] == pytest.approx(14.0, rel=1e-13)
 

@@ -13,7 +13,7 @@ from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
 from each import for_each
-from machine_texts import analysed
+from machine_texts import FIVE_BAR, analysed
 
 pytestmark = pytest.mark.elsewhere
 FILE = Path(__file__).parent.parent / "machines" / "toothed-five-bar.toml"
@@ -29,15 +29,7 @@ def lifted(ratio, angle="20 deg"):
 
 
 def test_a_torque_on_the_geared_crank_presses_its_teeth():
-    text = TEXT.partition("[crank]")[0]
-    text += '[crank]\npivot = "O"\npin = "A"\nradius = "60 mm"\nspeed = "240 rpm"\n'
-    text += '[geared.second]\npivot = "E"\nratio = -2\npressure_angle = "20 deg"\npoints = { D = ["45 mm", "0 mm"] }\n'
-    text += (
-        '[links.left]\njoins = ["A", "C"]\nlength = "200 mm"\n[links.right]\njoins = ["D", "C"]\nlength = "210 mm"\n'
-    )
-    text += '[positions]\nC = ["110 mm", "200 mm"]\n'
-    text += '[[loads]]\nkind = "torque"\nlink = "second"\ntorque = ["7 N*m"]\n'
-    results = analysed(text)
+    results = analysed(FIVE_BAR.replace("ratio = -2", 'ratio = -2, pressure_angle = "20 deg"'))
     # pitch radii of 120 and 60 mm
     across = 7 / 0.06
     assert np.abs(results["tooth_force.second"]) == pytest.approx(across, rel=1e-13)
