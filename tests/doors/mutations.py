@@ -26,7 +26,7 @@ from crankwork.description.machine_file import template, template_names
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SIZES = (0.0, 5e-324, 1e-300, 1e-30, 1e-15, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, 1e15, 1e30, 1e300, 1e308)
-UNITS = tuple(sorted(units.UNITS))
+USUAL = {1e-9, 1e-6, 1e-3, 1, 1e3}
 WRONG: tuple[object, ...] = (
     *(f"{sign}{size!r} {{unit}}" for size in SIZES for sign in ("", "-")),
     "nan {unit}", "inf {unit}", "1 parsec", "1,5 {unit}", "{unit}", "1", "", " ", "{unit} 1", "1 {unit} {unit}",
@@ -88,16 +88,9 @@ def _fitting(kind: kinds.Kind | None) -> list[Any]:  # noqa: C901 - one case for
             found = []
             for dimension in kind.dimensions:
                 unit = units.EXAMPLES[dimension].split()[1]
-                inside = {one * 10.0**n for one in (kind.low, kind.high) for n in (0, -3, 3, -6)} | {
-                    1e-9,
-                    1e-6,
-                    1e-3,
-                    1,
-                    1e3,
-                }
-                found += [
-                    f"{units.from_si(one, unit)!r} {unit}" for one in sorted(inside) if kind.low <= one <= kind.high
-                ]
+                near = {one * 10.0**n for one in (kind.low, kind.high) for n in (0, -3, 3, -6)}
+                inside = [one for one in sorted(near | USUAL) if kind.low <= one <= kind.high]
+                found += [f"{units.from_si(one, unit)!r} {unit}" for one in inside]
             return found
         case kinds.Number(low=low, high=high, whole=True):
             return [int(low), int(high), (int(low) + int(high)) // 2]
@@ -110,9 +103,8 @@ def _fitting(kind: kinds.Kind | None) -> list[Any]:  # noqa: C901 - one case for
         case kinds.Text():
             return ["textbook", "series:3", "A", "a"]
         case schema.ListOf():
-            return [_fitting(kind.entry)[:count] for count in (1, 2, 3, kind.fewest)] + [
-                [*_fitting(kind.entry)[:1] * n, "?"][:12] for n in (1, 12)
-            ]
+            few = [_fitting(kind.entry)[:count] for count in (1, 2, 3, kind.fewest)]
+            return few + [[*_fitting(kind.entry)[:1] * n, "?"][:12] for n in (1, 12)]
         case schema.Nested():
             return [[0.9, [0.8, 0.7]]]
         case schema.NameOr():
@@ -213,10 +205,8 @@ def _rename(draw: random.Random, values: Values) -> None:
     place = _some(draw, values)
     inner, name = _at(values, place[:-1]), place[-1]
     if isinstance(inner, dict) and isinstance(name, str):
-        other = draw.choice(
-            (name[:-1], name + "s", name.upper(), "a b", "\N{GREEK SMALL LETTER ALPHA}", "a.b", "$x^$", "", "x" * 70)
-        )
-        inner[other] = inner.pop(name)
+        others = name[:-1], name + "s", name.upper(), "a b", "\N{GREEK SMALL LETTER ALPHA}", "a.b", "$x^$", "", "x" * 70
+        inner[draw.choice(others)] = inner.pop(name)
 
 
 def _replace(draw: random.Random, values: Values) -> None:
@@ -226,9 +216,7 @@ def _replace(draw: random.Random, values: Values) -> None:
 
 def _scale(draw: random.Random, values: Values) -> None:
     """Other numbers of the same sort: a little, or by powers of ten."""
-    leaves = [
-        place for place, one in _places(values) if isinstance(one, str | int | float) and not isinstance(one, bool)
-    ]
+    leaves = [place for place, one in _places(values) if isinstance(one, str | int | float) and type(one) is not bool]
     for place in draw.sample(leaves, min(len(leaves), draw.choice((1, 1, 2, 4, 8)))):
         factor = draw.choice((0.0, -1.0, 0.5, 0.9, 1.1, 2.0, -10.0, *(10.0**n for n in range(-9, 10, 3))))
         old = _at(values, place)
@@ -329,9 +317,8 @@ def _twice(draw: random.Random, text: str) -> str:
 
 def _dotted(draw: random.Random, text: str) -> str:
     lines = text.split("\n")
-    key = ".".join(
-        draw.choice(("crank", "rod", "gas", "a", "points", '"b c"', "1")) for _ in range(draw.choice((2, 3, 9, 40)))
-    )
+    parts = ("crank", "rod", "gas", "a", "points", '"b c"', "1")
+    key = ".".join(draw.choice(parts) for _ in range(draw.choice((2, 3, 9, 40))))
     lines.insert(draw.randrange(len(lines)), f"{key} = 1")
     return "\n".join(lines)
 
@@ -343,11 +330,8 @@ def _cut(draw: random.Random, text: str) -> str:
 
 def _insert(draw: random.Random, text: str) -> str:
     at = draw.randrange(len(text) + 1)
-    return (
-        text[:at]
-        + draw.choice(('"', "[", "]", "{", "}", "=", ".", ",", "\n", "#", "\0", "é", "-", "9", "\\", "'''"))
-        + text[at:]
-    )
+    put = draw.choice(('"', "[", "]", "{", "}", "=", ".", ",", "\n", "#", "\0", "é", "-", "9", "\\", "'''"))
+    return text[:at] + put + text[at:]
 
 
 _TEXT_MUTATIONS: tuple[Callable[[random.Random, str], str], ...] = (_twice, _dotted, _cut, _insert)

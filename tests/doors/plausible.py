@@ -358,7 +358,7 @@ class _Drawing:
 
     def stiffen(self) -> None:
         """A link too many between two moving points, or a moving and a fixed one."""
-        before = set(self.values["links"]) | set(self.values["sliders"])
+        before = (*self.values["links"], *self.values["sliders"])
         p = self.start()
         q = self.fixed(self.near(self.at[p]))
         self.wrong, name = "locks", self.link(p, q)

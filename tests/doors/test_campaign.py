@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import runpy
+import subprocess
+import sys
 import time
 import warnings
 from pathlib import Path
@@ -63,6 +66,19 @@ def test_a_linkage_that_is_held_or_loose_must_be_told_with_a_part(monkeypatch) -
     assert {plausible_file(1, number).wrong for number in spoilt} == {"locks", "floats"}
     monkeypatch.setitem(CAMPAIGN["_refused"].__globals__, "outcome", lambda *_, **__: CAMPAIGN["Outcome"]("accepted"))
     assert plausible_outcome(1, spoilt[0]).kind == "untold"
+
+
+@pytest.mark.slow
+def test_a_file_of_a_number_is_always_the_same() -> None:
+    program = (
+        "import runpy, sys\n"
+        "made = runpy.run_path(sys.argv[1])\n"
+        "print(ascii([(made['hostile_file'](3, at), made['plausible_file'](3, at)) for at in range(60)]))"
+    )
+    command = [sys.executable, "-c", program, str(Path(__file__).with_name("campaign.py"))]
+    environments = (os.environ | {"PYTHONHASHSEED": one, "PYTHONPATH": os.pathsep.join(sys.path)} for one in "12")
+    one, other = (subprocess.run(command, env=env, capture_output=True, check=True).stdout for env in environments)
+    assert one == other
 
 
 def test_no_list_of_a_file_gets_into_itself() -> None:
