@@ -10,7 +10,11 @@ import crankwork
 
 pytestmark = pytest.mark.elsewhere
 EXAMPLE = Path(__file__).parent.parent.parent / "examples" / "excavator-boom.toml"
-RESULTS = crankwork.analyse(crankwork.read(EXAMPLE))
+
+
+@pytest.fixture(scope="module")
+def boom():
+    return crankwork.analyse(crankwork.read(EXAMPLE))
 
 
 def raised(time):
@@ -43,10 +47,10 @@ def by_hand(time):
     return angle, omega, force, force * v
 
 
-def test_motion_force_and_power_are_those_by_hand():
+def test_motion_force_and_power_are_those_by_hand(boom):
     keys = ("link_angle.boom", "link_angular_velocity.boom", "driver_force", "driver_power")
     for time in (0.1, 1.0, 1.7, 2.0, 3.2, 3.99):
-        assert [RESULTS.value(key, at=time) for key in keys] == pytest.approx(by_hand(time), rel=1e-12), time
+        assert [boom.value(key, at=time) for key in keys] == pytest.approx(by_hand(time), rel=1e-12), time
 
 
 def test_a_driven_piece_alone_follows_its_law():
@@ -70,8 +74,8 @@ mass = "2 kg"
     assert not results.unmet
 
 
-def test_single_values_are_at_their_times():
-    summary = RESULTS.summary
+def test_single_values_are_at_their_times(boom):
+    summary = boom.summary
     time = summary["driver_power_max_time"]
     times = time + np.array([-1e-3, 0.0, 1e-3])
     before, there, after = (by_hand(one)[3] for one in times)
@@ -79,11 +83,11 @@ def test_single_values_are_at_their_times():
     assert there > max(before, after)
     assert summary["period"] == 8.0
     assert summary["driver_velocity_max"] == pytest.approx(1.875 * 0.6 / 4, rel=1e-13)
-    assert RESULTS["time"][1] == 0.25
-    assert not RESULTS.unmet
+    assert boom["time"][1] == 0.25
+    assert not boom.unmet
 
 
-def test_what_presumes_a_turning_shaft_is_absent():
-    assert RESULTS.notices[0].code == "by_law"
+def test_what_presumes_a_turning_shaft_is_absent(boom):
+    assert boom.notices[0].code == "by_law"
     for key in ("mean_torque", "reduced_inertia", "dynamic_torque", "rotational_speed", "time_ratio"):
-        assert not any(one.startswith(key) for one in (*RESULTS.summary, *RESULTS.columns))
+        assert not any(one.startswith(key) for one in (*boom.summary, *boom.columns))
