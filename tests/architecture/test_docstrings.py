@@ -15,22 +15,15 @@ HEADER = re.compile(r"(?P<names>[*\w]+(?:, [*\w]+)*) : (?P<type>.+)")
 
 
 def test_every_public_function_and_class_has_a_docstring(modules):
-    bare = [
-        f"{module.path}:{node.lineno}: {name}"
-        for module in modules
-        for name, node in _public(module.tree)
-        if not ast.get_docstring(node)
-    ]
-    assert bare == []
+    assert [place for place, _, said in _documented(modules) if not said] == []
 
 
 def test_every_documented_parameter_exists_and_the_other_way_round(modules):
     differences = [
-        f"{module.path}:{node.lineno}: {name}: documents {documented}, takes {taken}"
-        for module in modules
-        for name, node in _public(module.tree)
+        f"{place}: documents {documented}, takes {taken}"
+        for place, node, said in _documented(modules)
         if isinstance(node, ast.FunctionDef)
-        and (documented := [one for block in _parameters(ast.get_docstring(node) or "") for one in block[0]])
+        and (documented := [one for block in _parameters(said) for one in block[0]])
         and documented != (taken := _arguments(node))
     ]
     assert differences == []
@@ -38,11 +31,10 @@ def test_every_documented_parameter_exists_and_the_other_way_round(modules):
 
 def test_numbers_of_the_calculation_have_units(modules):
     missing = [
-        f"{module.path}:{node.lineno}: {name}: {', '.join(names)}"
-        for module in modules
-        if module.path.startswith(ROOMS)
-        for name, node in _public(module.tree)
-        for names, kind, text in _parameters(ast.get_docstring(node) or "")
+        f"{place}: {', '.join(names)}"
+        for place, _, said in _documented(modules)
+        if place.startswith(ROOMS)
+        for names, kind, text in _parameters(said)
         if NUMERIC.search(kind) and len(UNIT.findall(text)) not in (1, len(names))
     ]
     assert missing == []
@@ -51,20 +43,25 @@ def test_numbers_of_the_calculation_have_units(modules):
 def test_only_what_users_import_has_sections(modules):
     """Of a formula notation says all that a section would."""
     long = [
-        f"{module.path}:{node.lineno}: {name}"
-        for module in modules
-        for name, node in _public(module.tree)
-        if set(SECTION.findall(ast.get_docstring(node) or "")) - _sections(module.path, name, node)
+        place for place, node, said in _documented(modules) if set(SECTION.findall(said)) - _sections(place, node, said)
     ]
     assert long == []
 
 
-def _sections(path, name, node):
+def _documented(modules):
+    """Give every public function, class and method: where it is, what it is, and what it says of itself."""
+    for module in modules:
+        for name, node in _public(module.tree):
+            yield f"{module.path}:{node.lineno}: {name}", node, ast.get_docstring(node) or ""
+
+
+def _sections(place, node, said):
     """Return the sections that a docstring may have."""
     if any(isinstance(one, ast.Call) and ast.unparse(one.func) == "formula" for one in node.decorator_list):
         return {"Notes"}
-    if path == "machine.py" or name.partition(".")[0] in crankwork.__all__:
-        return {*SECTION.findall(ast.get_docstring(node) or "")}
+    path, _, name = place.split(":")
+    if path == "machine.py" or name.strip().partition(".")[0] in crankwork.__all__:
+        return {*SECTION.findall(said)}
     return {"Examples", "Notes"}
 
 
