@@ -16,6 +16,7 @@ from crankwork.description.locate import Places
 from crankwork.description.machine_file import Setting, lay, template, template_names
 from crankwork.description.written import toml
 from crankwork.errors import CrankworkError, UnknownKeyError
+from each import for_each
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 TEXTS = [template(name) for name in template_names()] + [path.read_text("utf-8") for path in EXAMPLES]
@@ -64,7 +65,7 @@ def test_a_new_key_stands_behind_the_last_one_of_its_table_and_before_what_heads
     )
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("text", "key", "value", "changed"),
     [
         ("# head\n[a]\n", "title", "t", '# head\n\ntitle = "t"\n[a]\n'),
@@ -102,7 +103,7 @@ def test_a_key_goes_with_what_is_said_beside_it():
     assert d.dump() == text.replace('d  = { angle = "12 deg", pressure = "0.090 MPa" }', 'd  = { angle = "12 deg" }')
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("text", "left"),
     [
         (
@@ -130,7 +131,7 @@ def test_a_default_is_given_where_nothing_is_stated():
     assert d["gas.points.r.angle"] == "0 deg"
 
 
-@pytest.mark.parametrize("key", ["rod.inertia", "nothing", "gas.points.q", "gas.pieces[99].law", "gas.pieces[1][2]"])
+@for_each("key", ["rod.inertia", "nothing", "gas.points.q", "gas.pieces[99].law", "gas.pieces[1][2]"])
 def test_what_is_neither_stated_nor_by_default_is_told(key):
     d = Description(ENGINE)
     with pytest.raises(KeyError, match="does not state"):
@@ -139,7 +140,7 @@ def test_what_is_neither_stated_nor_by_default_is_told(key):
         del d[key]
 
 
-@pytest.mark.parametrize("key", ["", "a[", "a[x]", "gas.pieces[99].law", "title.x", "gas[1]"])
+@for_each("key", ["", "a[", "a[x]", "gas.pieces[99].law", "title.x", "gas[1]"])
 def test_a_key_that_is_none_changes_nothing(key):
     d = Description(ENGINE)
     with pytest.raises(CrankworkError):

@@ -17,6 +17,8 @@ from crankwork.analysis.solved import solve
 from crankwork.description.expand import expanded
 from crankwork.errors import CrankworkError, InputError
 from crankwork.formula.replay import Program
+from each import for_each
+from shown import in_parts
 
 ROOT = Path(__file__).parents[2]
 plausible_file = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible.py"))["plausible_file"]
@@ -53,8 +55,11 @@ def kind(text):
     return "unsaid" if "transfer" in values else "linkage"
 
 
-def of_kind(wanted):
-    return [pytest.param(text, id=name) for name, text in FILES.items() if kind(text) == wanted]
+def of_kind(wanted, few=(), but=()):
+    """Return the names of files of a kind, the few and the others; `but`: those that are like others."""
+    names = [name for name, text in FILES.items() if kind(text) == wanted and name not in but]
+    assert set(few) <= set(names)
+    return list(few), [name for name in names if name not in few]
 
 
 def written(tmp_path, text, name="machine"):
@@ -78,12 +83,12 @@ def numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text):
             assert linkage.summary[other] == pytest.approx(gear.summary[key], rel=1e-9), key
 
 
-@pytest.mark.parametrize("text", of_kind("gear"))
-def test_a_crank_gear_is_written_out_as_the_linkage_that_it_is(tmp_path, text):
-    numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text)
+@in_parts("name", *of_kind("gear", ("engine", "leaning-compressor", "two-stroke-ports")))
+def test_a_crank_gear_is_written_out_as_the_linkage_that_it_is(tmp_path, name):
+    numbers_of_a_gear_are_those_of_its_linkage(tmp_path, FILES[name])
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("name", "changes"),
     [
         ("engine", {"[method]\n": "[method]\npi = 3.14\nweights = true\n"}),
@@ -171,9 +176,9 @@ def work_per_angle(engine, machine):
     return engine.summary["engine_indicated_power"] / (machine.speed * machine.method.pi / math.pi)
 
 
-@pytest.mark.parametrize("text", of_kind("engine"))
-def test_an_engine_of_many_cylinders_is_written_out_as_the_linkage_that_it_is(tmp_path, text):
-    numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text)
+@in_parts("name", *of_kind("engine", ("v-two",), but=("whole-engine", "petrol-four", "v8-diesel")))
+def test_an_engine_of_many_cylinders_is_written_out_as_the_linkage_that_it_is(tmp_path, name):
+    numbers_of_an_engine_are_those_of_its_linkage(tmp_path, FILES[name])
 
 
 WHOLE, V_TWO = template("whole-engine"), FILES["v-two"]
@@ -184,8 +189,12 @@ SPLIT = {
 }
 
 
-@pytest.mark.parametrize(
+@in_parts(
     ("text", "changes", "settings"),
+    [
+        (V_TWO, {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true", "cylinder.inclination=-45 deg"]),
+        (V_TWO, SPLIT, ["crank.angular_acceleration=200 rad/s2"]),
+    ],
     [
         (WHOLE, {}, ["engine.misfire=[3]", "engine.pressure_factors=[1.0, 0.93, 1.0, 1.05]"]),
         (FILES["radial-five"], {}, ["engine.misfire=[2, 4]"]),
@@ -193,9 +202,7 @@ SPLIT = {
         (FILES["wiebe"], {"[cycle]": FOUR}, ["engine.misfire=[2]", "engine.pressure_factors=[1.0, 1.0, 0.9, 1.0]"]),
         (FILES["wiebe"], {"[cycle]": FOUR}, ["engine.misfire=[3]", "cycle.motored=ambient"]),
         (FILES["narrow-v6"], {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true"]),
-        (V_TWO, {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true", "cylinder.inclination=-45 deg"]),
         (V_TWO, SPLIT, []),
-        (V_TWO, SPLIT, ["crank.angular_acceleration=200 rad/s2"]),
     ],
 )
 def test_every_part_of_an_engine_is_written_out(tmp_path, text, changes, settings):
@@ -205,8 +212,9 @@ def test_every_part_of_an_engine_is_written_out(tmp_path, text, changes, setting
     numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings)
 
 
-@pytest.mark.parametrize("text", of_kind("linkage"))
-def test_a_linkage_stands_for_itself_with_its_defaults(tmp_path, text):
+@in_parts("name", *of_kind("linkage", ("four-bar", "opposed-pistons", "andrews-squeezer", "boom", "rope-pulley")))
+def test_a_linkage_stands_for_itself_with_its_defaults(tmp_path, name):
+    text = FILES[name]
     path = written(tmp_path, text)
     out = expanded(path)
     again = written(tmp_path, out, "again")
@@ -217,19 +225,16 @@ def test_a_linkage_stands_for_itself_with_its_defaults(tmp_path, text):
     assert {key for key in stated if key not in found} == set()
 
 
-def test_other_languages_mark_defaults_in_theirs(tmp_path):
+def test_defaults_are_marked_in_any_language_and_settings_are_in_what_is_written_out(tmp_path):
     path = written(tmp_path, template("four-bar"))
     assert 'direction = "anticlockwise"  # по умолчанию' in expanded(path, (), "ru")
     assert 'direction = "anticlockwise"  # mặc định' in expanded(path, (), "vi")
-
-
-def test_settings_are_in_what_is_written_out(tmp_path):
-    path = written(tmp_path, template("four-bar"))
     assert 'radius = "60 mm"' in expanded(path, ["crank.radius=60 mm"])
 
 
-@pytest.mark.parametrize("text", of_kind("unsaid"))
-def test_what_no_table_of_a_linkage_says_is_refused_with_its_reason(tmp_path, text):
+@for_each("name", of_kind("unsaid")[1])
+def test_what_no_table_of_a_linkage_says_is_refused_with_its_reason(tmp_path, name):
+    text = FILES[name]
     values = tomllib.loads(text)
     with pytest.raises(InputError) as refusal:
         expanded(written(tmp_path, text))
@@ -245,6 +250,7 @@ def test_a_mistake_is_told_before_anything_is_written_out(tmp_path):
         expanded(path)
 
 
+@pytest.mark.slow
 def test_random_files_stand_for_themselves(tmp_path):
     seen = 0
     for number in range(30):

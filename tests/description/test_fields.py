@@ -18,6 +18,7 @@ from crankwork.errors import InputError
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.ideal import IdealData
+from each import for_each
 
 SCHEMA = json.loads(json_schema())
 ENGINE = template("whole-engine").replace('layout = "inline"', 'layout = "V"\nbank_angle = "90 deg"')
@@ -40,7 +41,7 @@ DEFAULTS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("kind", "default"), DEFAULTS.values(), ids=DEFAULTS)
+@for_each(("kind", "default"), DEFAULTS.values(), ids=DEFAULTS)
 def test_a_default_is_what_a_file_could_state(kind, default):
     reader = Reader()
     assert kind.read(default, "key", reader) is not None
@@ -74,7 +75,7 @@ def test_what_must_stand_beside_a_key_is_a_key():
             assert {*entry.only, *entry.instead_of, *decides} <= set(table.keys)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("kind", "room", "names"),
     [
         ("petrol", GrinevetskyData, {}),
@@ -112,7 +113,7 @@ FOREIGN = [
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "key", "told"), FOREIGN)
+@for_each(("old", "new", "key", "told"), FOREIGN)
 def test_schema_and_reader_refuse_what_does_not_apply_or_is_missing_for_a_kind(old, new, key, told):
     assert old in ENGINE
     text = ENGINE.replace(old, new, 1)

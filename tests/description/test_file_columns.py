@@ -8,6 +8,7 @@ import pytest
 
 import crankwork
 from crankwork.errors import InputError
+from each import for_each
 
 PRESS = """
 [fixed_points]
@@ -49,7 +50,7 @@ def refusal(read, *given: str) -> str:
     return f"{problem.key}: {problem.message}"
 
 
-@pytest.mark.parametrize("columns", [
+@for_each("columns", [
     'at = "s"\nforce = "F"\n',
     "at = 1\nforce = 2\n",
     'at = { column = 1, unit = "mm" }\nforce = { column = "F", unit = "kN" }\n',
@@ -72,7 +73,7 @@ BROKEN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("keys", "table", "expected"), BROKEN.values(), ids=BROKEN)
+@for_each(("keys", "table", "expected"), BROKEN.values(), ids=BROKEN)
 def test_a_column_that_is_none_is_told_with_its_fix(read, keys, table, expected):
     message = refusal(read, PRESS + keys, table)
     assert re.search(expected, message), message

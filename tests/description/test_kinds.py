@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import pytest
-
 from crankwork import units
 from crankwork.description.kinds import Measure, Number, Quantity, Reader
 from crankwork.description.machine_file import FILES
 from crankwork.description.schema import NumberOr, Table
+from each import for_each
 
 LIMITS = [(1e-6, 30000.0), (1 / 3, 200 / 7), (1e-4, 123456.7)]
 
 
-@pytest.mark.parametrize(("low", "high"), LIMITS)
-@pytest.mark.parametrize("dimension", sorted(units.EXAMPLES))
+@for_each(("low", "high"), LIMITS)
+@for_each("dimension", sorted(units.EXAMPLES))
 def test_the_limits_that_a_refusal_tells_may_be_written(dimension: str, low: float, high: float) -> None:
     kind = Quantity((dimension,), low, high)
     unit = units.EXAMPLES[dimension].split()[1]
@@ -48,7 +47,7 @@ KINDS = list(dict.fromkeys(kind for one in FILES for kind in kinds_of(one, set()
 WRONG = (-5, 0, 1e9, 10**20, True, [], "-5", "-5,5 {unit}", "5,5", "abc", "5 bananas", "1e400 {unit}")
 
 
-@pytest.mark.parametrize("wrong", WRONG, ids=repr)
+@for_each("wrong", WRONG, ids=repr)
 def test_what_a_refusal_says_to_write_may_be_written(wrong) -> None:
     assert len(KINDS) > 60
     for kind in KINDS:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import tomllib
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.description.locate import locate
+from each import for_each
 
 SOURCE = '''# comment = 1
 title = "a # b = [c]"  # d = 2
@@ -46,7 +46,7 @@ u = 4
 '''  # fmt: skip
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("key", "line"),
     [
         ("title", 2),

@@ -10,6 +10,7 @@ import pytest
 import crankwork
 from crankwork.errors import InputError
 from crankwork.kinematics.crank_grid import Array
+from each import for_each
 
 MACHINE = """
 [crank]
@@ -91,25 +92,12 @@ def test_many_columns_without_headings_are_asked_about(read):
     assert is_right(read(table(ANGLES, BAR / 2, BAR), f"{keys}\npressure_column = 3"))
 
 
-def test_a_trailing_tab_is_no_column(read):
-    assert is_right(read(table(ANGLES, BAR, end="\t")))
-
-
 def test_the_only_columns_of_their_units_are_taken_and_named(read):
     text = "t [s]\tphi [°CA]\tV [cm3]\tp [bar]\n" + table(ANGLES / 18000, ANGLES, ANGLES, BAR)
     results = read(text, "")
     assert is_right(results)
     assert told(results)["measured_columns_taken"] == {"angle": '2 ("phi [°CA]")', "pressure": '4 ("p [bar]")'}
     assert told(results)["measured_units_of_file"] == {"units": "deg, bar"}
-
-
-def test_columns_the_other_way_round_are_known_by_their_units(read):
-    assert is_right(read("p [kPa]\tphi [deg]\n" + table(100 * BAR, ANGLES), ""))
-
-
-def test_a_column_of_time_is_no_angle(read):
-    message = refusal(read, "t [s]\tp [bar]\n" + table(ANGLES / 18000, BAR))
-    assert 'column 1 ("t [s]") is in s, which is not what angle_column wants' in message
 
 
 def test_units_that_contradict_the_machine_file_are_told(read):
@@ -120,20 +108,15 @@ def test_units_that_contradict_the_machine_file_are_told(read):
     assert is_right(results)
 
 
-@pytest.mark.parametrize("heading", ["phi [deg]\tp [bar(a)]\n", "phi\tp\ndeg\tbara\n", "phi, deg\tp abs, bar\n"])
+@for_each("heading", ["phi [deg]\tp [bar(a)]\n", "phi\tp\ndeg\tbara\n", "phi, deg\tp abs, bar\n"])
 def test_absolute_pressures_taken_for_gauge_are_told(read, heading):
     text = heading + table(ANGLES, BAR)
     assert told(read(text, ""))["measured_reference"] == {"reference": "absolute", "stated": "gauge"}
     assert "measured_reference" not in told(read(text, "", ABSOLUTE))
 
 
-def test_units_are_asked_for_where_no_one_states_them(read):
-    message = refusal(read, "phi\tp\n" + table(ANGLES, BAR), "")
-    assert message.startswith("gas.measured.pressure_unit: is missing; write pressure_unit")
-
-
-@pytest.mark.parametrize("heading", ["", "phi [deg]\tp [bar]\n"])
-@pytest.mark.parametrize("turns", [1, 2])
+@for_each("heading", ["", "phi [deg]\tp [bar]\n"])
+@for_each("turns", [1, 2])
 def test_radians_taken_for_degrees_are_told(read, heading, turns):
     machine = MACHINE.replace("720 deg", f"{360 * turns} deg")
     angles = np.radians(ANGLES[: 360 * turns])
@@ -141,14 +124,6 @@ def test_radians_taken_for_degrees_are_told(read, heading, turns):
     message = refusal(read, text, 'pressure_unit = "bar"', machine)
     assert 'which are whole turns in rad; write angle_unit = "rad"' in message
     assert read(text, 'pressure_unit = "bar"\nangle_unit = "rad"', machine)
-
-
-@pytest.mark.parametrize("step", [0.1, 1.0, 10.0])
-def test_degrees_taken_for_radians_are_told(read, step):
-    angles = np.arange(0.0, 720.0 + step / 2, step)
-    text = table(angles, true_pressure(angles))
-    message = refusal(read, text, 'pressure_unit = "bar"\nangle_unit = "rad"')
-    assert 'over the file the angle runs 720 rad, which are whole turns in deg; write angle_unit = "deg"' in message
 
 
 def test_many_cycles_in_radians_are_radians(read):
@@ -179,7 +154,7 @@ STACKED = {
 }
 
 
-@pytest.mark.parametrize(("text", "keys"), STACKED.values(), ids=STACKED)
+@for_each(("text", "keys"), STACKED.values(), ids=STACKED)
 def test_cycles_are_told_apart_however_they_stand(read, text, keys):
     keys = 'shift = "360 deg"' if keys == "360" else keys
     unit = f'pressure_unit = "bar"\n{keys}\n'
@@ -206,7 +181,7 @@ BY_TURNS = {
 }
 
 
-@pytest.mark.parametrize(("angles", "start"), BY_TURNS.values(), ids=BY_TURNS)
+@for_each(("angles", "start"), BY_TURNS.values(), ids=BY_TURNS)
 def test_angles_that_begin_anew_within_a_cycle_run_on(read, angles, start):
     turn = np.concatenate([[0], np.cumsum(np.diff(angles) < 0)])
     is_by_turns = turn[-1] > 0 and angles.min() != -360
@@ -230,12 +205,6 @@ def test_cycles_of_turns_are_counted_and_asked_about(read):
     assert "4 cycles were recorded" in refusal(read, doubled, 'pressure_unit = "bar"', two_strokes)
 
 
-def test_turns_that_are_alike_are_asked_about(read):
-    message = refusal(read, table(np.tile(TURN, 2), np.tile(true_pressure(360 + TURN), 2) * np.repeat([1, 0.8], 360)))
-    assert "line 361: the angle begins anew with a turn, and the pressures of both turns are alike" in message
-    assert 'write a cycle of "360 deg" if each turn is one' in message
-
-
 def test_what_is_done_to_samples_is_explained(read):
     explained = read(STACKED["running on"][0], MEAN).explain("gas_pressure", at=33.0)
     assert "gas.measured.cycle" in str(explained)
@@ -244,7 +213,7 @@ def test_what_is_done_to_samples_is_explained(read):
 CLOSED = np.arange(180.0, 540.0)
 
 
-@pytest.mark.parametrize("times", [1, 3])
+@for_each("times", [1, 3])
 def test_a_closed_period_needs_a_pressure_for_the_rest(read, times):
     text = table(np.tile(CLOSED, times), np.tile(true_pressure(CLOSED), times))
     message = refusal(read, table(CLOSED, true_pressure(CLOSED)), MEAN)
@@ -255,18 +224,6 @@ def test_a_closed_period_needs_a_pressure_for_the_rest(read, times):
     found = results.columns_at(np.array([100.0, 372.0, 600.0]), ("gas_pressure",))["gas_pressure"]
     assert found == pytest.approx([1.1e5, 41e5, 1.1e5])
     assert "cycles_averaged" not in told(results) or told(results)["cycles_averaged"] == {"cycles": times}
-
-
-def test_a_rest_of_nothing_is_refused(read):
-    assert "rest_pressure is for what is left" in refusal(read, table(ANGLES, BAR), f'{MEAN}\nrest_pressure = "1 bar"')
-
-
-def test_noise_below_vacuum_is_told(read):
-    noise = np.where(np.arange(720) == 50, -1.2, 0.0)
-    message = refusal(read, table(ANGLES, BAR + noise), MEAN, ABSOLUTE)
-    assert "line 51: the pressure is below vacuum; correct it, peg or smooth it" in message
-    message = refusal(read, table(ANGLES, BAR + 2 * noise), MEAN)
-    assert "line 51: a gauge pressure of -0.14 MPa is below vacuum" in message
 
 
 def test_a_spike_is_told_with_its_line(read):
@@ -409,8 +366,7 @@ def test_smoothing_asks_for_even_angles_and_a_wide_window(read):
     assert 'write smooth = "4 deg" or more' in refusal(read, text, f'{MEAN}\nsmooth = "2 deg"\nresample = "1 deg"')
 
 
-@pytest.mark.parametrize("shift", [-2.0, -0.7, 0.9, 3.0])
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@for_each(("shift", "seed"), [(-2.0, 1), (-0.7, 2), (0.9, 3), (3.0, 1)])
 def test_a_motored_cycle_proposes_the_shift_that_it_needs(read, shift, seed):
     """The peak of the true cycle is 0.6 degrees early; what the recorder counts is late by the shift."""
     angles = np.arange(0.0, 720.0, 0.5)
@@ -423,7 +379,7 @@ def test_a_motored_cycle_proposes_the_shift_that_it_needs(read, shift, seed):
     assert "dead_centre_motored" not in told(read(text, f'{keys}shift = "{shift} deg"'))
 
 
-@pytest.mark.parametrize("shift", [-4.0, 4.0])
+@for_each("shift", [-4.0, 4.0])
 def test_a_compression_line_proposes_a_shift_with_an_honest_uncertainty(read, shift):
     angles = np.arange(0.0, 720.0, 0.5)
     fired = motored(np.mod(angles + shift, 720)) * (1 + 1.5 / (1 + np.exp(-(angles + shift - 370) / 6)))
@@ -462,43 +418,60 @@ AWKWARD = {
         "Program 4.3.0\nEngine = D-245, 4 cylinders\nRPM = 3000\nBore, mm = 85; Stroke, mm = 90\n==========\n"
         " CA,deg    p,bar     T,K\n" + table(ANGLES, BAR, 300 + BAR, separator="   "), ""),
     "a trailing tab": ("phi [deg]\tp [bar]\t\n" + table(ANGLES, BAR, end="\t"), ""),
+    "columns the other way round": ("p [kPa]\tphi [deg]\n" + table(100 * BAR, ANGLES), ""),
+    "kp/cm2": ("CA [deg]\tp [kp/cm2]\n" + table(ANGLES, BAR / 0.980665), ""),
+    "mmHg": ("CA [deg]\tp [mmHg]\n" + table(ANGLES, BAR / 133.322387415e-5), ""),
+    "Torr": ("CA [deg]\tp [Torr]\n" + table(ANGLES, BAR / (1.01325 / 760)), ""),
+    "derivatives by the angle, as Diesel-RK writes them": (
+        " DIESEL-RK  results\n Engine: 4T  D=85\n --------\n  CA  V  P  T  dQ/dx\n  deg  cm3  bar  K  1/deg\n"
+        + table(ANGLES, 1e3 + ANGLES, BAR, 300 + ANGLES, 0 * ANGLES, separator="  "), ""),
     "rows numbered": ("No\tphi [deg]\tp [bar]\n" + table(np.arange(720.0), ANGLES, BAR), ""),
     "time, volume and temperature beside": (
         "t, s;phi, deg;V, cm3;p, MPa;T, K\n" + table(ANGLES, ANGLES, ANGLES, BAR / 10, ANGLES, separator=";"), ""),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("content", "keys"), AWKWARD.values(), ids=AWKWARD)
+@for_each(("content", "keys"), AWKWARD.values(), ids=AWKWARD)
 def test_awkward_files_are_read_rightly(read, content, keys):
     results = read(content, keys)
     assert is_right(results)
     assert results.columns_at(np.array([372.0]), ("gas_pressure",))["gas_pressure"] == pytest.approx(41e5, rel=1e-6)
 
 
-def test_a_table_whose_commas_stand_in_numbers_and_between_them_is_refused(read):
-    rows = "\n".join(f"{round(one)},0,{one % 7:.3f}".replace(".", ",") for one in ANGLES)
-    said = refusal(read, f"CA,p\n{rows}\n")
-    assert "the comma stands in the numbers and between the columns; export with semicolons" in said
+RADIANS = 'pressure_unit = "bar"\nangle_unit = "rad"'
+LOW = np.where(np.arange(720) == 50, -1.2, 0.0)
+COMMAS = "\n".join(f"{round(one)},0,{one % 7:.3f}".replace(".", ",") for one in ANGLES)
+ALIKE = np.tile(true_pressure(360 + TURN), 2) * np.repeat([1, 0.8], 360)
+REFUSED = {
+    "time for an angle": ("t [s]\tp [bar]\n" + table(ANGLES / 18000, BAR), MEAN, MACHINE,
+        ['column 1 ("t [s]") is in s, which is not what angle_column wants']),
+    "no unit": ("phi\tp\n" + table(ANGLES, BAR), "", MACHINE,
+        ["gas.measured.pressure_unit: is missing; write pressure_unit"]),
+    **{f"degrees for radians, {step}": (table(np.arange(0, 720 + step / 2, step), np.arange(0, 720 + step / 2, step)),
+        RADIANS, MACHINE, ['the angle runs 720 rad, which are whole turns in deg; write angle_unit = "deg"'])
+       for step in (0.1, 1.0, 10.0)},
+    "turns that are alike": (table(np.tile(TURN, 2), ALIKE), 'pressure_unit = "bar"', MACHINE,
+        ["line 361: the angle begins anew with a turn, and the pressures of both turns are alike",
+         'write a cycle of "360 deg" if each turn is one']),
+    "a rest of nothing": (table(ANGLES, BAR), f'{MEAN}\nrest_pressure = "1 bar"', MACHINE,
+        ["rest_pressure is for what is left"]),
+    "noise below vacuum": (table(ANGLES, BAR + LOW), MEAN, ABSOLUTE,
+        ["line 51: the pressure is below vacuum; correct it, peg or smooth it"]),
+    "noise below vacuum, gauge": (table(ANGLES, BAR + 2 * LOW), MEAN, MACHINE,
+        ["line 51: a gauge pressure of -0.14 MPa is below vacuum"]),
+    "commas in and between numbers": (f"CA,p\n{COMMAS}\n", MEAN, MACHINE,
+        ["the comma stands in the numbers and between the columns; export with semicolons"]),
+    "volts": ("CA [deg]\tp [V]\n" + table(ANGLES, BAR / 10), "", MACHINE,
+        ['column 2 ("p [V]") is in "V", which is not known here; convert its numbers, or write pressure_']),
+    "tenths of degrees": ("CA [1/10 deg]\tp [bar]\n" + table(10 * ANGLES, BAR), "", MACHINE,
+        ['column 1 ("CA [1/10 deg]") is in "1/10 deg"']),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize(("unit", "size"), [("kp/cm2", 0.980665), ("mmHg", 133.322387415e-5), ("Torr", 1.01325 / 760)])
-def test_old_units_of_pressure_are_read(read, unit, size):
-    assert is_right(read(f"CA [deg]\tp [{unit}]\n" + table(ANGLES, BAR / size), ""))
-
-
-def test_a_unit_that_is_none_of_pressure_or_angle_is_named(read):
-    said = refusal(read, "CA [deg]\tp [V]\n" + table(ANGLES, BAR / 10), "")
-    assert 'column 2 ("p [V]") is in "V", which is not known here; convert its numbers, or write pressure_' in said
-    said = refusal(read, "CA [1/10 deg]\tp [bar]\n" + table(10 * ANGLES, BAR), "")
-    assert 'column 1 ("CA [1/10 deg]") is in "1/10 deg"' in said
-
-
-def test_a_line_of_units_may_have_derivatives_by_the_angle(read):
-    """As Diesel-RK writes it, with its preamble."""
-    head = " DIESEL-RK  results\n Engine: 4T  D=85\n --------\n  CA  V  P  T  dQ/dx\n  deg  cm3  bar  K  1/deg\n"
-    columns = ANGLES, 1e3 + ANGLES, BAR, 300 + ANGLES, 0 * ANGLES
-    results = read(head + table(*columns, separator="  "), "")
-    assert is_right(results)
+@for_each(("content", "keys", "machine", "words"), REFUSED.values(), ids=REFUSED)
+def test_what_cannot_be_meant_is_refused_with_what_to_write(read, content, keys, machine, words):
+    message = refusal(read, content, keys, machine)
+    assert [one for one in words if one not in message] == [], message
 
 
 def test_commas_that_may_part_thousands_are_asked_about(read):

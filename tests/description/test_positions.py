@@ -6,6 +6,7 @@ from crankwork import analyse, read_machine, template
 from crankwork.errors import InputError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.report.notices import notice_text
+from each import for_each
 
 # the two places of E with the lengths of the template at a crank angle of zero [mm]
 PLACES = [(415.15182383069, 105.15729815467), (255.5, -57.26)]
@@ -45,7 +46,7 @@ def place_of_e(positions):
     return float(columns["point_x.E"][0]) * 1e3, float(columns["point_y.E"][0]) * 1e3
 
 
-@pytest.mark.parametrize(("x", "y"), PLACES)
+@for_each(("x", "y"), PLACES)
 def test_a_joint_stands_where_it_is_stated_to(x, y):
     assert place_of_e(f'E = ["{x} mm", "{y} mm"]') == pytest.approx((x, y), abs=0.05)
 
@@ -54,7 +55,7 @@ def test_a_rough_position_is_enough():
     assert place_of_e('E = ["300 mm", "-200 mm"]') == pytest.approx(PLACES[1], abs=0.05)
 
 
-@pytest.mark.parametrize("at", ['["-500 mm", "80 mm"]', '["255 mm", "82 mm"]'])
+@for_each("at", ['["-500 mm", "80 mm"]', '["255 mm", "82 mm"]'])
 def test_a_position_that_settles_nothing_may_stand_in_files_of_0_1(at):
     assert place_of_e(f"D = {at}") == pytest.approx(PLACES[0], abs=0.05)
 
@@ -66,7 +67,7 @@ def test_a_position_that_settles_nothing_and_is_wrong_is_a_notice_in_files_of_0_
     assert [one for one in right.notices if one.code == "position_idle"] == []
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("positions", "told"),
     [
         (WRONG, "has no effect there"),
@@ -89,7 +90,7 @@ def test_a_position_that_settles_a_branch_or_gives_a_length_may_stand_in_format_
     assert read_machine(f"format = 2\n{LENGTHS}").linkage
 
 
-@pytest.mark.parametrize("written", ["0", "true", '"2"'])
+@for_each("written", ["0", "true", '"2"'])
 def test_a_format_that_is_none_is_refused_on_its_line(written):
     text = template("four-bar")
     line = text.split("\n").index("format = 2") + 1
@@ -129,7 +130,7 @@ step = "0.1 s"
 ONE, OTHER = ((-56.128, -294.703), (120.106, 7.697)), ((283.056, -99.395), (274.916, 250.508))
 
 
-@pytest.mark.parametrize("places", [ONE, OTHER])
+@for_each("places", [ONE, OTHER])
 def test_a_cylinder_between_moving_links_is_assembled_near_what_is_stated(places):
     """The places by another solver (scipy's, from 3600 positions)."""
     (c, d), rough = places, [(x + 20, y - 20) for x, y in places]

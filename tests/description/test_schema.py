@@ -23,12 +23,14 @@ from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table
 from crankwork.errors import CrankworkError
 from crankwork.locale import texts
 from crankwork.study.study_file import study_schema
+from each import for_each
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 WRITTEN = sorted((Path(crankwork.__file__).parent / TEMPLATES).glob("*.toml"))
 TEXTS = {name: template(name) for name in template_names()} | {path.stem: path.read_text("utf-8") for path in EXAMPLES}
 SCHEMA = json.loads(json_schema())
 STUDIES = json.loads(study_schema())
+VALIDATOR, OF_STUDIES = (jsonschema.Draft202012Validator(one) for one in (SCHEMA, STUDIES))
 STUDY_FILES = [
     path for path in sorted(EXAMPLES[0].parent.glob("studies/*.toml")) if "[vary]" in path.read_text("utf-8")
 ]
@@ -52,12 +54,12 @@ joint_force_max.B = "minimise"
 """
 
 
-@pytest.mark.parametrize("text", [STUDY, *(path.read_text("utf-8") for path in STUDY_FILES)])
+@for_each("text", [STUDY, *(path.read_text("utf-8") for path in STUDY_FILES)])
 def test_studies_follow_their_schema(text) -> None:
-    jsonschema.Draft202012Validator(STUDIES).validate(tomllib.loads(text))
+    OF_STUDIES.validate(tomllib.loads(text))
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("old", "new"),
     [
         ("sobol", "sobel"),
@@ -71,16 +73,18 @@ def test_studies_follow_their_schema(text) -> None:
 )
 def test_what_studies_are_refused_for_their_schema_refuses_too(old, new) -> None:
     assert old in STUDY
-    assert not jsonschema.Draft202012Validator(STUDIES).is_valid(tomllib.loads(STUDY.replace(old, new, 1)))
+    assert not OF_STUDIES.is_valid(tomllib.loads(STUDY.replace(old, new, 1)))
 
 
-@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
-def test_templates_and_examples_follow_the_schema_and_the_reader(text) -> None:
-    jsonschema.Draft202012Validator(SCHEMA).validate(tomllib.loads(text))
+@for_each("text", TEXTS.values(), ids=TEXTS)
+def test_templates_and_examples_follow_the_schema_and_the_reader_and_use_documented_keys_only(text) -> None:
+    values = tomllib.loads(text)
+    VALIDATOR.validate(values)
     assert read_machine(text).title
+    assert list(_undocumented(values, file_keys(values), "")) == []
 
 
-@pytest.mark.parametrize(
+@for_each(
     "wrong",
     [
         "crank = {radius = 45}",
@@ -92,24 +96,18 @@ def test_templates_and_examples_follow_the_schema_and_the_reader(text) -> None:
 )
 def test_what_the_reader_refuses_the_schema_refuses_too(wrong) -> None:
     values = tomllib.loads(template("slider-crank")) | tomllib.loads(wrong)
-    assert not jsonschema.Draft202012Validator(SCHEMA).is_valid(values)
+    assert not VALIDATOR.is_valid(values)
     with pytest.raises(CrankworkError):
         read_machine(wrong)
 
 
-@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
-def test_templates_and_examples_use_documented_keys_only(text) -> None:
-    values = tomllib.loads(text)
-    assert list(_undocumented(values, file_keys(values), "")) == []
-
-
-@pytest.mark.parametrize("key", ["two kinds", "nothing"])
+@for_each("key", ["two kinds", "nothing"])
 def test_a_file_is_of_one_kind_only(key) -> None:
     values = {} if key == "nothing" else tomllib.loads(template("engine")) | tomllib.loads(template("four-bar"))
-    assert not jsonschema.Draft202012Validator(SCHEMA).is_valid(values)
+    assert not VALIDATOR.is_valid(values)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("chain", "fits"),
     [
         ([0.98], True), ([0.98, [0.9, 0.8], 1], True), ([], False), ([[]], False), ([0.9, [[0.8]]], False),
@@ -118,7 +116,7 @@ def test_a_file_is_of_one_kind_only(key) -> None:
 )  # fmt: skip
 def test_a_chain_of_efficiencies_is_the_same_to_schema_and_reader(chain, fits) -> None:
     values = tomllib.loads(template("four-bar")) | {"efficiency": {"chain": chain}}
-    assert jsonschema.Draft202012Validator(SCHEMA).is_valid(values) == fits
+    assert VALIDATOR.is_valid(values) == fits
     text = f"{template('four-bar')}\n[efficiency]\nchain = {json.dumps(chain)}\n"
     if fits:
         assert read_machine(text)
@@ -167,17 +165,17 @@ def _comments():
         lines = template(name).split("\n")
         for number, line in enumerate(lines):
             if HEADER.match(line):
-                yield pytest.param(name, number, line.removeprefix("# "), id=f"{name}-{line.split()[1]}")
+                yield name, number, line.removeprefix("# ")
             if _header_above(lines, number) is not None:
                 continue
             alone = COMMENTED.match(line)
             if alone and "gas.measured" not in "".join(lines[max(0, number - 3) : number]):
-                yield pytest.param(name, number, line.removeprefix("# "), id=f"{name}-{alone['key']}")
+                yield name, number, line.removeprefix("# ")
             for other in ALTERNATIVE.finditer(line.partition("#")[2]):
                 key, value = other["key"], other["value"]
                 if line.lstrip().startswith("#") or key == "ratio_definition":
                     continue
-                yield pytest.param(name, number, f"{key} = {value}", id=f"{name}-or-{key}")
+                yield name, number, f"{key} = {value}"
 
 
 # what a setting needs or takes the place of, as the comment beside it says
@@ -187,7 +185,7 @@ GOES_WITH = {
 }
 
 
-@pytest.mark.parametrize(("name", "number", "line"), list(_comments()))
+@for_each(("name", "number", "line"), list(_comments()))
 def test_every_setting_in_a_comment_of_a_template_can_be_used(name, number, line) -> None:
     lines = template(name).split("\n")
     is_alternative = not lines[number].startswith("#")
@@ -208,7 +206,7 @@ def test_comments_of_the_templates_are_found() -> None:
     assert len(list(_comments())) >= 50
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("name", "key", "alternative"),
     [
         ("engine", 'radius = "45 mm"', 'stroke = "90 mm"'),
@@ -253,7 +251,7 @@ def _names(schema: object) -> set[str]:
     return own.union(*map(_names, schema.values()))
 
 
-@pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.stem)
+@for_each("path", WRITTEN, ids=lambda path: path.stem)
 def test_what_a_template_says_in_words_stands_in_the_languages(path) -> None:
     known = _names(SCHEMA) | {"exact", "textbook", "series", "n1", "n2", "true"}
     comments = " ".join(re.findall(r"#(.*)", path.read_text("utf-8")))
@@ -261,8 +259,8 @@ def test_what_a_template_says_in_words_stands_in_the_languages(path) -> None:
     assert {word for word in re.findall(r"[^\W\d]\w+(?:-\w+)*", plain) if word not in known} == set()
 
 
-@pytest.mark.parametrize("language", ["ru", "vi"])
-@pytest.mark.parametrize("name", template_names())
+@for_each("language", ["ru", "vi"])
+@for_each("name", template_names())
 def test_a_template_states_the_same_in_every_language(name, language) -> None:
     english, other = template(name), template(name, language)
     values, others = tomllib.loads(english), tomllib.loads(other)

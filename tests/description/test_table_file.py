@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import time
 import zipfile
 
 import numpy as np
@@ -12,6 +11,7 @@ import xlsxwriter
 
 from crankwork.description.table_file import read_table
 from crankwork.errors import CrankworkError
+from each import for_each
 
 ANGLES = np.arange(0.0, 721.0, 2.0)
 PRESSURES = np.round(1 + 40 * np.exp(-(((ANGLES - 372) / 40) ** 2)), 6)
@@ -45,8 +45,8 @@ WRITTEN = {
 }
 
 
-@pytest.mark.parametrize("text", WRITTEN.values(), ids=WRITTEN)
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+@for_each("text", WRITTEN.values(), ids=WRITTEN)
+@for_each("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
 def test_the_same_numbers_written_otherwise_are_the_same_table(tmp_path, text, encoding):
     (tmp_path / "p.csv").write_bytes(text.encode(encoding))
     table = read_table(tmp_path / "p.csv")
@@ -89,7 +89,7 @@ ENCODED = [
 ]
 
 
-@pytest.mark.parametrize(("heading", "units", "encoding"), ENCODED)
+@for_each(("heading", "units", "encoding"), ENCODED)
 def test_units_stand_in_headings(tmp_path, heading, units, encoding):
     (tmp_path / "p.csv").write_bytes(f"{heading}\n{_rows(';')}".encode(encoding))
     table = read_table(tmp_path / "p.csv")
@@ -161,7 +161,7 @@ def test_a_sheet_of_several_is_asked_for(tmp_path):
         read_table(tmp_path / "p.xlsx", sheet="third")
 
 
-@pytest.mark.parametrize(
+@for_each(
     "data", [b"PK\x03\x04", b"PK\x03\x04" + b"x" * 99, "a zip", "a bomb", "entities", "no encoding", "a spoilt byte"]
 )
 def test_what_is_no_workbook_is_refused(tmp_path, data):
@@ -196,18 +196,3 @@ def test_a_sheet_of_a_text_is_refused(tmp_path):
     (tmp_path / "p.csv").write_text(WRITTEN["commas"])
     with pytest.raises(CrankworkError, match="is no workbook and has no sheets; leave sheet out"):
         read_table(tmp_path / "p.csv", sheet="first")
-
-
-def test_a_million_rows_take_less_than_five_seconds(tmp_path):
-    degrees = np.arange(1_000_000) * 0.5
-    pressure = 1 + 40 * np.exp(12 * (np.cos(np.radians(degrees - 372) / 2) - 1))
-    rows = "\n".join(f"{a:.1f},{p:.8f}" for a, p in zip(degrees.tolist(), pressure.tolist(), strict=True))
-    (tmp_path / "p.csv").write_text(f"phi [deg],p [bar]\n{rows}\n")
-    begun = time.process_time()
-    table = read_table(tmp_path / "p.csv")
-    found = table.columns((0, 1))
-    taken = time.process_time() - begun
-    print(f"{len(rows) / 1e6:.0f} MB, a million rows: {taken:.2f} s")  # noqa: T201 - the time is what is looked at
-    assert found.shape == (1_000_000, 2)
-    assert found[-1, 0] == degrees[-1]
-    assert taken < 5

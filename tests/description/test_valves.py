@@ -7,6 +7,7 @@ import pytest
 import crankwork
 from crankwork import CrankworkError
 from crankwork.description.expand import expanded
+from each import for_each
 
 GEAR = """
 [crank]
@@ -35,7 +36,7 @@ def refused(clearance=32, cycle=360, pressures="absolute", discharge=0.6, valves
     return str(error.value)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("how", "place", "fix"),
     [
         ({"discharge": 0.1}, "gas.valves.discharge", "write the larger one as discharge"),
@@ -55,38 +56,40 @@ def test_what_valves_cannot_do(how, place, fix):
     assert fix in told
 
 
+PUMP = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "100 mm"
+speed = "60 rpm"
+points = {{ H = ["0 mm", "60 mm"] }}
+[geared.fast]
+pivot = "O"
+ratio = 3
+points = {{ G = ["50 mm", "0 mm"] }}
+[guides]
+bore = {{ through = "O" }}
+slot = {{ link = "plunger", angle = "90 deg" }}
+[sliders]
+plunger = {{ guide = "bore" }}
+block = {{ pin = "{pin}", guide = "slot" }}
+[chambers.water]
+slider = "plunger"
+bore = "50 mm"
+pressures = "absolute"
+[chambers.water.valves]
+suction = "0.1 MPa"
+discharge = "0.2 MPa"
+"""
+
+
 def test_a_volume_that_turns_back_four_times_has_no_valves():
-    text = """
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "100 mm"
-        speed = "60 rpm"
-        points = { H = ["0 mm", "60 mm"] }
-        [geared.fast]
-        pivot = "O"
-        ratio = 3
-        points = { G = ["50 mm", "0 mm"] }
-        [guides]
-        bore = { through = "O" }
-        slot = { link = "plunger", angle = "90 deg" }
-        [sliders]
-        plunger = { guide = "bore" }
-        block = { pin = "G", guide = "slot" }
-        [chambers.water]
-        slider = "plunger"
-        bore = "50 mm"
-        pressures = "absolute"
-        [chambers.water.valves]
-        suction = "0.1 MPa"
-        discharge = "0.2 MPa"
-    """
     with pytest.raises(
         CrankworkError, match=r"chambers\.water\.valves: .* turns back 6 times; state points and pieces"
     ):
-        crankwork.analyse(crankwork.read_machine(text))
+        crankwork.analyse(crankwork.read_machine(PUMP.format(pin="G")))
 
 
 def test_a_pressure_factor_of_zero_leaves_nothing_to_compare():
@@ -103,7 +106,7 @@ def test_valves_of_a_crank_gear_written_out_are_those_of_a_chamber(tmp_path):
         assert written[f"{key}.cylinder"] == pytest.approx(alone[key], rel=1e-12)
 
 
-@pytest.mark.parametrize(
+@for_each(
     ("valves", "told"),
     [
         ('suction_pipe = { length = "5 m", diameter = "50 mm" }', "suction_pipe: says nothing without density; add"),
@@ -112,28 +115,6 @@ def test_valves_of_a_crank_gear_written_out_are_those_of_a_chamber(tmp_path):
     ],
 )
 def test_pipes_carry_a_liquid(valves, told):
-    text = """
-        [fixed_points]
-        O = ["0 mm", "0 mm"]
-        [crank]
-        pivot = "O"
-        pin = "A"
-        radius = "100 mm"
-        speed = "60 rpm"
-        [guides]
-        bore = { through = "O" }
-        slot = { link = "plunger", angle = "90 deg" }
-        [sliders]
-        plunger = { guide = "bore" }
-        block = { pin = "A", guide = "slot" }
-        [chambers.water]
-        slider = "plunger"
-        bore = "50 mm"
-        pressures = "absolute"
-        [chambers.water.valves]
-        suction = "0.1 MPa"
-        discharge = "0.2 MPa"
-    """
     with pytest.raises(CrankworkError) as error:
-        crankwork.read_machine(text + valves)
+        crankwork.read_machine(PUMP.format(pin="A") + valves)
     assert told in str(error.value)

@@ -188,7 +188,7 @@ def test_numbers_stand_beside_their_links(name):
     assert texts.keys() >= numbers.keys()
     for text, link in numbers.items():
         wrong = []
-        for frame in range(film.frames):
+        for frame in range(0, film.frames, 4):
             (letters,) = texts[text].at(frame if len(texts[text].shift) > 1 else 0)
             at = np.array([letters.place[0], letters.place[1] + letters.height / 2])
             apart = {}

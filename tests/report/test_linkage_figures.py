@@ -19,8 +19,7 @@ from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.figures import drawings
 from crankwork.report.linkage_centrodes import instant_centres
 from crankwork.report.linkage_curves import curves
-from crankwork.report.linkage_energy import speed_curve, wittenbauer
-from crankwork.report.linkage_look import Style, axis_title, math_symbol
+from crankwork.report.linkage_look import axis_title, math_symbol
 from crankwork.show.paper import plain
 from crankwork.show.place import Place, placed
 from crankwork.show.scene import Polyline, extent
@@ -53,12 +52,6 @@ def test_tangents_leave_the_curve_on_one_side_and_give_the_flywheel():
     assert square.min() == pytest.approx(WANTED.mean**2 * (1 - WANTED.delta))
 
 
-def test_energy_and_speed_figures_differ_by_language():
-    made = [svg(wittenbauer(INERTIA, ENERGY, WANTED, DEGREES, Style(language))) for language in LANGUAGES]
-    made += [svg(speed_curve(DEGREES, 20 + 0.5 * GRID.sin, Style(language))) for language in LANGUAGES]
-    assert len(set(made)) == 6
-
-
 def test_curves_without_a_key_or_of_different_units_are_refused():
     columns = {"joint_force.A": 900 * INERTIA, "joint_force.crank_pin": 800 * INERTIA, "crank_torque": ENERGY}
     for wrong in (["nothing"], [("crank_torque", "joint_force.A")], []):
@@ -66,21 +59,6 @@ def test_curves_without_a_key_or_of_different_units_are_refused():
             curves(DEGREES, columns, wrong, "t")
     with pytest.raises(CrankworkError, match="not_a_row"):
         curves(DEGREES, {"not_a_row.A": INERTIA}, ["not_a_row.A"], "t")
-
-
-@for_each(
-    ("language", "title"),
-    [
-        ("en", "angle of the crank φ, °"),
-        ("ru", "угол поворота кривошипа φ, °"),
-        ("vi", "góc quay của tay quay α, °"),
-    ],
-)
-def test_the_axis_of_a_linkage_names_its_crank_and_no_crankshaft(language, title):
-    grid = CrankGrid.steps(30, 360)
-    torque = {"driving_torque": np.sin(grid.angle)}
-    assert title in said(curves(grid.degrees, torque, ["driving_torque"], "torque", Style(language)))
-    assert title in said(speed_curve(grid.degrees, 10 + np.sin(grid.angle), Style(language)))
 
 
 def test_a_gap_in_a_curve_is_left_open():
