@@ -11,6 +11,7 @@ import crankwork
 from crankwork.description.machine_file import template, template_names
 from crankwork.locale import told
 from crankwork.studio.answers import Studio
+from crankwork.studio.form import form
 from studio.asked import answer, drawn, rows_of, sketch
 
 
@@ -177,7 +178,7 @@ def test_fields_are_called_by_words_not_cut_at_a_bracket():
     for language in ("ru", "vi"):
         found = []
         for name in template_names():
-            rows = answer(template(name), language=language)["form"]
+            rows = form(crankwork.Description(template(name)), language)
             found += re.findall(r'"label": "([^"]*)"', json.dumps(rows, ensure_ascii=False))
         assert len(found) > 50
         cut = [one for one in found if ("[" in one[:-1] and not one.endswith("]")) or one.endswith((" или", " hoặc"))]
