@@ -6,6 +6,7 @@ import math
 import re
 
 import numpy as np
+import pytest
 
 from crankwork.formula.explained import Explanation
 from crankwork.formula.expression import FORMULAS, Operation, evaluate, record, symbol, text
@@ -17,8 +18,9 @@ from crankwork.note.equations import line_parts, told_values, value_symbol
 from note.built import broken, every_machine, groups, remembered, results
 
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
-POWER = re.compile(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+")
-NUMBER = re.compile(r"\d+(\.\d+)?(·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
+# a number, a power, or a parenthesis
+TOKENS = r"\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?|[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|\("
+SIGNS = str.maketrans({"·": "*", "−": "-", "^": "**"})
 FUNCTIONS = {
     "√": np.emath.sqrt, "exp": np.exp, "ln": np.emath.log, "lg": np.emath.log10, "sin": np.sin, "cos": np.cos,
     "tan": np.tan, "arctan": np.arctan, "arcsin": np.emath.arcsin, "arccos": np.emath.arccos, "sinh": np.sinh,
@@ -30,74 +32,45 @@ COMPLEX = {
 }  # fmt: skip
 
 
-class Reader:
-    """Someone who reads one line of text and knows what each symbol is."""
+class Open(complex):
+    """A function of something: a power after it could belong to its argument."""
 
-    def __init__(self, line: str, known: dict[str, complex]) -> None:
-        known = {"π": math.pi} | known
-        self.line, self.known, self.at = line, sorted(known.items(), key=lambda one: -len(one[0])), 0
+    def __pow__(self, _):
+        raise AssertionError("power of what?")
 
-    def value(self) -> complex:
-        found = self.sum()
-        assert self.at == len(self.line), f"{self.line!r} cannot be read from {self.line[self.at :]!r} on"
-        return found
 
-    def take(self, sign: str) -> bool:
-        is_next = self.line.startswith(sign, self.at)
-        self.at += len(sign) * is_next
-        return is_next
+def value_of(line: str, known: dict[str, complex]) -> complex:
+    """Return what a line of text is to someone who knows what each symbol is and reads nothing else."""
+    assert not re.search("[·/^+−] ?−", line), f"{line!r}: two signs"
+    names = {"(": complex, "π": math.pi} | known
+    for name, function in FUNCTIONS.items():
+        kind = complex if name in ("√", "abs") else Open
+        names[f"{name}("] = lambda *of, function=function, kind=kind: kind(function(*of))
+    names |= {shown: Open(value) for shown, value in known.items() if re.match("(sin|cos|tan)[ (]", shown)}
+    spelt = {shown: f"of_{at}" for at, shown in enumerate(names)}
 
-    def sum(self) -> complex:
-        found = -self.product() if self.take("−") else self.product()
-        while True:
-            if self.take(" + "):
-                found += self.product()
-            elif self.take(" − "):
-                found -= self.product()
-            else:
-                return found
+    def typed(found: re.Match) -> str:
+        shown = found[0]
+        if shown in spelt:
+            return spelt[shown] + "(" * (shown == "(" or shown[:-1] in FUNCTIONS)
+        if shown[0].isdecimal():
+            return shown.translate(RAISED).replace("·10", "e")
+        return f"**({shown.translate(RAISED)})"
 
-    def product(self) -> complex:
-        found = self.power()
-        while True:
-            if self.take("·"):
-                found *= self.power()
-            elif self.take("/"):
-                found /= self.power()
-            else:
-                return found
+    symbols = "|".join(re.escape(shown) for shown in sorted(names, key=len, reverse=True))
+    source = re.sub(f"{symbols}|{TOKENS}", typed, line).translate(SIGNS)
+    try:
+        values = {spelt[shown]: value for shown, value in names.items()}
+        return complex(eval(source, {"__builtins__": {}}, values))  # noqa: S307 - printed by the program itself
+    except (SyntaxError, NameError, TypeError) as error:
+        raise AssertionError(f"{line!r} cannot be read: {error}") from error
 
-    def power(self) -> complex:
-        base, is_open = self.atom()
-        raised = POWER.match(self.line, self.at)
-        assert not (is_open and (raised or self.line.startswith("^", self.at))), f"{self.line!r}: power of what?"
-        if raised:
-            self.at = raised.end()
-            return base ** int(raised[0].translate(RAISED))
-        return base ** self.power() if self.take("^") else base
 
-    def atom(self) -> tuple[complex, bool]:
-        """Return a value, and whether a power after it could belong to its argument."""
-        for shown, value in self.known:
-            if self.take(shown):
-                return value, shown.startswith(("sin ", "cos ", "tan ", "sin(", "cos("))
-        if self.take("("):
-            return self.fenced()[0], False
-        if found := NUMBER.match(self.line, self.at):
-            self.at = found.end()
-            mantissa, _, exponent = found[0].partition("·10")
-            return float(mantissa) * 10.0 ** int(exponent.translate(RAISED) or 0), False
-        for name, function in FUNCTIONS.items():
-            if self.take(f"{name}("):
-                return function(*self.fenced()), name not in ("√", "abs")
-        raise AssertionError(f"{self.line!r} cannot be read from {self.line[self.at :]!r} on")
-
-    def fenced(self) -> list[complex]:
-        found = [self.sum()]
-        while self.take(", "):
-            found.append(self.sum())
-        assert self.take(")"), f"{self.line!r}: no end of parentheses at {self.line[self.at :]!r}"
-        return found
+def test_what_is_no_line_of_a_book_cannot_be_read():
+    for line in ("sin φ²", "ln(x)^2", "x·−x", "x + −x", "xx", "2x", "y", "x)", "(x", "x 2", "exp x"):
+        with pytest.raises(AssertionError):
+            value_of(line, {"x": 0.7, "sin φ": 0.5})
+    assert value_of("−2·10⁻¹·(sin φ)²/x^2 + max(x, 3)", {"x": 0.5, "sin φ": 0.5}) == pytest.approx(2.8)
 
 
 def add_meaning(shown: str, value: complex, known: dict[str, complex]) -> None:
@@ -132,7 +105,7 @@ def misread(tree, symbols: dict[str, str], values: dict[str, float]) -> str:
             add_meaning(shown, put_in[name], known)
     with np.errstate(all="ignore"):
         wanted = evaluated(tree, put_in)
-        found = Reader(line, known).value()
+        found = value_of(line, known)
     return "" if abs(found - wanted) <= 1e-9 * abs(wanted) else f"{line} reads {found}, not {wanted}"
 
 
@@ -168,7 +141,7 @@ def missed(step) -> str:
 
 
 def keyed_in(printed: str) -> float:
-    return Reader(printed.replace("\u00a0rad", "").replace("°)", "·π/180)"), {}).value().real
+    return value_of(printed.replace("\u00a0rad", "").replace("°)", "·π/180)"), {}).real
 
 
 def terms_of(printed: str) -> list[str]:
