@@ -95,7 +95,7 @@ def test_no_letter_is_missing_by_any_method(method, language):
 
 
 def test_every_language_has_its_own_labels_and_titles():
-    found = {name: [figures_of(name, language) for language in LANGUAGES] for name in ("template engine", "atkinson")}
+    found = {name: [figures_of(name, language) for language in LANGUAGES] for name in ("spark-engine", "atkinson")}
     for three in found.values():
         for name in three[0]:
             assert len({svg(one[name]) for one in three}) == 3, name

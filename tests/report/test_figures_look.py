@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
+import pytest
 
 from crankwork.analysis import analyse
 from crankwork.description.machine_file import read_machine
@@ -53,6 +54,7 @@ def test_faults_are_seen():
     assert kinds(Text((10.0, 10.0), "J_S^2")) == ["mark"]
 
 
+@pytest.mark.slow
 @for_each("language", LANGUAGES)
 def test_letters_stand_clear_where_forces_are_per_area(language):
     """Footers tell the frame of the vectors, the method and the area."""

@@ -232,10 +232,10 @@ def test_forces_and_arms_on_the_lever_balance_on_paper(name):
     assert found * (1000.0 if " kN" in shown else 1.0) == pytest.approx(torque, rel=1e-4)
 
 
-@for_each(("name", "sliders"), [("opposed-pistons", 2), ("double-acting-steam", 1), ("press-start", 1)])
+@for_each(("name", "sliders"), [("opposed-pistons", 2), ("double-acting-steam", 1), ("template press", 1)])
 def test_every_plan_has_its_number_at_the_crank_pin_and_beside_each_guide(name, sliders):
     """Numbers of the way there on one side of a guide, of the way back on the other, none over another one."""
-    drawing = figures_of(name)["position_plans"]
+    drawing = drawings(results_of(name), only=["position_plans"])["position_plans"]
     texts = [one for one in drawing.items if isinstance(one, SceneText) and re.fullmatch(r"\d+(, \d+)*", one.text)]
     shown = sorted(int(number) for one in texts for number in one.text.split(", "))
     assert shown == sorted([*range(12)] * (1 + sliders))
