@@ -37,16 +37,18 @@ def results(name: str) -> crankwork.Results:
     return crankwork.analyse(crankwork.read(file) if file else crankwork.read_machine(crankwork.template(name)))
 
 
-@functools.cache
+_note = functools.cache(lambda name, options: note_of(results(name), options))
+_sheets = functools.cache(lambda name, *options: drawn_sheets(results(name), options[0], **dict(options[1:])))
+
+
 def note(name: str, language: Language = "en", **options: Any) -> Note:
     """Return the note of a machine, without figures where they are not asked for."""
-    return note_of(results(name), NoteOptions(language=language, **{"figures": False, **options}))
+    return _note(name, NoteOptions(**{"language": language, "figures": False, **options}))
 
 
-@functools.cache
 def sheets(name: str, language: Language = "en", paper: Paper = SIGNED, **options: Any) -> tuple[Sheet, ...]:
     """Return the drawing sheets of a machine, signed where no other paper is asked for."""
-    return drawn_sheets(results(name), language, paper=paper, **options)
+    return _sheets(name, language, ("paper", paper), *options.items())
 
 
 def blocks(one: Note, kind: type[Block]) -> list[Any]:
