@@ -33,7 +33,7 @@ _FUNCTIONS: Mapping[Any, Any] = {
 
 @dataclass
 class Mutant:
-    """A formula made wrong; `largest` is the largest value it has where it is tried, for the offset."""
+    """A formula made wrong; `largest` is the largest value that it had so far, for the offset."""
 
     formula: Formula
     kind: str
@@ -51,9 +51,16 @@ class Mutant:
         if self.kind == "factor":
             return lambda *operands: own(*operands) * (1 + BY)
         if self.kind == "offset":
-            return lambda *operands: own(*operands) + BY * self.largest
+            return lambda *operands: self._offset(own(*operands))
         tree, names = swapped(record(own)), self.formula.arguments
         return lambda *operands: evaluate(tree, dict(zip(names, operands, strict=True)))
+
+    def _offset(self, value: Any) -> Any:
+        # a formula may be asked for symbols
+        if not isinstance(value, float | int | np.ndarray):
+            return value
+        self.largest = max(self.largest, float(np.max(np.abs(value), initial=0.0)))
+        return value + BY * self.largest
 
 
 def mutants(formula: Formula) -> list[Mutant]:

@@ -53,14 +53,12 @@ def test_a_mutant_is_in_place_for_numbers_and_for_what_is_remembered_only_while_
 
 
 def test_who_expects_the_right_value_notices_and_who_does_not_survives() -> None:
-    account = CAMPAIGN["Account"](largest={"clearance_volume": 1.0})
-
     def witness(tolerance: float) -> object:
         return CAMPAIGN["Witness"]("it", False, lambda: abs(clearance_volume(8.0, 9.0) - 1.0) > tolerance)
 
     for mutant in MUTANTS["mutants"](FORMULAS["clearance_volume"]):
-        assert not CAMPAIGN["tried"](mutant, [(witness(1.0), account)]).witness
-        assert CAMPAIGN["tried"](mutant, [(witness(1e-4), account)]).witness == "it"
+        assert not CAMPAIGN["tried"](mutant, [witness(1.0)]).witness
+        assert CAMPAIGN["tried"](mutant, [witness(1e-4)]).witness == "it"
 
 
 def test_processes_answer_in_any_order_and_a_hang_is_told() -> None:
