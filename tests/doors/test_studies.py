@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 
 import pytest
 
@@ -177,6 +178,12 @@ def test_tables_of_the_best_machine_are_found_from_its_folder(crankwork, study, 
     assert 'file = "../../pressure.csv"' in (tmp_path / "a" / "out" / "machine.toml").read_text(encoding="utf-8")
     again = crankwork("check", "a/out/machine.toml")
     assert again.code == 0, again.err
+
+
+def test_a_study_without_what_reads_its_parts_says_what_to_install(study, check_refusals, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    told = "a study needs an optional part; install it with: pip install"
+    check_refusals([(("sweep", study(), "-o", "out"), told)])
 
 
 def test_a_number_in_the_place_of_a_table_is_told(crankwork, study):
