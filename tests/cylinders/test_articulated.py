@@ -8,12 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from crankwork.cylinders.articulated import (
-    ArticulatedRod,
-    articulated_motion,
-    check_articulated_rod,
-    slave_stroke,
-)
+from crankwork.cylinders.articulated import ArticulatedRod, articulated_motion, check_articulated_rod, slave_stroke
 from crankwork.cylinders.articulated_forces import slave_forces
 from crankwork.cylinders.engines import radial
 from crankwork.errors import GeometryError
@@ -40,11 +35,7 @@ def geometries(draw):
     r_a = r * draw(st.floats(0.0, 1.0))
     axis = draw(st.floats(-180, 180))
     rod = ArticulatedRod(
-        l - r_a * draw(st.floats(0.3, 1.0)),
-        r_a,
-        axis + draw(st.floats(-12, 12)),
-        axis,
-        r * draw(st.floats(-0.3, 0.3)),
+        l - r_a * draw(st.floats(0.3, 1.0)), r_a, axis + draw(st.floats(-12, 12)), axis, r * draw(st.floats(-0.3, 0.3))
     )
     assume(rod.length > r + r_a + abs(rod.offset) + 0.02 * r)
     return SliderCrank(r, l, e), rod

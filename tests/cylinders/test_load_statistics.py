@@ -3,11 +3,7 @@
 import numpy as np
 import pytest
 
-from crankwork.cylinders.load_statistics import (
-    LoadReversal,
-    polar_diagram,
-    reversal,
-)
+from crankwork.cylinders.load_statistics import LoadReversal, polar_diagram, reversal
 from crankwork.cylinders.load_vectors import BearingLoad
 from each import for_each
 

@@ -53,11 +53,7 @@ def test_barrel_and_rod_are_in_equilibrium_as_two_bodies(heavy):
     pin = np.array([found["joint_force_x.A"], found["joint_force_y.A"]])
     cylinder = np.array([[0.6], [-0.5]]), np.array([[0.6], [-0.5]]) + found["driver_displacement"] * u
     weight = np.array([[0.0], [-G]])
-    driver, normal, moment = (
-        found["driver_force"],
-        found["normal_force.rod"],
-        found["normal_moment.rod"],
-    )
+    driver, normal, moment = (found["driver_force"], found["normal_force.rod"], found["normal_moment.rod"])
     # on the barrel: its pin, its weight, the oil that pushes it back, and the rod across it
     left = pin - driver * u - normal * n + 60 * weight - 60 * acceleration[0]
     assert np.max(np.abs(left)) < 1e-3 * np.max(np.abs(driver)) / 10

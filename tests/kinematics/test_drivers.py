@@ -176,10 +176,7 @@ def test_links_with_a_motor_between_them_pass_the_line(is_swapped, branch):
     angle = -opened if is_swapped else opened
     motor = Mechanism(
         LinkMotor(links, "A", own, angle, law),
-        (
-            RRR("O", "B", "C", "third_side", "l3", 0.4, 0.2),
-            RRR("O", "C", "A", "l1", "l2", *sides, branch=branch),
-        ),
+        (RRR("O", "B", "C", "third_side", "l3", 0.4, 0.2), RRR("O", "C", "A", "l1", "l2", *sides, branch=branch)),
         ground={"O": (0.0, 0.0), "B": (ground, 0.0)},
     )
     grid = CrankGrid.from_degrees(np.linspace(0.0, 360.0, 500))

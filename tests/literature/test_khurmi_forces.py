@@ -141,10 +141,7 @@ class TestExample13:
     2.2 MPa, which makes its forces 0.15 % larger.
     """
 
-    @for_each(
-        ("key", "kilo", "decimals"),
-        [("tangential_force", 109.501, 3), ("radial_force", 79.438, 3)],
-    )
+    @for_each(("key", "kilo", "decimals"), [("tangential_force", 109.501, 3), ("radial_force", 79.438, 3)])
     def test_the_printed_values_come_out_from_the_rounded_pressure(self, key: str, kilo: float, decimals: int) -> None:
         assert round(_at(_diesel(2.2e6), 405)[key] / 1e3, decimals) == kilo
 

@@ -56,10 +56,7 @@ class TestBevan37:
         turning, rate = found["link_angular_velocity.lever"], found["link_angular_acceleration.lever"]
         along = found["slider_acceleration.block"] - turning**2 * s
         across = rate * s + found["coriolis_acceleration.block"]
-        x, y = (
-            along * math.cos(th) - across * math.sin(th),
-            along * math.sin(th) + across * math.cos(th),
-        )
+        x, y = (along * math.cos(th) - across * math.sin(th), along * math.sin(th) + across * math.cos(th))
         centripetal = 4 * INCH * w**2
         assert (x, y) == pytest.approx((centripetal * math.sin(math.pi / 3), -centripetal / 2), rel=1e-12)
         assert (found["point_acceleration_x.P"], found["point_acceleration_y.P"]) == pytest.approx((x, y), rel=1e-12)

@@ -39,12 +39,7 @@ def test_every_atom_of_fuel_and_air_is_in_the_products(carbon, oxygen, air, shar
         reject()
     found = [sum(n * one[k] for n, one in zip(_parts(worked), ATOMS, strict=True)) for k in range(4)]
     needed = worked["air_amount_needed"].value
-    brought = [
-        fuel.carbon / 12,
-        fuel.hydrogen,
-        fuel.oxygen / 16 + 2 * 0.208 * air * needed,
-        2 * 0.792 * air * needed,
-    ]
+    brought = [fuel.carbon / 12, fuel.hydrogen, fuel.oxygen / 16 + 2 * 0.208 * air * needed, 2 * 0.792 * air * needed]
     assert found == pytest.approx(brought, rel=1e-12, abs=1e-15)
     assert worked["product_amount"].value == pytest.approx(sum(_parts(worked)), rel=1e-15)
     assert [one.is_absent for one in map(worked.known.get, PRODUCTS)] == [
