@@ -40,7 +40,7 @@ from crankwork.note.document import (
 from crankwork.note.engine_lines import engine_lines
 from crankwork.note.legends import legend
 from crankwork.note.linkage_lines import linkage_lines
-from crankwork.quantities import Language
+from crankwork.quantities import LANGUAGES, Language
 from crankwork.show.scene import Drawing, line
 
 HOSTILE = "# $x$ *a* _b_ @c <d> & \\e `f` ~g \"h\" 'i' #{panic()} ]] $ // /* ${k} </p> --"
@@ -75,7 +75,7 @@ def groups_of():
     return found
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def steps(formulas) -> list[FormulaLine]:
     """A step of every registered formula; what is put in matters only to how it is printed."""
     return [
@@ -119,19 +119,19 @@ def sample(language: Language) -> Note:
     return Note(HOSTILE, language, blocks, ("А. Б. <c@d>", "Nguyễn"), date, ("den_hartog_1956",))
 
 
-@pytest.fixture(params=["en", "ru", "vi"])
-def note(request) -> Note:
+@pytest.fixture(scope="session")
+def samples() -> dict[str, Note]:
     """A note with every kind of block, in each language."""
-    return sample(request.param)
+    return {language: sample(language) for language in LANGUAGES}
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def hostile() -> str:
     """Text in which every format finds its own marks."""
     return HOSTILE
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def drawing() -> Drawing:
     """A small drawing."""
     return DRAWING

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from crankwork.note.document import Figure, Heading, PageBreak, Paragraph, Table
 from crankwork.note.word_flow import PAGE, flow
 from crankwork.show.scene import Drawing
@@ -17,21 +15,17 @@ def _order(*placed: tuple[object, float]) -> list[int]:
     return list(flow([one for one, _ in placed], [height for _, height in placed]))
 
 
-def test_a_figure_with_room_stands_where_it_is():
-    assert _order((TEXT, 100.0), (FIGURE, 300.0), (TEXT, 100.0)) == [0, 1, 2]
-
-
 def test_a_figure_without_room_waits_until_text_has_filled_the_page():
+    assert _order((TEXT, 100.0), (FIGURE, 300.0), (TEXT, 100.0)) == [0, 1, 2]
     placed = (TEXT, 400.0), (FIGURE, 400.0), (TEXT, 150.0), (TEXT, 150.0), (TEXT, 100.0)
     assert _order(*placed) == [0, 2, 3, 1, 4]
+    # a page that begins anew waits for no figure
+    assert _order((TEXT, 400.0), (FIGURE, 400.0), (BREAK, 0.0), (TEXT, 10.0)) == [0, 1, 2, 3]
 
 
-def test_figures_keep_their_order():
+def test_figures_keep_their_order_and_no_heading_is_parted_from_its_text():
     placed = (TEXT, 400.0), (FIGURE, 400.0), (FIGURE, 100.0), (TEXT, 290.0), (TEXT, 100.0)
     assert _order(*placed) == [0, 3, 1, 2, 4]
-
-
-def test_no_figure_parts_a_heading_from_its_text():
     order = _order((TEXT, 400.0), (FIGURE, 400.0), (HEADING, 300.0), (TEXT, 100.0), (TEXT, 100.0))
     assert order.index(2) + 1 == order.index(3)
 
@@ -41,12 +35,8 @@ def test_a_figure_leaves_its_section_only_where_much_would_stay_empty():
     assert _order((TEXT, 350.0), (FIGURE, 500.0), (HEADING, 46.0), (TEXT, 300.0), (TEXT, 50.0)) == [0, 2, 3, 1, 4]
 
 
-@pytest.mark.parametrize("last", [BREAK, TABLE, HEADING])
-def test_nothing_is_lost(last):
-    placed = [(TEXT, 600.0), (FIGURE, 500.0), (FIGURE, 700.0), (last, 40.0), (FIGURE, 720.0)]
-    assert sorted(_order(*placed)) == list(range(5))
+def test_nothing_is_lost():
+    for last in (BREAK, TABLE, HEADING):
+        placed = [(TEXT, 600.0), (FIGURE, 500.0), (FIGURE, 700.0), (last, 40.0), (FIGURE, 720.0)]
+        assert sorted(_order(*placed)) == list(range(5))
     assert PAGE > 700
-
-
-def test_a_page_that_begins_anew_waits_for_no_figure():
-    assert _order((TEXT, 400.0), (FIGURE, 400.0), (BREAK, 0.0), (TEXT, 10.0)) == [0, 1, 2, 3]
