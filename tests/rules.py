@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import functools
+import gc
 import importlib
 import pkgutil
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import TypeVar
 
 import pytest
@@ -14,6 +17,7 @@ import crankwork
 from crankwork.formula.expression import FORMULAS, Formula
 
 Member = TypeVar("Member")
+PACKAGE = Path(crankwork.__file__).parent
 
 
 def failing(members: Mapping[str, Member], check: Callable[[Member], object]) -> dict[str, str]:
@@ -40,3 +44,14 @@ def every_formula() -> dict[str, Formula]:
             if absent.name is None or absent.name.startswith("crankwork"):
                 raise
     return FORMULAS
+
+
+@functools.cache
+def source_trees() -> dict[Path, ast.Module]:
+    """Return every module of the package, parsed."""
+    # what is looked for in a million of new nodes again and again is no garbage
+    gc.disable()
+    try:
+        return {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
+    finally:
+        gc.enable()

@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 import pytest
 
+from rules import PACKAGE, source_trees
+
 ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / "src" / "crankwork"
 
 
 class Module(NamedTuple):
@@ -29,5 +30,7 @@ def root() -> Path:
 @pytest.fixture(scope="session")
 def modules() -> list[Module]:
     """Every file of the package."""
-    texts = {path.relative_to(PACKAGE).as_posix(): path.read_text("utf-8") for path in sorted(PACKAGE.rglob("*.py"))}
-    return [Module(path, text, ast.parse(text)) for path, text in texts.items()]
+    return [
+        Module(path.relative_to(PACKAGE).as_posix(), path.read_text("utf-8"), tree)
+        for path, tree in source_trees().items()
+    ]

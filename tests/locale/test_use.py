@@ -12,7 +12,6 @@ from typing import get_args
 
 import click
 
-import crankwork
 from crankwork.analysis.results import Notice
 from crankwork.cli import commands
 from crankwork.cli.spoken import option_key, stand_in_key
@@ -28,8 +27,8 @@ from crankwork.report.notices import notice_text
 from crankwork.study.study_file import STUDY_FILE
 from crankwork.units import UNITS
 from each import for_each
+from rules import PACKAGE, source_trees
 
-PACKAGE = Path(crankwork.__file__).parent
 FILES = *machine_file.FILES, STUDY_FILE
 TEMPLATES = sorted((PACKAGE / machine_file.TEMPLATES).glob("*.toml"))
 ROOMS = sorted({path.stem for path in (PACKAGE / "locale").glob("*/*.toml")})
@@ -90,16 +89,10 @@ SAYING = {
 
 
 @functools.cache
-def trees() -> dict[Path, ast.Module]:
-    """Return every module of the package, read."""
-    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")}
-
-
-@functools.cache
 def constants() -> dict[Path, set[str]]:
     """Return the strings of each module, docstrings left out."""
     found = {}
-    for path, tree in trees().items():
+    for path, tree in source_trees().items():
         nodes = list(ast.walk(tree))
         said = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
         found[path] = {
@@ -143,7 +136,7 @@ def is_made_of(name: str, names: set[str]) -> bool:
 def said_keys() -> set[str]:
     """Return the keys that calls spell whole, and those that the words of notes and sheets are asked for."""
     found = set()
-    for path, tree in trees().items():
+    for path, tree in source_trees().items():
         for call in ast.walk(tree):
             match call:
                 case ast.Call(func=ast.Name("say") | ast.Attribute(_, "say"), args=[ast.Constant(str(key)), *_]):
