@@ -390,6 +390,7 @@ def test_a_map_is_told_as_it_goes_on_and_ends_where_the_command_line_does():
     assert found["figures"]["map.stroke"][1].startswith("<svg")
 
 
+@pytest.mark.data
 def test_designs_are_swept_and_the_best_is_named():
     asked = {
         "text": template("slider-crank"), "over": {"crank.radius": "40..60 mm"}, "count": "64",
