@@ -36,12 +36,12 @@ SOME = (
     "spark-engine", "petrol-four", "double-acting-steam", "press-geometry", "press", "punching-machine", "slider-crank",
 )  # fmt: skip
 ENGINES = (
-    "spark-engine: exact", "petrol-four: textbook", "v8-diesel", "v8-diesel: textbook", "radial-five",
-    "narrow-v6: textbook", "two-stroke", "compressor template", "engine template: textbook",
+    "spark-engine: exact", "petrol-four: textbook", "v8-diesel", "radial-five", "narrow-v6: textbook", "two-stroke",
+    "compressor template",
 )  # fmt: skip
 LINKAGES = (
     "atkinson", "beta-stirling", "opposed-pistons", "excavator-boom", "andrews-squeezer", "parallelogram",
-    "press-start", "scotch-yoke template", "stephenson-six-bar template", "toggle-press template",
+    "press-start", "scotch-yoke template", "toggle-press template",
     "slider-crank template: exact",
 )  # fmt: skip
 LOADS = """

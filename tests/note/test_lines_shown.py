@@ -44,9 +44,9 @@ SOLVED_KINDS = (
 OVER_THE_REVOLUTION = ("_angle", "_time", "_error", "_max", "_min")
 
 every_machine = looked_at(
-    (*SOME, *WAYS, "press, central", "unsteady linkage", "heavy rotor", "I4", "radial with weights"),
+    (*SOME, *WAYS, "press, central", "unsteady linkage", "heavy rotor", "I4"),
     (*VARIANTS, "long crank: textbook", "two rod ratios: series:6", *BUILT, *ENGINES),
-    (*LINKAGES, "knuckle-press", "press template", "whitworth template", "watt-six-bar template"),
+    (*LINKAGES, "knuckle-press", "press template", "whitworth template"),
 )
 
 

@@ -23,7 +23,7 @@ from crankwork.units import UNITS, parse, to_si
 from note.built import EXAMPLES, ROOT, TEMPLATES, broken, looked_at
 
 FILES = [one for folder in (EXAMPLES, TEMPLATES, ROOT / "tests/machines") for one in sorted(folder.glob("*.toml"))]
-SLOW = {"knuckle-press", "two-stroke", "andrews-squeezer", "rubbing-swing", "wiebe"}
+SLOW = {"knuckle-press", "two-stroke", "andrews-squeezer", "rubbing-swing", "wiebe", "boom"}
 NAMES = {"/".join(one.parts[-2:]).removesuffix(".toml"): one for one in FILES if one.stem not in SLOW}
 SOME = [name for name in NAMES if name.startswith("examples/")]
 OTHERS = [*(set(NAMES) - set(SOME)), "examples/spark-engine: exact", "examples/v8-diesel: textbook"]
