@@ -106,7 +106,8 @@ def _without_skips(report: Report) -> Report:
 def formulas() -> dict[str, Formula]:
     """Every registered formula by name."""
     for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
-        if not module.name.endswith("__main__"):
+        # what is compiled needs Numba, and has no formulas
+        if not module.name.endswith(("__main__", "kernel.elementary", "shaft.stepping")):
             importlib.import_module(module.name)
     return FORMULAS
 
