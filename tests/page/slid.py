@@ -22,15 +22,11 @@ MACHINES = {
     "four-bar": ("four-bar", ("crank.radius", "crank.speed", "links.coupler.length")),
     "six-bar": ("stephenson-six-bar", ("crank.radius", "crank.speed")),
     "spark-engine": ((EXAMPLES / "spark-engine.toml").read_text("utf-8"), ("crank.speed=1000..6000rpm", "rod.ratio")),
-}
-# of which not everything follows
-PALE = {
+    # of which not everything follows
     "press": ((EXAMPLES / "press.toml").read_text("utf-8"), ("crank.speed",)),
     "parallelogram": ((EXAMPLES / "parallelogram.toml").read_text("utf-8"), ("crank.speed",)),
     "parallelogram's mass": ((EXAMPLES / "parallelogram.toml").read_text("utf-8"), ("links.coupler.centre[1]",)),
-}
-# a jump that stands at a row of the tables, a diagram within another, one length, a cycle as long as its speed makes it
-OTHERS = {
+    # a jump that stands at a row of the tables, a diagram within another, one length, a cycle as long as its speed
     "steam": ((EXAMPLES / "double-acting-steam.toml").read_text("utf-8"), ("chambers.head.pieces[2].exponent",)),
     "loop": ("engine", ("crank.radius", "crank.speed=1000..6000rpm")),
     "crank": ("four-bar", ("crank.radius",)),
@@ -47,14 +43,14 @@ MOVE = """([at, value]) => {
 
 @cache
 def described(name):
-    text = (MACHINES | PALE | OTHERS)[name][0]
+    text = MACHINES[name][0]
     return crankwork.Description(text if "\n" in text else crankwork.template(text))
 
 
 @cache
 def live(name):
     description = described(name)
-    return moved(description, (MACHINES | PALE | OTHERS)[name][1], (), crankwork.analyse(description.machine()))
+    return moved(description, MACHINES[name][1], (), crankwork.analyse(description.machine()))
 
 
 @cache

@@ -14,7 +14,7 @@ from crankwork.page.document import page as written
 from crankwork.report.language import displayed
 from crankwork.study.sliders import moved
 from crankwork.units import to_si
-from page.slid import EXAMPLES, MACHINES, described, design, document, live, move, results, rules_broken
+from page.slid import EXAMPLES, described, design, document, live, move, results, rules_broken
 
 # settings that are compared with analyses, which take their time
 SETTINGS = {"engine": 24, "four-bar": 24, "V8": 5, "six-bar": 12, "spark-engine": 12}
@@ -46,7 +46,7 @@ def sizes(columns, summary):
     return found
 
 
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize("name", SETTINGS)
 def test_the_browser_calculates_what_analyses_give(slid, name):
     page, sliders = slid(name), live(name).sliders
     draw = np.random.default_rng(5)

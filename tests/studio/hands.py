@@ -110,6 +110,16 @@ def pressed(page, *keys):
         page.keyboard.press(key)
 
 
+def keyed(page, *words):
+    """Type words, each into the next box, and let them stand."""
+    for at, word in enumerate(words):
+        if at:
+            page.keyboard.press("Tab")
+        page.keyboard.type(word)
+    page.keyboard.press("Enter")
+    settled(page)
+
+
 def canvas(page):
     """Begin to draw; return what tells where millimetres of the paper are on the screen."""
     page.locator("#draw").click()

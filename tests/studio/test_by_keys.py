@@ -4,19 +4,7 @@ from __future__ import annotations
 
 import re
 
-from studio.hands import (
-    begin,
-    draw_slider_crank,
-    field,
-    pressed,
-    refused,
-    said,
-    settled,
-    slider_of,
-    source,
-    sourced,
-    undone,
-)
+from studio import hands as do
 
 
 def focused(page):
@@ -43,26 +31,22 @@ def test_all_that_can_be_done_is_listed_and_done(seen):
     assert focused(page) == "field-links.rocker.length"
     page.keyboard.press("Escape")
     page.locator("#all").click()
-    page.keyboard.type("begin with toggle")
-    page.keyboard.press("Enter")
+    do.keyed(page, "begin with toggle")
     page.wait_for_function("() => document.getElementById('title').textContent.startsWith('Toggle')")
-    settled(page)
-    text = source(page)
+    do.settled(page)
+    text = do.source(page)
     for words in ("undo", "redo"):
         page.locator("#title").click()
         page.keyboard.press("/")
         page.keyboard.type(words)
-        pressed(page, "ArrowDown", "ArrowUp", "Enter")
-        settled(page)
-        assert (source(page) == text) is (words == "redo")
+        do.pressed(page, "ArrowDown", "ArrowUp", "Enter")
+        do.settled(page)
+        assert (do.source(page) == text) is (words == "redo")
     page.keyboard.press("/")
-    page.keyboard.type("the other way")
-    page.keyboard.press("Enter")
-    settled(page)
-    assert "branch" in source(page)
+    do.keyed(page, "the other way")
+    assert "branch" in do.source(page)
     page.keyboard.press("/")
-    page.keyboard.type("nothing is called so")
-    page.keyboard.press("Enter")
+    do.keyed(page, "nothing is called so")
     assert page.locator("#commands").is_visible()
     page.keyboard.press("Escape")
     assert page.locator("#commands").is_hidden()
@@ -74,11 +58,11 @@ def test_the_machine_is_one_stop_and_arrows_go_from_pin_to_link(seen):
     names = []
     for _ in range(9):
         page.keyboard.press("ArrowRight")
-        names.append(said(page))
+        names.append(do.said(page))
     assert {"A, joins crank, coupler", "B, joins coupler, rocker", "coupler, from A to B"} <= set(names)
     assert len(set(names)) == len(names) - 1, names
     assert page.locator("#film .chosen").count() == 1
-    while not said(page).startswith("rocker"):
+    while not do.said(page).startswith("rocker"):
         page.keyboard.press("ArrowLeft")
     page.keyboard.press("Enter")
     offered = page.locator("#found li").all_inner_texts()
@@ -88,40 +72,40 @@ def test_the_machine_is_one_stop_and_arrows_go_from_pin_to_link(seen):
     page.keyboard.press("Escape")
     assert focused(page) == "svg"
     page.keyboard.press("m")
-    assert "length" in said(page)
+    assert "length" in do.said(page)
     for _ in range(2):
         page.keyboard.press("ArrowUp")
-        settled(page)
-    assert field(page, "links.rocker.length").input_value() == "114.7 mm"
+        do.settled(page)
+    assert do.field(page, "links.rocker.length").input_value() == "114.7 mm"
     assert focused(page) == "svg"
-    pressed(page, "m", "Space")
+    do.pressed(page, "m", "Space")
     assert page.locator("#play").get_attribute("aria-pressed") == "true"
     page.keyboard.press("Space")
-    undone(page)
-    assert field(page, "links.rocker.length").input_value() == "112.5 mm"
+    do.undone(page)
+    assert do.field(page, "links.rocker.length").input_value() == "112.5 mm"
 
 
 def test_a_pin_that_is_moved_by_keys_turns_the_machine(seen):
     page = seen()
-    begin(page, "engine")
+    do.begin(page, "engine")
     to_machine(page)
-    while not said(page).startswith("piston"):
+    while not do.said(page).startswith("piston"):
         page.keyboard.press("ArrowRight")
-    text, shown = source(page), page.locator("#shown").inner_text()
-    pressed(page, "m", "ArrowRight")
+    text, shown = do.source(page), page.locator("#shown").inner_text()
+    do.pressed(page, "m", "ArrowRight")
     assert page.locator("#shown").inner_text() != shown
-    assert source(page) == text
-    pressed(page, "Escape", "Escape")
-    assert said(page) == ""
+    assert do.source(page) == text
+    do.pressed(page, "Escape", "Escape")
+    assert do.said(page) == ""
     assert page.locator("#film .chosen").count() == 0
     # what was moved of one machine is not moved of the next
-    pressed(page, "ArrowRight", "m")
-    begin(page, "slider-crank")
-    text = source(page)
+    do.pressed(page, "ArrowRight", "m")
+    do.begin(page, "slider-crank")
+    text = do.source(page)
     page.locator("#film svg").focus()
     page.keyboard.press("ArrowRight")
-    settled(page)
-    assert source(page) == text
+    do.settled(page)
+    assert do.source(page) == text
 
 
 def test_everything_that_a_number_reaches_is_lit(seen):
@@ -132,7 +116,7 @@ def test_everything_that_a_number_reaches_is_lit(seen):
         found = page.locator("#results .reached [data-key]")
         return found.evaluate_all("all => all.map((one) => one.dataset.key)")
 
-    field(page, "crank.speed").click(modifiers=["Alt"])
+    do.field(page, "crank.speed").click(modifiers=["Alt"])
     reached = lit()
     assert "speed" in reached
     assert not [one for one in reached if one.startswith(("transmission_angle", "link_swing"))]
@@ -140,10 +124,10 @@ def test_everything_that_a_number_reaches_is_lit(seen):
     assert {one.partition(".")[0] for one in curves} == {"link_angular_velocity", "link_angular_acceleration"} | {
         one.partition(".")[0] for one in curves if "point" in one or "reduced" in one
     }
-    assert said(page) == f"crank.speed reaches {len(reached)} values"
+    assert do.said(page) == f"crank.speed reaches {len(reached)} values"
     page.keyboard.press("Escape")
     assert page.locator("body.lit").count() == 0
-    field(page, "links.rocker.length").focus()
+    do.field(page, "links.rocker.length").focus()
     page.keyboard.press("Alt+Enter")
     reached = lit()
     assert "speed" not in reached
@@ -152,17 +136,17 @@ def test_everything_that_a_number_reaches_is_lit(seen):
 
 def test_sliders_and_fields_are_moved_by_keys_and_every_one_is_reached(seen):
     page = seen()
-    slider = slider_of(page, "crank.radius")
+    slider = do.slider_of(page, "crank.radius")
     slider.focus()
-    pressed(page, *["ArrowRight"] * 5)
-    settled(page)
+    do.pressed(page, *["ArrowRight"] * 5)
+    do.settled(page)
     # however far it goes it is one step
     value = slider.evaluate("one => one.valueAsNumber")
     assert value > 62.5
-    assert f'radius = "{value:g} mm"' in source(page)
+    assert f'radius = "{value:g} mm"' in do.source(page)
     assert "crank.radius" in page.locator("#undo").get_attribute("title")
-    undone(page)
-    assert 'radius = "62.5 mm"' in source(page)
+    do.undone(page)
+    assert 'radius = "62.5 mm"' in do.source(page)
     reached = set()
     page.locator("#title").click()
     for _ in range(150):
@@ -173,7 +157,7 @@ def test_sliders_and_fields_are_moved_by_keys_and_every_one_is_reached(seen):
         *("field-crank.radius", "field-links.coupler.length"),
     }
     page.evaluate("document.activeElement.blur()")
-    field(page, "crank.speed").focus()
+    do.field(page, "crank.speed").focus()
     for key, other in (("ArrowUp", "crank.radius"), ("ArrowDown", "crank.speed")):
         page.keyboard.press(key)
         assert focused(page) == f"field-{other}"
@@ -181,11 +165,11 @@ def test_sliders_and_fields_are_moved_by_keys_and_every_one_is_reached(seen):
 
 def test_a_pin_of_a_drawing_is_drawn_and_carried_by_keys(seen):
     page = seen()
-    draw_slider_crank(page)
-    assert 'radius = "25 mm"' in source(page)
-    assert refused(page) == []
+    do.draw_slider_crank(page)
+    assert 'radius = "25 mm"' in do.source(page)
+    assert do.refused(page) == []
     assert page.locator("#film [data-part]").count() > 0
     page.locator("#draw").focus()
-    pressed(page, "Enter", *["ArrowUp"] * 5, "m", "ArrowUp", "Escape", "m", "ArrowUp", "Enter")
-    sourced(page, 'radius = "30 mm"')
-    assert refused(page) == []
+    do.pressed(page, "Enter", *["ArrowUp"] * 5, "m", "ArrowUp", "Escape", "m", "ArrowUp", "Enter")
+    do.sourced(page, 'radius = "30 mm"')
+    assert do.refused(page) == []

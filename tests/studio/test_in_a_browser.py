@@ -8,44 +8,29 @@ from pathlib import Path
 import pytest
 
 from page.slid import rules_broken
-from studio.hands import (
-    begin,
-    beside,
-    carried,
-    field,
-    hold,
-    let_go,
-    middle,
-    number,
-    prepared,
-    refused,
-    settled,
-    source,
-    typed,
-    with_figure,
-)
+from studio import hands as do
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def test_a_typed_number_changes_text_values_and_drawing_as_one_step(seen):
     page = seen()
-    before, drawn = number(page, "transmission_angle_min.B"), page.locator("#film").inner_html()
-    typed(page, "links.rocker.length", "120 mm")
-    assert 'length = "120 mm"' in source(page)
-    assert number(page, "transmission_angle_min.B") != before
+    before, drawn = do.number(page, "transmission_angle_min.B"), page.locator("#film").inner_html()
+    do.typed(page, "links.rocker.length", "120 mm")
+    assert 'length = "120 mm"' in do.source(page)
+    assert do.number(page, "transmission_angle_min.B") != before
     assert page.locator("#film").inner_html() != drawn
     assert page.locator("#undo").get_attribute("title") == "links.rocker.length = 120 mm"
     page.keyboard.press("Escape")
     page.locator("#title").click()
     page.keyboard.press("Control+z")
-    settled(page)
-    assert 'length = "112.5 mm"' in source(page)
-    assert number(page, "transmission_angle_min.B") == before
-    assert field(page, "links.rocker.length").input_value() == "112.5 mm"
+    do.settled(page)
+    assert 'length = "112.5 mm"' in do.source(page)
+    assert do.number(page, "transmission_angle_min.B") == before
+    assert do.field(page, "links.rocker.length").input_value() == "112.5 mm"
     page.keyboard.press("Control+Shift+z")
-    settled(page)
-    assert 'length = "120 mm"' in source(page)
+    do.settled(page)
+    assert 'length = "120 mm"' in do.source(page)
 
 
 # how long the thin lines of plans are together, and how far they reach [mm]
@@ -62,21 +47,21 @@ RESULTS = "all => all.map((one) => [one.dataset.key, one.textContent])"
 def test_what_follows_a_slider_is_drawn_without_asking_and_is_what_the_server_answers(seen):
     page = seen()
     plan = page.locator('[data-name="position_plans"]')
-    with_figure(page, "position_plans")
+    do.with_figure(page, "position_plans")
     keys = page.locator("#results [data-key]")
-    prepared(page, "crank.radius")
+    do.prepared(page, "crank.radius")
     before, stated = keys.evaluate_all(RESULTS), plan.evaluate(LINES)
     curve = page.locator('.figures path[data-curve="link_angular_velocity.coupler"]')
     joint = page.locator('#film [data-part="joint.A"]')
     drawn, stood = curve.get_attribute("d"), joint.get_attribute("transform")
-    assert hold(page, "crank.radius", 60) == "false"
+    assert do.hold(page, "crank.radius", 60) == "false"
     assert curve.get_attribute("d") != drawn
     assert joint.get_attribute("transform") != stood
     plans, held = plan.evaluate(LINES), keys.evaluate_all(RESULTS)
     assert sum(one != other for one, other in zip(held, before, strict=True)) > 20
     faint = dict(page.locator("#results .filed [data-key]").evaluate_all(RESULTS))
-    let_go(page, "crank.radius")
-    assert '"60 mm"' in source(page)
+    do.let_go(page, "crank.radius")
+    assert '"60 mm"' in do.source(page)
     answered = dict(keys.evaluate_all(RESULTS))
     assert len(faint) < 10
     assert [key for key, text in held if answered[key] != text and key not in faint and "_angle" not in key] == []
@@ -86,71 +71,71 @@ def test_what_follows_a_slider_is_drawn_without_asking_and_is_what_the_server_an
     assert plan.evaluate(LINES) == pytest.approx(plans, abs=0.3)
     assert plans != pytest.approx(stated, abs=1)
     # and a slider that leads to no machine is told why
-    prepared(page, "links.rocker.length")
-    hold(page, "links.rocker.length", 57)
-    settled(page)
+    do.prepared(page, "links.rocker.length")
+    do.hold(page, "links.rocker.length", 57)
+    do.settled(page)
     assert page.locator("#refusals li, .doubt").count() > 0
 
 
 def test_what_is_refused_stands_at_its_line_and_the_last_machine_stays(seen):
     page = seen()
     drawn = page.locator("#film svg").count()
-    typed(page, "crank.radius", "-3 mm")
-    assert field(page, "crank.radius").get_attribute("aria-invalid") == "true"
-    assert field(page, "crank.radius").input_value() == "-3 mm"
+    do.typed(page, "crank.radius", "-3 mm")
+    assert do.field(page, "crank.radius").get_attribute("aria-invalid") == "true"
+    assert do.field(page, "crank.radius").input_value() == "-3 mm"
     assert page.locator("body.stale").count() == 1
     assert page.locator("#film svg").count() == drawn
-    (told,) = refused(page)
+    (told,) = do.refused(page)
     assert "crank.radius" in told
     line = int(re.search(r":(\d+):", told)[1])
-    assert '"-3 mm"' in source(page).splitlines()[line - 1]
+    assert '"-3 mm"' in do.source(page).splitlines()[line - 1]
     page.locator("#refusals button").click()
     assert page.evaluate("document.activeElement.id") == "source"
     assert page.locator("#lines .refused").inner_text().strip() == str(line)
-    page.locator("#source").fill(source(page).replace('"-3 mm"', '"60 mm"'))
+    page.locator("#source").fill(do.source(page).replace('"-3 mm"', '"60 mm"'))
     page.wait_for_selector("body:not(.stale)")
-    assert refused(page) == []
+    assert do.refused(page) == []
 
 
 def test_text_is_typed_and_the_form_follows(seen):
     page = seen()
     page.locator("#text-tab").click()
-    page.locator("#source").fill(source(page).replace('"100 rpm"', '"100 rp"'))
+    page.locator("#source").fill(do.source(page).replace('"100 rpm"', '"100 rp"'))
     page.wait_for_selector("body.stale")
-    page.locator("#source").fill(source(page).replace('"100 rp"', '"250 rpm"'))
+    page.locator("#source").fill(do.source(page).replace('"100 rp"', '"250 rpm"'))
     page.wait_for_selector("body:not(.stale)")
     page.locator("#form-tab").click()
-    assert field(page, "crank.speed").input_value() == "250 rpm"
+    assert do.field(page, "crank.speed").input_value() == "250 rpm"
     page.locator("#text-tab").click()
     page.locator("#source").press("Control+End")
     shown = page.locator("#shown").inner_text()
     page.keyboard.type("# two words")
     page.keyboard.press("ArrowLeft")
     page.keyboard.type("k")
-    assert source(page).endswith("# two wordks")
+    assert do.source(page).endswith("# two wordks")
     assert page.locator("#shown").inner_text() == shown
 
 
 def test_the_machine_is_dragged_along_its_freedom_and_a_length_with_shift(seen):
     page = seen()
-    text, shown = source(page), page.locator("#shown").inner_text()
-    x, y = middle(page, "A")
-    carried(page, x, y, (x, y - 30))
+    text, shown = do.source(page), page.locator("#shown").inner_text()
+    x, y = do.middle(page, "A")
+    do.carried(page, x, y, (x, y - 30))
     assert page.locator("#shown").inner_text() != shown
-    assert source(page) == text
+    assert do.source(page) == text
     angle = page.locator("#slider").input_value()
-    x, y = middle(page, "B")
+    x, y = do.middle(page, "B")
     page.keyboard.down("Shift")
-    carried(page, x, y, (x + 12, y - 6), up=False)
-    assert "→" in beside(page)
+    do.carried(page, x, y, (x + 12, y - 6), up=False)
+    assert "→" in do.beside(page)
     page.wait_for_function("() => globalThis.steps")
     page.mouse.move(x - 20, y + 20)
-    assert "transmission angle at B" in beside(page)
+    assert "transmission angle at B" in do.beside(page)
     page.mouse.move(x + 12, y - 6)
     page.mouse.up()
     page.keyboard.up("Shift")
-    settled(page)
-    assert source(page) != text
+    do.settled(page)
+    assert do.source(page) != text
     assert page.locator("#slider").input_value() == angle
     assert "length" in page.locator("#undo").get_attribute("title")
     assert page.locator("#chip").is_hidden()
@@ -158,7 +143,7 @@ def test_the_machine_is_dragged_along_its_freedom_and_a_length_with_shift(seen):
 
 def test_a_drag_past_a_dead_position_says_why_it_stays_and_the_cursor_goes_to_where_it_turns_back(seen):
     page = seen()
-    typed(page, "crank.radius", "100 mm")
+    do.typed(page, "crank.radius", "100 mm")
     slider, shown, joint = page.locator("#slider"), page.locator("#shown"), page.locator('#film [data-part="joint.B"]')
     slider.press("End")
     assert shown.inner_text() == "φ = 144.7°"
@@ -177,8 +162,8 @@ def test_a_drag_past_a_dead_position_says_why_it_stays_and_the_cursor_goes_to_wh
     pivot = page.locator('#film [data-part="joint.O"]').bounding_box()
     # to where the crank does not come
     ways = [(pivot["x"] - 150 - one % 2, pivot["y"] + 10) for one in range(80)]
-    carried(page, *middle(page, "A"), *ways, steps=1, up=False)
-    said = beside(page)
+    do.carried(page, *do.middle(page, "A"), *ways, steps=1, up=False)
+    said = do.beside(page)
     assert "turns back at" in said
     assert said.endswith("in line at B")
     assert "coupler, rocker" in said
@@ -192,31 +177,31 @@ def test_a_drag_past_a_dead_position_says_why_it_stays_and_the_cursor_goes_to_wh
 def test_diagrams_are_chosen_pinned_and_compared(seen):
     page = seen()
     shown = page.locator(".figures figure").count()
-    with_figure(page, "velocity_plan")
+    do.with_figure(page, "velocity_plan")
     assert page.locator(".figures figure").count() == shown + 1
     page.locator('.figures [data-name="velocity_plan"] .gone').click()
-    settled(page)
+    do.settled(page)
     assert page.locator(".figures figure").count() == shown
     page.locator("#pin").click()
-    typed(page, "crank.speed", "120 rpm")
+    do.typed(page, "crank.speed", "120 rpm")
     assert page.locator(".figures path.ghost-1").count() > 0
     assert page.locator(".figures .ghost-number").first.text_content() == "1"
     page.locator("#pins .pin-1").hover()
     assert page.locator("#pins .pin-1").get_attribute("title") == "crank.speed: 100 rpm"
     assert page.locator("#results ins", has_text="+20 %").count() > 0
     page.locator("#pins button").first.click()
-    settled(page)
-    assert field(page, "crank.speed").input_value() == "100 rpm"
+    do.settled(page)
+    assert do.field(page, "crank.speed").input_value() == "100 rpm"
     assert page.locator("#pins button").count() == 2
     # in another language too
-    typed(page, "crank.speed", "150 rpm")
+    do.typed(page, "crank.speed", "150 rpm")
     ghosts = page.locator(".figures path.ghost-1").count()
     page.select_option("#language", "ru")
     page.wait_for_function("count => document.querySelectorAll('.figures path.ghost-1').length === count", arg=ghosts)
     assert page.locator("html").get_attribute("lang") == "ru"
-    settled(page)
+    do.settled(page)
     # of another machine they say nothing
-    begin(page, "engine")
+    do.begin(page, "engine")
     assert page.locator("#pins button").count() == 0
 
 
@@ -224,8 +209,8 @@ def test_the_last_diagram_taken_away_stays_away(seen):
     page = seen()
     while page.locator(".figures figure").count():
         page.locator(".figures .gone").first.click()
-        settled(page)
-    typed(page, "crank.speed", "120 rpm")
+        do.settled(page)
+    do.typed(page, "crank.speed", "120 rpm")
     assert page.title().startswith("•")
     assert page.locator(".figures figure").count() == 0
 
@@ -280,7 +265,7 @@ WIDER = """() => [...document.querySelectorAll("html, header, #bar, main > secti
 def test_the_studio_can_be_used_by_everybody(seen, language, scheme, machines):
     page, found = seen(language=language, color_scheme=scheme), {}
     for name in machines:
-        begin(page, name)
+        do.begin(page, name)
         # what has no mechanism is not dragged
         assert page.locator(".hint").is_visible() is (name != "turning-moment")
         found[name] = rules_broken(page)
@@ -291,7 +276,7 @@ def test_the_studio_can_be_used_by_everybody(seen, language, scheme, machines):
     # the longest words of all
     page.select_option("#language", "vi")
     page.wait_for_selector("html[lang=vi]")
-    settled(page)
+    do.settled(page)
     found["vi"] = page.evaluate(WIDER)
     assert {mark: one for mark, one in found.items() if one} == {}
 
@@ -305,19 +290,19 @@ def test_what_a_machine_lacks_has_no_room(filed):
 
 def test_what_is_typed_while_an_answer_is_under_way_stays(seen):
     page = seen()
-    begin(page, "whole-engine")
-    field(page, "crank.speed").fill("5000 rpm")
-    field(page, "crank.speed").press("Enter")
-    field(page, "rod.ratio").fill("0.3")
-    field(page, "rod.ratio").press("Enter")
+    do.begin(page, "whole-engine")
+    do.field(page, "crank.speed").fill("5000 rpm")
+    do.field(page, "crank.speed").press("Enter")
+    do.field(page, "rod.ratio").fill("0.3")
+    do.field(page, "rod.ratio").press("Enter")
     page.locator("#text-tab").click()
     page.locator("#source").evaluate("one => { one.value += '# more'; one.dispatchEvent(new Event('input')); }")
     page.wait_for_function(
         "all => all.every((one) => document.getElementById('source').value.includes(one))",
         arg=['"5000 rpm"', "ratio = 0.3", "# more"],
     )
-    settled(page)
-    text = source(page)
+    do.settled(page)
+    text = do.source(page)
     assert all(one in text for one in ('"5000 rpm"', "ratio = 0.3", "# more"))
 
 
@@ -355,7 +340,7 @@ OUTSIDE = """() => [...document.querySelectorAll('.figures [data-name="links"] .
 def test_scales_hold_pinned_curves_while_a_number_is_held_and_a_zoom_stays(seen):
     page = seen()
     page.locator("#pin").click()
-    typed(page, "crank.speed", "50 rpm")
+    do.typed(page, "crank.speed", "50 rpm")
     figure = page.locator('.figures svg[data-figure="links"]')
     ghosts = figure.locator(".ghost")
     assert ghosts.count() == 6
@@ -365,20 +350,20 @@ def test_scales_hold_pinned_curves_while_a_number_is_held_and_a_zoom_stays(seen)
     zoom = figure.get_attribute("viewBox")
     held = []
     for _ in range(2):
-        prepared(page, "crank.speed")
+        do.prepared(page, "crank.speed")
         for speed in (190, 60):
             before = ghosts.first.get_attribute("d")
-            assert hold(page, "crank.speed", speed) == "false"
+            assert do.hold(page, "crank.speed", speed) == "false"
             assert page.evaluate(OUTSIDE) == 0
             assert ghosts.first.get_attribute("d") == before
             assert figure.get_attribute("viewBox") == zoom
         held.append(figure.locator("g.frame").all_inner_texts())
-        let_go(page, "crank.speed")
+        do.let_go(page, "crank.speed")
         assert page.evaluate(OUTSIDE) == 0
     assert held[0] == held[1]
     assert figure.get_attribute("viewBox") == zoom
     # the variant that is taken again is the one that was pinned
     page.locator("#pins button").first.click()
-    settled(page)
+    do.settled(page)
     assert page.locator("#results ins").count() == 0
     assert page.evaluate(OUTSIDE) == 0
