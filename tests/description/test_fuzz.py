@@ -11,10 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from crankwork.analysis import analyse
-from crankwork.description.keys import MACHINE_FILE
-from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.machine_file import read_machine, template, template_names
-from crankwork.description.schema import Table
 from crankwork.errors import CrankworkError, InputError
 from crankwork.units import UNITS
 
@@ -22,10 +19,6 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 TEMPLATES = [template(name) for name in template_names()]
 # a transient, and a table of transfer functions
 TEMPLATES += [(EXAMPLES / f"{name}.toml").read_text("utf-8") for name in ("andrews-squeezer", "press")]
-FILES = (MACHINE_FILE, LINKAGE_FILE, TRANSFER_FILE)
-HEADS = sorted({key for one in FILES for key in one.keys})
-TABLES = [entry.kind for one in FILES for entry in one.keys.values() if isinstance(entry.kind, Table)]
-KEYS = sorted({key for table in TABLES for key in table.keys} | set(HEADS))
 SET_KEYS = st.sampled_from(["rod.ratio", "crank", "gas.pieces", "x.y", "method.pi", "title"])
 SETTINGS = st.lists(st.builds("{}={}".format, SET_KEYS, st.text(max_size=20)) | st.text(max_size=20), max_size=3)
 VALUES = st.one_of(

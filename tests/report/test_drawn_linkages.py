@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import math
-import re
 
 import numpy as np
 import pytest
@@ -16,7 +15,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.mechanism.structure import structure
-from crankwork.report.drawing import drawn, moving_drawing
+from crankwork.report.drawing import moving_drawing
 from crankwork.show.moving_svg import moving_svg
 from crankwork.show.scene import Polyline, extent
 from each import for_each
@@ -172,47 +171,3 @@ def test_a_piston_with_gas_on_both_sides_has_a_rod_and_a_crosshead():
         one.points[:, 0].max() for one in film.ground.items if isinstance(one, Polyline) and one.kind == "thick"
     )
     assert head.shift[:, 0].min() + head.items[0].points[:, 0].min() > cover
-
-
-DRAWN = ("opposed-pistons", "excavator-boom", "andrews-squeezer", "knuckle-press", "double-acting-steam",
-         "press-geometry", "press-start", "parallelogram")  # fmt: skip
-
-
-@in_parts("name", ["atkinson"], DRAWN)
-def test_numbers_stand_beside_their_links(name):
-    """Those of all links are there; at most angles no other link is nearer."""
-    film = film_of_file(name)
-    found, _ = structure(results_of(name).machine.linkage)
-    numbers = {str(at): link for at, link in enumerate(found.links, start=1)}
-    texts = {one.items[0].text: one for one in film.parts if one.name.startswith("text.")}
-    assert texts.keys() >= numbers.keys()
-    for text, link in numbers.items():
-        wrong = []
-        for frame in range(0, film.frames, 4):
-            (letters,) = texts[text].at(frame if len(texts[text].shift) > 1 else 0)
-            at = np.array([letters.place[0], letters.place[1] + letters.height / 2])
-            apart = {}
-            for one in film.parts:
-                kind, _, of = one.name.partition(".")
-                if kind in ("link", "block", "crosshead", "slot"):
-                    of = of.rpartition(".")[0] if kind in ("link", "slot") else of
-                    near = min(_distance(at, item) for item in one.at(frame if len(one.shift) > 1 else 0))
-                    apart[of] = min(near, apart.get(of, math.inf))
-            own = apart.pop(link)
-            wrong.append(own > min(apart.values()) + 1.0)
-        assert np.mean(wrong) < 0.34, (text, link, np.mean(wrong))
-
-
-def _distance(at, item):
-    """Return how far a point is from the lines of an item, nothing within what is filled. [mm]"""
-    points = np.vstack([item.points, item.points[:1]]) if item.closed else item.points
-    start, way = points[:-1], np.diff(points, axis=0)
-    share = np.clip(np.sum((at - start) * way, axis=1) / np.maximum(np.sum(way**2, axis=1), 1e-12), 0, 1)
-    return float(np.hypot(*(start + share[:, None] * way - at).T).min())
-
-
-def test_the_scale_of_large_forces_is_told_in_kilonewtons():
-    results = results_of("excavator-boom")
-    told = re.search(r"= ([\d.]+) (k?N)/mm", drawn(results, "svg", "print", 1.0, forces=True).decode())
-    assert told[2] == "kN"
-    assert float(told[1]) == 10

@@ -12,6 +12,7 @@ import pytest
 
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import QUANTITIES
+from crankwork.report.drawing import moving_drawing
 from crankwork.report.linkage_look import quantity_of
 from crankwork.show.scene import Arc, Circle, Drawing, Polyline, Text, extent, pen_of, runs
 from crankwork.units import UNITS, to_si
@@ -30,11 +31,16 @@ def pictures(name: str) -> dict[str, Drawing]:
     others = FEW[: FEW.index(name)] if name != "excavator-boom" else ()
     before = {figure for other in others for figure in figures_of(other, LANGUAGE_OF.get(other, "en"))}
     found = figures_of(name, LANGUAGE_OF.get(name, "en"))
-    shown = {figure: one for figure, one in found.items() if figure not in before}
-    if results_of(name).machine.linkage is not None or results_of(name).machine.lengths is not None:
-        film = film_of_file(name)
-        shown |= {"film": film.still(0), "film later": film.still(17)}
-    return shown
+    return {figure: one for figure, one in found.items() if figure not in before} | stills(name)
+
+
+def stills(name: str) -> dict[str, Drawing]:
+    """Return two stills of the film of a machine that has one, and one with forces."""
+    results = results_of(name)
+    if results.machine.linkage is None and results.machine.lengths is None:
+        return {}
+    film, forces = film_of_file(name), moving_drawing(results, forces=True, frames=24)
+    return {"film": film.still(0), "film later": film.still(17), "forces": forces.still(5)}
 
 
 def content(drawing: Drawing) -> list[str]:
@@ -98,8 +104,8 @@ def _value(text: str) -> float:
 
 
 def in_short(name: str) -> list[str]:
-    """Return one line for each figure of a machine: the sum of its words, and that of its numbers."""
-    told = {figure: "\n".join(content(one)) for figure, one in figures_of(name).items()}
+    """Return one line for each picture of a machine: the sum of its words, and that of its numbers."""
+    told = {figure: "\n".join(content(one)) for figure, one in (figures_of(name) | stills(name)).items()}
     sums = {figure: sum(abs(_value(one)) for one in NUMBER.findall(text)) for figure, text in told.items()}
     words = {figure: zlib.crc32(NUMBER.sub("#", text).encode()) for figure, text in told.items()}
     return [f"{figure} {words[figure]:08x}: {numbers([sums[figure]])}" for figure in told]

@@ -111,14 +111,6 @@ def test_forces_per_area_change_forces_only_and_need_a_bore():
         figures(analyse(replace(machine_of("template slider-crank"), cylinder=None)), per_area=True)
 
 
-def test_the_curves_hold_the_numbers_of_the_table():
-    engine = results_of("template engine")
-    drawn = engine_drawn(engine, "en", per_area=False)
-    at = np.searchsorted(drawn.degrees, engine.grid.degrees)
-    for key in ("gas_pressure", "piston_force", "crank_torque", "radial_force"):
-        np.testing.assert_allclose(drawn.columns[key][at], engine.columns[key], rtol=1e-12, atol=1e-6)
-
-
 def test_both_sides_of_a_jump_of_pressure_are_drawn():
     drawn = engine_drawn(results_of("spark-engine", "exact"), "en", per_area=False)
     near = drawn.columns["gas_pressure"][np.abs(drawn.degrees - 360) < 1e-3]
