@@ -108,7 +108,8 @@ def test_a_mistake_is_told_with_its_fix(crankwork, name, old, new, key, advice):
 SETTINGS = {
     "gas hotter than the laws of heat reach": (
         "radial-five", ("cylinder.compression_ratio=100", "cycle.compression_exponent=3"),
-        "cycle: at the end of compression the gas has", "K, for which no heat capacities are known; lower compression_ratio",
+        "cycle: at the end of compression the gas has",
+        "K, for which no heat capacities are known; lower compression_ratio",
     ),
     "a W without bank angles": ("v8-diesel", ("engine.layout=W",), "engine.bank_angles: ", "is missing"),
     "a cylinder that its walls cool at once": (
