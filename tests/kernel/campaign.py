@@ -1,7 +1,7 @@
 """Compares compiled calculations with analyses, for machine files and for machines drawn by chance.
 
 Some numbers of each machine are varied; every single value that compiles is compared at designs between those that
-were traced. `test_campaign.py` runs a few; `python tests/kernel/campaign.py --count 1000` many.
+were traced. `test_campaign.py` runs a few; `scripts/campaign kernels --count 1000` many.
 """
 
 from __future__ import annotations
