@@ -12,9 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import crankwork
+from crankwork.locale.numbers import number
 from crankwork.note.live import packed
 from crankwork.page.document import page
-from crankwork.report.language import displayed_column
+from crankwork.report.language import displayed, displayed_column
 from page.slid import EXAMPLES
 
 # an engine, and a linkage whose crank turns as a table says
@@ -96,6 +97,34 @@ def turned_wrongly(nodes: list[dict[str, Any]], results: crankwork.Results) -> l
 def test_what_is_stored_is_what_the_tables_say_once_and_leads_to_others_of_the_page(written_of, stored) -> None:
     found = {name: stored_wrongly(stored(written_of(name, "ru")), results_of(name)) for name in NAMES}
     assert found == {"spark-engine": [], "excavator-boom": []}
+
+
+VALUE = re.compile(r'<tr><th>([^<]*)<td>(.*)<td>(?:<button data-key="?([^">]*)"?>)?([^<]*)(?:</button>)?<td>(.*)')
+FIGURE = re.compile(r'<figure id="figure-([^"]*)">.*?<figcaption>([^<]*)', re.DOTALL)
+
+
+def test_values_diagrams_and_tables_stand_in_order_under_their_names(written_of, stored) -> None:
+    text, results = written_of("spark-engine").decode(), results_of("spark-engine")
+    rows = VALUE.findall(text)
+    assert rows[:3] + rows[11:12] == [
+        ("crank radius", "<i>r</i>", "crank_radius", "52.9", "mm"),
+        ("connecting rod length", "<i>l</i>", "rod_length", "211.6", "mm"),
+        ("crank-to-rod ratio r/l", "<i>λ</i>", "rod_ratio", "0.25", ""),
+        ("rotational speed", "<i>n</i>", "rotational_speed", "2300", "rpm"),
+    ]
+    wanted = {key: number(displayed(key, value), "en") for key, value in results.summary.items()}
+    assert {key: value for *_, key, value, _ in rows} == wanted
+    figures = dict(FIGURE.findall(text))
+    assert " ".join(figures) == (
+        "kinematics brix tolle pressure indicator piston_forces rod_forces crankpin_forces torque crankpin_polar"
+    )
+    assert figures["rod_forces"] == "Force along the rod and side force"
+    assert figures["torque"] == "Crank torque of one cylinder"
+    tables = stored(text.encode())["tables"]
+    assert [one["n"] for one in tables] == [
+        "Piston motion", "First and second order", "Forces and torque", "Reduced inertia and torques"
+    ]  # fmt: skip
+    assert [one["k"] for one in tables] == [[*keys] for keys in results.tables.values()]
 
 
 @pytest.mark.slow

@@ -116,6 +116,7 @@ def test_a_curve_begins_where_its_graph_does_with_its_dot(slid):
     assert all(one.is_visible() for one in dots.all())
 
 
+@pytest.mark.slow
 def test_a_curve_is_not_taken_for_another_that_it_equals_in_the_designs_compared():
     description = crankwork.Description(crankwork.template("toggle-press"))
     one = moved(description, ["fixed_points.O[1]"], (), crankwork.analyse(description.machine()))

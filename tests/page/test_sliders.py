@@ -290,7 +290,7 @@ def test_what_cannot_be_moved_is_refused():
     [
         ("examples/excavator-boom.toml", "table.step"),
         ("examples/parallelogram.toml", "table.step"),
-        ("tests/machines/wiebe.toml", "cycle.shape"),
+        pytest.param("tests/machines/wiebe.toml", "cycle.shape", marks=pytest.mark.slow),
     ],
 )
 def test_what_moves_rows_of_tables_alone_or_no_browser_follows_is_refused(file, key):
