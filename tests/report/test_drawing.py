@@ -304,6 +304,12 @@ def test_titles_are_kept_whatever_they_hold(language):
     assert tree.findtext(f"{SVG}title").startswith('A & B <c> "d" \U0001f600: ')
 
 
+def test_names_of_parts_are_kept_whatever_they_hold():
+    mechanism = Mechanism(Crank(0.3, link='<a "b">&'), (RRP("crank_pin", "c'<", "r>", 1.0),))
+    tree = ET.fromstring(moving_svg(moving_drawing(mechanism)))  # noqa: S314 - our own text
+    assert 'link.<a "b">&.1' in {one.get("data-part") for one in tree.iter(f"{SVG}g")}
+
+
 def test_title_and_description_are_in_the_language():
     machine = replace(MACHINES["engine"], title="")
     tree = ET.fromstring(moving_svg(moving_drawing(machine, language="vi")))  # noqa: S314 - our own text
