@@ -59,8 +59,11 @@ def test_what_polynomials_do_not_follow_is_named_and_links_stand_upon_joints(sto
         "link.coupler.1": ["joint.A", "joint.B", "joint.P"],
         "link.rocker.1": ["joint.C", "joint.B"],
     }
-    labels = [one.removeprefix("joint.") for one, *_ in joints["labels"].values()]
-    assert labels == ["O", "A", "B", "P", "O", "rocker.centre", "O"]
+    assert [*joints["labels"].values()] == [
+        ["joint.O", 0.0, 12.9], ["joint.A", -4.5, -0.0], ["joint.B", 3.18, -3.18], ["joint.P", -3.18, -3.18],
+        ["joint.O", 92.71, 12.9], ["joint.rocker.centre", 3.84, -3.84], ["joint.O", 102.31, 7.2],
+    ]  # fmt: skip
+    assert [joints["scale"], *joints["origin"]] == pytest.approx([463.5355, 43.24097, 69.84587], rel=1e-5)
 
 
 def drawn(page, figure, curve):
