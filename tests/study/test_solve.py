@@ -217,18 +217,22 @@ def test_a_stroke_that_begins_and_ends_at_an_angle_makes_two_jumps():
     ]  # fmt: skip
 
 
-def test_the_value_that_a_machine_has_is_found_at_its_own_number():
+PRESENT = [
+    ("engine", "crank_torque@37deg", "crank.radius"),
+    ("engine", "indicated_power", "gas.points.z.pressure"),
+    ("four-bar", "joint_force.B@80deg", "links.coupler.mass"),
+    ("watt-six-bar", "transmission_angle_min.B", "crank.radius"),
+    ("whole-engine", "total_torque@100deg", "piston.mass"),
+    ("compressor", "piston_force_max", "cylinder.bore"),
+    ("crank-shaper", "driving_torque_max", "crank.speed"),
+    ("toggle-press", "static_torque@270deg", "links.lower.length"),
+]
+
+
+@pytest.mark.parametrize("present", [PRESENT[:4], pytest.param(PRESENT[4:], marks=pytest.mark.slow)])
+def test_the_value_that_a_machine_has_is_found_at_its_own_number(present):
     missed = {}
-    for name, key, sought in (
-        ("engine", "crank_torque@37deg", "crank.radius"),
-        ("engine", "indicated_power", "gas.points.z.pressure"),
-        ("whole-engine", "total_torque@100deg", "piston.mass"),
-        ("compressor", "piston_force_max", "cylinder.bore"),
-        ("four-bar", "joint_force.B@80deg", "links.coupler.mass"),
-        ("crank-shaper", "driving_torque_max", "crank.speed"),
-        ("toggle-press", "static_torque@270deg", "links.lower.length"),
-        ("watt-six-bar", "transmission_angle_min.B", "crank.radius"),
-    ):
+    for name, key, sought in present:
         machine = Description(crankwork.template(name))
         column, _, place = key.partition("@")
         value = crankwork.analyse(machine.machine()).value(column, float(place.removesuffix("deg")) if place else None)
