@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
 import os
-import pkgutil
 import shutil
 from collections import Counter
 from collections.abc import Generator
@@ -13,8 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import pytest
 from hypothesis import settings
 
-import crankwork
-from crankwork.formula.expression import FORMULAS, Formula
+from crankwork.formula.expression import Formula
+from rules import every_formula
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -105,11 +103,7 @@ def _without_skips(report: Report) -> Report:
 @pytest.fixture(scope="session")
 def formulas() -> dict[str, Formula]:
     """Every registered formula by name."""
-    for module in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
-        # what is compiled needs Numba, and has no formulas
-        if not module.name.endswith(("__main__", "kernel.elementary", "shaft.stepping")):
-            importlib.import_module(module.name)
-    return FORMULAS
+    return every_formula()
 
 
 @pytest.fixture(scope="session")

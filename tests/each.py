@@ -44,8 +44,9 @@ def _label(ids: Any, at: int, row: Any) -> str:
     return "" if ids is None else str(ids(row) if callable(ids) else list(ids)[at])
 
 
-def failing(members: Mapping[str, Any], check: Callable[[Any], None]) -> dict[str, str]:
+def failing(members: Mapping[str, Any], check: Callable[[Any], object]) -> dict[str, str]:
     """Return what a check says of each member that it fails for, by name."""
+    assert members, "a rule without members says nothing"
     found: dict[str, str] = {}
     for name, one in members.items():
         try:

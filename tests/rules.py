@@ -1,4 +1,4 @@
-"""One rule checked over many members, as over all formulas: every member that breaks it is told by name."""
+"""What rules of the source look at: every formula, every module as a syntax tree."""
 
 from __future__ import annotations
 
@@ -7,29 +7,12 @@ import functools
 import gc
 import importlib
 import pkgutil
-from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TypeVar
-
-import pytest
 
 import crankwork
 from crankwork.formula.expression import FORMULAS, Formula
 
-Member = TypeVar("Member")
 PACKAGE = Path(crankwork.__file__).parent
-
-
-def failing(members: Mapping[str, Member], check: Callable[[Member], object]) -> dict[str, str]:
-    """Return what is wrong with each member that does not pass a check, by name."""
-    assert members, "a rule without members says nothing"
-    wrong: dict[str, str] = {}
-    for name, member in members.items():
-        try:
-            check(member)
-        except (Exception, pytest.fail.Exception) as error:  # noqa: BLE001 - told with the name of the member
-            wrong[name] = f"{type(error).__name__}: {error}"[:600]
-    return wrong
 
 
 @functools.cache

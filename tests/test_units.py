@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 from crankwork.quantities import QUANTITIES
 from crankwork.units import EXAMPLES, UNITS, System, from_si, parse, shown_in, spellings
-from each import for_each
-from rules import failing
+from each import failing, for_each
 
 DIMENSIONS = tuple(EXAMPLES)
 

@@ -92,7 +92,7 @@ def _line(data: bytes, position: int) -> int:
 
 
 def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
-    """Write a text file, whole or not at all."""
+    """Write a text file, whole or not at all, into a folder that is made for it."""
     _check_new(Path(path), overwrite=overwrite)
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -101,13 +101,10 @@ def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
     write_files({path: text.encode("utf-8")}, overwrite=overwrite)
 
 
-def check_files(*paths: str | Path, overwrite: bool = False, save: bool = False) -> None:
-    """Raise unless files may be written, before anything is computed for them.
-
-    `save`: they may be files that were read.
-    """
+def check_files(*paths: str | Path, overwrite: bool = False) -> None:
+    """Raise unless files may be written, before anything is computed for them."""
     for path in map(Path, paths):
-        _check_new(path, overwrite=overwrite, save=save)
+        _check_new(path, overwrite=overwrite)
         try:
             if not path.parent.is_dir():
                 raise CrankworkError(Refusal("folder_absent", path=path, folder=path.parent))
@@ -117,14 +114,14 @@ def check_files(*paths: str | Path, overwrite: bool = False, save: bool = False)
             raise _unwritable(path, error) from None
 
 
-def _check_new(path: Path, *, overwrite: bool, save: bool = False) -> None:
-    """Raise if something stands where a file is to go; `save`: it may be a file that was read."""
+def _check_new(path: Path, *, overwrite: bool) -> None:
+    """Raise if something stands where a file is to go, or if it is read."""
     try:
         if path.is_dir():
             raise CrankworkError(Refusal("name_of_folder", path=path))
         if path.exists() and not path.is_file():
             raise CrankworkError(Refusal("name_of_odd", path=path))
-        if not save and path.resolve() in _inputs:
+        if path.resolve() in _inputs:
             raise CrankworkError(Refusal("place_read", path=path))
         if path.exists() and not overwrite:
             raise CrankworkError(Refusal("name_taken", path=path))
@@ -135,9 +132,10 @@ def _check_new(path: Path, *, overwrite: bool, save: bool = False) -> None:
 def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False, save: bool = False) -> None:
     """Write files into folders that are there, so that a failure leaves what was there before.
 
-    `save`: they may be files that were read; everything else may not replace its own input.
+    `save`: over whatever stands there, also what was read.
     """
-    check_files(*contents, overwrite=overwrite or save, save=save)
+    if not save:
+        check_files(*contents, overwrite=overwrite)
     path = Path(next(iter(contents), ""))
     try:
         with contextlib.ExitStack() as stack:
@@ -179,11 +177,6 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
             _move(staged, folder, contents, overwrite=overwrite)
     except (OSError, ValueError) as error:
         raise _unwritable(folder, error) from None
-
-
-def is_there(path: str | Path) -> bool:
-    """Return whether there is such a file."""
-    return Path(path).is_file()
 
 
 def kept(name: str, text: str) -> Path | None:
@@ -254,12 +247,9 @@ class StudyFolder:
         self._parts = self._folder / "parts"
         try:
             self._open(identity, resume=resume)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, CrankworkError) as error:
             self.close()
-            raise _unwritable(self._folder, error) from None
-        except CrankworkError:
-            self.close()
-            raise
+            raise error if isinstance(error, CrankworkError) else _unwritable(self._folder, error) from None
 
     def _open(self, identity: bytes, *, resume: bool) -> None:
         path = self._folder / STUDY
@@ -457,15 +447,12 @@ def _earlier(folder: Path) -> dict[str, list[str]]:
     try:
         with (folder / MANIFEST).open("rb") as stream:
             read = json.loads(stream.read(MAX_DATA_FILE))["files"]
-        return {name: [str(one) for one in hashes] for name, hashes in read.items() if _is_inside(name)}
+        inside = {name: hashes for name, hashes in read.items() if (path := PurePosixPath(name)).name
+                  and not path.is_absolute() and ".." not in path.parts}  # fmt: skip
+        return {name: [str(one) for one in hashes] for name, hashes in inside.items()}
     except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         # there is none, or somebody else's: then nothing is known to be ours
         return {}
-
-
-def _is_inside(name: str) -> bool:
-    path = PurePosixPath(name)
-    return bool(path.name) and not path.is_absolute() and ".." not in path.parts
 
 
 def _is_as_written(folder: Path, name: str, hashes: list[str]) -> bool:

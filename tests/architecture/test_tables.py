@@ -9,7 +9,8 @@ from crankwork.notation import ARGUMENTS
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.sources import sources
 from crankwork.units import UNITS
-from rules import every_formula, failing
+from each import failing
+from rules import every_formula
 
 
 def test_a_quantity_is_complete():

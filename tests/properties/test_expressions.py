@@ -29,7 +29,8 @@ from crankwork.formula.expression import (
     text,
 )
 from crankwork.quantities import LANGUAGES
-from rules import every_formula, failing
+from each import failing
+from rules import every_formula
 
 Recorded = Callable[..., Any]
 

@@ -35,7 +35,7 @@ def recent(opened: Recent | None = None) -> list[Recent]:
 
 def named(found: list[Recent]) -> list[list[str]]:
     """Return what a page shows of machines: their names, and the folders of files that are there."""
-    there = [one for one in found if one.text is not None or files.is_there(one.name)]
+    there = [one for one in found if one.text is not None or Path(one.name).is_file()]
     return [[one.name, "" if one.text is not None else str(Path(one.name).parent)] for one in there]
 
 
