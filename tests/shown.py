@@ -33,6 +33,9 @@ FEW = (
 )  # fmt: skip
 REST = tuple(name for name in EXAMPLES | TEMPLATES if name not in FEW)
 
+# one of the languages with wide letters for each of the rest
+WIDE: dict[str, Language] = {name: "ru" if at % 2 else "vi" for at, name in enumerate(REST)}
+
 
 def machine_of(name: str) -> Machine:
     """Return what a file describes, a template with its words."""
@@ -46,7 +49,7 @@ def results_of(name: str, method: str = "") -> Results:
     return analyse(machine, method=machine.method.named(method)) if method else analyse(machine)
 
 
-@functools.lru_cache(maxsize=48)
+@functools.lru_cache(maxsize=96)
 def figures_of(name: str, language: Language = "en", *, per_area: bool = False) -> dict[str, Drawing]:
     """Return the figures of a machine by their names."""
     return drawings(results_of(name), language=language, per_area=per_area)

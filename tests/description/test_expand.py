@@ -176,7 +176,9 @@ def work_per_angle(engine, machine):
     return engine.summary["engine_indicated_power"] / (machine.speed * machine.method.pi / math.pi)
 
 
-@in_parts("name", *of_kind("engine", ("v-two",), but=("whole-engine", "petrol-four", "v8-diesel")))
+@in_parts(
+    "name", *of_kind("engine", ("v-two",), but=("whole-engine", "petrol-four", "v8-diesel", "narrow-v6", "radial-five"))
+)
 def test_an_engine_of_many_cylinders_is_written_out_as_the_linkage_that_it_is(tmp_path, name):
     numbers_of_an_engine_are_those_of_its_linkage(tmp_path, FILES[name])
 

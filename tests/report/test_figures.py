@@ -22,7 +22,7 @@ from crankwork.show.alt import described
 from crankwork.show.scene import printable
 from crankwork.show.svg import svg
 from each import for_each
-from shown import FEW, REST, figures_of, in_parts, machine_of, results_of
+from shown import FEW, REST, WIDE, figures_of, in_parts, machine_of, results_of
 
 FORCES = ["piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar"]
 MOTION = ["kinematics", "brix", "tolle"]
@@ -125,8 +125,7 @@ def test_point_names_that_cannot_be_printed_become_boxes():
 
 @in_parts("name", FEW, REST)
 def test_a_figure_is_svg_and_says_in_words_what_it_shows(name):
-    language = LANGUAGES[len(name) % 3]
-    for figure, one in figures_of(name, language).items():
+    for figure, one in figures_of(name, WIDE.get(name, LANGUAGES[len(name) % 3])).items():
         words, text = described(one), svg(one).decode()
         assert words.startswith(one.title), figure
         assert re.search(r"\d", words), figure
