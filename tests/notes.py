@@ -13,7 +13,7 @@ import numpy as np
 import crankwork
 from crankwork.note.contents import note_of
 from crankwork.note.document import Block, Equation, Figure, Heading, ItemList, Note, Paragraph, Table
-from crankwork.note.equations import printed_equation
+from crankwork.note.equations import PrintedEquation, printed_equation
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets import Paper, TitleBlock, drawn_sheets
 from crankwork.note.sheets.sheet import Sheet
@@ -39,6 +39,8 @@ def results(name: str) -> crankwork.Results:
 
 _note = functools.cache(lambda name, options: note_of(results(name), options))
 _sheets = functools.cache(lambda name, *options: drawn_sheets(results(name), options[0], **dict(options[1:])))
+# the note as well, so that no other one is taken for it
+_SHOWN: dict[int, tuple[Note, list[PrintedEquation]]] = {}
 
 
 def note(name: str, language: Language = "en", **options: Any) -> Note:
@@ -94,10 +96,16 @@ def worked(one: Note) -> dict[str, float]:
     }
 
 
+def shown(one: Note) -> list[PrintedEquation]:
+    """Return the equations as they are printed, worked out once."""
+    if id(one) not in _SHOWN:
+        _SHOWN[id(one)] = one, [printed_equation(block, one.language) for block in blocks(one, Equation)]
+    return _SHOWN[id(one)][1]
+
+
 def printed(one: Note) -> list[str]:
     """Return the equations as text."""
-    found = (printed_equation(block, one.language).text for block in blocks(one, Equation))
-    return [text.replace("\u00a0", " ") for text in found]
+    return [equation.text.replace("\u00a0", " ") for equation in shown(one)]
 
 
 def words(one: Note) -> Iterator[str]:

