@@ -40,8 +40,8 @@ ENGINES = (
     "compressor template",
 )  # fmt: skip
 LINKAGES = (
-    "atkinson", "beta-stirling", "opposed-pistons", "excavator-boom", "andrews-squeezer", "parallelogram",
-    "press-start", "scotch-yoke template", "toggle-press template",
+    "atkinson", "beta-stirling", "opposed-pistons", "excavator-boom", "parallelogram",
+    "press-start", "scotch-yoke template",
     "slider-crank template: exact",
 )  # fmt: skip
 LOADS = """

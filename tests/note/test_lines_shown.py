@@ -46,7 +46,7 @@ OVER_THE_REVOLUTION = ("_angle", "_time", "_error", "_max", "_min")
 every_machine = looked_at(
     (*SOME, *WAYS, "press, central", "unsteady linkage", "heavy rotor", "I4"),
     (*VARIANTS, "long crank: textbook", "two rod ratios: series:6", *BUILT, *ENGINES),
-    (*LINKAGES, "knuckle-press", "press template", "whitworth template"),
+    (*LINKAGES, "andrews-squeezer", "press template", "whitworth template"),
 )
 
 
@@ -139,7 +139,7 @@ def without_step(case):
     return {key for key in left if not key.startswith("flywheel_inertia.") or found.summary[key]}
 
 
-@looked_at(SOME, (*WAYS, *VARIANTS, *ENGINES), (*LINKAGES, "knuckle-press", "whitworth template"))
+@looked_at(SOME, (*WAYS, *VARIANTS, *ENGINES), (*LINKAGES, "andrews-squeezer", "whitworth template"))
 def test_what_has_no_step_is_given_or_solved_for(cases):
     assert broken(without_step, cases) == {}
 

@@ -22,7 +22,7 @@ from notes import blocks, printed, tables
 
 OTHERS = (
     "spark-engine: exact", "v8-diesel", "radial-five", "narrow-v6: textbook", "two-stroke", "atkinson", "beta-stirling",
-    "opposed-pistons", "excavator-boom", "andrews-squeezer", "parallelogram", "press-start",
+    "opposed-pistons", "excavator-boom", "parallelogram", "press-start",
 )  # fmt: skip
 # what may stand flat: units after a comma, and names that the file gives; z is also the point where burning ends
 UNIT = re.compile(r"^, [^,]+$")
