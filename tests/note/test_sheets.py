@@ -246,11 +246,10 @@ def test_no_diagram_of_an_engine_is_left_small(drawn):
         assert len(inset) == 1, name
 
 
-@pytest.mark.slow
 def test_plans_say_whether_they_share_a_scale():
-    """Those of a linkage whose crank pin alone is fast, and those of one whose points all go round."""
+    """Those of a boom that starts and stops do not, those of a press do."""
     shared = {}
-    for name in ("opposed-pistons", "beta-stirling"):
+    for name in ("boom", "press-geometry"):
         for sign, figure in (("v", "velocity_plans"), ("a", "acceleration_plans")):
             said = [one.text for one in texts(sheets(name)[0].figure(figure).drawing)]
             found = {one[1] for text in said if (one := re.search(rf"/{{μ}}_{{{sign}}} = ([\d.]+)", text))}
