@@ -19,7 +19,7 @@ from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.figures import drawings
 from crankwork.report.linkage_centrodes import instant_centres
 from crankwork.report.linkage_curves import curves
-from crankwork.report.linkage_look import axis_title, math_symbol
+from crankwork.report.linkage_look import angle_ticks, axis_title, math_symbol
 from crankwork.show.paper import plain
 from crankwork.show.place import Place, placed
 from crankwork.show.scene import Polyline, extent
@@ -178,3 +178,9 @@ def test_a_curve_of_one_point_and_one_of_zeros_are_drawn():
     for drawing in (one, none):
         assert b"nan" not in svg(drawing)
         assert b"inf" not in svg(drawing)
+
+
+def test_angles_are_marked_at_round_numbers_of_at_most_a_dozen_parts():
+    steps = {12: 1, 24: 2, 60: 5, 120: 10, 180: 15, 360: 30, 720: 60, 1000: 90, 2160: 180, 4000: 360, 30000: 3600}
+    assert {span: float(np.diff(angle_ticks(0.0, span))[0]) for span in steps} == steps
+    assert angle_ticks(-95.0, 100.0).tolist() == [-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0]
