@@ -71,16 +71,13 @@ def test_the_machine_and_its_diagrams_follow_a_held_ratio_without_asking(filed, 
     assert np.array(standing[: len(ends)]) == pytest.approx(np.array(ends[: len(standing)]), abs=0.3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "figures"),
-    [
-        ("whole-engine", ["excess_work"]),
-        pytest.param("petrol-four", ["indicator", "excess_work", "crankpin_wear"], marks=pytest.mark.slow),
-        pytest.param("v8-diesel", ["indicator", "piston_forces"], marks=pytest.mark.slow),
-    ],
+    [("petrol-four", ["indicator", "excess_work", "crankpin_wear"]), ("v8-diesel", ["indicator", "piston_forces"])],
 )
 def test_curves_lie_between_those_of_machines_around(name, figures):
-    text = TEXTS.get(name) or crankwork.template(name)
+    text = TEXTS[name]
     found = Studio("en").answer({"do": "ahead", "text": text, "key": "rod.ratio", "figures": figures})["ahead"]
     assert not set(figures) & set(found["behind"])
     values = np.array(found["values"])
