@@ -10,16 +10,10 @@ import ast
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 TESTS = Path(__file__).parents[1]
 MARK = "elsewhere"
-
-
-def _names(tree: ast.AST) -> set[str]:
-    """Return the names that something uses; fixtures are arguments."""
-    return {one.id for one in ast.walk(tree) if isinstance(one, ast.Name)} | {
-        one.arg for one in ast.walk(tree) if isinstance(one, ast.arg)
-    }
 
 
 def _definitions(module: ast.Module) -> dict[str, list[ast.stmt]]:
@@ -37,21 +31,37 @@ def _definitions(module: ast.Module) -> dict[str, list[ast.stmt]]:
     return found
 
 
-def _numbers(function: ast.AST, definitions: Mapping[str, list[ast.stmt]]) -> int:
-    used, waiting = [function], _names(function)
-    seen = set()
+class _Definition(NamedTuple):
+    """What a definition uses, and how many numbers are written in it."""
+
+    names: frozenset[str]
+    numbers: int
+
+    @classmethod
+    def of(cls, tree: ast.AST) -> _Definition:
+        names, numbers = set(), 0
+        for one in ast.walk(tree):
+            if isinstance(one, ast.Name):
+                names.add(one.id)
+            elif isinstance(one, ast.arg):  # a fixture
+                names.add(one.arg)
+            elif isinstance(one, ast.Constant) and type(one.value) in (int, float):
+                numbers += 1
+        return cls(frozenset(names), numbers)
+
+
+def _numbers(function: ast.AST, definitions: Mapping[str, list[_Definition]]) -> int:
+    own = _Definition.of(function)
+    used, waiting, seen = {id(own): own}, set(own.names), set[str]()
     while waiting:
         name = waiting.pop()
         if name in seen or name.startswith("test_"):
             continue
         seen.add(name)
         for one in definitions.get(name, ()):
-            used.append(one)
-            waiting |= _names(one)
-    once = {id(one): one for one in used}.values()
-    return sum(
-        isinstance(one, ast.Constant) and type(one.value) in (int, float) for tree in once for one in ast.walk(tree)
-    )
+            used[id(one)] = one
+            waiting |= one.names
+    return sum(one.numbers for one in used.values())
 
 
 def _is_marked(decorators: list[ast.expr]) -> bool:
@@ -62,8 +72,10 @@ def counted(tests: Path) -> Iterator[tuple[str, int]]:
     """Yield test functions marked `elsewhere`, and how many numbers they have."""
     for path in sorted(tests.rglob("test_*.py")):
         module = ast.parse(path.read_bytes())
-        definitions = _definitions(module)
-        marks = definitions.get("pytestmark", [])
+        statements = _definitions(module)
+        described = {id(one): _Definition.of(one) for several in statements.values() for one in several}
+        definitions = {name: [described[id(one)] for one in several] for name, several in statements.items()}
+        marks = statements.get("pytestmark", [])
         # the conftest of literature marks all of it
         all_marked = path.parent.name == "literature" or any(MARK in ast.unparse(one) for one in marks)
         where = path.relative_to(tests).as_posix()
