@@ -49,9 +49,13 @@ def results_of(name: str, method: str = "") -> Results:
     return analyse(machine, method=machine.method.named(method)) if method else analyse(machine)
 
 
-@functools.lru_cache(maxsize=96)
-def figures_of(name: str, language: Language = "en", *, per_area: bool = False) -> dict[str, Drawing]:
-    """Return the figures of a machine by their names."""
+def figures_of(name: str, language: Language | None = None, *, per_area: bool = False) -> dict[str, Drawing]:
+    """Return the figures of a machine by their names; those of the rest are in a language of their own."""
+    return _figures_of(name, language or WIDE.get(name, "en"), per_area=per_area)
+
+
+@functools.lru_cache(maxsize=64)
+def _figures_of(name: str, language: Language, *, per_area: bool) -> dict[str, Drawing]:
     return drawings(results_of(name), language=language, per_area=per_area)
 
 

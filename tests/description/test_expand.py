@@ -255,7 +255,7 @@ def test_a_mistake_is_told_before_anything_is_written_out(tmp_path):
 @pytest.mark.slow
 def test_random_files_stand_for_themselves(tmp_path):
     seen = 0
-    for number in range(30):
+    for number in range(20):
         text = plausible_file(7, number).text
         path = written(tmp_path, text)
         try:
@@ -270,7 +270,7 @@ def test_random_files_stand_for_themselves(tmp_path):
         else:
             assert read(again).speed == pytest.approx(machine.speed, rel=1e-12)
         seen += not math.isnan(machine.speed)
-    assert seen > 10
+    assert seen > 6
 
 
 def test_measured_pressure_is_that_of_a_chamber(tmp_path):

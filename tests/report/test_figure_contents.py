@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from crankwork.locale.numbers import unit_name
-from crankwork.quantities import QUANTITIES
+from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.linkage_look import quantity_of
 from crankwork.show.scene import Arc, Circle, Drawing, Polyline, Text, extent, pen_of, runs
@@ -22,7 +22,7 @@ from shown import FEW, REST, figures_of, film_of_file, in_parts, results_of
 # written anew by this module when it is run as a program: what has changed is for a reader to judge
 STORED = Path(__file__).with_name("figures.txt")
 LANGUAGE_OF = {"atkinson": "ru", "excavator-boom": "vi", "punching-machine": "ru", "press": "vi"}
-UNIT_OF = {unit_name(unit, "en"): unit for unit in UNITS}
+UNIT_OF = {unit_name(unit, language): unit for unit in UNITS for language in LANGUAGES}
 NUMBER = re.compile(r"−?\d+(?:[.,]\d+)?(?:e[−+]\d+)?")
 
 
@@ -151,7 +151,7 @@ def test_a_legend_has_the_line_of_the_curve_that_it_names(name):
             for key in plot.curves if rows else ():
                 pens = {one.kind for one in drawing.items if isinstance(one, Polyline) and one.name == key}
                 if key.partition(".")[0] in QUANTITIES and pens:
-                    named = quantity_of(key).label("en")
+                    named = quantity_of(key).label(drawing.language)
                     is_told = any(named in text for kind, text in rows if kind in pens)
                     wrong += [] if is_told else [(figure, key, rows)]
     assert wrong == []

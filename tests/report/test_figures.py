@@ -22,7 +22,7 @@ from crankwork.show.alt import described
 from crankwork.show.scene import printable
 from crankwork.show.svg import svg
 from each import for_each
-from shown import FEW, REST, WIDE, figures_of, in_parts, machine_of, results_of
+from shown import FEW, REST, figures_of, in_parts, machine_of, results_of
 
 FORCES = ["piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar"]
 MOTION = ["kinematics", "brix", "tolle"]
@@ -125,7 +125,7 @@ def test_point_names_that_cannot_be_printed_become_boxes():
 
 @in_parts("name", FEW, REST)
 def test_a_figure_is_svg_and_says_in_words_what_it_shows(name):
-    for figure, one in figures_of(name, WIDE.get(name, LANGUAGES[len(name) % 3])).items():
+    for figure, one in figures_of(name).items():
         words, text = described(one), svg(one).decode()
         assert words.startswith(one.title), figure
         assert re.search(r"\d", words), figure
@@ -155,4 +155,4 @@ def test_forces_of_many_newtons_are_shown_in_kilonewtons_alone_and_small_ones_in
     assert "kN" in shown
     assert "0000<" not in shown
     assert sheets(results_of("petrol-four"))["forces"].units["piston_force"] == "N"
-    assert "kN" not in svg(figures_of("template slider-crank")["piston_forces"]).decode()
+    assert "kN" not in svg(figures_of("template slider-crank", "en")["piston_forces"]).decode()

@@ -200,7 +200,7 @@ def test_the_lever_gives_the_balancing_torque_of_the_joint_forces(name):
 @in_parts("name", *LEVERS)
 def test_forces_and_arms_on_the_lever_balance_on_paper(name):
     """Arms measured from the pole to the lines of the forces, times the forces as told, are the torque."""
-    results, one = results_of(name), figures_of(name)["zhukovsky_lever"]
+    results, one = results_of(name), figures_of(name, "en")["zhukovsky_lever"]
     said = [item.text.replace("\xa0", " ") for item in one.items if isinstance(item, SceneText)]
     scale = float(next(re.search(r"= ([\d.]+) ", text)[1] for text in said if "/{μ}_{v} =" in text))
     rows = [text for text in said if ", /{h}_" in text or ", /{p" in text or ", /{ω}_" in text]
