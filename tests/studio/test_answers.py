@@ -266,7 +266,10 @@ def test_files_that_a_text_names_are_read_only_where_that_is_allowed():
         ("four-bar", "crank.radius", ["links", "position_plans", "velocity_plan"], ["velocity_plan"], False),
         ("engine", "rod.length", ["kinematics", "pressure", "tolle"], ["tolle"], True),
         ("slider-crank", "crank.speed", ["kinematics"], [], False),
-        ("stephenson-six-bar", "links.coupler.length", ["points", "position_plans"], [], False),
+        pytest.param(
+            "stephenson-six-bar", "links.coupler.length", ["points", "position_plans"], [], False,
+            marks=pytest.mark.slow,
+        ),
         ("engine", "rod.length", ["indicator"], [], True),
         pytest.param("petrol-four", "piston.mass", ["piston_forces"], [], False, marks=pytest.mark.slow),
         pytest.param(
