@@ -92,8 +92,9 @@ def test_every_formula_is_an_equation_of_word(steps):
     assert len(body.findall(f"{WORD}tbl")) == len(steps)
     assert all("0,1234" in _words(one) for one in body.findall(f"{WORD}tbl"))
     # lines are divided sooner than in the PDF
-    lines = sum(len(printed_equation(Equation(one), "ru").lines) for one in steps)
-    assert len(list(body.iter(f"{MATH}oMathPara"))) > 1.1 * lines
+    lines = sum(len(printed_equation(Equation(one), "ru").lines) for one in steps[::4])
+    parts = [len(list(one.iter(f"{MATH}oMathPara"))) for one in body.findall(f"{WORD}tbl")]
+    assert sum(parts[::4]) > 1.1 * lines
 
 
 def test_a_wide_table_turns_its_page_wherever_it_stands():
