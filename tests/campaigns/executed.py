@@ -32,6 +32,8 @@ class Recorder:
         self.found: dict[str, Any] = {}
         self.seconds: dict[str, float] = {}
         self.of_fixture: dict[Any, Any] = {}
+        # how often numbers were taken, so that a cached function counts once in between
+        self.taken = 0
         name = folder / f"bytes-{os.getpid()}"
         name.write_bytes(bytes(SIZE))
         os.environ[BYTES], os.environ[INDEX] = str(name), str(self.index)
@@ -43,6 +45,7 @@ class Recorder:
         """Return the numbers of blocks executed since the last call."""
         numbers = np.flatnonzero(self.view)
         self.view[numbers] = 0
+        self.taken += 1
         return numbers
 
     def count(self, numbers: Any) -> None:
@@ -61,18 +64,23 @@ class Recorder:
             if not _is_ours(function):
                 return kept
             executed: dict[Any, Any] = {}
+            counted: dict[Any, int] = {}
 
             @functools.wraps(function)
             def called(*arguments: Any, **named: Any) -> Any:
-                key = (arguments, tuple(named.items()))
-                misses, before = kept.cache_info().misses, self.take()
+                key = (arguments, tuple(named.items())) if named else arguments
+                if key in executed:
+                    if counted.get(key) != self.taken:
+                        self.count(executed[key])
+                        counted[key] = self.taken
+                    return kept(*arguments, **named)
+                before = self.take()
                 try:
                     return kept(*arguments, **named)
                 finally:
-                    if kept.cache_info().misses > misses:
-                        executed[key] = self.take()
+                    executed[key] = self.take()
                     self.count(before)
-                    self.count(executed.get(key, _NONE))
+                    self.count(executed[key])
 
             called.cache_info, called.cache_clear = kept.cache_info, kept.cache_clear  # type: ignore[attr-defined]
             return called

@@ -1,6 +1,6 @@
 """Reads and analyses machine files by the thousand, hostile ones or plausible ones, and counts how they end.
 
-`scripts/hostile` runs many of them, `test_campaign.py` a few.
+`scripts/campaign hostile` and `plausible` run many of them, `test_campaign.py` a few.
 """
 
 from __future__ import annotations
