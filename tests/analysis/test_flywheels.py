@@ -22,6 +22,7 @@ def found_inertia(results: Results) -> float:
     return results.summary.get("flywheel_inertia.exact") or results["flywheel_inertia"]
 
 
+@pytest.mark.slow
 def test_a_flywheel_is_given_back() -> None:
     """By its inertia, by mass and radius of gyration, by its rim, and by two speeds."""
     rim = {"stress": "2 MPa", "density": "7200 kg/m3", "ratio": 2, "share": 0.9}

@@ -128,6 +128,7 @@ def test_an_overhung_guide_jams_where_it_is_shorter_than_twice_the_overhang_time
     assert free == []
 
 
+@pytest.mark.slow
 def test_the_couple_of_friction_beside_a_pin_turns_the_link_that_carries_the_guide_too() -> None:
     text = (ROOT / "tests/machines/guide-on-rocker.toml").read_text("utf-8")
     block = 'block = { points = { D = ["12 mm", "-25 mm"] }, centre = "D", guide = "arm", mass = "0.8 kg" }'
@@ -162,6 +163,7 @@ IDLE = """
 """
 
 
+@pytest.mark.slow
 def test_links_that_carry_nothing_are_balanced_by_nothing() -> None:
     """Their forces are rounding, of which no share is too large."""
     results = crankwork.analyse(crankwork.read_machine(IDLE))

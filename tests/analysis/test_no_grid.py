@@ -19,6 +19,7 @@ FEW = {
 OTHERS = {path.stem for path in EXAMPLES.glob("*.toml")} | set(template_names())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", [FEW, pytest.param(OTHERS - FEW, marks=pytest.mark.slow)], ids=["few", "others"])
 def test_single_values_are_the_same_from_tables_of_1_7_and_30_degrees(names):
     wrong = {}

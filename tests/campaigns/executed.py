@@ -43,7 +43,8 @@ class Recorder:
 
     def take(self) -> Any:
         """Return the numbers of blocks executed since the last call."""
-        numbers = np.flatnonzero(self.view)
+        # of a copy, because a program that a test started may still write
+        numbers = np.flatnonzero(self.view.copy())
         self.view[numbers] = 0
         self.taken += 1
         return numbers

@@ -22,6 +22,7 @@ def _load(size, direction):
     return turned_by(BearingLoad(size, 0 * size), direction)
 
 
+@pytest.mark.slow
 @given(size=SIZES, direction=DIRECTIONS, rays=RAYS)
 def test_every_force_is_on_as_many_rays_as_its_arc_covers(size, direction, rays):
     """120 degrees hold 4 of 12 rays, 8 of 24, 12 of 36."""

@@ -36,6 +36,7 @@ STUDY_FILES = [
 ]
 
 
+@pytest.mark.slow
 def test_the_schema_is_a_json_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     jsonschema.Draft202012Validator.check_schema(STUDIES)

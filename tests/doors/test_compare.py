@@ -57,6 +57,7 @@ def test_another_file_is_put_beside_as_it_is_and_may_have_any_name(crankwork, ma
     assert "my_2 less my_1" in crankwork(*asked, "other/my.toml").out
 
 
+@pytest.mark.slow
 def test_in_every_language_and_in_a_note(crankwork, machine_file):
     name = machine_file()
     headings = {"ru": "Сравнение методов", "vi": "So sánh các phương pháp", "en": "Comparison of methods"}

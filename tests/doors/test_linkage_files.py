@@ -8,6 +8,8 @@ import zipfile
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+import pytest
+
 import crankwork as package
 from crankwork.description.machine_file import read_machine, template
 
@@ -46,6 +48,7 @@ def test_tables_and_summary_have_zero_where_only_rounding_is_left(crankwork) -> 
         assert {row[heading.index(key)] for row in rows} == {"0.0"}, key
 
 
+@pytest.mark.slow
 def test_any_name_comes_back_in_the_tables_and_the_workbook(crankwork, machine_file) -> None:
     failures = {}
     for joint in ("Điểm 👩‍🔧", "a.b", 'say ""B""', "x,y;z", "<b>&amp;"):
@@ -88,6 +91,7 @@ leg = { joins = ["D", "F"] }
 """
 
 
+@pytest.mark.slow
 def test_a_group_of_class_iii_follows_from_positions_alone(crankwork, machine_file) -> None:
     name = machine_file(text=CLASS_III)
     checked = crankwork("check", name)

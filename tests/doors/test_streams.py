@@ -42,6 +42,7 @@ def test_streams_that_close_or_are_full_are_no_traceback(shell) -> None:
     assert shell("crankwork run my.toml > /dev/full") == (2, "", told)
 
 
+@pytest.mark.slow
 def test_a_locale_without_unicode_prints_all_the_same(shell, crankwork) -> None:
     expected = crankwork("run", "my.toml", "--lang", "vi").out
     for variables in (

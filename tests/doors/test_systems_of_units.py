@@ -60,6 +60,7 @@ def test_summary_json_and_explanation_speak_one_system() -> None:
     assert "lbf" in told
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "languages"),
     [("engine", ["ru"]), ("press", ["vi"]), pytest.param("crank-shaper", ["en", "ru"], marks=pytest.mark.slow)],

@@ -68,6 +68,7 @@ def test_barrel_and_rod_are_in_equilibrium_as_two_bodies(heavy):
     assert own + moment == pytest.approx(3 * turning, abs=1e-4 * np.max(np.abs(driver)))
 
 
+@pytest.mark.slow
 @for_each("ends", ['["F", "G"]', '["G", "F"]'])
 @for_each("parts", [(BARREL, ROD), (BARREL,), (ROD,)])
 def test_more_routes_agree_whichever_end_has_the_barrel(ends, parts):

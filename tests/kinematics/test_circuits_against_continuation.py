@@ -127,7 +127,9 @@ def _apart(path, angles):
     return float(np.linalg.norm(gaps, axis=1).min())
 
 
-@pytest.mark.parametrize("number", range(40))
+@pytest.mark.parametrize(
+    "number", [pytest.param(one, marks=[pytest.mark.slow] if one % 4 else []) for one in range(40)]
+)
 def test_circuits_and_limits_are_those_of_another_continuation(number):
     random = np.random.default_rng(number)
     mechanism, loops, second = _random(random)

@@ -27,6 +27,7 @@ def solved(mechanism):
     return replace(mechanism, dyads=tuple(as_chain(dyad, start, 0.0) for dyad in mechanism.dyads))
 
 
+@pytest.mark.slow
 @for_each("makes", [lambda one: one, solved], ids=["as dyads", "as chains"])
 def test_the_memory_replayed_is_the_motion(linkages, makes):
     missed = {name: not_alike(*remembered(makes(one), GRID), rel=1e-14, abs=1e-14) for name, one in linkages.items()}

@@ -61,6 +61,7 @@ def test_who_expects_the_right_value_notices_and_who_does_not_survives() -> None
         assert CAMPAIGN["tried"](mutant, [witness(1e-4)]).witness == "it"
 
 
+@pytest.mark.slow
 def test_processes_answer_in_any_order_and_a_hang_is_told() -> None:
     def hang() -> None:
         while True:

@@ -53,6 +53,7 @@ def notes(request) -> dict[str, Note]:
     return {f"{name}-{one}": note(name, one, figures=one == "ru") for name, one in chosen}
 
 
+@pytest.mark.slow
 def test_equations_give_the_values_of_the_results(notes):
     def check(one):
         for step in (block.step for block in blocks(one, Equation)):
@@ -65,6 +66,7 @@ def test_equations_give_the_values_of_the_results(notes):
     assert failing(notes, check) == {}
 
 
+@pytest.mark.slow
 def test_every_single_value_with_a_line_is_worked(notes, groups_of):
     def check(one):
         said = {(block.step.key.partition(".")[0], block.step.value) for block in blocks(one, Equation)}
@@ -108,6 +110,7 @@ def test_notes_speak_one_language(notes):
     assert failing(notes, check) == {}
 
 
+@pytest.mark.slow
 def test_no_equation_says_a_number_or_a_function_twice(notes):
     def check(one):
         for equation in shown(one):

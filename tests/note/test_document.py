@@ -107,6 +107,7 @@ def test_an_equation_goes_from_symbols_to_numbers_to_the_unit_of_the_tables():
     assert printed_equation(Equation(FORMULAS["rod_transfer_1"]), "en").text == "β′ = λ·cos φ/cos β"
 
 
+@pytest.mark.slow
 def test_lines_are_not_wider_than_the_text(steps):
     """A fraction cannot be divided; everything else can."""
     for step in steps:

@@ -20,6 +20,7 @@ CRANKLESS = ("boom", "driven-slider", "elbow", "cylinder-between-links")
 LIGHT, OTHERS = ("boom",), ("elbow", "driven-slider", "crank-by-table", "cylinder-between-links", "gas-by-law")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", [LIGHT, pytest.param(OTHERS, marks=pytest.mark.slow)], ids=["light", "others"])
 def test_what_a_driver_moves_runs_over_time(names):
     """Figures, sheets and the moving drawing have the time, and say nothing of a crank where no crank drives."""

@@ -47,6 +47,7 @@ def wrong_at(name, *angles):
     return wrong
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("cases", "angles"),
     [(SOME, (17.3, 355.5)), pytest.param(OTHERS, (200.0,), marks=pytest.mark.slow)],

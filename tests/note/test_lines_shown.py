@@ -92,6 +92,7 @@ def wrong_values(case):
     return [key for key, right in compared if not right]
 
 
+@pytest.mark.slow
 @every_machine
 def test_a_step_is_its_formula_at_its_values_and_the_value_of_the_results(cases):
     assert broken(wrong_values, cases) == {}

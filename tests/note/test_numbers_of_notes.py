@@ -10,6 +10,7 @@ from dataclasses import replace
 from itertools import chain
 
 import numpy as np
+import pytest
 
 from crankwork.analysis import Results
 from crankwork.analysis.whole_engine import as_engine
@@ -186,6 +187,7 @@ def not_held_in_equations(case: str) -> set[str]:
     return not_held(as_engine(results(case)), note(case))
 
 
+@pytest.mark.slow
 @every_machine
 def test_a_printed_number_is_one_that_the_analysis_holds(cases):
     assert broken(not_held_in_equations, cases) == {}

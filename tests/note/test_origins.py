@@ -85,6 +85,7 @@ def misstated(case: str) -> list[str]:
     return wrong
 
 
+@pytest.mark.slow
 @looked_at(SOME, OTHERS)
 def test_a_given_value_is_what_the_file_states(cases):
     assert broken(misstated, cases) == {}

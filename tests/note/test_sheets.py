@@ -60,6 +60,7 @@ def zero(plot, axis):
 # --- what is measured
 
 
+@pytest.mark.slow
 def test_pressure_measured_on_the_sheet_is_the_pressure():
     """The note of the example prints 5.083 MPa at 365 and 370 degrees and 2.42322 MPa at 360."""
     sheet = sheets("spark-engine", "ru")[0]
@@ -190,6 +191,7 @@ def clashes(found):
             if overlap(boxes[i], boxes[j], 0.3)]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_everything_has_room(drawn):
     """Texts of the standard heights; in wider letters too none leaves the frame, meets another or a line."""
     for name, found in drawn.items():

@@ -94,6 +94,7 @@ def test_files_are_the_same_bytes_every_time():
     assert [write for write in (svg, pdf, dxf) if write(sheet("press").drawing) != write(sheet("press").drawing)] == []
 
 
+@pytest.mark.slow
 @for_each("kind", KINDS)
 def test_dxf_says_the_same_when_read_again(kind):
     one, document = sheet(kind), reread(kind)

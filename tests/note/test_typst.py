@@ -47,6 +47,7 @@ def test_text_comes_out_as_it_went_in(sample_pdf, hostile, language):
     assert [one for one in ("87.9146", "8.11133", "0.2045") if one.replace(".", mark) not in shown] == []
 
 
+@pytest.mark.slow
 def test_every_formula_compiles_with_symbols_and_with_numbers(formulas, steps):
     assert pdf(Note("t", "ru", (*map(Equation, steps), *map(Equation, formulas.values()))))
 

@@ -87,6 +87,7 @@ def test_a_symbol_in_a_cell_is_an_equation():
     assert (_words(cell), len(list(cell.iter(f"{MATH}sSub")))) == ("Vh", 1)
 
 
+@pytest.mark.slow
 def test_every_formula_is_an_equation_of_word(steps):
     body = _opened(Note("t", "ru", tuple(map(Equation, steps)))).element.body
     assert len(body.findall(f"{WORD}tbl")) == len(steps)

@@ -96,6 +96,7 @@ c = { stroke = 0.0, pressure = "0.8 MPa" }
 """
 
 
+@pytest.mark.slow
 def test_names_are_printed_as_they_are_written():
     """Signs that mark an index, an exponent or slanted letters in our texts mark nothing in names of users."""
     results = analyse(read_machine(NAMED))

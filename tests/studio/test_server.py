@@ -101,6 +101,7 @@ def test_the_page_may_run_no_text_as_script_and_ask_nobody(started):
     assert started.token not in headers["location"]
 
 
+@pytest.mark.slow
 def test_messages_without_sense_end_a_talk_and_nothing_else(started):
     chance = random.Random(5)  # noqa: S311 - nothing is secret
     for _ in range(400):

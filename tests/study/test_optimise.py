@@ -133,6 +133,7 @@ def test_what_cannot_be_asked_is_refused():
     assert wrong == []
 
 
+@pytest.mark.slow
 def test_limits_that_contradict_each_other_are_told_with_what_comes_nearest():
     with pytest.raises(CrankworkError, match=r"where they are missed least, .* is wanted") as told:
         of(SLIDER_CRANK, "piston_acceleration_max", SIZES, limits=["stroke >= 90 mm", "stroke <= 60 mm"])

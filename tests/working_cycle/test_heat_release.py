@@ -245,6 +245,7 @@ def test_the_ideal_gas_law_holds_along_the_trace():
 # --- the diagram
 
 
+@pytest.mark.slow
 @OFFSETS
 @for_each("data", [ENGINE, TWO_STROKE], ids=["four strokes", "two strokes"])
 def test_the_diagram_is_closed_and_without_gaps_or_steps(data, offset):
@@ -326,6 +327,7 @@ def test_the_pressure_at_any_angle_is_followed_to_the_heat():
     assert {"fuel_heat", "burning_shape", "residual_pressure"} <= {one.key for one in in_order([pressure])}
 
 
+@pytest.mark.slow
 @for_each(
     ("changes", "code"),
     [
