@@ -10,6 +10,7 @@ balance of forces at 40 digits.
 The dead band and the jamming guide are closed forms, worked out here.
 """
 
+import functools
 import math
 
 import mpmath
@@ -186,7 +187,10 @@ class TestDeadBand:
     """
 
     r, length, radii, f = 0.1, 0.3, {"O": 0.03, "A": 0.025, "B": 0.02}, 0.12
-    results = analysed("""
+
+    @functools.cached_property
+    def results(self):
+        return analysed("""
         fixed_points.O = ["0 mm", "0 mm"]
         crank = { pivot = "O", pin = "A", radius = "100 mm", speed = "60 rpm" }
         links.rod = { joins = ["A", "B"], length = "300 mm" }
