@@ -12,11 +12,20 @@ export class Editor {
     /** @type {Set<number>} */
     this.refused = new Set();
     let timer = 0;
+    const ended = () => {
+      if (timer) typed(source.value, true);
+      timer = 0;
+    };
     source.addEventListener("input", () => {
       this.number();
       typed(source.value, false);
       clearTimeout(timer);
-      timer = window.setTimeout(() => typed(source.value, true), 800);
+      timer = window.setTimeout(ended, 800);
+    });
+    // whatever is clicked next is a gesture of its own
+    source.addEventListener("blur", () => {
+      clearTimeout(timer);
+      ended();
     });
     source.addEventListener("scroll", () => (lines.scrollTop = source.scrollTop));
   }
