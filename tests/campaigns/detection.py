@@ -23,13 +23,11 @@ from typing import Any, NamedTuple
 
 from campaigns.executed import parts
 from campaigns.faults import TEXT, Fault, drawn
-from campaigns.faulty import in_turn
+from campaigns.faulty import PATIENCE, in_turn
 from campaigns.marked import ROOT, SOURCE
 
 CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "crankwork"
 WORKERS = os.cpu_count() or 1
-# of tests that may find a fault outside functions those are tried first that take this long together [s]
-AT_FIRST = 30.0
 EQUIVALENT = Path(__file__).parent / "equivalent.toml"
 
 
@@ -101,101 +99,84 @@ class Campaign:
     """Faults, the tests that may find each, and what was found so far."""
 
     def __init__(self, folder: Path, faults: Sequence[Fault], known: Map, tests: str | None) -> None:
-        self.folder, self.faults, self.known, self.tests = folder, faults, known, tests
+        self.folder, self.faults, self.known = folder, faults, known
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.out = folder / "found.jsonl"
         self.copies = [copy_of(folder / f"copy-{number}", tests) for number in range(WORKERS)]
 
-    def found(self) -> dict[tuple[str, str, bool], dict[str, Any]]:
-        """Return what was found, by fault, part of the tests and way."""
-        if not self.out.exists():
-            return {}
-        lines = [json.loads(line) for line in self.out.read_text("utf-8").splitlines()]
-        return {(line["fault"], line["part"], line["fresh"]): line for line in lines}
+    def found(self) -> list[dict[str, Any]]:
+        """Return what was found so far, with the part of the tests after which its file is named."""
+        return [
+            json.loads(line) | {"part": path.stem.partition("-")[0]}
+            for path in sorted(self.folder.glob("*.jsonl"))
+            for line in path.read_text("utf-8").splitlines()
+        ]
 
-    def keep(self, part: str, out: Path) -> None:
-        """Keep what a process found."""
-        if out.exists():
-            with self.out.open("a", encoding="utf-8") as stream:
-                for line in out.read_text("utf-8").splitlines():
-                    stream.write(json.dumps(json.loads(line) | {"part": part}) + "\n")
-            out.unlink()
+    def by(self) -> dict[str, str]:
+        """Return the part of the tests that finds each fault which is found."""
+        return {line["fault"]: line["part"] for line in reversed(self.found()) if line["by"] is not None}
+
+    def out(self, part: str) -> Path:
+        """Return a new file for what is found on a part of the tests."""
+        return self.folder / f"{part}-{len(list(self.folder.glob('*.jsonl'))):05d}.jsonl"
 
     def try_part(self, part: str, allowed: set[str]) -> None:
         """Try the faults that the parts before did not find on the tests of a part."""
-        found = self.found()
-        open_ones = [
-            one for one in self.faults
-            if (one.name, part, False) not in found and not self.by(one, found)
-        ]  # fmt: skip
-        asked = {one.name: [name for name in self.known.of(one) if name in allowed] for one in open_ones}
-        outs = [place / "out" for place in self.copies]
-        for out in outs:
-            self.keep(part, out)
-        running = [
-            run(place, [(one, asked[one.name]) for one in open_ones[at::WORKERS]], outs[at], fresh=False)
-            for at, place in enumerate(self.copies) if open_ones[at::WORKERS]
-        ]  # fmt: skip
+        by, done = self.by(), {line["fault"] for line in self.found() if line["part"] == part}
+        waiting = [one for one in self.faults if one.name not in by and one.name not in done]
+        asked = {one.name: [name for name in self.known.of(one) if name in allowed] for one in self.faults}
+        running = []
+        for at, place in enumerate(self.copies):
+            if mine := waiting[at::WORKERS]:
+                out = self.out(part)
+                out.touch()
+                running.append(run(place, [(one, asked[one.name]) for one in mine], out, fresh=False))
         if sum(process.wait() for process in running):
             raise SystemExit(f"the tests did not run; see {self.copies[0] / 'log'}")
-        for out in outs:
-            self.keep(part, out)
-        found = self.found()
-        waiting = [
-            one for one in self.faults
-            if (one.name, part, True) not in found and not self.by(one, found)
-        ]  # fmt: skip
-        self._try_fresh(part, waiting, {one.name: [n for n in self.known.of(one) if n in allowed] for one in waiting})
+        by, tried = self.by(), [line for line in self.found() if line["part"] == part]
+        outside = {line["fault"] for line in tried if line.get("outside")} - {
+            line["fault"] for line in tried if line["fresh"]
+        }
+        self._try_fresh(part, [one for one in self.faults if one.name in outside and one.name not in by], asked)
+
+    def verify(self) -> None:
+        """Try what nothing found once more on all tests, in processes that begin with the changed file."""
+        by, done = self.by(), {line["fault"] for line in self.found() if line["part"] == "rest" and line["fresh"]}
+        waiting = [one for one in self.faults if one.name not in by and one.name not in done]
+        self._try_fresh("rest", waiting, {one.name: self.known.of(one) for one in waiting})
 
     def _try_fresh(self, part: str, waiting: Sequence[Fault], asked: Mapping[str, Sequence[str]]) -> None:
         """Try faults in processes that begin with the changed file, as many at once as there are copies."""
-        tasks = list(waiting)
-        running: dict[int, tuple[subprocess.Popen[bytes], Fault, bytes, bool]] = {}
-        free = list(range(WORKERS))
-        second: list[Fault] = []
-        while tasks or running or second:
-            while free and (tasks or second):
-                is_first = bool(tasks)
-                fault = tasks.pop(0) if tasks else second.pop(0)
-                at = free.pop()
+        tasks = [(one, self._at_first(one, asked[one.name])) for one in waiting]
+        running: dict[int, tuple[subprocess.Popen[bytes], Fault, bytes, Path]] = {}
+        while tasks or running:
+            for at in set(range(WORKERS)) - running.keys():
+                if not tasks:
+                    break
+                fault, names = tasks.pop(0)
                 path = self.copies[at] / "src/crankwork" / fault.file
                 before = path.read_bytes()
                 path.write_bytes(fault.put_into(before))
-                names = self._at_first(fault, asked[fault.name], is_first=is_first)
-                process = run(self.copies[at], [(fault, names)], self.copies[at] / "out", fresh=True)
-                running[at] = process, fault, before, is_first
+                out = self.out(part)
+                out.touch()
+                running[at] = run(self.copies[at], [(fault, names)], out, fresh=True), fault, before, out
             pid, _ = os.waitpid(-1, 0)
             at = next(number for number, (process, *_) in running.items() if process.pid == pid)
-            _, fault, before, is_first = running.pop(at)
-            free.append(at)
+            _, fault, before, out = running.pop(at)
             (self.copies[at] / "src/crankwork" / fault.file).write_bytes(before)
-            out = self.copies[at] / "out"
-            if not out.exists():  # nothing could be collected with it
+            if not out.stat().st_size:  # nothing could be collected with it
                 out.write_text(json.dumps({"fault": fault.name, "fresh": True, "by": "collection"}) + "\n", "utf-8")
-            by = json.loads(out.read_text("utf-8"))["by"]
-            rest = self._at_first(fault, asked[fault.name], is_first=False)
-            if by is None and is_first and rest:
-                out.unlink()
-                second.append(fault)
-            else:
-                self.keep(part, out)
 
-    def _at_first(self, fault: Fault, names: Sequence[str], *, is_first: bool) -> list[str]:
-        """Return the tests that are tried at first, or the others."""
+    def _at_first(self, fault: Fault, names: Sequence[str]) -> list[str]:
+        """Return the tests that are tried; who looks through all texts finds one that is missing."""
         told = [name for name in names if fault.kind == TEXT and "/locale/" in name]
-        ordered = [*told, *(name for name in names if name not in set(told))]
-        gone, at = 0.0, 0
-        while at < len(ordered) and gone < AT_FIRST:
-            gone += self.known.seconds.get(ordered[at], 0.0) + 0.01
-            at += 1
-        return ordered[:at] if is_first else ordered[at:]
-
-    @staticmethod
-    def by(fault: Fault, found: Mapping[tuple[str, str, bool], Mapping[str, Any]]) -> str:
-        """Return the part of the tests that finds a fault, or nothing."""
-        return next(
-            (line["part"] for (name, _, _), line in found.items() if name == fault.name and line["by"] is not None), ""
-        )
+        ordered, gone = [*told, *(name for name in names if name not in set(told))], 0.0
+        taken = []
+        for name in ordered:
+            gone += self.known.seconds.get(name, 0.0) + 0.01
+            if gone > PATIENCE and taken:
+                break
+            taken.append(name)
+        return taken
 
 
 def table(faults: Sequence[Fault], by: Mapping[str, str], rows: str) -> Iterator[str]:
@@ -262,23 +243,25 @@ def main() -> int:
         faults = [one for one in faults if one.name in names or (not names and re.search(arguments.only, one.name))]
     asked = (arguments.tests or head)[:12]
     known = Map.read(recorded(arguments.map or CACHE / f"executed-{asked}", arguments.tests))
-    campaign = Campaign(CACHE / f"faults-{seed[:12]}-{asked}", faults, known, arguments.tests)
+    name = f"faults-{seed[:12]}" + (f"-{asked}" if arguments.tests else "")
+    campaign = Campaign(CACHE / name, faults, known, arguments.tests)
     if arguments.tests:
         campaign.try_part("light", set(known.seconds))
     else:
         light = light_tests(campaign.copies[0])
         campaign.try_part("light", light)
         campaign.try_part("rest", set(known.seconds) - light)
-    found = campaign.found()
+        campaign.verify()
     equivalent = tomllib.loads(EQUIVALENT.read_text("utf-8")) if EQUIVALENT.exists() else {}
-    by = {one.name: campaign.by(one, found) or ("equivalent" if one.name in equivalent else "") for one in faults}
+    found = campaign.by()
+    by = {one.name: found.get(one.name, "equivalent" if one.name in equivalent else "") for one in faults}
     lines = [*table(faults, by, "kind"), "", *table(faults, by, "package"), ""]
     for one in faults:
         if not by[one.name]:
             before = (SOURCE / one.file).read_bytes()[one.start : one.end].decode()
             lines.append(f"found by nothing: {one.name}: {before} -> {one.instead}")
     if arguments.verbose:
-        lines += [f"{name}: {line['part']}: {line['by']}" for (name, _, _), line in found.items() if line["by"]]
+        lines += [f"{line['fault']}: {line['part']}: {line['by']}" for line in campaign.found() if line["by"]]
     sys.stdout.write("\n".join(lines) + "\n")
     return int(not all(by.values()))
 

@@ -28,9 +28,8 @@ from _pytest.runner import runtestprotocol
 from campaigns.faults import Fault
 from campaigns.marked import SOURCE
 
-# of one fault and one part of the tests [s]
-PATIENCE = 240
-HANG = 120
+# of one fault and one part of the tests, and of one test [s]
+PATIENCE, HANG = 90, 60
 
 
 def changed_codes(old: CodeType, new: CodeType) -> list[tuple[CodeType, CodeType]] | None:
