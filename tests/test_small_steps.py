@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 import tomllib
 
 import pytest
@@ -13,7 +14,12 @@ from crankwork import progress, units
 from crankwork.cli.asked import count_of
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
+from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
+from crankwork.report.drawing import moving_drawing
+from crankwork.show.moving_svg import _brief, moving_svg
+from crankwork.studio.additions import additions, with_addition
+from each import failing
 
 
 def test_a_count_has_at_most_nine_digits() -> None:
@@ -22,6 +28,16 @@ def test_a_count_has_at_most_nine_digits() -> None:
 
 def test_a_value_in_a_small_unit_is_multiplied_by_a_whole_number() -> None:
     assert [units.from_si(value, "mm") for value in (0.0009, 0.0018, 0.0579)] == [0.9, 1.8, 57.9]
+
+
+def test_nothing_is_printed_without_a_sign() -> None:
+    assert [_brief(value) for value in (-0.001, 0.0, -0.5, 2.0, 1.257)] == ["0", "0", "-0.5", "2", "1.26"]
+    assert [number(value, "en") for value in (-0.0, -1e-9, 123456.7, 1234567.0)] == [
+        "0",
+        "−1e-9",
+        "123457",
+        "1.23457e6",
+    ]
 
 
 def test_a_key_that_cannot_be_printed_is_told_in_letters() -> None:
@@ -101,3 +117,41 @@ def test_kernels_that_begin_alike_are_different_kernels(tmp_path, monkeypatch) -
     monkeypatch.setenv("CRANKWORK_CACHE", str(tmp_path))
     same = "".join(f"x{number} = {number}\n" for number in range(100))
     assert [compiled(f"{same}y = {number}\n").y for number in (1, 2)] == [1, 2]
+
+
+def test_workers_are_as_many_as_asked_for_and_none_for_all_processors() -> None:
+    from crankwork.cli.studies import _number_of
+
+    assert (_number_of(None, None), _number_of(None, "tcp://here:1"), _number_of("3", None)) == (0, 0, 3)
+    with pytest.raises(crankwork.CrankworkError):
+        _number_of("3", "tcp://here:1")
+
+
+def test_every_addition_to_a_linkage_states_keys_that_there_are() -> None:
+    """One of each kind; each makes a file that is read."""
+    description = crankwork.Description(template("four-bar"))
+    offered = {one.name: one for one in additions(description, crankwork.analyse(description.machine()))}
+    wrong = failing(offered, lambda one: with_addition(description, one).machine())
+    assert wrong == {}
+    assert {"spring", "damper", "links", "slider"} <= offered.keys()
+
+
+def test_two_links_that_are_added_stand_beside_the_middle_of_the_path_of_their_point() -> None:
+    description = crankwork.Description(template("four-bar"))
+    results = crankwork.analyse(description.machine())
+    found = {one.of: one for one in additions(description, results) if one.name == "links"}
+    assert found
+    for point, one in found.items():
+        (pivot,) = (places for key, places in one.fields.items() if key.startswith("fixed_points."))
+        across, up = (results.column(f"point_{axis}.{point}") for axis in "xy")
+        middle = [(ends.min() + ends.max()) / 2e-3 for ends in (across, up)]
+        assert float(pivot[1].removesuffix(" mm")) == pytest.approx(middle[1], rel=0.01, abs=0.5), point
+        # farther than the point ever is
+        assert float(pivot[0].removesuffix(" mm")) - middle[0] > 1e3 * (across.max() - across.min()) / 2, point
+
+
+def test_colours_of_a_moving_picture_are_others_in_the_dark_for_areas_and_lines() -> None:
+    style = moving_svg(moving_drawing(crankwork.read_machine(template("engine")), frames=8), "colour").decode()
+    dark = style[style.index("@media (prefers-color-scheme: dark)") :].partition("</style>")[0]
+    rules = set(re.findall(r'\[(\w+)="#\w+"\]\{(\w+):#\w+\}', dark))
+    assert rules == {("fill", "fill"), ("stroke", "stroke")}

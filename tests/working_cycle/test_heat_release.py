@@ -343,6 +343,15 @@ def test_values_beyond_the_usual_are_said(changes, code):
     assert code in {one for one, _ in _run(replace(ENGINE, **changes)).calculated.notices}
 
 
+def test_a_rise_of_pressure_beyond_the_usual_is_told_in_megapascals_a_degree():
+    """Against differences of the pressure from step to step."""
+    result = _run(replace(ENGINE, burning_duration=20.0, heat=1500.0))
+    told = dict(result.calculated.notices)["heat_knock"]
+    steepest = np.max(np.diff(result.trace.pressure) / np.diff(result.trace.degrees))
+    assert told["rise"] == pytest.approx(steepest / 1e6, rel=0.01)
+    assert told["limit"] == 0.8
+
+
 def test_a_usual_cycle_needs_no_notice():
     assert _run(replace(ENGINE, heat=700.0)).calculated.notices == ()
 

@@ -17,8 +17,6 @@ def unit_name(unit: str, language: Language) -> str:
 def number(value: float, language: Language, *, digits: int = 6) -> str:
     """Return a number with up to `digits` significant digits, the language's decimal mark and a true minus sign."""
     text = f"{value + 0.0:.{digits}g}"
-    if "e" not in text and abs(value) >= 10**digits:
-        text = f"{value:.0f}"
     if text in ("-0", "0"):
         return "0"
     mantissa, power, exponent = text.partition("e")
