@@ -34,9 +34,9 @@ def test_nothing_is_printed_without_a_sign() -> None:
     assert [_brief(value) for value in (-0.001, 0.0, -0.5, 2.0, 1.257)] == ["0", "0", "-0.5", "2", "1.26"]
     assert [number(value, "en") for value in (-0.0, -1e-9, 123456.7, 1234567.0)] == [
         "0",
-        "−1e-9",
+        "−10⁻⁹",
         "123457",
-        "1.23457e6",
+        "1.23457·10⁶",
     ]
 
 
