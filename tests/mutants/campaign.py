@@ -165,7 +165,7 @@ class Campaign:
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Run the campaign instead of the tests."""
         witnesses = {one.name: one for one in witnesses_of(session)}
-        known = recorded(self.arguments.executed, witnesses)
+        known = recorded(self.arguments.executed.resolve(), witnesses)
         calling = {name: [one for one in tests if one in witnesses] for name, tests in calls(known).items()}
         called = {name for name, tests in calling.items() if any(witnesses[one].is_check for one in tests)}
         listed = tomllib.loads((HERE / "uncalled.toml").read_text("utf-8"))
