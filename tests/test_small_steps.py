@@ -6,18 +6,26 @@ import io
 import math
 import re
 import tomllib
+import zipfile
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 import crankwork
 from crankwork import progress, units
+from crankwork.analysis.rounding import without_rounding
 from crankwork.cli.asked import count_of
+from crankwork.cli.studio import studio
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
 from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
+from crankwork.mechanism.structure import _longest_loop
+from crankwork.report import drawing
 from crankwork.report.drawing import moving_drawing
 from crankwork.show.moving_svg import _brief, moving_svg
+from crankwork.studio import answers, sketch
 from crankwork.studio.additions import additions, with_addition
 from each import failing
 
@@ -155,3 +163,52 @@ def test_colours_of_a_moving_picture_are_others_in_the_dark_for_areas_and_lines(
     dark = style[style.index("@media (prefers-color-scheme: dark)") :].partition("</style>")[0]
     rules = set(re.findall(r'\[(\w+)="#\w+"\]\{(\w+):#\w+\}', dark))
     assert rules == {("fill", "fill"), ("stroke", "stroke")}
+
+
+def test_a_view_has_room_around_what_stands_in_it() -> None:
+    sketch = SimpleNamespace(
+        views=[((1, 2), np.array([1.0, 2.0]), np.array([11.0, 32.0])), ((), np.zeros(2), np.ones(2))]
+    )
+    ((name, box), (other, _)) = drawing._views(sketch, 100.0, "en")
+    room = drawing._AROUND
+    assert room > 0
+    assert tuple(box) == pytest.approx((1 - room, 100 - 32 - room, 10 + 2 * room, 30 + 2 * room))
+    assert "1, 2" in name
+    assert name != other
+
+
+def test_a_loop_has_at_least_four_members() -> None:
+    triangle = {"a": {"b", "c"}, "b": {"a", "c"}, "c": {"a", "b"}}
+    square = {"a": {"b", "d"}, "b": {"a", "c"}, "c": {"b", "d"}, "d": {"c", "a"}}
+    assert [_longest_loop(beside, "a") for beside in (triangle, square)] == [0, 4]
+
+
+def test_a_port_has_at_most_five_digits() -> None:
+    for port in ("065535", "65536", "-1", "x"):
+        with pytest.raises(crankwork.CrankworkError, match="--port"):
+            studio.main(["absent.toml", "--port", port, "--no-browser"], standalone_mode=False)
+
+
+def test_an_archive_holds_its_files_whole() -> None:
+    packed = answers._zipped({"-sheet-1.svg": b"<svg/>", "note.pdf": b"%PDF" * 100})
+    with zipfile.ZipFile(io.BytesIO(packed)) as folder:
+        assert {name: folder.read(name) for name in folder.namelist()} == {
+            "sheet-1.svg": b"<svg/>",
+            "note.pdf": b"%PDF" * 100,
+        }
+
+
+def test_a_branch_goes_with_its_joint() -> None:
+    description = crankwork.Description(template("four-bar"))
+    assert "branch.B" in description
+    sketch._without_gone(description, description.values, description.values)
+    assert "branch.B" in description
+    sketch._without_gone(description, description.values, {"crank": description.values["crank"]})
+    assert "branch.B" not in description
+
+
+def test_a_moment_of_a_guide_that_is_rounding_beside_the_torques_is_nothing() -> None:
+    columns = {"driving_torque": np.array([10.0, -7.0]), "normal_moment.bed": np.array([1e-15, -3e-16])}
+    found = without_rounding(columns, 10.0)
+    assert np.array_equal(found["driving_torque"], columns["driving_torque"])
+    assert not np.any(found["normal_moment.bed"])
