@@ -15,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 import tomllib
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -117,7 +118,9 @@ class Campaign:
 
     def out(self, part: str) -> Path:
         """Return a new file for what is found on a part of the tests."""
-        return self.folder / f"{part}-{len(list(self.folder.glob('*.jsonl'))):05d}.jsonl"
+        path = self.folder / f"{part}-{time.time_ns()}.jsonl"
+        path.touch(exist_ok=False)
+        return path
 
     def try_part(self, part: str, allowed: set[str]) -> None:
         """Try the faults that the parts before did not find on the tests of a part."""
@@ -128,7 +131,6 @@ class Campaign:
         for at, place in enumerate(self.copies):
             if mine := waiting[at::WORKERS]:
                 out = self.out(part)
-                out.touch()
                 running.append(run(place, [(one, asked[one.name]) for one in mine], out, fresh=False))
         if sum(process.wait() for process in running):
             raise SystemExit(f"the tests did not run; see {self.copies[0] / 'log'}")
@@ -157,7 +159,6 @@ class Campaign:
                 before = path.read_bytes()
                 path.write_bytes(fault.put_into(before))
                 out = self.out(part)
-                out.touch()
                 running[at] = run(self.copies[at], [(fault, names)], out, fresh=True), fault, before, out
             pid, _ = os.waitpid(-1, 0)
             at = next(number for number, (process, *_) in running.items() if process.pid == pid)
