@@ -271,3 +271,26 @@ def test_a_weight_is_a_mass_where_one_is_asked_for() -> None:
     assert parse("5 N", ("force",)).told == ""
     with pytest.raises(ValueError, match="force"):
         parse("5 N", ("length",))
+
+
+def test_a_unit_made_of_others_has_their_size() -> None:
+    """Quotients and powers against the units that they are written with, kilo-pounds against pounds."""
+    raised = {"2": 2, "3": 3, "4": 4, "²": 2, "³": 3, "⁴": 4}
+
+    def size(name: str) -> float | None:
+        power = raised.get(name[-1:], 1)
+        part = UNITS.get(name[: -1 if power > 1 else None])
+        return None if part is None or part.zero else part.factor**power
+
+    wrong, compared = {}, 0
+    for name, unit in UNITS.items():
+        if name.count("/") != 1 or unit.dimension in ("speed", "angular_acceleration"):
+            continue
+        above, below = (size(part) for part in name.split("/"))
+        if above is not None and below is not None:
+            compared += 1
+            if not math.isclose(unit.factor, above / below, rel_tol=1e-12):
+                wrong[name] = unit.factor, above / below
+    assert wrong == {}
+    assert compared > 80
+    assert UNITS["kip"].factor == pytest.approx(4448.2216152605, rel=1e-13)

@@ -1,0 +1,67 @@
+"""Tables that one word could spoil unseen are pinned: symbols of formulas, quantities of formulas, units of quantities.
+
+A change that is meant changes the digest here, which the failing test prints.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+from collections.abc import Iterable
+
+import crankwork
+from crankwork import machine
+from crankwork.notation import balance, bearings, chambers, cycle, cylinders, driver, linkage
+from crankwork.notation import machine as of_machine
+from crankwork.quantities import QUANTITIES
+from rules import every_formula
+
+PINNED = {
+    "symbols": {
+        "balance": "4854540f9d59",
+        "bearings": "58131b6470b5",
+        "chambers": "144eb79958c9",
+        "cycle": "ee6d73a76d59",
+        "cylinders": "3eb20fa6967a",
+        "driver": "0d1ce8f51d86",
+        "linkage": "587b6d3c978c",
+        "machine": "93e6fd34e1f6",
+    },
+    "formulas": "20833fffc8c3",
+    "quantities": "cb726b0f503a",
+    "defaults": "bf7446aa320f",
+}
+
+
+def digest(lines: Iterable[object]) -> str:
+    """Return a few letters that are others for other lines."""
+    return hashlib.sha256("\n".join(map(str, lines)).encode()).hexdigest()[:12]
+
+
+def test_symbols_stand_for_the_quantities_that_they_did() -> None:
+    modules = (balance, bearings, chambers, cycle, cylinders, driver, linkage, of_machine)
+    found = {one.__name__.rpartition(".")[2]: digest(sorted(one.ARGUMENTS.items())) for one in modules}
+    assert found == PINNED["symbols"]
+
+
+def test_formulas_give_the_quantities_that_they_did() -> None:
+    lines = (
+        f"{name} {one.quantity} {one.stated_unit} {sorted(one.valid.items())}" for name, one in every_formula().items()
+    )
+    assert digest(sorted(lines)) == PINNED["formulas"]
+
+
+def test_quantities_have_the_units_that_they_had() -> None:
+    assert digest(sorted(f"{key} {one.unit} {one.si_unit}" for key, one in QUANTITIES.items())) == PINNED["quantities"]
+
+
+def test_what_a_machine_does_not_state_is_what_it_was() -> None:
+    kinds = [one for one in vars(machine).values() if dataclasses.is_dataclass(one) and isinstance(one, type)]
+    defaults = [
+        f"{kind.__name__}.{field.name} {field.default!r}"
+        for kind in kinds
+        for field in dataclasses.fields(kind)
+        if field.default is not dataclasses.MISSING and not callable(field.default)
+    ]
+    assert crankwork.Machine in kinds
+    assert digest(sorted(set(defaults))) == PINNED["defaults"]
