@@ -22,9 +22,10 @@ from crankwork.description.machine_file import template
 from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.structure import _longest_loop
-from crankwork.report import drawing
+from crankwork.report import comparison_figure, drawing
 from crankwork.report.drawing import moving_drawing
 from crankwork.show.moving_svg import _brief, moving_svg
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 from crankwork.studio import answers, sketch
 from crankwork.studio.additions import additions, with_addition
 from each import failing
@@ -212,3 +213,7 @@ def test_a_moment_of_a_guide_that_is_rounding_beside_the_torques_is_nothing() ->
     found = without_rounding(columns, 10.0)
     assert np.array_equal(found["driving_torque"], columns["driving_torque"])
     assert not np.any(found["normal_moment.bed"])
+
+
+def test_the_first_of_compared_machines_has_solid_lines() -> None:
+    assert list(comparison_figure._STYLES) == [SOLID, DASHED, DASH_DOT, DOTTED]
