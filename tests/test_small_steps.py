@@ -5,29 +5,45 @@ from __future__ import annotations
 import io
 import math
 import re
+import sys
 import tomllib
 import zipfile
+from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import crankwork
-from crankwork import progress, units
+from crankwork import cli, files, progress, units
+from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
 from crankwork.analysis.rounding import without_rounding
 from crankwork.cli.asked import count_of
 from crankwork.cli.studio import studio
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
+from crankwork.errors import DoubtfulError
+from crankwork.formula.known import given
+from crankwork.kernel.grid import closed
+from crankwork.loads import dead_centre, monotone
 from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.structure import _longest_loop
+from crankwork.note import engine_material
+from crankwork.note.options import NoteOptions
+from crankwork.note.sheets.sheet import _LAYOUTS
+from crankwork.page import alike
 from crankwork.report import comparison_figure, drawing
 from crankwork.report.drawing import moving_drawing
 from crankwork.show.moving_svg import _brief, moving_svg
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
 from crankwork.studio import answers, sketch
 from crankwork.studio.additions import additions, with_addition
+from crankwork.study.chunks import nothing
+from crankwork.study.found_text import found_files
+from crankwork.study.running import Where, _Pool
+from crankwork.study.study_file import _flat, read_study
 from each import failing
 
 
@@ -132,8 +148,10 @@ def test_workers_are_as_many_as_asked_for_and_none_for_all_processors() -> None:
     from crankwork.cli.studies import _number_of
 
     assert (_number_of(None, None), _number_of(None, "tcp://here:1"), _number_of("3", None)) == (0, 0, 3)
-    with pytest.raises(crankwork.CrankworkError):
-        _number_of("3", "tcp://here:1")
+    assert _number_of("1024", None) == 1024
+    for wrong in (("3", "tcp://here:1"), ("1025", None), ("0", None)):
+        with pytest.raises(crankwork.CrankworkError):
+            _number_of(*wrong)
 
 
 def test_every_addition_to_a_linkage_states_keys_that_there_are() -> None:
@@ -217,3 +235,114 @@ def test_a_moment_of_a_guide_that_is_rounding_beside_the_torques_is_nothing() ->
 
 def test_the_first_of_compared_machines_has_solid_lines() -> None:
     assert list(comparison_figure._STYLES) == [SOLID, DASHED, DASH_DOT, DOTTED]
+
+
+def test_a_folder_of_a_study_that_a_full_disk_cannot_hold_is_named(tmp_path, monkeypatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(files.StudyFolder, "_open", full)
+    with pytest.raises(crankwork.CrankworkError, match=rf"^{re.escape(str(tmp_path))}: cannot be written \(no space"):
+        files.StudyFolder(tmp_path, b"{}", resume=False)
+
+
+def test_a_lever_that_would_only_swing_is_refused_with_its_lengths_in_millimetres() -> None:
+    with pytest.raises(crankwork.CrankworkError, match=r"the crank \(40 mm\) .* pivot \(50 mm\)"):
+        crankwork.whitworth(crank=0.04, pivot_distance=0.05, arm=0.1, link=0.3)
+
+
+def test_delayed_breaks_are_closed_unless_they_are_more_than_allowed() -> None:
+    breaks, delays = np.array([0.0, 360.0]), [360.0 / 11]
+    assert np.allclose(closed(breaks, delays, 11), np.arange(12) * 360.0 / 11)
+    assert np.array_equal(closed(breaks, delays, 10), breaks)
+
+
+def test_a_bend_that_vanishes_at_the_end_of_the_range_is_found() -> None:
+    for root in (dead_centre._FARTHEST, 1.25, -2.5):
+        assert dead_centre._straight(lambda by, root=root: by - root) == pytest.approx(root, abs=1e-4)
+    assert dead_centre._straight(lambda by: by * by + 1.0) is None
+
+
+def test_abscissas_that_are_remembered_are_found_as_numbers_are() -> None:
+    x = np.array([0.0, 10.0, 25.0, 40.0])
+    remembered = np.empty(4, dtype=object)
+    for at, one in enumerate(x):
+        remembered[at] = given("crank_angle", one)
+    at = np.array([5.0, 12.0, 39.0])
+    assert monotone._interval(remembered, at).tolist() == monotone._interval(x, at).tolist() == [0, 1, 2]
+
+
+def test_the_least_number_that_a_machine_may_have_is_one() -> None:
+    machine = crankwork.read_machine(template("slider-crank"))
+    assert replace(machine, speed=sys.float_info.min).speed == sys.float_info.min
+    with pytest.raises(crankwork.CrankworkError, match="speed"):
+        replace(machine, speed=0.0)
+
+
+def test_a_title_of_an_axis_is_upright_beside_a_graph_or_below_its_middle() -> None:
+    box = Box(left=100.0, bottom=200.0, width=300.0, height=150.0)
+    upright = [Text((x, 275.0), "y", 9.0, angle=90.0) for x in (60.0, 110.0)]
+    below = [Text((x, y), "x", 9.0) for x, y in ((250.0, 180.0), (130.0, 180.0), (250.0, 260.0))]
+    assert [alike.is_title(one, [box]) for one in (*upright, *below)] == [True, False, True, False, False]
+
+
+def studied(folder: Path, more: str = ""):
+    """Return a study of a crank gear in a folder."""
+    (folder / "machine.toml").write_text(template("slider-crank"), "utf-8")
+    vary = 'crank.radius = { from = "40 mm", to = "50 mm", steps = 4 }'
+    text = f'machine = "machine.toml"\nvalues = "stroke"\n[designs]\ndrawing = "grid"\n[vary]\n{vary}\n{more}'
+    return read_study(text, "study.toml", folder=folder)
+
+
+def test_one_objective_has_no_pareto_set(tmp_path) -> None:
+    one = '[objectives]\nstroke = "minimise"\n'
+    studies = [studied(tmp_path, text) for text in (one, f'{one}piston_acceleration_max = "minimise"\n')]
+    tables = [{name.rpartition("/")[2] for name in found_files(each, nothing(each))} for each in studies]
+    assert "best.stroke.csv" in tables[0] & tables[1]
+    assert ["pareto.csv" in each for each in tables] == [False, True]
+
+
+def test_values_of_a_study_may_stand_in_tables_of_tables() -> None:
+    limits = {"joint_force_max": {"A": {"at_most": "5 kN"}, "B": {}}, "stroke": "minimise"}
+    assert _flat(limits) == {
+        "joint_force_max.A": {"at_most": "5 kN"}, "joint_force_max.B": {}, "stroke": "minimise",
+    }  # fmt: skip
+
+
+def test_one_worker_is_a_thread_and_several_are_processes(tmp_path) -> None:
+    study = studied(tmp_path)
+    assert study.angles is None
+    assert [_Pool(study, Where(), workers)._by_threads for workers in (1, 2)] == [True, False]
+
+
+def test_a_figure_of_a_shaft_with_one_crankpin_does_not_say_of_which() -> None:
+    titles = []
+    for name in ("v-two", "twin"):
+        results = crankwork.analyse(crankwork.read(Path(__file__).parent / f"machines/{name}.toml"))
+        titles.append(engine_material.Material(results, NoteOptions(figures=False))._title("crankpin_polar"))
+    assert titles[1] == f"{titles[0]}, crankpin 1"
+
+
+def test_columns_of_a_sheet_are_equally_wide() -> None:
+    assert {shares for layouts in _LAYOUTS.values() for shares in layouts if len(set(shares)) > 1} == set()
+    assert {sum(shares) for layouts in _LAYOUTS.values() for shares in layouts if len(shares) > 1} == {1.0}
+
+
+def test_transmission_angles_are_usual_where_pressure_angles_are() -> None:
+    assert (USUAL, USUAL_PRESSURE) == ((40.0, 140.0), 50.0)
+
+
+def test_every_end_has_its_exit_status(monkeypatch) -> None:
+    monkeypatch.setattr(cli, "_send_nowhere", lambda _: None)
+    ends = {
+        0: None, 1: DoubtfulError("doubtful"), 2: crankwork.CrankworkError("wrong"), 130: KeyboardInterrupt(),
+    }  # fmt: skip
+    more = {1: BrokenPipeError(), 2: OSError(28, "No space left on device")}
+    for code, error in (*ends.items(), *more.items()):
+
+        def commands(error=error, **_: object) -> None:
+            if error is not None:
+                raise error
+
+        monkeypatch.setattr(cli, "commands", commands)
+        assert cli._exit_code() == code, error

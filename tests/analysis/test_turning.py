@@ -147,6 +147,7 @@ def test_points_may_stand_in_a_file(tmp_path: Path) -> None:
     assert not found.unmet
 
 
+@pytest.mark.slow
 def test_sampling_changes_nothing_and_every_value_can_be_explained() -> None:
     wrong = []
     for path in FILES:

@@ -44,6 +44,7 @@ def alone(machine, number):
     return crankwork.analyse(replace(machine, gas=gas, engine=None))
 
 
+@pytest.mark.slow
 def test_the_torque_is_the_sum_of_engines_of_one_cylinder():
     narrow, diesel = ((ROOT / f"examples/{name}.toml").read_text("utf-8") for name in ("narrow-v6", "v8-diesel"))
     own = ("engine.misfire=[3]", "gas.motored=ambient", "engine.pressure_factors=[1.1, 1, 1, 0.8]")

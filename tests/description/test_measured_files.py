@@ -154,6 +154,7 @@ STACKED = {
 }
 
 
+@pytest.mark.slow
 @for_each(("text", "keys"), STACKED.values(), ids=STACKED)
 def test_cycles_are_told_apart_however_they_stand(read, text, keys):
     keys = 'shift = "360 deg"' if keys == "360" else keys
@@ -213,6 +214,7 @@ def test_what_is_done_to_samples_is_explained(read):
 CLOSED = np.arange(180.0, 540.0)
 
 
+@pytest.mark.slow
 @for_each("times", [1, 3])
 def test_a_closed_period_needs_a_pressure_for_the_rest(read, times):
     text = table(np.tile(CLOSED, times), np.tile(true_pressure(CLOSED), times))

@@ -148,6 +148,7 @@ def test_a_start_far_from_where_links_are_assembled_is_told():
     assert [one.key for one in refusal.value.problems] == ["positions.C", "positions.D"]
 
 
+@pytest.mark.slow
 def test_what_a_group_of_class_iii_hangs_on_is_settled_before_it():
     """A dyad whose branch is seen only when the link it hangs on has been placed, and a group beyond it."""
     machine = read_machine("""

@@ -53,6 +53,7 @@ def test_no_command_writes_over_its_input(crankwork, monkeypatch, overwrite) -> 
     assert found == {}
 
 
+@pytest.mark.slow
 def test_a_sheet_beside_a_note_is_not_written_over_the_input(crankwork) -> None:
     text = template("four-bar")
     Path("my-sheet-1.svg").write_text(text, "utf-8")

@@ -31,6 +31,7 @@ def shell(machine_file):
     return run
 
 
+@pytest.mark.slow
 def test_streams_that_close_or_are_full_are_no_traceback(shell) -> None:
     # a reader that leaves early is no error to talk about
     found = {line: shell(line)[1:] for line in (

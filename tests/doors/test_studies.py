@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import sys
 
 import pytest
@@ -102,6 +103,8 @@ def test_a_study_writes_what_it_found(crankwork, study, tmp_path):
     answer = crankwork("sweep", study(), "-o", "out", "--workers", "1")
     assert answer.code == 0, answer.err
     assert "64 designs" in answer.out
+    # not the time of day
+    assert float(re.search(r"([\d.]+) s\b", answer.err)[1]) < 1000
     found = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
     assert found["values"]["stroke"]["least"] >= 80
     assert found["values"]["stroke"]["largest"] <= 100

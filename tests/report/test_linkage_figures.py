@@ -158,6 +158,7 @@ NAMES = (
 )
 
 
+@pytest.mark.slow
 @for_each(("at", "name"), enumerate(NAMES))
 def test_names_with_any_letters_are_printed_as_they_are(at, name):
     text = template("four-bar").replace('"A"', json.dumps(name, ensure_ascii=False))

@@ -17,6 +17,7 @@ from crankwork.studio import answers
 from crankwork.studio.answers import Studio, opened_share, shared
 from crankwork.studio.trials import StoppedError
 from crankwork.study.mapped import map_text, mapped
+from each import for_each
 from studio.asked import answer, drawn, rows_of, sketch, typed
 
 EXAMPLES = {one.stem: one for one in sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))}
@@ -215,6 +216,7 @@ def test_a_pin_that_is_taken_out_takes_its_links_out_of_the_file():
     assert found["refusals"] == []
 
 
+@pytest.mark.slow
 def test_a_drawn_four_bar_has_its_torque_curve_after_masses_and_a_load():
     found = drawn()
     for key in ("masses:", "torque:3"):
@@ -290,15 +292,14 @@ def test_what_a_page_calculates_itself_and_what_stays_behind(name, key, figures,
     assert len(ahead["data"]["sliders"]["values"]) > 5
 
 
-@pytest.mark.parametrize(
+@pytest.mark.slow
+@for_each(
     ("name", "key", "filed", "live"),
     [
         # nothing acts on the way back: where the least torque stands is rounding
         ("toggle-press", "fixed_points.E[2]", ["static_torque_min_angle"], ["pressure_angle_max.D"]),
         # the same 2 % away, as long as the weights are less than the force of the press
-        pytest.param(
-            "press", "crank.speed", ["joint_force_max_angle.O"], ["dynamic_torque_max"], marks=pytest.mark.slow
-        ),
+        ("press", "crank.speed", ["joint_force_max_angle.O"], ["dynamic_torque_max"]),
     ],
 )
 def test_values_that_may_be_others_elsewhere_are_no_live_ones(name, key, filed, live):

@@ -135,6 +135,7 @@ FULL_TURNS = (
 )
 
 
+@pytest.mark.slow
 def test_what_a_full_turn_needs_is_said_with_a_length_that_gives_it():
     for text, needs, value in FULL_TURNS:
         turn = answer(text)["turn"]

@@ -150,6 +150,7 @@ def test_machines_without_anything_in_common_are_refused():
         crankwork.compare(one, {"other": other})
 
 
+@pytest.mark.slow
 def test_notes_have_a_section_with_table_and_figure():
     four_bars = [crankwork.analyse(machine("four-bar", *some)) for some in ((), ("crank.radius=60 mm",))]
     compared = by_methods("engine", "textbook", "series:3"), crankwork.compare(four_bars[0], {"b": four_bars[1]}, "a")

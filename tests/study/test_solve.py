@@ -50,7 +50,7 @@ def acceleration(phi: float, ratio: float) -> float:
 @pytest.mark.elsewhere
 def test_piston_force_of_a_vertical_engine_reverses_where_inertia_is_gas_and_weight():
     intake = ("gas.points.d.pressure=0.105 MPa", "gas.points.a.pressure=0.105 MPa", "method.weights=true")
-    found = solved(ENGINE, "piston_force@33deg = 0", "crank.speed", "100rpm", "6000rpm", overrides=intake)
+    found = solved(ENGINE, "piston_force@33deg = 0", "crank.speed", "100rpm", "6000rpm", overrides=intake, steps=12)
     mass = 0.55 + 0.275 * 0.90
     push = 0.005e6 * math.pi / 4 * 0.085**2 + mass * crankwork.read_machine(ENGINE.dump()).method.gravity
     expected = math.sqrt(push / (mass * 0.045 * acceleration(math.radians(33), 0.28125)))
@@ -117,7 +117,7 @@ def test_a_smooth_touching_root():
 
 @pytest.mark.elsewhere
 def test_a_coupler_too_short_or_too_long_cannot_be_assembled():
-    found = solved(FOUR_BAR, "point_y.B@0 = 80", "links.coupler.length", "10 mm", "400 mm", steps=24)
+    found = solved(FOUR_BAR, "point_y.B@0 = 80", "links.coupler.length", "10 mm", "400 mm", steps=12)
     fixed, crank, rocker = 200.0, 62.5, 112.5
     ends = [(1e3 * one.start, 1e3 * one.end) for one in found.without]
     assert ends[0] == pytest.approx((10.0, fixed - crank - rocker), abs=1e-3)

@@ -110,6 +110,7 @@ def test_without_heat_and_walls_the_gas_follows_the_isentrope():
     assert np.max(np.abs(invariant / invariant[0] - 1)) < 1e-9
 
 
+@pytest.mark.slow
 @for_each("gamma", [1.3, 1.4])
 @OFFSETS
 def test_instant_burning_at_top_dead_centre_is_the_otto_cycle(gamma, offset):
@@ -137,7 +138,7 @@ def test_a_machine_twice_as_large_has_the_same_pressures():
 # --- conservation
 
 
-@settings(deadline=None, max_examples=8)
+@settings(deadline=None, max_examples=4)
 @given(
     shape=st.floats(0.3, 4.0),
     duration=st.floats(10.0, 90.0),

@@ -292,6 +292,7 @@ def test_scaling_all_pressures_changes_nothing_else(scale, school):
     assert other.diagram.named["f"][1] == pytest.approx(scale * one.diagram.named["f"][1], rel=1e-12)
 
 
+@pytest.mark.slow
 @ENGINES
 @SCHOOLS
 @TIMINGS
