@@ -39,6 +39,12 @@ def remembered(file: Path) -> tuple[Known, ...]:
     return tuple(in_order(crankwork.analyse(crankwork.read(file)).memory.values()))
 
 
+@cache
+def measures(unit: str) -> str:
+    """Return what a unit measures, in base units."""
+    return repr(dimension(unit))
+
+
 def named_wrongly(file: Path) -> set[str]:
     """Return the values of a machine whose names have another dimension than what gives them or takes them."""
     wrong = set()
@@ -50,7 +56,7 @@ def named_wrongly(file: Path) -> set[str]:
                 kind = base_key(one.key)
                 if not one.key or kind in STATED or kind.startswith(EITHER):
                     continue
-                if repr(dimension(QUANTITIES[kind].si_unit)) != repr(dimension(unit)):
+                if measures(QUANTITIES[kind].si_unit) != measures(unit):
                     wrong.add(f"{one.key} [{QUANTITIES[kind].si_unit}] in {use.formula.name} [{unit}]")
     return wrong
 
