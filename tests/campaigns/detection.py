@@ -8,6 +8,7 @@ campaign that was stopped goes on. `--tests REVISION` asks the tests of another 
 from __future__ import annotations
 
 import argparse
+import functools
 import json
 import os
 import pickle
@@ -152,6 +153,7 @@ class Campaign:
     def _try_fresh(self, part: str, waiting: Sequence[Fault], asked: Mapping[str, Sequence[str]]) -> None:
         """Try faults in processes that begin with the changed file, as many at once as there are copies."""
         tasks = [(one, self._at_first(one, asked[one.name])) for one in waiting]
+        asked_of = {fault.name: names for fault, names in tasks}
         running: dict[int, tuple[subprocess.Popen[bytes], Fault, bytes, Path]] = {}
         while tasks or running:
             for at in set(range(WORKERS)) - running.keys():
@@ -169,6 +171,20 @@ class Campaign:
             (self.copies[at] / "src/crankwork" / fault.file).write_bytes(before)
             if not out.stat().st_size:  # nothing could be collected with it
                 out.write_text(json.dumps({"fault": fault.name, "fresh": True, "by": "collection"}) + "\n", "utf-8")
+            elif (by := json.loads(out.read_text("utf-8"))["by"]) in asked_of[fault.name] and not self._is_sound(
+                by, at
+            ):
+                out.unlink()
+                asked_of[fault.name] = [name for name in asked_of[fault.name] if name != by]
+                tasks.append((fault, asked_of[fault.name]))
+
+    @functools.cache  # noqa: B019 - one campaign a process
+    def _is_sound(self, test: str, at: int) -> bool:
+        """Return whether a test passes in a copy without a fault."""
+        place = self.copies[at]
+        words = [sys.executable, "-m", "pytest", "-q", "-n0", "-p", "no:cacheprovider", test]
+        own = {"PYTHONPATH": f"{place / 'src'}:{place / 'tests'}"}
+        return not subprocess.run(words, cwd=place, env=os.environ | own, capture_output=True, check=False).returncode
 
     def _at_first(self, fault: Fault, names: Sequence[str]) -> list[str]:
         """Return the tests that are tried; who looks through all texts finds one that is missing."""

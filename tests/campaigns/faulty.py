@@ -124,7 +124,7 @@ class Faulty:
         return True
 
     def _found(self, fault: Fault, asked: list[pytest.Item]) -> dict[str, Any]:
-        """Return which test finds a fault; one that fails without it too is not asked."""
+        """Return which test finds a fault: one that fails again alone, and not without the fault."""
         path = SOURCE / fault.file
         before = path.read_bytes()
         while True:
@@ -132,11 +132,14 @@ class Faulty:
             path.write_bytes(before)
             test = found["by"]
             one = next((item for item in asked if item.nodeid == test), None)
-            if one is None or self.fresh:
+            if one is None:
                 return found
+            again = _forked(functools.partial(self._tried, fault, [one]))
+            path.write_bytes(before)
             if test not in self.sound:
-                self.sound[test] = _forked(functools.partial(_first_failing, [one]))["by"] is None
-            if self.sound[test]:
+                # a process that begins with the fault cannot do without it; who started it asks
+                self.sound[test] = self.fresh or _forked(functools.partial(_first_failing, [one]))["by"] is None
+            if self.sound[test] and again["by"] is not None:
                 return found
             asked = [item for item in asked if item is not one]
 
