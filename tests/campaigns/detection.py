@@ -171,9 +171,9 @@ class Campaign:
             (self.copies[at] / "src/crankwork" / fault.file).write_bytes(before)
             if not out.stat().st_size:  # nothing could be collected with it
                 out.write_text(json.dumps({"fault": fault.name, "fresh": True, "by": "collection"}) + "\n", "utf-8")
-            elif (by := json.loads(out.read_text("utf-8"))["by"]) in asked_of[fault.name] and not self._is_sound(
-                by, at
-            ):
+                continue
+            by = json.loads(out.read_text("utf-8"))["by"]
+            if by in asked_of[fault.name] and not self._is_sound(by, at):
                 out.unlink()
                 asked_of[fault.name] = [name for name in asked_of[fault.name] if name != by]
                 tasks.append((fault, asked_of[fault.name]))
