@@ -43,6 +43,7 @@ from crankwork.studio.additions import additions, with_addition
 from crankwork.study.chunks import nothing
 from crankwork.study.found_text import found_files
 from crankwork.study.running import Where, _Pool
+from crankwork.study.sliders import moved
 from crankwork.study.study_file import _flat, read_study
 from each import failing
 
@@ -346,3 +347,13 @@ def test_every_end_has_its_exit_status(monkeypatch) -> None:
 
         monkeypatch.setattr(cli, "commands", commands)
         assert cli._exit_code() == code, error
+
+
+def test_sliders_of_a_machine_that_turns_back_are_refused() -> None:
+    description = crankwork.Description(template("four-bar"))
+    # the shortest and the longest link are together longer than the others: no link turns fully
+    description["links.coupler.length"] = "130 mm"
+    results = crankwork.analyse(description)
+    assert "crank_range" in results.summary
+    with pytest.raises(crankwork.CrankworkError, match="turns back at dead positions"):
+        moved(description, ["crank.speed"], (), results)
