@@ -186,6 +186,7 @@ GOES_WITH = {
 }
 
 
+@pytest.mark.slow
 @for_each(("name", "number", "line"), list(_comments()))
 def test_every_setting_in_a_comment_of_a_template_can_be_used(name, number, line) -> None:
     lines = template(name).split("\n")

@@ -161,6 +161,7 @@ def test_a_sheet_of_several_is_asked_for(tmp_path):
         read_table(tmp_path / "p.xlsx", sheet="third")
 
 
+@pytest.mark.slow
 @for_each(
     "data", [b"PK\x03\x04", b"PK\x03\x04" + b"x" * 99, "a zip", "a bomb", "entities", "no encoding", "a spoilt byte"]
 )

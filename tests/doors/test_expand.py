@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from crankwork.description.machine_file import template
+from each import for_each
 
 
 def test_a_file_written_out_can_be_run_and_gives_its_torque_by_the_same_name(crankwork):
@@ -28,12 +29,13 @@ def test_a_file_written_out_can_be_run_and_gives_its_torque_by_the_same_name(cra
         assert float(lines[1][-2].replace(",", ".")) > 0
 
 
-@pytest.mark.parametrize(
+@pytest.mark.slow
+@for_each(
     ("language", "told"),
     [
         ("ru", "# не записано: [bearings], размеры"),
-        pytest.param("en", "# not written out: [bearings], their sizes", marks=pytest.mark.slow),
-        pytest.param("vi", "# không ghi ra: [bearings], kích thước", marks=pytest.mark.slow),
+        ("en", "# not written out: [bearings], their sizes"),
+        ("vi", "# không ghi ra: [bearings], kích thước"),
     ],
 )
 def test_what_cannot_be_written_out_is_told_above(crankwork, language, told):

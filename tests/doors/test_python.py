@@ -53,6 +53,7 @@ def test_notebooks_run_from_top_to_bottom(name: str, tmp_path: Path) -> None:
                     assert not hasattr(shown, way) or getattr(shown, way)()
 
 
+@pytest.mark.slow
 def test_results_are_shown_in_fifteen_lines(engine: crankwork.Results, linkage: crankwork.Results) -> None:
     for one in (engine, linkage):
         assert len(repr(one).splitlines()) <= 15

@@ -140,6 +140,7 @@ def test_all_missing_parts_are_named_at_once_with_how_to_install_them(crankwork,
             check_refusals([(("report", PRESS, "-o", name, *sheets), told)])
 
 
+@pytest.mark.slow
 def test_sheets_stand_beside_the_note_on_the_paper_that_is_asked_for(crankwork, check_refusals) -> None:
     asked = ("report", PRESS, "-o", "n.html", "--no-figures")
     answer = crankwork(*asked, "--sheets", "--author", "Petrov")

@@ -52,6 +52,7 @@ def test_examples_are_compiled_to_what_analyses_give(machines):
     assert apart(machines, 40)[1] == {}
 
 
+@pytest.mark.slow
 @few_and_more(
     [
         (MACHINES / "dual.toml", "cylinder.compression_ratio", "cycle.pressure_ratio", "cycle.heat"),
@@ -71,6 +72,7 @@ def test_calculated_cycles_are_compiled_to_what_analyses_give(machines):
     assert {name: one.reasons for name, one in found.items() if one.reasons} == {}
 
 
+@pytest.mark.slow
 @few_and_more(
     [
         (EXAMPLES / "spark-engine.toml", "crank.radius", "gas.points.c1.angle"),

@@ -128,7 +128,7 @@ def _apart(path, angles):
 
 
 @pytest.mark.parametrize(
-    "number", [pytest.param(one, marks=[pytest.mark.slow] if one % 4 else []) for one in range(40)]
+    "number", [pytest.param(one, marks=[pytest.mark.slow] if one % 8 else []) for one in range(40)]
 )
 def test_circuits_and_limits_are_those_of_another_continuation(number):
     random = np.random.default_rng(number)

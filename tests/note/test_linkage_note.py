@@ -136,6 +136,7 @@ HEADINGS = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_sections_stand_in_the_order_of_each_school(toggle):
     assert {language: headings(note_from(toggle, language)) for language in LANGUAGES} == HEADINGS
     # a school gives its order to another language
@@ -211,6 +212,7 @@ def test_a_linkage_that_does_not_turn_fully_says_what_it_reaches(partial):
     assert "97,2003°" in " ".join(words(found))
 
 
+@pytest.mark.slow
 @for_each(
     ("language", "whole"),
     [("en", "(one|the|whole) turn\\b"), ("ru", "оборот( |;|$)"), ("vi", "một vòng quay|cả vòng quay")],
@@ -327,6 +329,7 @@ def test_names_of_links_stay_in_the_subscript():
     assert Words("ru").titled("joint_force.A") == (Math("R_A"), ", Н")
 
 
+@pytest.mark.slow
 @for_each("ending", list(WRITERS))
 def test_bytes_of_a_note_are_the_same_every_time(ending):
     first, second = (WRITERS[ending](note_from(results("press"), "vi", figures=True)) for _ in range(2))
@@ -334,6 +337,7 @@ def test_bytes_of_a_note_are_the_same_every_time(ending):
     assert len(first) > 10_000
 
 
+@pytest.mark.slow
 def test_sheets_come_in_three_formats_with_a_title_block():
     found = sheets_of(results("press"), NoteOptions(language="ru", author="Петров"))
     assert list(found) == ["-sheet-1.pdf", "-sheet-1.svg", "-sheet-1.dxf"]

@@ -105,6 +105,7 @@ def wrong_curves(case: str) -> Iterator[str]:
                 yield f"{node} at {degrees:g}"
 
 
+@pytest.mark.slow
 @looked_at(SOME, OTHERS)
 def test_a_value_of_a_curve_is_that_of_its_points(cases):
     assert broken(lambda case: list(wrong_curves(case)), cases) == {}

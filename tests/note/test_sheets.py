@@ -82,7 +82,8 @@ def test_pressure_measured_on_the_sheet_is_the_pressure():
     assert place[0] == pytest.approx(inset.left + inset.width)
 
 
-@pytest.mark.parametrize("per_area", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@for_each("per_area", [False, True])
 def test_forces_measured_on_the_sheet_are_the_forces(per_area):
     own = engine_drawn(results("spark-engine"), "en", per_area=per_area)
     sheet = sheets("spark-engine", "en", per_area=True)[1] if per_area else sheets("spark-engine")[1]
@@ -137,6 +138,7 @@ def test_tables_of_motion_and_reactions_hold_the_columns(sheet, figure, head, ke
     assert [float(one) for one in shown] == pytest.approx(known, abs=6e-4 * np.max(np.abs(known)))
 
 
+@pytest.mark.slow
 def test_plans_are_measured_in_the_scale_that_is_written_under_them(drawn):
     """The table repeats the scales of the plans; a length read there, times the scale, is the velocity to 0.05 mm."""
 
@@ -248,6 +250,7 @@ def test_no_diagram_of_an_engine_is_left_small(drawn):
         assert len(inset) == 1, name
 
 
+@pytest.mark.slow
 def test_plans_say_whether_they_share_a_scale():
     """Those of a boom that starts and stops do not, those of a press do."""
     shared = {}
@@ -303,6 +306,7 @@ LONG = (
 )[:300]
 
 
+@pytest.mark.slow
 @for_each(("form", "text"), [(form, text) for form in LANGUAGES for text in ("", LONG, "X" * 300, "Ж" * 40)])
 def test_a_title_block_says_what_the_document_is_in_its_cells(form, text):
     """Everything that a cell says stays within it, clear of its label, in letters a tenth wider too."""
@@ -361,6 +365,7 @@ def test_other_paper_and_results_without_material_are_refused():
         sheets("spark-engine", "ru")[1].figure("brix")
 
 
+@pytest.mark.slow
 def test_what_has_no_room_on_a_paper_is_named():
     """A figure with more letters than a small sheet has room for says so in its place."""
     tall, small = (

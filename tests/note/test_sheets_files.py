@@ -122,6 +122,7 @@ def test_dxf_says_the_same_when_read_again(kind):
     assert covered.extmax.y <= 594 + 1e-6
 
 
+@pytest.mark.slow
 @for_each("kind", KINDS)
 def test_dxf_has_every_text_at_its_height_on_one_line(kind):
     space = reread(kind).modelspace()

@@ -15,6 +15,7 @@ from crankwork.study.sliders import moved
 from page.slid import design, document, live, move, results
 
 
+@pytest.mark.slow
 def test_columns_and_values_of_another_design_make_its_curves(stored):
     """What a page stores says which column, which value and which factor each curve is."""
     failures, compared = [], {}

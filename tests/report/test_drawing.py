@@ -439,6 +439,7 @@ def test_pistons_stay_in_their_bores(name):
         assert moved.max() + outline[:, 0].max() <= high + 0.5, one
 
 
+@pytest.mark.slow
 def test_a_gif_tells_how_much_of_it_is_done():
     told = []
     gif(moving_drawing(MACHINES["lying"], frames=24), told=told.append)

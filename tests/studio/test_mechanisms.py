@@ -151,6 +151,7 @@ def test_lengths_that_no_single_change_makes_turn_fully_offer_none():
     assert (found["data"]["film"]["turns"], found["turn"]) == (False, None)
 
 
+@pytest.mark.slow
 def test_a_dyad_is_put_together_the_other_way_in_the_text_and_back():
     first = drawn(at={"A": (60, 95), "B": (120, 95), "C": (120, 120)})
     assert first["dyads"][0]["changes"] == [90.0, 270.0]
