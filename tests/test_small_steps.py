@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import math
 import re
 import sys
@@ -14,9 +15,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import crankwork
 from crankwork import cli, files, progress, units
+from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
 from crankwork.analysis.rounding import without_rounding
 from crankwork.cli.asked import count_of
@@ -36,13 +39,16 @@ from crankwork.note.sheets.sheet import _LAYOUTS
 from crankwork.page import alike
 from crankwork.report import comparison_figure, drawing
 from crankwork.report.drawing import moving_drawing
+from crankwork.show.film import gif
 from crankwork.show.moving_svg import _brief, moving_svg
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
+from crankwork.show.theme import fill_colours
 from crankwork.studio import answers, sketch
 from crankwork.studio.additions import additions, with_addition
 from crankwork.study.chunks import nothing
 from crankwork.study.found_text import found_files
-from crankwork.study.running import Where, _Pool
+from crankwork.study.ranking import Shares
+from crankwork.study.running import Where, _Pool, _written
 from crankwork.study.sliders import moved
 from crankwork.study.study_file import _flat, read_study
 from each import failing
@@ -276,7 +282,7 @@ def test_abscissas_that_are_remembered_are_found_as_numbers_are() -> None:
 def test_the_least_number_that_a_machine_may_have_is_one() -> None:
     machine = crankwork.read_machine(template("slider-crank"))
     assert replace(machine, speed=sys.float_info.min).speed == sys.float_info.min
-    with pytest.raises(crankwork.CrankworkError, match="speed"):
+    with pytest.raises(crankwork.CrankworkError, match=r"^speed = 0\.0 cannot be"):
         replace(machine, speed=0.0)
 
 
@@ -357,3 +363,55 @@ def test_sliders_of_a_machine_that_turns_back_are_refused() -> None:
     assert "crank_range" in results.summary
     with pytest.raises(crankwork.CrankworkError, match="turns back at dead positions"):
         moved(description, ["crank.speed"], (), results)
+
+
+@pytest.mark.elsewhere
+def test_what_a_full_turn_needs_of_a_four_bar() -> None:
+    """By Grashof: the shortest and the longest link together no longer than the two others, each length by itself."""
+    description = crankwork.Description(template("four-bar"))
+    shifted = {"fixed_points.O": ["50 mm", "30 mm"], "fixed_points.C": ["250 mm", "30 mm"]}
+    description.replace({**shifted, "crank.radius": "60 mm", "links.coupler.length": "130 mm"})
+    found = full_turn_bounds(description.machine().mechanism)
+    assert [(one.key, one.sign, round(1e3 * one.length, 9)) for one in found] == [
+        ("links.coupler.length", "≥", 200 + 60 - 112.5),
+        ("links.rocker.length", "≥", 200 + 60 - 130),
+        ("crank.radius", "≤", 130 + 112.5 - 200),
+    ]
+
+
+def test_an_offset_that_is_too_large_is_told_in_millimetres() -> None:
+    text = template("whole-engine")
+    with pytest.raises(crankwork.InputError) as refused:
+        crankwork.read_machine(text.replace("[engine]", '[engine]\noffsets = ["0 mm", "0 mm", "0 mm", "200 mm"]', 1))
+    assert re.search(r"crank radius and offset together \(\d+(\.\d+)? \+ 200 mm\)", str(refused.value))
+
+
+def test_a_film_has_all_its_frames() -> None:
+    film = moving_drawing(crankwork.read_machine(template("slider-crank")), frames=8)
+    with Image.open(io.BytesIO(gif(film))) as picture:
+        assert picture.n_frames == 8
+        picture.seek(7)
+        picture.load()
+
+
+def test_areas_are_filled_with_colours() -> None:
+    for theme in ("print", "colour", "dark"):
+        assert {bool(re.fullmatch("#[0-9a-f]{6}", one)) for one in fill_colours(theme).values()} == {True}, theme
+
+
+def test_a_study_is_another_one_if_its_end_is(tmp_path) -> None:
+    least, most = (studied(tmp_path, f'[objectives]\nstroke = "{way}imise"\n') for way in ("min", "max"))
+    assert least.identity["study"] != most.identity["study"]
+    assert json.loads(_written(least))["study"] == least.identity["study"]
+
+
+@pytest.mark.elsewhere
+def test_what_two_points_tell_of_the_share_of_a_field() -> None:
+    """Saltelli: products of one sample with the other's change, over the variance; two points are enough."""
+    values = np.array([[1.0, 2.0, 3.0], [4.0, 2.0, 1.0]])
+    shares = Shares.of(values, 0.0)
+    first, _, total, _ = shares.indices()
+    variance = np.var(values[:, :2])
+    assert first == pytest.approx([np.mean(values[:, 1] * (values[:, 2] - values[:, 0])) / variance])
+    assert total == pytest.approx([np.mean((values[:, 0] - values[:, 2]) ** 2) / 2 / variance])
+    assert Shares.of(values[:1], 0.0).indices() is None

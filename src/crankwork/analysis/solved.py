@@ -92,11 +92,6 @@ class SolvedCylinder(Solved):
     notices: tuple[Notice, ...] = ()
     slave: ArticulatedRod | None = None
 
-    @property
-    def revolutions(self) -> float:
-        """Speed of the crank as the description states it. [rpm]"""
-        return self.machine.speed * 30 / math.pi
-
     @cached_property
     def memory(self) -> dict[str, Known]:
         """Everything about the cylinder by key, remembered."""
