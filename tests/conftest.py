@@ -40,8 +40,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--part", choices=("light", "rest"), help="the tests of scripts/test, or the rest")
 
 
+@pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark what needs a browser, and leave the other part out."""
+    """Mark what needs a browser, and leave the other part out of what was asked for."""
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker("browser")

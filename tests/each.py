@@ -22,15 +22,20 @@ def for_each(names: str | Sequence[str], rows: Iterable[Any], ids: Any = None) -
         @functools.wraps(test)
         def every_row(*args: Any, **fixtures: Any) -> None:
             failures: list[BaseException] = []
+            skipped: BaseException | None = None
             for at, row in enumerate(table):
                 values = dict(zip(keys, row if len(keys) > 1 else [row], strict=True))
                 try:
                     test(*args, **fixtures, **values)
+                except pytest.skip.Exception as one:
+                    skipped = one
                 except (Exception, pytest.fail.Exception) as error:  # noqa: BLE001 - told below, with all others
                     error.add_note(f"row {at}: {_label(ids, at, row) or values}")
                     failures.append(error)
             if failures:
                 raise BaseExceptionGroup(f"{len(failures)} of {len(table)} rows", failures)
+            if skipped is not None:
+                raise skipped
 
         given = inspect.signature(test)
         rest = [one for key, one in given.parameters.items() if key not in keys]

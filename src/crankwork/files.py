@@ -56,11 +56,9 @@ def read_data(path: str | Path, *, limit: int = MAX_DATA_FILE, advice: str = "")
     path, advice = Path(path), advice or Refusal("check_path")
     try:
         mode = path.stat().st_mode
-        if stat.S_ISDIR(mode):
-            raise CrankworkError(Refusal("path_folder", path=path))
         # a pipe or a device may never end, and opening it may never return
         if not stat.S_ISREG(mode):
-            raise CrankworkError(Refusal("path_odd", path=path))
+            raise CrankworkError(Refusal("path_folder" if stat.S_ISDIR(mode) else "path_odd", path=path))
         with path.open("rb") as stream:
             data = stream.read(limit + 1)
         _inputs.add(path.resolve())
@@ -117,10 +115,8 @@ def check_files(*paths: str | Path, overwrite: bool = False) -> None:
 def _check_new(path: Path, *, overwrite: bool) -> None:
     """Raise if something stands where a file is to go, or if it is read."""
     try:
-        if path.is_dir():
-            raise CrankworkError(Refusal("name_of_folder", path=path))
         if path.exists() and not path.is_file():
-            raise CrankworkError(Refusal("name_of_odd", path=path))
+            raise CrankworkError(Refusal("name_of_folder" if path.is_dir() else "name_of_odd", path=path))
         if path.resolve() in _inputs:
             raise CrankworkError(Refusal("place_read", path=path))
         if path.exists() and not overwrite:
@@ -324,6 +320,10 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
     try:
         if folder.exists() and not folder.is_dir():
             raise CrankworkError(Refusal("folder_is_file", path=folder))
+        for one in (one for one in _inputs if one.is_relative_to(folder.resolve())):
+            # what a run replaces or deletes without asking
+            if (own := one.relative_to(folder.resolve()).parts[0]) in (MANIFEST, MARK) or own.startswith(_STAGING):
+                raise CrankworkError(Refusal("place_read", path=one))
         if folder.is_dir() and not overwrite:
             _check_empty(folder)
         nearest = next(one for one in (folder, *folder.absolute().parents) if one.exists())

@@ -19,9 +19,10 @@ def main() -> int:
     parser.add_argument("names", nargs="*", help="scripts, without .py; all otherwise")
     parser.add_argument("--count", type=int, default=1, help="how many times each runs")
     arguments = parser.parse_args()
-    scripts = [
-        one for one in sorted((ROOT / "benchmarks").glob("*.py")) if not arguments.names or one.stem in arguments.names
-    ]
+    every = {one.stem: one for one in sorted((ROOT / "benchmarks").glob("*.py"))}
+    if unknown := set(arguments.names) - every.keys():
+        parser.error(f"no benchmark {', '.join(sorted(unknown))}; there are {', '.join(every)}")
+    scripts = [every[name] for name in arguments.names or every]
     failed = []
     for script in scripts * arguments.count:
         sys.stdout.write(f"== {script.name}\n")

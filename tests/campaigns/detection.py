@@ -240,6 +240,8 @@ def light_tests(place: Path) -> set[str]:
     words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-n0", "--collect-only", "--part", "light"]
     own = {"PYTHONPATH": f"{place / 'src'}:{place / 'tests'}"}
     told = subprocess.run(words, cwd=place, env=os.environ | own, capture_output=True, text=True, check=False)
+    if told.returncode:
+        raise SystemExit(f"the tests cannot be collected:\n{told.stdout}{told.stderr}")
     return {line for line in told.stdout.splitlines() if "::" in line}
 
 

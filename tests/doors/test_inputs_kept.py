@@ -77,3 +77,17 @@ def test_results_in_python_do_not_replace_what_they_were_read_from() -> None:
     assert Path("my.svg").read_text("utf-8") == text
     files.write_files({"my.svg": b"saved by who reads it"}, save=True)
     assert Path("my.svg").read_bytes() == b"saved by who reads it"
+
+
+def test_a_machine_under_a_name_that_the_program_gives_is_kept(crankwork) -> None:
+    text = template("slider-crank")
+    found = {}
+    for at, name in enumerate((".crankwork.json", "UNFINISHED-crankwork.txt", ".crankwork-abcdefgh/my.toml")):
+        for overwrite in ((), ("--overwrite",)):
+            file = Path(f"out{at}", name)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, "utf-8")
+            answer = crankwork("run", str(file), "-o", f"out{at}", "--no-figures", *overwrite)
+            if answer.code != 2 or not file.is_file() or file.read_text("utf-8") != text:
+                found[name, overwrite] = answer
+    assert found == {}

@@ -48,6 +48,8 @@ def prepared(page, key):
     """Come near to a slider, and wait until what follows it is calculated in the page."""
     slider_of(page, key).hover()
     page.wait_for_function("() => document.body.dataset.prepares === 'false' && globalThis.steps")
+    # its script goes when it has been taken
+    page.wait_for_function("() => !document.head.querySelector('script[src^=steps]')")
 
 
 def source(page):
