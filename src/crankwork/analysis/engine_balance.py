@@ -18,6 +18,7 @@ from crankwork.analysis.engine_bearings import (
 )
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.balance import (
+    ALL_ORDERS,
     ORDERS,
     InertiaHarmonics,
     free_force,
@@ -42,6 +43,8 @@ from crankwork.kinematics.crank_grid import CrankGrid
 _DECADES = 17
 # parts of a degree in the finest samples
 _MOST = 16
+# of the largest order, where rounding begins
+_ROUNDING = 1e-13
 # to which layouts of designs are one
 _DIGITS = 13
 
@@ -86,7 +89,7 @@ def engine_balance(whole: WholeEngine) -> EngineBalance:
     turning = rotating_unbalances(layout, rotating_masses(whole), r)
     weights = counterweights(whole, layout)
     rotating, balanced = turning_forces(layout, turning, w), turning_forces(layout, weights, w)
-    knuckles = _knuckles(whole)
+    knuckles = _knuckles(whole, harmonics.orders)
     before = balance_sum((*reciprocating, rotating, balanced, *knuckles))
     shaft_weights = tuple(
         weight
@@ -102,18 +105,28 @@ def engine_balance(whole: WholeEngine) -> EngineBalance:
 
 
 def _harmonics(whole: WholeEngine) -> InertiaHarmonics:
-    """Return the orders of the piston acceleration, of each cylinder where some rods are articulated."""
+    """Return the orders of the piston acceleration, of each cylinder where some rods are articulated.
+
+    Odd orders beyond the first are those of offset cylinders and articulated rods.
+    """
+    found = _all_harmonics(whole)
+    size = np.abs(found.coefficients).reshape(-1, len(ALL_ORDERS)).max(axis=0)
+    kept = [at for at, order in enumerate(ALL_ORDERS) if order in ORDERS or size[at] > _ROUNDING * size.max()]
+    return InertiaHarmonics(tuple(ALL_ORDERS[at] for at in kept), found.coefficients[..., kept])
+
+
+def _all_harmonics(whole: WholeEngine) -> InertiaHarmonics:
     lengths, method = whole.master.lengths, whole.master.method
     if whole.moves_alike:
         ratio = method.inertia_rod_ratio
         if ratio is not None and not method.is_exact:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)
-        return inertia_harmonics(lengths, ORDERS, method)
+        return inertia_harmonics(lengths, ALL_ORDERS, method)
     turn = _turn(whole)
     # that of the inertia force, where a document has its own
     own = [one.memory.get("inertia_acceleration", one.memory["piston_acceleration"]) for one in whole.cylinders]
     rows = [replay(one.node.operands[0], turn) for one in own]
-    return sampled_harmonics(np.stack(rows), lengths.crank_radius, ORDERS)
+    return sampled_harmonics(np.stack(rows), lengths.crank_radius, ALL_ORDERS)
 
 
 def _turn(whole: WholeEngine) -> CrankGrid:
@@ -124,11 +137,11 @@ def _turn(whole: WholeEngine) -> CrankGrid:
     r, l, e = whole.master.lengths  # noqa: E741
     fall = math.acosh(max(l / (r + max(map(abs, (e, *whole.engine.offsets)))), 1.0 + 1e-9))
     least = 2 if any(whole.engine.slaves) else 1
-    count = 360 * min(max(math.ceil((_DECADES * math.log(10) / fall + max(ORDERS)) / 360), least), _MOST)
+    count = 360 * min(max(math.ceil((_DECADES * math.log(10) / fall + max(ALL_ORDERS)) / 360), least), _MOST)
     return CrankGrid.from_degrees(np.arange(count) * (360 / count))
 
 
-def _knuckles(whole: WholeEngine) -> tuple[OrderBalance, ...]:
+def _knuckles(whole: WholeEngine, orders: Sequence[int]) -> tuple[OrderBalance, ...]:
     """Return what masses at knuckle pins leave free beyond the same masses at the crankpin, by order."""
     w, r, parts = whole.master.speed, whole.master.lengths.crank_radius, list[OrderBalance]()
     for place, one in zip(whole.layout.places, whole.cylinders, strict=True):
@@ -139,7 +152,7 @@ def _knuckles(whole: WholeEngine) -> tuple[OrderBalance, ...]:
         away = (x + r * own.cos) + 1j * (y + r * own.sin)
         vectors = -one.memory["knuckle_mass"].value * w**2 * away * unit_vectors(place.axis)
         spectrum = np.fft.fft(vectors) / len(own)
-        for order in ORDERS:
+        for order in orders:
             force = Ellipse(complex(spectrum[order]), complex(spectrum[-order]))
             parts.append(OrderBalance(order, force, Ellipse(*(place.position * one for one in force))))
     return balance_sum(parts)
@@ -226,8 +239,8 @@ def _order_forces(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known
     """Return the inertia force of each order of one cylinder and, where all are alike, what is free of it."""
     found, memory, layout = dict[str, Known](), whole.master.memory, whole.layout
     of_slaves = balance.harmonics.coefficients.ndim > 1
-    pitch = balance_pitch(layout)
-    for at, (order, factor) in enumerate(zip(ORDERS, layout_factors(layout, ORDERS, pitch or 1.0), strict=True)):
+    pitch, orders = balance_pitch(layout), balance.harmonics.orders
+    for at, (order, factor) in enumerate(zip(orders, layout_factors(layout, orders, pitch or 1.0), strict=True)):
         for number, row in enumerate(np.atleast_2d(np.abs(balance.harmonics.coefficients)), start=1):
             name = f"{order}.{number}" if of_slaves else f"{order}"
             if not row[at]:
@@ -378,4 +391,7 @@ def balance_checks(whole: WholeEngine, balance: EngineBalance, samples: Samples)
         max(abs(spectrum[one.order] - one.force.forward), abs(spectrum[-one.order] - one.force.backward))
         for one in balance.reciprocating
     ]
+    # an order that is not listed is none
+    left = set(ALL_ORDERS) - {one.order for one in balance.reciprocating}
+    apart += [abs(spectrum[order]) for one in left for order in (one, -one)]
     return {"free_forces": float(max(apart)) / scale}

@@ -126,8 +126,8 @@ def mean_values(over: OverCycle) -> Iterator[Known]:
     """Yield the mean loss over a cycle, and the efficiency that the work of a cycle gives; nothing without friction."""
     if "friction_power" in over.knowns:
         yield over.mean("friction_power", "mean_friction_power")
-    if "static_torque_with_friction" in over.knowns:
-        keys = "static_torque", "static_torque_with_friction"
+    if "torque_with_friction" in over.knowns:
+        keys = "static_torque", "torque_with_friction"
         ideal, actual = (over.mean(key, f"{key}.mean") for key in keys)
         if 0 < ideal.value <= actual.value:
             yield instantaneous_efficiency(ideal, actual).named("mean_efficiency")

@@ -310,7 +310,9 @@ def _summary(
     if is_whole and law is None:
         result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
     if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.knowns:
-        needed = over.mean("static_torque", "mean_driving_torque")
+        # inertia does no work in a cycle, friction does
+        torque = "torque_with_friction" if "torque_with_friction" in over.knowns else "static_torque"
+        needed = over.mean(torque, "mean_driving_torque")
         # an engine gives torque, and what it gives is told
         result["mean_torque"] = needed if needed.value >= 0 else (-needed).named("mean_torque")
     if is_whole:

@@ -59,11 +59,12 @@ def turn_of(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> T
     turn = Turn({}, {}, {}, (), {})
     if drive.fluctuation is None and drive.motor is None and drive.wheel is None:
         return turn
-    inertia, load = _curves(over, memory)
+    resistance = _resistance(over, memory)
+    inertia, load = _curves(over, memory["reduced_inertia"], resistance)
     added = 0.0
     if drive.fluctuation is not None or drive.wheel is not None:
         try:
-            turn, added = _even(machine, memory, inertia, load, w)
+            turn, added = _even(machine, memory, resistance, (inertia, load), w)
         except MethodError as error:
             return turn._replace(notices=(Notice("no_flywheel", {"message": error.args[0]}),))
     if drive.motor is not None and over.is_nothing("reduced_inertia") and not added + drive.motor.reduced_inertia:
@@ -76,19 +77,30 @@ def turn_of(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> T
     return turn
 
 
-def _curves(over: OverCycle, memory: Mapping[str, Known]) -> tuple[Curve, Curve]:
-    """Return reduced inertia and the torque of the loads, negative where they brake, over one revolution."""
+def _resistance(over: OverCycle, memory: Mapping[str, Known]) -> Known:
+    """Return the torque that loads and friction take at the mean speed; inertia is that of the reduced one."""
+    static = memory["static_torque"]
+    if "torque_with_friction" not in over.knowns:
+        return static
+    losses = memory["torque_with_friction"] - memory["balancing_torque"]
+    return (static + losses).named("load_torque")
 
-    def followed(key: str) -> Curve:
-        program = Program({key: memory[key]})
-        return Curve.fitted(lambda angle: program(CrankGrid.from_radians(angle))[key], np.radians(over.edges))
 
-    return followed("reduced_inertia"), -followed("static_torque")
+def _curves(over: OverCycle, inertia: Known, resistance: Known) -> tuple[Curve, Curve]:
+    """Return reduced inertia and the torque of loads and friction, negative where it brakes, over one revolution."""
+
+    def followed(known: Known) -> Curve:
+        program = Program({"": known})
+        return Curve.fitted(lambda angle: program(CrankGrid.from_radians(angle))[""], np.radians(over.edges))
+
+    return followed(inertia), -followed(resistance)
 
 
-def _even(machine: Machine, memory: Mapping[str, Known], inertia: Curve, load: Curve, w: Known) -> tuple[Turn, float]:
+def _even(
+    machine: Machine, memory: Mapping[str, Known], resistance: Known, curves: tuple[Curve, Curve], w: Known
+) -> tuple[Turn, float]:
     """Return the flywheel in four ways, where one is wanted, and with the exact one or a given one the true speed."""
-    of, wanted = (memory["static_torque"], memory["reduced_inertia"]), wanted_fluctuation(machine, w)
+    of, wanted, (inertia, load) = (resistance, memory["reduced_inertia"]), wanted_fluctuation(machine, w), curves
     found = [] if wanted is None else [flywheel(inertia, load, w.value, wanted.value, way) for way in WAYS]
     # a way that finds a negative inertia says that it needs none
     added = max(found[-1].inertia, 0.0) if found else 0.0

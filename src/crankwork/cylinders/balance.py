@@ -24,7 +24,9 @@ from crankwork.kinematics.series import acceleration_harmonics
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT, Method
 
+# the orders of rods whose line passes through the crankshaft
 ORDERS = (1, 2, 4, 6)
+ALL_ORDERS = (1, 2, 3, 4, 5, 6)
 
 
 @formula("order_inertia_force", "taylor_1985, vol. 2, ch. 8")
