@@ -22,6 +22,7 @@ from crankwork import cli, files, progress, units
 from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
 from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.stated import StatedFriction
 from crankwork.cli.asked import count_of
 from crankwork.cli.studio import studio
 from crankwork.description.expand import expanded
@@ -34,8 +35,10 @@ from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.structure import _longest_loop
 from crankwork.note import engine_material
+from crankwork.note.linkage_forces import _rubbing
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets.sheet import _LAYOUTS
+from crankwork.note.words import Words
 from crankwork.page import alike
 from crankwork.report import comparison_figure, drawing
 from crankwork.report.drawing import moving_drawing
@@ -415,3 +418,17 @@ def test_what_two_points_tell_of_the_share_of_a_field() -> None:
     assert first == pytest.approx([np.mean(values[:, 1] * (values[:, 2] - values[:, 0])) / variance])
     assert total == pytest.approx([np.mean((values[:, 0] - values[:, 2]) ** 2) / 2 / variance])
     assert Shares.of(values[:1], 0.0).indices() is None
+
+
+def test_what_rubs_is_written_with_its_values_and_units() -> None:
+    joint = StatedFriction("B_upper", {"pin_friction": (0.08, ""), "pin_radius": (0.035, "mm")})
+    words = "".join(one if isinstance(one, str) else "*" for one in _rubbing(joint, Words("en")))
+    assert words == "B upper: * = 0.08, * = 35\N{NO-BREAK SPACE}mm"
+
+
+def test_a_law_without_a_start_begins_where_it_ends() -> None:
+    text = (Path(__file__).parents[1] / "examples/excavator-boom.toml").read_text("utf-8")
+    start = 'start = "1.65 m"\n'
+    assert start in text
+    laws = [crankwork.read_machine(one).mechanism.driver.law for one in (text, text.replace(start, ""))]
+    assert laws[0] == laws[1]
