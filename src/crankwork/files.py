@@ -320,10 +320,10 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
     try:
         if folder.exists() and not folder.is_dir():
             raise CrankworkError(Refusal("folder_is_file", path=folder))
-        for one in (one for one in _inputs if one.is_relative_to(folder.resolve())):
-            # what a run replaces or deletes without asking
-            if (own := one.relative_to(folder.resolve()).parts[0]) in (MANIFEST, MARK) or own.startswith(_STAGING):
-                raise CrankworkError(Refusal("place_read", path=one))
+        # what a run replaces or deletes without asking
+        for read in (path for path in _inputs if folder.resolve() in path.parents):
+            if (own := read.relative_to(folder.resolve()).parts[0]) in (MANIFEST, MARK) or own.startswith(_STAGING):
+                raise CrankworkError(Refusal("place_read", path=read))
         if folder.is_dir() and not overwrite:
             _check_empty(folder)
         nearest = next(one for one in (folder, *folder.absolute().parents) if one.exists())

@@ -91,3 +91,11 @@ def test_a_machine_under_a_name_that_the_program_gives_is_kept(crankwork) -> Non
             if answer.code != 2 or not file.is_file() or file.read_text("utf-8") != text:
                 found[name, overwrite] = answer
     assert found == {}
+
+
+def test_a_folder_that_is_named_as_the_machine_is_refused(crankwork) -> None:
+    Path("out").mkdir()
+    for overwrite in ((), ("--overwrite",)):
+        answer = crankwork("run", "out", "-o", "out", *overwrite)
+        assert (answer.code, answer.out) == (2, "")
+        assert answer.err.startswith("out: is a folder")
