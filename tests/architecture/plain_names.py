@@ -1,7 +1,7 @@
 """Words that no identifier of the source should have, and how many each package still has.
 
-`PYTHONPATH=tests python tests/architecture/plain_names.py` prints what stands in `plain_names.txt`, and with the name of a package where
-each of its words stands.
+`PYTHONPATH=tests python tests/architecture/plain_names.py` prints what stands in `plain_names.txt`, and with the name
+of a package where each of its words stands.
 """
 
 from __future__ import annotations
@@ -16,14 +16,18 @@ from pathlib import Path
 from rules import PACKAGE, source_trees
 
 # parts of identifiers: private words, each of which has several meanings
-WORDS = frozenset(
-    "told retold tell say said spoken asked asking sought boundless loose rubbing rubbed rubs felt unfelt glide glided knowns "
-    "memories remembered remember remembers apart beside alike aside anew upon beneath complain doubts doubt stands goes let "
-    "nothing lingers patient creep led brief sound nobody deserted twins blows bearer bearers unsaid unsure misleading gone "
-    "course courses spare talls looked laid happen saw slave slaves".split()
-)
+# fmt: off
+WORDS = frozenset({
+    "told", "retold", "tell", "say", "said", "spoken", "asked", "asking", "sought", "boundless", "loose", "rubbing",
+    "rubbed", "rubs", "felt", "unfelt", "glide", "glided", "knowns", "memories", "remembered", "remember",
+    "remembers", "apart", "beside", "alike", "aside", "anew", "upon", "beneath", "complain", "doubts", "doubt",
+    "stands", "goes", "let", "nothing", "lingers", "patient", "creep", "led", "brief", "sound", "nobody",
+    "deserted", "twins", "blows", "bearer", "bearers", "unsaid", "unsure", "misleading", "gone", "course",
+    "courses", "spare", "talls", "looked", "laid", "happen", "saw", "slave", "slaves",
+})
+# fmt: on
 # names of variables and arguments that say nothing of what they hold
-NAMES = frozenset("one every some found at of by here there others whole way".split())
+NAMES = frozenset({"one", "every", "some", "found", "at", "of", "by", "here", "there", "others", "whole", "way"})
 LIST = Path(__file__).with_suffix(".txt")
 
 
