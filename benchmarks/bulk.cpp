@@ -65,19 +65,22 @@ struct Cylinder {
 };
 
 // designs: radius, rod, bore, piston mass, speed, compression ratio, each of n; results: seven of n; n a multiple of WIDTH
-extern "C" void engines(const double *x, double *out, long n, const double *sines, const double *cosines, double rod_mass)
+extern "C" void engines(const double *x, double *out, long n, const double *sines, const double *cosines, double rod_mass,
+                        double pin_mass)
 {
     const double step = 4 * std::acos(-1.0) / ANGLES;
-    alignas(64) static thread_local double torques[ANGLES * WIDTH];
+    alignas(64) static thread_local double torques[ANGLES * WIDTH], inertias[ANGLES * WIDTH];
     for (long i = 0; i < n; i += WIDTH) {
         Cylinder a(x + i, n, rod_mass);
+        const Vector moved = load(x + i + 3 * n) + of(rod_mass), turned = of(pin_mass) * a.r * a.r;
         const Vector inf = of(INFINITY);
         Vector force_max = -inf, tangential_max = -inf, torque_max = -inf, torque_min = inf, sum = of(0.0), work = sum;
         Vector pressure_before = of(0.0), volume_before = of(0.0), first_pressure = of(0.0), first_volume = of(0.0);
         for (int j = 0; j < ANGLES; j++) {
             const Vector s = of(sines[j]), c = of(cosines[j]);
             a.at(j, s, c);
-            const Vector tangential = a.force * (s * a.cb + c * a.sb) * a.per_cb, torque = tangential * a.r;
+            const Vector share = (s * a.cb + c * a.sb) * a.per_cb, rate = share * a.r;
+            const Vector tangential = a.force * share, torque = tangential * a.r;
             force_max = largest(force_max, a.force);
             tangential_max = largest(tangential_max, tangential);
             torque_max = largest(torque_max, torque);
@@ -89,17 +92,22 @@ extern "C" void engines(const double *x, double *out, long n, const double *sine
                 first_pressure = a.pressure, first_volume = a.volume;
             pressure_before = a.pressure;
             volume_before = a.volume;
-            store(torques + j * WIDTH, torque);
+            store(torques + j * WIDTH, a.area * (a.pressure - of(0.1e6)) * rate);
+            store(inertias + j * WIDTH, moved * rate * rate + turned);
         }
         work += of(0.5) * (first_pressure + pressure_before) * (first_volume - volume_before);
-        const Vector mean = sum * of(1.0 / ANGLES);
-        Vector energy = of(0.0), low = energy, high = energy, before = load(torques);
+        const Vector mean = sum * of(1.0 / ANGLES), half = of(0.5) * a.w * a.w;
+        const Vector upper = half * of(1.005 * 1.005), lower = half * of(0.995 * 0.995);
+        Vector gas = of(0.0), energy = gas, low = inf, high = -inf, before = load(torques);
+        for (int j = 0; j < ANGLES; j++)
+            gas += load(torques + j * WIDTH);
+        gas *= of(1.0 / ANGLES);
         for (int j = 0; j < ANGLES; j++) {
-            const Vector after = load(torques + ((j + 1) % ANGLES) * WIDTH);
-            energy += (of(0.5) * (before + after) - mean) * of(step);
+            const Vector after = load(torques + ((j + 1) % ANGLES) * WIDTH), inertia = load(inertias + j * WIDTH);
+            low = least(low, energy - lower * inertia);
+            high = largest(high, energy - upper * inertia);
+            energy += (of(0.5) * (before + after) - gas) * of(step);
             before = after;
-            low = least(low, energy);
-            high = largest(high, energy);
         }
         const Vector results[] = {force_max, tangential_max, mean, torque_max, torque_min, work,
                                   (high - low) / (of(0.01) * a.w * a.w)};

@@ -170,8 +170,14 @@ def by_numpy(designs: np.ndarray) -> np.ndarray:
         tangential = force * (sine * cos_beta + cosine * sin_beta) / cos_beta
         torque = tangential * r
         mean = torque.mean(axis=1, keepdims=True)
-        energy = np.cumsum(((torque + np.roll(torque, -1, axis=1)) / 2 - mean) * step, axis=1)
-        spread = np.maximum(energy.max(axis=1), 0) - np.minimum(energy.min(axis=1), 0)
+        # the energy of all masses stays between two lines over their reduced inertia
+        rate = r * (sine * cos_beta + cosine * sin_beta) / cos_beta
+        inertia = (piston + ROD_MASS) * rate**2 + PIN_MASS * r**2
+        gas = area * (pressure - 0.1e6) * rate
+        gained = ((gas + np.roll(gas, -1, axis=1)) / 2 - gas.mean(axis=1, keepdims=True)) * step
+        energy = np.cumsum(gained, axis=1) - gained
+        above, below = (energy - (w * (1 + half)) ** 2 / 2 * inertia for half in (0.005, -0.005))
+        spread = above.max(axis=1) - below.min(axis=1)
         after = np.roll(pressure, -1, axis=1), np.roll(volume, -1, axis=1)
         work = ((pressure + after[0]) / 2 * (after[1] - volume)).sum(axis=1)
         result[:, start : start + CHUNK] = (
@@ -207,7 +213,7 @@ def by_cpp(folder: str | Path) -> tuple[Callable[[np.ndarray], np.ndarray], Call
 
         return run
 
-    return function("engines", len(KEYS), ROD_MASS), function("v8", len(V8_KEYS), ROD_MASS, PIN_MASS)
+    return function("engines", len(KEYS), ROD_MASS, PIN_MASS), function("v8", len(V8_KEYS), ROD_MASS, PIN_MASS)
 
 
 def by_jax() -> Callable[[np.ndarray], np.ndarray]:

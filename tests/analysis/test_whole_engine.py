@@ -164,10 +164,16 @@ def test_the_flywheel_gives_the_wanted_fluctuation():
     machine = replace(_machine(LAYOUTS["I4"]), drive=Drive(fluctuation=0.01, inertia=0.05))
     results = crankwork.analyse(machine)
     assert results["speed_fluctuation"] == pytest.approx(0.01, rel=1e-12)
-    w = results["speed"]
-    assert (results["crank_speed_max"] + results["crank_speed_min"]) / 2 == pytest.approx(w, rel=1e-12)
-    needed = results["excess_work"] / (0.01 * w**2)
-    assert results["flywheel_inertia"] + 0.05 == pytest.approx(needed, rel=1e-12)
+    w, degrees = results["speed"], np.arange(7200) / 10 + 0.05
+    columns = results.columns_at(degrees, ["crank_speed", "total_reduced_inertia"])
+    assert 1 / np.mean(1 / columns["crank_speed"]) == pytest.approx(w, rel=1e-8)
+    # the energy of all masses and of the flywheel gains what the gas does
+    inertia = columns["total_reduced_inertia"] + results["flywheel_inertia"]
+    energy = inertia * columns["crank_speed"] ** 2 / 2
+    torque = results.columns_at(degrees, ["total_torque", "total_reduced_inertia_1"])
+    gas = torque["total_torque"] + w**2 / 2 * torque["total_reduced_inertia_1"]
+    work = np.cumsum(gas - np.mean(gas)) * np.radians(0.1)
+    assert np.ptp(energy - work) < 0.005 * np.ptp(work)
 
 
 def test_excess_work_is_that_of_a_fine_sum():
@@ -176,7 +182,7 @@ def test_excess_work_is_that_of_a_fine_sum():
     degrees = np.linspace(0.0, 720.0, 14401)
     torque = whole.each("crank_torque", degrees).sum(axis=0)
     excess = np.cumsum((torque - np.mean(torque[:-1]))[:-1]) * np.radians(0.05)
-    assert results["excess_work"] == pytest.approx(np.ptp(excess), rel=1e-3)
+    assert results["excess_work.mertsalov"] == pytest.approx(np.ptp(excess), rel=1e-3)
 
 
 def test_specific_loads_need_the_sizes():

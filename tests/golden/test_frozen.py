@@ -20,6 +20,8 @@ from each import for_each
 
 HERE = Path(__file__).parent
 SAME, SAME_ANGLE = 1e-9, 1e-7
+# how near another route comes to the rows of a column
+ROUTES = 2e-6
 # sums that cancel leave this much of what went into them
 _ROUNDING = 1e-13
 # equal cylinders have equal extremes, and rounding chooses among them
@@ -180,15 +182,23 @@ def _entries() -> list[dict[str, Any]]:
 
 def _covers(entry: Mapping[str, Any], place: Place) -> bool:
     matches = _fits(place.key, entry["key"]) and _fits(place.machine, entry["machine"])
-    return matches and entry.get("at", place.at) == place.at
+    of_column = "independent" in entry and isinstance(entry["independent"], list)
+    return matches and (of_column or entry.get("at", place.at) == place.at)
 
 
 _fits = functools.cache(fnmatchcase)
 
 
+def _beside(entry: Mapping[str, Any], place: Place) -> float:
+    """Return the independent value of a row of a column."""
+    return dict(zip(entry["at"], entry["independent"], strict=True)).get(place.at, math.nan)
+
+
 def _explains(entry: Mapping[str, Any], place: Place) -> bool:
     if not _covers(entry, place):
         return False
+    if isinstance(entry.get("independent"), list):
+        return abs(place.new - _beside(entry, place)) <= ROUTES * place.scale
     if "within" in entry:
         return place.difference <= entry["within"]
     return max(abs(entry["old"] - place.old), abs(entry["new"] - place.new)) <= place.allowed * place.scale
@@ -206,6 +216,12 @@ def _flaws(entry: Mapping[str, Any], places: list[Place]) -> Iterator[str]:
         largest = max((one.difference for one in differing if _explains(entry, one)), default=0.0)
         if entry["within"] > 10 * largest:
             yield f"allows {entry['within']:g} where {largest:.2g} suffices; lower it"
+    elif isinstance(entry["independent"], list):
+        nearer = [
+            one.at for one in differing if not abs(one.old - _beside(entry, one)) > abs(one.new - _beside(entry, one))
+        ]
+        if nearer:
+            yield f"the independent values speak for the old ones at {nearer}"
     elif len(about) != 1:
         yield f"is {len(about)} numbers; name one machine, key and place, or give a bound with within"
     elif abs(entry["new"] - entry["independent"]) >= abs(entry["old"] - entry["independent"]):
@@ -225,6 +241,9 @@ ONE = {"old": 100.0, "new": 101.0, "independent": 101.0}
         (ONE, OLD._replace(new=100.0), False, "differs no longer"),
         (ONE | {"independent": 100.2}, OLD, True, "speaks for the old one"),
         (ONE | {"key": "summary.*"}, OLD._replace(key="columns.side_force"), False, "differs no longer"),
+        ({"at": [30.0], "independent": [101.0]}, OLD._replace(at=30.0), True, None),
+        ({"at": [30.0], "independent": [101.0]}, OLD._replace(at=40.0), False, "speak for the old ones"),
+        ({"at": [30.0], "independent": [100.4]}, OLD._replace(at=30.0), False, "speak for the old ones"),
         ({"within": 2e-3}, OLD, True, None),
         ({"within": 2e-3, "machine": "*", "key": "summary.*_max"}, OLD, True, None),
         ({"within": 5e-4}, OLD, False, "lower it"),

@@ -210,13 +210,15 @@ def test_the_energy_spans_the_excess_work_and_the_speed_fluctuates_as_much_as_wa
     results, drawn = of_layout(layout)
     graphs = _graphs(drawn, "excess_work")
     energy = graphs["energy"].curves
-    assert energy["max"][1][0] - energy["min"][1][0] == pytest.approx(results.summary["excess_work"], rel=1e-9)
-    assert energy["energy"][1][-1] == pytest.approx(0.0, abs=1e-9 * results.summary["excess_work"])
+    work = results.summary["excess_work.mertsalov"]
+    assert energy["max"][1][0] - energy["min"][1][0] == pytest.approx(work, rel=1e-9)
+    assert energy["energy"][1][-1] == pytest.approx(0.0, abs=1e-9 * work)
     degrees, surplus = graphs["torque"].curves["surplus"]
-    assert np.trapezoid(surplus, np.radians(degrees)) == pytest.approx(0.0, abs=2e-2 * results.summary["excess_work"])
+    assert np.trapezoid(surplus, np.radians(degrees)) == pytest.approx(0.0, abs=2e-2 * work)
     curves = _graph(drawn, "crank_speed").curves
     high, low = curves["max"][1][0], curves["min"][1][0]
-    assert 2 * (high - low) / (high + low) == pytest.approx(0.01, rel=1e-9)
+    # the mean over the time is not that of the extremes, for which the flywheel is found
+    assert 2 * (high - low) / (high + low) == pytest.approx(0.01, rel=3e-3)
     assert curves["speed"][1].max() == pytest.approx(high, rel=1e-5)
 
 

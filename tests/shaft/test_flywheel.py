@@ -31,7 +31,11 @@ def test_true_speed_has_the_mean_asked_for_and_the_extremes_are_extremes():
     speed = true_speed(INERTIA + 3.0, LOAD, 10.0)
     angle = np.linspace(0, 2 * math.pi, 100001)
     w = speed.speed(angle)
-    assert speed.mean_speed == pytest.approx(10, rel=1e-14)
+    time = np.trapezoid(1 / w, angle)
+    assert 2 * math.pi / time == pytest.approx(10, rel=1e-9)
+    books = true_speed(INERTIA + 3.0, LOAD, 10.0, mean="extremes").extremes
+    assert (books.largest + books.least) / 2 == pytest.approx(10, rel=1e-14)
+    assert speed.fluctuation == pytest.approx((books.largest - books.least) / 10, rel=1e-13)
     assert (w.min(), w.max()) == pytest.approx((speed.extremes.least, speed.extremes.largest), rel=1e-7)
     assert w.min() >= speed.extremes.least * (1 - 1e-14)
 

@@ -58,7 +58,9 @@ class TestSteady:
         soft = LinearMotor(1e-4, 10.0 - LOAD.mean / 1e-4)
         found = steady_speed(ReducedMachine.of_curves(INERTIA, LOAD, soft, flywheel=3.0), 10.0)
         middle = (found.largest + found.least) / 2
-        exact = true_speed(INERTIA + 3.0, LOAD, middle)
+        exact = true_speed(INERTIA + 3.0, LOAD, found.mean_speed)
+        books = true_speed(INERTIA + 3.0, LOAD, middle, mean="extremes")
+        assert found.fluctuation == pytest.approx(books.fluctuation, rel=1e-4)
         assert found.speed == pytest.approx(exact.speed(found.angle), rel=1e-5)
 
     def test_a_load_beyond_the_motor_is_not_solved(self):

@@ -136,8 +136,7 @@ def _motion(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
     }
     found |= over.extremes(*_MOVING)
     if solved.machine.angular_acceleration:
-        rate = solved.machine.angular_acceleration
-        found["angular_acceleration"] = given("angular_acceleration", rate, "crank.angular_acceleration")
+        found["angular_acceleration"] = origins.acceleration(solved.machine)
     if not solved.method.is_exact:
         found |= over.errors(*(f"{key}_error" for key in ("piston_displacement", *_MOVING)))
     return found

@@ -10,10 +10,11 @@ import numpy as np
 from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.engine_bearings import rotating_mass_of
-from crankwork.analysis.evenness import course_of, recovery, turning_inertia, wheel_for
+from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.reduction import MOVING
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
+from crankwork.analysis.speed import Balance, excess_of, turn_of, work_of
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import (
@@ -24,14 +25,15 @@ from crankwork.cylinders.torque_harmonics import (
     torque_harmonics,
     total_harmonics,
 )
+from crankwork.dynamics.force_parts import static_torque_of_balancing
 from crankwork.dynamics.piston_forces import crank_torque
+from crankwork.dynamics.reduction import dynamic_torque
 from crankwork.formula.known import Found, Harmonic, Known, absent, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, excess_work, share_of_work
-from crankwork.shaft.flywheel import work_of_mean_torque
+from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, excess_work
 
 _ORDERS = 12
 _SAMPLES = 1440
@@ -43,12 +45,13 @@ class EngineTorque(NamedTuple):
     # Torques [N m]
     one: Curve
     total: Curve
-    excess: ExcessWork  # What the total torque does beyond its mean
+    excess: ExcessWork  # What the total torque does beyond its mean, its inertia forces in it
     speed: TrueSpeed | None  # With the flywheel, where anything has an inertia
     # Energy and speed over the crank angle; single values; what lies between them
     columns: Mapping[str, Known]
     summary: Mapping[str, Known]
     between: Mapping[str, Known]
+    checks: Mapping[str, float]
     notices: tuple[Notice, ...]  # Why there is no flywheel, or no steady speed
 
 
@@ -98,25 +101,50 @@ def engine_torque(
     whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, extremes: Mapping[str, Known]
 ) -> EngineTorque:
     """Return the torque of the engine with the flywheel it needs, and why there is none."""
-    edges, of = np.radians(over.edges), (memory["total_torque"],)
     first = whole.of(1, "crank_torque").key
-    one, all_ = (Curve.legendre(edges, over.polynomials(key)) for key in (first, "total_torque"))
-    found, w = excess_work(all_), whole.master.memory["speed"]
+    one, all_ = (_curve(over, key) for key in (first, "total_torque"))
+    w, summed = whole.master.memory["speed"], excess_work(all_)
     summary = {"mean_total_torque": over.mean("total_torque", "mean_total_torque")}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
-    excess = summary["excess_work"] = Known(Found(found.work, "range", of), "excess_work")
-    mean, between = summary["mean_total_torque"], dict[str, Known]()
-    if mean.value:
-        work = work_of_mean_torque(mean, origins.cycle_angle(whole.machine))
-        between["work_per_cycle"] = work
-        summary["energy_fluctuation"] = share_of_work(excess, work)
-    wheel = wheel_for(whole.machine, excess, w, turning_inertia(whole.machine, "reduced_inertia.drive"))
-    course = course_of(all_, found, excess, w, wheel.inertia, of[0])
-    summary |= wheel.summary | course.summary
-    summary |= recovery(whole.machine, wheel.inertia, w, summary)
+    balance = _balance(whole, memory, over, all_)
+    excess = summary["excess_work"] = excess_of(balance)
+    between = work_of(excess, summary["mean_total_torque"], origins.cycle_angle(whole.machine))
+    # textbooks draw the extremes as far above the mean as below it
+    turn = turn_of(whole.machine, balance, w, "extremes" if whole.master.method.kinematics == "textbook" else "time")
+    summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
     named = {key: known.named(key) for key, known in summary.items()}
-    notices = wheel.notices + course.notices
-    return EngineTorque(one, all_, found, course.speed, course.columns, named, between | wheel.between, notices)
+    between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
+    return EngineTorque(one, all_, summed, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
+
+
+def _curve(over: OverCycle, key: str) -> Curve:
+    return Curve.legendre(np.radians(over.edges), over.polynomials(key))
+
+
+def _balance(whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, total_torque: Curve) -> Balance:
+    """Return what gas and weights do on the crank, with the reduced inertia of all that moves.
+
+    As textbooks do it: the torque of all cylinders at constant speed, with what turns with the crank alone.
+    """
+    drive, total_ = turning_inertia(whole.machine, "reduced_inertia.drive"), memory["total_torque"]
+    if "total_reduced_inertia" not in memory or not has_own_inertia(whole):
+        constant = Curve.constant(drive.value, total_torque.cycle)
+        return Balance(total_, total_torque, drive, constant, excess_work(total_torque), sign=1.0)
+    w, eps = whole.master.memory["speed"], origins.acceleration(whole.machine)
+    inertia, inertia_1 = memory["total_reduced_inertia"], memory["total_reduced_inertia_1"]
+    own = inertia if drive.is_absent else (inertia - drive).named("reduced_inertia.cylinders")
+    dynamic = dynamic_torque(w, inertia_1, own, eps).named("dynamic_torque")
+    static = static_torque_of_balancing((-total_).named("balancing_torque"), dynamic).named("static_torque")
+    J, J_1 = (_curve(over, key) for key in ("total_reduced_inertia", "total_reduced_inertia_1"))
+    torque = total_torque + J_1 * (w.value**2 / 2)
+    if not eps.is_absent:
+        torque = torque + (J + -drive.value) * eps.value
+    return Balance(static, torque, inertia, J, excess_work(torque))
+
+
+def has_own_inertia(whole: WholeEngine) -> bool:
+    """Return whether rods and pistons count in the speed: not as textbooks do it."""
+    return whole.machine.masses is not None and whole.master.method.kinematics != "textbook"
 
 
 def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[str, Known]) -> dict[str, Known]:

@@ -10,13 +10,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from crankwork.analysis import origins
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.friction import COLUMNS as FRICTION
 from crankwork.analysis.friction import FOLLOWED as FOLLOWED_FRICTION
 from crankwork.analysis.friction import SIGNED, Rubbed, friction_of, mean_values
-from crankwork.analysis.linkage_balance import balance_of
+from crankwork.analysis.linkage_balance import counterweight_balance
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, remembered_running, speed_of
-from crankwork.analysis.linkage_speed import turn_of
 from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
 from crankwork.analysis.reach import (
     Boundless,
@@ -31,6 +31,15 @@ from crankwork.analysis.reach import (
 from crankwork.analysis.results import Results
 from crankwork.analysis.running import running_at
 from crankwork.analysis.solved import Notice, SolvedLinkage
+from crankwork.analysis.speed import (
+    Turn,
+    balance_of,
+    driven_by_motor,
+    excess_of,
+    has_flywheel,
+    turn_of,
+    work_of,
+)
 from crankwork.analysis.tabulated import DYNAMICS
 from crankwork.analysis.transient import let_go
 from crankwork.dynamics.joint_forces import joint_forces
@@ -100,16 +109,19 @@ def analyse_linkage(
     )
     between = {"mobility": mobility(machine.whole)}
     if found is None and "reduced_inertia" in memory:
-        turn = turn_of(machine, over, {**memory, **summary})
-        memory |= turn.columns
-        checks |= turn.checks
-        summary |= turn.summary
-        between |= turn.between
-        notices += turn.notices
+        for turn in _turns(machine, over, {**memory, **summary}):
+            memory |= turn.columns
+            checks |= turn.checks
+            summary |= {key: one.named(key) for key, one in turn.summary.items()}
+            between |= turn.between
+            notices += turn.notices
     summary |= _power_of_valves(machine, memory | summary)
     driver = machine.mechanism.driver
     if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
-        summary |= {key: one.named(key) for key, one in balance_of(driver, memory | summary, machine.mechanism.period)}
+        summary |= {
+            key: one.named(key)
+            for key, one in counterweight_balance(driver, memory | summary, machine.mechanism.period)
+        }
     ran = let_go(solved, motion, found, summary, progress)
     summary, checks, notices = summary | ran.summary, checks | ran.checks, notices + ran.notices
     notices += tuple(_of_machine(machine))
@@ -123,6 +135,22 @@ def analyse_linkage(
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
     return Results(solved, table, columns, values, checks, notices, _groups(columns), ran.listings, ran.allowed, memory)
+
+
+def _turns(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> Iterator[Turn]:
+    """Yield how evenly a linkage runs, where a flywheel is given or wanted, and what its motor does."""
+    drive, w, mean = machine.drive, speed_of(machine), memory.get("mean_torque")
+    if not has_flywheel(drive) and drive.motor is None:
+        return
+    balance, added = balance_of(machine, over, memory), 0.0
+    if has_flywheel(drive):
+        turn, excess = turn_of(machine, balance, w), excess_of(balance)
+        cycle = given("cycle_angle", math.radians(machine.cycle))
+        summary = {"excess_work": excess, **turn.summary}
+        yield turn._replace(summary=summary, between=turn.between | work_of(excess, mean, cycle))
+        added = turn.added
+    if drive.motor is not None:
+        yield driven_by_motor(machine, drive.motor, balance, w, mean, added)
 
 
 def linkage_columns(machine: Machine) -> Results:
@@ -328,8 +356,7 @@ def _given_values(machine: Machine) -> dict[str, Known]:
         return {"period": given("period", law.period, "driver.period")}
     result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
     if machine.angular_acceleration:
-        eps = given("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
-        result["angular_acceleration"] = eps
+        result["angular_acceleration"] = origins.acceleration(machine)
     if machine.drive.efficiency != 1:
         result["efficiency"] = efficiency_of(machine.drive)
     return result

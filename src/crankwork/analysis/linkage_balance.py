@@ -37,7 +37,7 @@ def shaking(running: Running) -> Iterator[tuple[str, Known]]:
             yield "shaking_moment", total("shaking_moment", stated)
 
 
-def balance_of(driver: Crank, memory: Mapping[str, Known], period: float) -> Iterator[tuple[str, Known]]:
+def counterweight_balance(driver: Crank, memory: Mapping[str, Known], period: float) -> Iterator[tuple[str, Known]]:
     """Yield the largest force of each order, and the counterweight on the crank that takes the part that turns with it.
 
     That counterweight makes the mean square of the shaking force least. `period`: crank angle of a cycle [deg].

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from crankwork.analysis import origins
-from crankwork.analysis.evenness import turning_inertia
+from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.linkage_balance import shaking
 from crankwork.analysis.quality import transmissions
 from crankwork.analysis.running import is_shared, remembered_forces
@@ -56,8 +56,7 @@ def turning_of(machine: Machine, motion: Motion) -> tuple[Known, Known]:
     if motion.driver is not None:
         _, rate, change = motion.driver
         return rate, change
-    eps = _stated("angular_acceleration", machine.angular_acceleration, "crank.angular_acceleration")
-    return speed_of(machine), eps
+    return speed_of(machine), origins.acceleration(machine)
 
 
 def linkage_memory(solved: SolvedLinkage, running: Running) -> dict[str, Known]:
@@ -106,10 +105,6 @@ def efficiency_of(drive: Drive) -> Known:
         return remembered_efficiency(drive.chain)
     exact = remembered_efficiency(drive.chain).named("efficiency.exact")
     return Known(Found(drive.efficiency, "rounded", (exact,)), "efficiency")
-
-
-def _stated(key: str, value: float, path: str) -> Known:
-    return given(key, value, path) if value else absent(key)
 
 
 def _moving(machine: Machine, motion: Motion, w: Known, eps: Known) -> Iterator[tuple[str, Known]]:

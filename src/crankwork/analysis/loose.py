@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from crankwork.analysis.charts import Chart, Piece
-from crankwork.analysis.evenness import turning_inertia
+from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.force_system import whole_system
 from crankwork.dynamics.friction import Rubbing, rubbing_joints

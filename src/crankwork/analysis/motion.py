@@ -48,8 +48,7 @@ def moving_cylinder(
     """Return the motion of a cylinder by a method, remembered; `rod` is its own where that hangs on the master rod."""
     angle: Value = KnownAngle()
     lengths, speed = origins.lengths(machine, sizes), origins.speed(machine, method)
-    rate = machine.angular_acceleration
-    eps = given("angular_acceleration", rate, "crank.angular_acceleration") if rate else absent("angular_acceleration")
+    eps = origins.acceleration(machine)
     if rod is None:
         slave, motion = None, piston_motion(lengths, angle, method)
     else:

@@ -95,6 +95,12 @@ def speed_at(machine: Machine, method: Method, path: str, value: float, name: st
     return checked(given(f"speed{name}", stated.value, path), found) if stated and in_radians else found
 
 
+def acceleration(machine: Machine) -> Known:
+    """Return the angular acceleration of the crank."""
+    value, key = machine.angular_acceleration, "angular_acceleration"
+    return given(key, value, f"crank.{key}") if value else absent(key)
+
+
 def inclination(machine: Machine) -> tuple[Known, Known]:
     """Return cosine and sine of the angle by which the cylinder leans."""
     lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0

@@ -9,11 +9,20 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import origins
-from crankwork.analysis.evenness import course_of, extreme_speeds, recovery, turning_inertia, wheel_for
+from crankwork.analysis.flywheel import (
+    extreme_speeds,
+    recovery,
+    sizes_of,
+    sizes_of_given,
+    turning_inertia,
+    wanted_fluctuation,
+)
 from crankwork.analysis.linkage_memory import efficiency_of
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice, Solved
+from crankwork.analysis.speed import Balance, constant_wheel, excess_of, turn_of
 from crankwork.analysis.turning_memory import torque_memory, work_scale, works_at_once
+from crankwork.errors import MethodError
 from crankwork.formula.known import Found, Known, OfAngle, absent, breaks_of, given, in_order
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
@@ -28,7 +37,7 @@ from crankwork.shaft.fluctuation import (
     fluctuation_of_inertia,
     share_of_work,
 )
-from crankwork.shaft.flywheel import work_of_mean_torque
+from crankwork.shaft.flywheel import check_fluctuation, work_of_mean_torque
 from crankwork.shaft.motor_choice import needed_power
 from crankwork.shaft.torque_diagram import TorqueDiagram, Turning
 
@@ -132,25 +141,24 @@ def _of_course(machine: Machine, turning: Turning, w: Known) -> _Turned:
     columns = {"turning_moment": drive, "load_torque": load, "excess_torque": (drive - load).named("excess_torque")}
     net = columns["excess_torque"]
     torque, found = _excess(turning, over)
-    excess = Known(Found(found.work, "range", (net,)), "excess_work")
-    wheel = wheel_for(machine, excess, w, turning_inertia(machine, "whole_inertia"))
-    course = course_of(torque, found, excess, w, wheel.inertia, net)
-    columns |= course.columns
+    own = turning_inertia(machine, "whole_inertia")
+    balance = Balance(net, torque, own, Curve.constant(own.value, turning.cycle), found, sign=1.0)
+    excess, turn = excess_of(balance), turn_of(machine, balance, w, "extremes")
+    columns |= turn.columns
     summary = {**_given_values(machine, w), "mean_torque": mean, **_power(machine, turning, mean, w)}
-    summary |= _extremes_of(made, over) | _per_cycle(machine, mean, excess) | wheel.summary
-    summary |= {key: one for key, one in course.summary.items() if not key.startswith("crank_speed")}
-    summary |= _where(course.summary)
-    if wheel.inertia.value > 0:
-        turned = acceleration_of_crank(net, absent("speed"), wheel.inertia, absent("reduced_inertia_1"))
+    summary |= _extremes_of(made, over) | _per_cycle(machine, mean, excess) | turn.summary
+    inertia = 0.0 if turn.speed is None else turn.speed.inertia.mean
+    if turn.speed is not None:
+        whole = next((one for key, one in turn.between.items() if key in ("whole_inertia", "flywheel_inertia")), own)
+        turned = acceleration_of_crank(net, absent("speed"), whole, absent("reduced_inertia_1"))
         columns["angular_acceleration"] = turned
-        summary |= _extremes("angular_acceleration", turned, torque * (1 / wheel.inertia.value))
-    summary |= recovery(machine, wheel.inertia, w, summary)
-    checks = _checks(turning, over, columns, (found, course.speed, wheel.inertia.value))
-    notices = (*_notices(turning), *wheel.notices, *course.notices)
-    listings = {"energy_extremes": _listing(found, course.speed)}
+        summary |= _extremes("angular_acceleration", turned, torque * (1 / inertia))
+    checks = _checks(turning, over, columns, (found, turn.speed, inertia))
+    notices = (*_notices(turning), *turn.notices)
+    listings = {"energy_extremes": _listing(found, turn.speed)}
     columns = {key: one.named(key) for key, one in columns.items()}
     stretches = (one for one in in_order([*made.values(), *means.values()]) if one.key.partition(".")[0] in _STRETCHES)
-    between = {one.key: one for one in stretches if one.key not in _STRETCHES} | wheel.between
+    between = {one.key: one for one in stretches if one.key not in _STRETCHES} | turn.between
     summary |= {key: one for key, one in between.items() if key.startswith("shearing_force.")}
     return _Turned(columns, summary, between, checks, notices, listings)
 
@@ -244,18 +252,6 @@ def _extremes(key: str, known: Known, curve: Curve) -> dict[str, Known]:
         degrees = math.degrees(at)
         result[f"{key}_{word}"] = Known(Found(value, word, (known.named(key),), degrees))
         result[f"{key}_{word}_angle"] = Known(Found(at, f"{word}_angle", (known.named(key),), degrees))
-    return result
-
-
-def _where(summary: Mapping[str, Known]) -> dict[str, Known]:
-    """Return the extremes of the speed, each with its angle."""
-    result: dict[str, Known] = {}
-    for word in ("max", "min"):
-        key = f"crank_speed_{word}"
-        known = summary.get(key)
-        if known is not None and isinstance(known.node, Found) and known.node.at is not None:
-            of, at = known.node.operands, known.node.at
-            result |= {key: known, f"{key}_angle": Known(Found(math.radians(at), f"{word}_angle", of, at))}
     return result
 
 
@@ -364,14 +360,29 @@ def _of_energies(machine: Machine, turning: Turning, w: Known) -> _Turned:
     else:
         summary |= _of_excess(machine, diagram, table, mean)
         excess = summary["excess_work"].named("excess_work")
-    wheel = wheel_for(machine, excess, w, turning_inertia(machine, "whole_inertia"))
-    summary |= wheel.summary
-    if wheel.inertia.value > 0:
-        delta: Known = fluctuation_of_inertia(excess, wheel.inertia, w)
+    notices, inertia, wanted = (
+        tuple[Notice, ...](),
+        turning_inertia(machine, "whole_inertia"),
+        wanted_fluctuation(machine, w),
+    )
+    if wanted is None:
+        summary |= sizes_of_given(machine, w)
+    else:
+        try:
+            check_fluctuation(wanted.value, w.value)
+        except MethodError as error:
+            notices = (Notice("no_flywheel", {"message": error.args[0]}),)
+        else:
+            summary["flywheel_inertia"], needed = constant_wheel(excess, wanted, w, inertia)
+            if summary["flywheel_inertia"].value:
+                inertia = between[needed.key] = needed
+                summary |= sizes_of(machine, summary["flywheel_inertia"], w)
+    if inertia.value > 0:
+        delta: Known = fluctuation_of_inertia(excess, inertia, w)
         summary["speed_fluctuation"] = delta = delta.named("speed_fluctuation")
         summary["crank_speed_max"], summary["crank_speed_min"] = w + delta * w / 2, w - delta * w / 2
-        summary |= recovery(machine, wheel.inertia, w, summary)
-    return _Turned({}, summary, {**between, **wheel.between}, checks, wheel.notices, listings)
+        summary |= recovery(machine, inertia, w, summary)
+    return _Turned({}, summary, between, checks, notices, listings)
 
 
 def _constant(machine: Machine, diagram: TorqueDiagram, table: str, w: Known) -> Known:

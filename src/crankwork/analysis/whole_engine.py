@@ -32,6 +32,7 @@ from crankwork.analysis.engine_torque import (
     engine_torque,
     harmonics_listing,
     harmonics_memory,
+    has_own_inertia,
     torque_checks,
     torque_memory,
 )
@@ -78,7 +79,13 @@ class WholeMemory(NamedTuple):
         memory = torque_memory(whole) | bearing_memory(whole) | engine_reduction(whole)
         first = whole.of(1, "crank_torque")
         keys = ("total_torque", *load_columns(memory).values(), "bearing_force_x.small_end")
-        followed = {first.key: first, **{key: memory[key] for key in keys}, **beside}
+        inertias = _REDUCTION if has_own_inertia(whole) else ()
+        followed = {
+            first.key: first,
+            **{key: memory[key] for key in inertias},
+            **{key: memory[key] for key in keys},
+            **beside,
+        }
         inertia = [whole.of(number, "inertia_force") for number in whole.has("inertia_force")]
         sampled = {key: memory[key] for key in (*_table_keys(memory), *bearing_components(whole, memory))}
         program = Program({**own, **sampled, **{one.key: one for one in inertia}, **followed})
@@ -149,6 +156,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
             **results.checks,
             **torque_checks(whole, torque, samples, moved_work(results.solved, results.summary)),
             **balance_checks(whole, balance, samples),
+            **torque.checks,
             **thrown,
         },
         allowed=_allowed(results),

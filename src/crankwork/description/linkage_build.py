@@ -21,7 +21,7 @@ from crankwork.description.positions_build import settled, told_positions
 from crankwork.description.redundant_build import fitting, geometry_of, taken_out, without_unshared
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
-from crankwork.description.wheel_build import check_wanted, read_wheel
+from crankwork.description.wheel_build import read_wheel
 from crankwork.dynamics.tabulated import TabulatedBody
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.loads.damper import Damper, SliderDamper
@@ -114,7 +114,6 @@ def _drive(values: Values, method: Method, reader: Reader) -> Drive:
     """Return efficiency, motor and flywheel."""
     flywheel, crank = values["flywheel"], values["crank"]
     speed = crank_speed(crank["speed"], method) if "speed" in crank else None
-    check_wanted(flywheel, reader)
     if "recovery" in flywheel:
         reader.complain("flywheel.recovery", Refusal("recovery_of_linkage"))
     return read_wheel(flywheel, read_drive(values, reader), speed, reader, pi=method.pi)

@@ -13,7 +13,6 @@ from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated import slave_stroke
 from crankwork.cylinders.layout import Place
 from crankwork.description.engine_keys import HEAT_RELEASE
-from crankwork.description.wheel_build import WANTED
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.loads.indicator import DiagramPoint
 from crankwork.machine import Gas, Machine
@@ -23,8 +22,6 @@ from crankwork.working_cycle.pressures import MisfirePressure
 _DIAGRAM = ("points", "pieces", "measured", "valves")
 _COUNTED = ("pressures", "ambient")
 _OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
-# of a flywheel that is to be found, what may be known of its sizes
-_SIZES = ("radius_of_gyration", "rim")
 _ALONE = Place(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
 
 
@@ -121,10 +118,8 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     yield "positions", {name: _place(at) for name, at in _positions(gears)}
     for one in gears:
         yield from _chambers(values, one)
-    if machine.drive.fluctuation is not None:
-        wheel = values["flywheel"]
-        shown = {name: wheel[name] for name in (*WANTED, *_SIZES) if name in wheel and "mass" not in wheel}
-        yield "flywheel", shown or {"fluctuation": machine.drive.fluctuation}
+    if "flywheel" in values:
+        yield "flywheel", values["flywheel"]
     method = {
         key: one for key, one in values.get("method", {}).items() if key in ("kinematics", "pi", "gravity", "weights")
     }
@@ -145,7 +140,7 @@ def _crank(stated: Mapping[str, Any], machine: Machine, gears: list[Gear]) -> di
     throw = machine.masses.crank if machine.masses else 0.0
     shares = [throw / list(throws.values()).count(at) for at in throws.values()]
     mass = math.fsum(shares)
-    turning = mass * radius**2 + machine.drive.inertia
+    turning = mass * radius**2
     if mass:
         centre = sum(share * at for share, at in zip(shares, pins.values(), strict=True)) / mass
         crank |= {"mass": _unit(mass, "kg"), "centre": gears[0].joint if len(pins) == 1 else _place(centre)}

@@ -14,7 +14,7 @@ from crankwork.description.kinds import Measure, Reader
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.description.turning_keys import FORMS
-from crankwork.description.wheel_build import check_wanted, read_wheel
+from crankwork.description.wheel_build import read_wheel
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism
@@ -61,7 +61,6 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
     speed = stated or largest or _mean_of_speeds(flywheel)
     if speed is None and not reader.doubts("crank.speed", "flywheel.speeds"):
         reader.complain("crank.speed", Refusal("missing", advice=('speed = "100 rpm"',)))
-    check_wanted(flywheel, reader)
     drive = read_wheel(flywheel, read_drive(values, reader), stated, reader, pi=method.pi)
     drive = replace(drive, inertia=drive.inertia + crank.si("inertia"))
     if reader.problems or speed is None:

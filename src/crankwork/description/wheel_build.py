@@ -38,12 +38,6 @@ def read_wheel(values: Values, drive: Drive, speed: float | None, reader: Reader
     )
 
 
-def check_wanted(values: Values, reader: Reader) -> None:
-    """Complain of a flywheel that is given and wanted."""
-    if is_given(values) and (wanted := [one for one in WANTED if one in values]):
-        reader.complain(f"flywheel.{wanted[0]}", Refusal("wheel_given_and_wanted"))
-
-
 def is_given(values: Values) -> bool:
     """Return whether a table states a flywheel, and not only what is wanted of it."""
     rim = values["rim"]

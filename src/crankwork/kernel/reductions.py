@@ -69,7 +69,7 @@ class Even:
     def running(self, columns: Array) -> Array:
         """Return the integrals of columns from the start of the cycle to each angle, in their shape."""
         steps = (columns + np.roll(columns, -1, axis=1)) / 2 * self._grid.weights[:, None]
-        return np.asarray(np.cumsum(steps, axis=1))
+        return np.asarray(np.cumsum(steps, axis=1) - steps)
 
     def largest(self, columns: Array) -> Peaks:
         """Return the largest of columns at the angles, the first of equal ones."""

@@ -54,7 +54,8 @@ _START = {"max": "-math.inf", "min": "math.inf"}
 
 Thing = TypeVar("Thing", bound=Hashable)
 # reductions that can be done as the angles go by
-RUNNING = ("max", "min", "max_angle", "min_angle", "mean", "integral", "range")
+_WORKS = ("range", "tangents")
+RUNNING = ("max", "min", "max_angle", "min_angle", "mean", "integral", *_WORKS)
 # Under what a value of a design is stored: a reduction of columns, an input, any other by its place in the graph.
 Place = tuple[str, *tuple[int, ...]] | int
 
@@ -96,7 +97,7 @@ class Source:
         for one in (one for level in plan.levels for one in (*level.delayed, *level.reductions)):
             if one.kind == "reduction":
                 self.rows(self.place(one))
-            if not is_reduced or one.kind == "delayed" or one.detail == "range":
+            if not is_reduced or one.kind == "delayed" or one.detail in _WORKS:
                 for column in one.operands:
                     self.columns(column.at)
         for at in plan.moved:
@@ -178,7 +179,7 @@ class Source:
         for place, word, _ in running:
             yield from self._finished(place, word)
         for one in level.reductions if self.is_reduced else ():
-            if one.detail == "range":
+            if one.detail in _WORKS:
                 yield from self._range(one)
 
     def _designs(self, level: Level, lane: str) -> Iterator[str]:
@@ -206,7 +207,7 @@ class Source:
             if word.endswith("_angle"):
                 found[word, column.at] = word, column
                 word = word.removesuffix("_angle")
-            elif word == "range":
+            elif word in _WORKS:
                 word = "mean"
             found[word, column.at] = word, column
         every = ((place, word, column) for place, (word, column) in found.items())
@@ -283,18 +284,25 @@ class Source:
             yield f"    for l in range({self.lanes}):\n        {stored} = math.radians(degrees[int({stored})])"
 
     def _range(self, one: Value) -> Iterator[str]:
-        """Yield how far the integral of a column about its mean goes up and down."""
-        at, angles = one.operands[0].at, self.plan.grid.degrees.size
-        high, low, work, mean = (self._stored((word, at)) for word in ("range", "range_low", "range_work", "mean"))
+        """Yield how far the integral of a column about its mean goes up and down, or what tangents cut off of it."""
+        at, angles, word = one.operands[0].at, self.plan.grid.degrees.size, one.detail
+        place, mean = self.place(one), self._stored(("mean", at))
+        high, low, work = (self._stored(other) for other in (place, ("low", *place), ("work", *place)))
+        columns = ["c", "inertia", "upper", "lower"][: len(one.operands)]
+        above, below = work, work
+        if word == "tangents":
+            above, below = (f"-{work} - {slope}[j][l] * inertia[j][l]" for slope in ("upper", "lower"))
+        for name, column in zip(columns, one.operands, strict=True):
+            yield f"    {name} = b[{self.columns(column.at)}]"
         yield f"    for l in range({self.lanes}):"
-        yield f"        {low} = {high} = {work} = 0.0"
-        yield f"    c = b[{self.columns(at)}]"
+        yield f"        {low}, {high}, {work} = math.inf, -math.inf, 0.0"
         yield f"    for j in range({angles}):"
         yield f"        before, after = c[j], c[(j + 1) % {angles}]"
         yield f"        for l in range({self.lanes}):"
+        yield f"            above, below = {above}, {below}"
+        yield f"            {low} = below if below < {low} else {low}"
+        yield f"            {high} = above if above > {high} else {high}"
         yield f"            {work} += ((before[l] + after[l]) / 2 - {mean}) * weights[j]"
-        yield f"            {low} = {work} if {work} < {low} else {low}"
-        yield f"            {high} = {work} if {work} > {high} else {high}"
         yield f"    for l in range({self.lanes}):"
         yield f"        {high} -= {low}"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from crankwork.note.layout import SPACE, Box, Fence, Fraction, Row, Sign, Upright, row
+from crankwork.note.layout import SPACE, Box, Fraction, Row, Sign, Upright, row
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import QUANTITIES, Language
 
@@ -26,10 +26,9 @@ def definition_box(key: str, language: Language) -> Box | None:
     kind = key.partition(".")[0]
     if kind == "indicated_work":
         return row(Upright("∮"), _over("diagram_pressure", "cylinder_volume", language))
-    if kind == "excess_work":
-        beyond = row(_symbol("total_torque", language), Sign("−"), _symbol("mean_total_torque", language))
-        work = row(Upright("∫"), Fence(beyond), SPACE, Upright("d"), _symbol("crank_angle", language))
-        return row(Upright("max"), SPACE, work, Sign("−"), Upright("min"), SPACE, work)
+    if key == "excess_work":
+        energy = _symbol("kinetic_energy_change", language)
+        return row(Upright("max"), SPACE, energy, Sign("−"), Upright("min"), SPACE, energy)
     if kind in _MEANS:
         share = Fraction(Upright("1"), _symbol("cycle_angle", language))
         return row(share, Upright("∫"), _over(_MEANS[kind], "crank_angle", language))
@@ -39,12 +38,12 @@ def definition_box(key: str, language: Language) -> Box | None:
 def definition_text(key: str, language: Language) -> str:
     """Return the same as one line of text, empty where nothing is to be said."""
     kind = key.partition(".")[0]
-    names = {one: QUANTITIES[one].symbol(language) for one in (*_MEANS, *_MEANS.values(), "crank_angle", "cycle_angle")}
+    named = (*_MEANS, *_MEANS.values(), "crank_angle", "cycle_angle", "kinetic_energy_change")
+    names = {one: QUANTITIES[one].symbol(language) for one in named}
     if kind == "indicated_work":
         return f"∮ {QUANTITIES['diagram_pressure'].symbol(language)} d{QUANTITIES['cylinder_volume'].symbol(language)}"
-    if kind == "excess_work":
-        work = f"∫({names['total_torque']} − {names['mean_total_torque']}) d{names['crank_angle']}"
-        return f"max {work} − min {work}"
+    if key == "excess_work":
+        return f"max {names['kinetic_energy_change']} − min {names['kinetic_energy_change']}"
     if kind in _MEANS:
         return f"1/{names['cycle_angle']}·∫ {names[_MEANS[kind]]} d{names['crank_angle']}"
     return ""

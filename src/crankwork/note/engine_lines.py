@@ -10,6 +10,7 @@ from crankwork.formula.known import Given as GivenNode
 from crankwork.formula.lines import FormulaLine, Line, Moment, ValueLine, symbols_of
 from crankwork.machine import Engine
 from crankwork.notation import ARGUMENTS
+from crankwork.note.flywheel import values_by_method
 from crankwork.note.groups import DELIVERY, Group
 
 _DEGREES, _TURN = 30.0, 360.0
@@ -132,8 +133,16 @@ def _of_engine(results: Results, engine: Engine, moment: Moment) -> Iterator[Gro
     yield Group("bearings", _own(moment, results, _BEARINGS), moment.degrees)
     yield Group("bearing_loads", _own(moment, results, _LOADS))
     yield Group("torque_harmonics", _own(moment, results, _major_harmonics(results)))
-    yield Group("uniformity", _own(moment, results, _UNIFORMITY))
+    yield Group("uniformity", _own(moment, results, _uniformity(results)))
+    yield Group("flywheel", tuple(moment.step(known) for known in values_by_method(results.memory)))
     yield Group("balance", _own(moment, results, (*_orders(results, engine), *_ROTATING, *_weights(results))))
+
+
+def _uniformity(results: Results) -> tuple[str, ...]:
+    """Return what the evenness of an engine is worked with; a flywheel by several methods stands by itself."""
+    if "flywheel_inertia.exact" not in results.memory:
+        return _UNIFORMITY
+    return tuple(key for key in _UNIFORMITY if key not in ("whole_inertia", "flywheel_inertia", "speed_fluctuation"))
 
 
 def _own(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:

@@ -9,6 +9,7 @@ from crankwork.note.document import Block, Math, Reference, Runs, Table
 from crankwork.note.engine_lines import first_slave
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import angle_table, column_table, folded, listing_table
+from crankwork.note.flywheel import flywheel_by_methods
 
 _AMPLITUDES = ("harmonic_amplitude", "total_harmonic_amplitude")
 _ON_CRANKPIN = (
@@ -223,8 +224,14 @@ def evenness(material: Material) -> Iterator[Block]:
     if "excess_work" not in material.summary:
         return
     yield from _heading(material, "evenness")
-    yield material.words.paragraph("evenness")
+    has_methods = "flywheel_inertia.exact" in material.summary
+    is_full = "excess_work.mertsalov" in material.summary
+    yield material.words.paragraph("evenness_of_all" if is_full else "evenness")
     yield from material.equations("uniformity")
+    if has_methods:
+        wanted = material.words.number(material.machine.drive.fluctuation)
+        yield material.words.paragraph("flywheel", value=wanted)
+        yield from flywheel_by_methods(material.groups["flywheel"].lines, material.summary, material.words)
     keys = ("kinetic_energy_change", "crank_speed")
     caption = "speed" if "crank_speed" in material.columns else "energy"
     yield from material.presented([angle_table(material, caption, keys)], ("excess_work", "crank_speed"))

@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.formula.known import Found, Given, Known, Use, in_order
+from crankwork.formula.known import Found, Given, Known, in_order
 from crankwork.formula.lines import Line, ValueLine
+from crankwork.note.flywheel import WHEEL_SIZES, values_by_method
 from crankwork.note.groups import DELIVERY, Group
 
 _DEGREES = 30.0
@@ -38,10 +39,6 @@ _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_mome
 _COUNTERWEIGHT = ("counterweight_moment", "counterweight_angle")
 _FRICTION = ("friction_torque", "friction_force", "friction_power")
 WORST_ANGLES = ("transmission_angle_min", "transmission_angle_max", "pressure_angle_max")
-WHEEL_SIZES = (
-    "flywheel_mass", "rim_speed", "rim_stress", "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width",
-)  # fmt: skip
-_WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 
 
@@ -219,14 +216,13 @@ def _friction(results: Results, told: Told) -> Group:
 
 
 def _flywheel(results: Results, told: Told) -> Iterator[Line]:
-    """Yield the flywheel in its four ways; the excess work of each is found over the turn."""
+    """Yield the flywheel by every method; the excess work of each is found over the turn."""
     memory = results.memory
-    for key in memory if "excess_work" in memory else ():
-        for known in in_order([memory[key]]) if key.startswith("flywheel_inertia.") else ():
-            kind = known.key.partition(".")[0]
-            if kind == "excess_work":
-                yield ValueLine(known.key, known.value)
-            elif kind in _WHEEL and isinstance(known.node, Use) and known.value > 0:
-                yield from told.of([known])
-    if "excess_work" in memory:
-        yield from told.lines(["work_per_cycle", "energy_fluctuation", *WHEEL_SIZES])
+    if "excess_work" not in memory:
+        return
+    for known in values_by_method(memory):
+        if known.key.startswith("excess_work"):
+            yield ValueLine(known.key, known.value)
+        else:
+            yield from told.of([known])
+    yield from told.lines(["work_per_cycle", "energy_fluctuation", *WHEEL_SIZES])

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
 from crankwork.analysis.rounding import without_rounding
-from crankwork.locale import capital, say
+from crankwork.locale import say
 from crankwork.note.comparison import comparison_blocks, main_numbers
-from crankwork.note.document import Bibliography, Block, Bold, ItemList, Paragraph, Reference
-from crankwork.note.linkage_lines import WHEEL_SIZES
+from crankwork.note.document import Bibliography, Block, ItemList, Reference
+from crankwork.note.flywheel import flywheel_by_methods
 from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.printed_units import printed_unit
@@ -39,12 +39,8 @@ def motor(material: Material) -> Iterator[Block]:
     yield from material.equations("motor")
 
 
-# lines about the work, and the sizes of the wheel found exactly
-_OF_ALL_WAYS = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
-
-
 def flywheel(material: Material) -> Iterator[Block]:
-    """Yield the flywheel in its four ways, where one is wanted."""
+    """Yield the flywheel by every method, where one is wanted."""
     words, summary = material.words, material.results.summary
     if "excess_work" not in summary:
         return
@@ -54,37 +50,8 @@ def flywheel(material: Material) -> Iterator[Block]:
         yield from equations(lines, words)
         return
     yield words.paragraph("flywheel", value=words.number(wanted))
-    ways = [key.partition(".")[2] for key in summary if key.startswith("flywheel_inertia.")]
-    last = ""
-    for one in lines:
-        way = next((name for name in ways if name in one.key.split(".")), last or ways[0])
-        if way != last and one.key not in _OF_ALL_WAYS:
-            yield Paragraph((Bold(capital(words.way(way))), ":"))
-            last = way
-        yield from equations((one,), words, marks=_marks(ways, words))
-    excess = {way: one.value for way in ways for one in lines if one.key in (f"excess_work.{way}", "excess_work")}
-    rows = [
-        (words.way(way), words.shown("excess_work", excess[way]),
-         words.shown("flywheel_inertia", summary[f"flywheel_inertia.{way}"]))
-        for way in ways
-        if way in excess
-    ]  # fmt: skip
-    titles = ("way", words.titled("excess_work"), words.titled("flywheel_inertia"))
-    yield words.table("flywheels", titles, rows, "lrr", "flywheels")
+    yield from flywheel_by_methods(lines, summary, words)
     yield from material.figures("wittenbauer")
-
-
-def _marks(ways: Iterable[str], words: Words) -> Mapping[str, str]:
-    """Return symbols of the slopes and inertias of each way: the name of the way does not stand in a symbol."""
-    found: dict[str, str] = {}
-    for way in ways:
-        for kind in ("excess_work", "flywheel_inertia", "whole_inertia"):
-            found[f"{kind}.{way}"] = words.symbol(kind)
-        slope = words.symbol("wittenbauer_slope")
-        ends = {"largest": "max", "least": "min"}
-        found[f"wittenbauer_slope.{way}"] = slope
-        found |= {f"wittenbauer_slope.{way}.{end}": f"{slope}_{mark}" for end, mark in ends.items()}
-    return found
 
 
 def comparison(material: Material) -> Iterator[Block]:

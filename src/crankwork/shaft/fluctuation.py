@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,9 +16,16 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.shaft.curve import Curve, Extremes
 
+# the speed that a file states is the mean over the time, or that of the extremes
+Mean = Literal["time", "extremes"]
+
 # of the mean speed, where rounding begins
-_SETTLED = 3e-16
+_SETTLED, _EQUAL = 3e-16, 1e-11
 _STEPS = 60
+# how far the energy may be from that of half the panels, and how often they are halved
+_RESOLVED = 1e-14
+_HALVINGS = 8
+_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 @formula("speed", "artobolevsky_1988, ch. 16")
@@ -108,16 +116,7 @@ class TrueSpeed:
     torque: Curve
     energy: float  # Kinetic energy where the excess work is zero [J]
     extremes: Extremes  # Least and greatest speed, and where [rad/s], [rad]
-
-    @property
-    def mean_speed(self) -> float:
-        """Mean of the extreme speeds. [rad/s]"""
-        return (self.extremes.largest + self.extremes.least) / 2
-
-    @property
-    def fluctuation(self) -> float:
-        """Largest less least speed, over the mean of the two. [-]"""
-        return (self.extremes.largest - self.extremes.least) / self.mean_speed
+    fluctuation: float  # Of the books: that at which the mean of the extreme speeds is the mean speed [-]
 
     def speed(self, angle: ArrayLike) -> Array:
         """Return the speed at crank angles. [rad/s]"""
@@ -129,12 +128,15 @@ class TrueSpeed:
         return np.asarray(acceleration_of_crank(self.torque(angle), self.speed(angle), J, J_1))
 
 
-def true_speed(inertia: Curve, torque: Curve, mean_speed: float, excess_of: ExcessWork | None = None) -> TrueSpeed:
+def true_speed(
+    inertia: Curve, torque: Curve, mean_speed: float, excess_of: ExcessWork | None = None, *, mean: Mean = "time"
+) -> TrueSpeed:
     """Return the speed over one cycle of steady motion, where all torques depend on the angle alone.
 
-    w = sqrt(2 (T_0 + A) / J), with T_0 found from the mean speed. `inertia`: moment of inertia reduced to the crank,
-    flywheel included [kg m2]; `torque`: torque over the angle, balanced by a constant one [N m]; `excess_of`: its
-    excess work, where that is known already. Source: artobolevsky_1988, ch. 16.
+    w = sqrt(2 (T_0 + A) / J), with T_0 found from the mean speed: that over the time, 2 pi over the time of a turn, or
+    that of the extremes, which books take. The fluctuation is that of the books in both cases. `inertia`: moment of
+    inertia reduced to the crank, flywheel included [kg m2]; `torque`: torque over the angle, balanced by a constant one
+    [N m]; `excess_of`: its excess work, where that is known already. Source: artobolevsky_1988, ch. 16.
     """
     found = excess_of or excess_work(torque)
     excess, reach, balanced = found.curve, found.extremes, torque - found.mean_torque
@@ -142,15 +144,18 @@ def true_speed(inertia: Curve, torque: Curve, mean_speed: float, excess_of: Exce
     if not inertia.mean > 0:
         raise MethodError(Refusal("masses_missing"))
     floor = -reach.least
+
+    def extremes_at(energy: float) -> Extremes:
+        if np.any(inertia_1.coefficients):
+            return _speed_extremes(inertia, inertia_1, excess, balanced, energy)
+        low, high = (float(speed_of_energy(energy + one, inertia.mean)) for one in (reach.least, reach.largest))
+        return Extremes(low, reach.at_least, high, reach.at_largest)
+
     # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
     greatest = mean_speed + (reach.largest - reach.least) / (2 * inertia.mean * mean_speed)
     energy = max(float(kinetic_energy(inertia.mean, greatest)) - reach.largest, floor * (1 + 1e-6))
     for _ in range(_STEPS):
-        if np.any(inertia_1.coefficients):
-            extremes = _speed_extremes(inertia, inertia_1, excess, balanced, energy)
-        else:
-            low, high = (float(speed_of_energy(energy + one, inertia.mean)) for one in (reach.least, reach.largest))
-            extremes = Extremes(low, reach.at_least, high, reach.at_largest)
+        extremes = extremes_at(energy)
         miss = (extremes.largest + extremes.least) / 2 - mean_speed
         # the derivative of each extreme speed by the energy is 1 / (J w)
         slope = sum(
@@ -161,9 +166,36 @@ def true_speed(inertia: Curve, torque: Curve, mean_speed: float, excess_of: Exce
         if abs(miss) <= _SETTLED * mean_speed or abs(following - energy) <= 4e-16 * energy:
             break
         energy = following
-    if abs(miss) <= 1e-12 * mean_speed:
-        return TrueSpeed(inertia, inertia_1, excess, balanced, energy, extremes)
-    raise MethodError(Refusal("machine_stops", speed=mean_speed, angle=float(np.degrees(extremes.at_least))))
+    if abs(miss) > 1e-12 * mean_speed:
+        raise MethodError(Refusal("machine_stops", speed=mean_speed, angle=float(np.degrees(extremes.at_least))))
+    fluctuation = (extremes.largest - extremes.least) / mean_speed
+    if mean == "time":
+        energy = _energy_of_time(inertia, excess, energy, floor, mean_speed)
+        extremes = extremes_at(energy)
+    return TrueSpeed(inertia, inertia_1, excess, balanced, energy, extremes, fluctuation)
+
+
+def _energy_of_time(inertia: Curve, excess: Curve, energy: float, floor: float, mean_speed: float) -> float:
+    """Return the energy with which a cycle takes the time of its mean speed; the search begins at an energy. [J]"""
+    edges, before = np.union1d(inertia.angle, excess.angle), energy
+    for _ in range(_HALVINGS):
+        steps = np.diff(edges)
+        angles = (edges[:-1, None] + steps[:, None] * (_GAUSS + 1) / 2).ravel()
+        weights = (steps[:, None] * _WEIGHTS / 2).ravel() / inertia.cycle
+        J, A = inertia(angles), excess(angles)
+        for _ in range(_STEPS):
+            w = speed_of_energy(energy + A, J)
+            miss = float(weights @ (1 / w)) - 1 / mean_speed
+            # the time falls ever slower with the energy, so that steps from below never go too far
+            following = max(energy + miss / float(weights @ (1 / (J * w**3))), floor + (energy - floor) / 16)
+            is_settled = abs(following - energy) <= 4e-16 * energy
+            energy = following
+            if is_settled:
+                break
+        if abs(energy - before) <= _RESOLVED * energy:
+            break
+        before, edges = energy, np.union1d(edges, (edges[1:] + edges[:-1]) / 2)
+    return energy
 
 
 def _speed_extremes(inertia: Curve, inertia_1: Curve, excess: Curve, torque: Curve, energy: float) -> Extremes:
@@ -171,5 +203,28 @@ def _speed_extremes(inertia: Curve, inertia_1: Curve, excess: Curve, torque: Cur
     total = excess + energy
     angles = np.sort(np.concatenate([inertia.angle, torque.angle, (torque * inertia - total * inertia_1).zeros()]))
     w = np.sqrt(np.maximum(2 * total(angles) / inertia(angles), 0.0))
-    low, high = int(np.argmin(w)), int(np.argmax(w))
+    # of speeds that only rounding tells apart the first counts
+    near = _EQUAL * float(np.max(w))
+    low, high = int(np.argmax(w <= np.min(w) + near)), int(np.argmax(w >= np.max(w) - near))
     return Extremes(float(w[low]), float(angles[low]), float(w[high]), float(angles[high]))
+
+
+@dataclass(frozen=True)
+class SpeedOfPolynomials:
+    """Fluctuation and extremes of the speed, of polynomials over one cycle: what `Procedure` asks for."""
+
+    sign: float = 1.0  # Of the torque that is given: -1 for one that brakes
+    mean: Mean = "time"
+
+    def __call__(self, edges: Array, series: Array) -> tuple[float, ...]:
+        """Return fluctuation, greatest and least speed and where; `series`: of torque, moment of inertia, mean speed.
+
+        No numbers where the machine would stop.
+        """
+        torque, inertia = (Curve.legendre(edges, one) for one in series[:2])
+        try:
+            found = true_speed(inertia, torque * self.sign, float(series[2, 0, 0]), mean=self.mean)
+        except MethodError:
+            return (np.nan,) * 5
+        least, at_least, largest, at_largest = found.extremes
+        return found.fluctuation, largest, at_largest, least, at_least

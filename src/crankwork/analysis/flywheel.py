@@ -1,27 +1,12 @@
-"""How evenly a shaft of constant inertia turns: the flywheel that is given or found, its sizes, its speed."""
+"""The flywheel of a machine: that which is given, what is wanted of one to be found, and the sizes of either."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
-
-import numpy as np
 
 from crankwork.analysis import origins
-from crankwork.analysis.solved import Notice
-from crankwork.errors import MethodError
-from crankwork.formula.known import Found, Known, Table, absent, given, total
+from crankwork.formula.known import Known, absent, given, total
 from crankwork.machine import Machine
-from crankwork.shaft.curve import AtDegrees, Curve
-from crankwork.shaft.fluctuation import (
-    ExcessWork,
-    TrueSpeed,
-    fluctuation_of_inertia,
-    speed_of_energy,
-    true_speed,
-)
-from crankwork.shaft.flywheel import check_fluctuation, flywheel_beside_machine, inertia_for_fluctuation
 from crankwork.shaft.wheel import (
     Rim,
     hoop_stress,
@@ -37,24 +22,6 @@ from crankwork.shaft.wheel import (
     rim_speed_of_stress,
     rim_thickness,
 )
-
-
-class Wheel(NamedTuple):
-    """A flywheel: single values, what lies between them, and why there is none."""
-
-    summary: dict[str, Known]
-    between: dict[str, Known]
-    notices: tuple[Notice, ...]
-    inertia: Known  # Of all that turns; absent where nothing of it is known
-
-
-class Course(NamedTuple):
-    """Energy and speed over the angle: columns, single values, why there is no speed."""
-
-    columns: dict[str, Known]
-    summary: dict[str, Known]
-    notices: tuple[Notice, ...]
-    speed: TrueSpeed | None
 
 
 def wanted_fluctuation(machine: Machine, w: Known) -> Known | None:
@@ -126,36 +93,6 @@ def _of_rim(name: str, value: float) -> Known:
     return given(f"rim_{name}", value, f"flywheel.rim.{name}")
 
 
-def wheel_for(machine: Machine, excess: Known, w: Known, own: Known) -> Wheel:
-    """Return the flywheel of a machine, found where a fluctuation is wanted, and all that is to be told of it."""
-    wanted, whole = wanted_fluctuation(machine, w), own
-    summary, between, notices = dict[str, Known](), dict[str, Known](), []
-    if wanted is not None:
-        try:
-            check_fluctuation(wanted.value, w.value)
-        except MethodError as error:
-            notices.append(Notice("no_flywheel", {"message": error.args[0]}))
-        else:
-            wheel, needed = _found(excess, wanted, w, own)
-            summary["flywheel_inertia"] = wheel
-            if wheel.value:
-                whole = between[needed.key] = needed
-                summary |= sizes_of(machine, wheel, w)
-    else:
-        summary |= sizes_of_given(machine, w)
-    return Wheel(summary, between, tuple(notices), whole)
-
-
-def _found(excess: Known, wanted: Known, w: Known, own: Known) -> tuple[Known, Known]:
-    """Return the flywheel that is needed beside what turns already, zero where that is enough, and both."""
-    needed: Known = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
-    wheel = needed
-    if not own.is_absent:
-        needed = needed.named("whole_inertia")
-        wheel = flywheel_beside_machine(needed, own)
-    return (wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))), needed
-
-
 def sizes_of_given(machine: Machine, w: Known) -> dict[str, Known]:
     """Return what follows of the sizes of a flywheel that is given, beside those that are stated."""
     found = dict[str, Known]()
@@ -206,35 +143,6 @@ def _rim(machine: Machine, rim: Rim, inertia: Known, w: Known) -> dict[str, Know
     elif rim.thickness is not None:
         found["rim_width"] = section / _of_rim("thickness", rim.thickness)
     return found
-
-
-def course_of(torque: Curve, found: ExcessWork, excess: Known, w: Known, inertia: Known, of: Known) -> Course:
-    """Return energy and speed over the angle of a shaft of constant inertia.
-
-    `torque`: that of all, less what balances it or with it; `excess`: its excess work as it is remembered; `of`: the
-    column that the energy is the integral of.
-    """
-    change = Known(
-        Table(AtDegrees(found.curve), "integral", np.degrees(found.curve.angle), (of,)), "kinetic_energy_change"
-    )
-    columns, summary = {"kinetic_energy_change": change}, dict[str, Known]()
-    if not inertia.value > 0:
-        return Course(columns, summary, (), None)
-    try:
-        speed = true_speed(Curve.constant(inertia.value, torque.cycle), torque, w.value, found)
-    except MethodError as error:
-        return Course(columns, summary, (Notice("no_steady_speed", {"message": error.args[0]}),), None)
-    energy = Known(Found(speed.energy, "energy", (of,)), "kinetic_energy.start")
-    turning = speed_of_energy(energy + change, inertia).named("crank_speed")
-    columns["crank_speed"] = turning
-    summary["speed_fluctuation"] = fluctuation_of_inertia(excess, inertia, w)
-    ends = speed.extremes
-    for word, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
-        # as far above the mean as the least is below it, where the inertia is constant
-        half = w * summary["speed_fluctuation"] / 2
-        by = w + half if word == "max" else w - half
-        summary[f"crank_speed_{word}"] = Known(Found(value, word, (turning,), math.degrees(at), by))
-    return Course(columns, summary, (), speed)
 
 
 def recovery(machine: Machine, inertia: Known, w: Known, summary: Mapping[str, Known]) -> dict[str, Known]:

@@ -1,0 +1,293 @@
+"""How evenly a machine runs: excess work, flywheel, speed over a cycle, the speed that a motor settles at."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.flywheel import recovery, sizes_of, sizes_of_given, wanted_fluctuation
+from crankwork.analysis.linkage_memory import efficiency_of
+from crankwork.analysis.solved import Notice
+from crankwork.errors import MethodError
+from crankwork.formula.known import Found, Known, Procedure, Table, absent, given
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.replay import Program
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.locale import Refusal
+from crankwork.machine import Drive, Machine
+from crankwork.shaft.curve import AtDegrees, Curve
+from crankwork.shaft.fluctuation import (
+    ExcessWork,
+    Mean,
+    SpeedOfPolynomials,
+    TrueSpeed,
+    excess_work,
+    fluctuation_of_inertia,
+    share_of_work,
+    speed_of_energy,
+    true_speed,
+)
+from crankwork.shaft.flywheel import (
+    WAYS,
+    Flywheel,
+    check_fluctuation,
+    flywheel,
+    flywheel_beside_machine,
+    inertia_for_fluctuation,
+    inertia_on_other_shaft,
+    slope_largest,
+    slope_least,
+    slope_of_mean_speed,
+    wittenbauer_slope_largest,
+    wittenbauer_slope_least,
+    work_of_mean_torque,
+)
+from crankwork.shaft.motor import GearedMotor
+from crankwork.shaft.motor_choice import first_angle_beyond, needed_power
+from crankwork.shaft.speed import ReducedMachine, steady_speed
+
+_SLOPES = {
+    "wittenbauer": (wittenbauer_slope_largest, wittenbauer_slope_least),
+    "exact": (slope_largest, slope_least),
+}
+# how far the fluctuation of the books may be from that of the speeds that are told, before it is said [-]
+_BOOKS_ARE_NEAR = 0.01
+
+
+class Balance(NamedTuple):
+    """What acts on the crank over a cycle, but for the constant torque that balances it, and the inertia of all."""
+
+    torque: Known  # Without that of inertia [N m]
+    curve: Curve  # The same, positive where it drives [N m]
+    inertia: Known  # Without a flywheel to be found; absent where nothing of it is known [kg m2]
+    inertia_curve: Curve
+    excess: ExcessWork
+    sign: float = -1.0  # Of `torque` where it drives: that of loads brakes
+
+
+def balance_of(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> Balance:
+    """Return what loads and losses take from the crank of a linkage, with its reduced inertia.
+
+    Losses are those of friction at the mean speed, or else those of an efficiency as the calculation uses it.
+    """
+    torque = memory["static_torque"]
+    if "torque_with_friction" in over.knowns:
+        torque = (torque + (memory["torque_with_friction"] - memory["balancing_torque"])).named("load_torque")
+    elif machine.drive.efficiency != 1 and torque.varies:
+        torque = (torque + (memory["driving_torque"] - memory["balancing_torque"])).named("load_torque")
+    edges = np.radians(over.edges)
+
+    def followed(known: Known) -> Curve:
+        program = Program({"": known})
+        return Curve.fitted(lambda angle: program(CrankGrid.from_radians(angle))[""], edges)
+
+    load = -followed(torque)
+    return Balance(torque, load, memory["reduced_inertia"], followed(memory["reduced_inertia"]), excess_work(load))
+
+
+class Turn(NamedTuple):
+    """How evenly a machine runs: columns, single values, residuals, what the reader should know, what lies between."""
+
+    columns: dict[str, Known]
+    summary: dict[str, Known]
+    checks: dict[str, float]
+    notices: tuple[Notice, ...]
+    between: dict[str, Known]
+    speed: TrueSpeed | None = None
+    added: float = 0.0  # Moment of inertia of a flywheel that was found [kg m2]
+
+
+def has_flywheel(drive: Drive) -> bool:
+    """Return whether a flywheel is given or to be found."""
+    return drive.fluctuation is not None or drive.wheel is not None
+
+
+def excess_of(balance: Balance) -> Known:
+    """Return the excess work of a balance."""
+    return Known(Found(balance.excess.work, "range", (balance.torque,)), "excess_work")
+
+
+def work_of(excess: Known, mean: Known | None, cycle: Known) -> dict[str, Known]:
+    """Return the work of a cycle, and how much of it the kinetic energy takes and gives; nothing without either."""
+    if mean is None or not mean.value:
+        return {}
+    work = work_of_mean_torque(mean, cycle)
+    return {"work_per_cycle": work, "energy_fluctuation": share_of_work(excess, work)}
+
+
+def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -> Turn:
+    """Return flywheel, fluctuation and speed of a machine, as far as its inertia is known.
+
+    `mean`: of what its speed is the mean.
+    """
+    change = Known(
+        Table(AtDegrees(balance.excess.curve), "integral", np.degrees(balance.excess.curve.angle), (balance.torque,)),
+        "kinetic_energy_change",
+    )
+    columns, wanted, excess = {"kinetic_energy_change": change}, wanted_fluctuation(machine, w), excess_of(balance)
+    if not (has_flywheel(machine.drive) or machine.drive.inertia):
+        return Turn(columns, {}, {}, (), {})
+    try:
+        summary, between, wheel = _wheels(balance, excess, wanted, w)
+    except MethodError as error:
+        return Turn(columns, {}, {}, (Notice("no_flywheel", {"message": error.args[0]}),), {})
+    summary |= sizes_of_given(machine, w) if wanted is None else sizes_of(machine, wheel, w) if wheel.value else {}
+    if balance.inertia.varies:
+        summary["excess_work.mertsalov"] = _at_constant_speed(balance, w)
+    inertia = _whole(balance, between, wheel)
+    if not (inertia.varies or inertia.value > 0):
+        told = () if wanted is None else (Notice("no_flywheel", {"message": Refusal("masses_missing")}),)
+        return Turn(columns, summary, {}, told, between)
+    try:
+        speed = true_speed(balance.inertia_curve + wheel.value, balance.curve, w.value, balance.excess, mean=mean)
+    except MethodError as error:
+        return Turn(columns, summary, {}, (Notice("no_steady_speed", {"message": error.args[0]}),), between)
+    energy = Known(Found(speed.energy, "energy", (balance.torque,)), "kinetic_energy.start")
+    columns["crank_speed"] = speed_of_energy(energy + change, inertia).named("crank_speed")
+    of = (balance.torque, inertia, w)
+    found = SpeedOfPolynomials(balance.sign, mean)
+    if not inertia.varies:
+        summary["speed_fluctuation"] = fluctuation_of_inertia(excess, inertia, w)
+    elif wanted is not None and wheel.value:
+        summary["speed_fluctuation"] = wanted
+    else:
+        summary["speed_fluctuation"] = Known(Procedure(speed.fluctuation, "fluctuation", of, found, 0))
+    summary |= _extremes(speed, columns["crank_speed"], of, found)
+    summary |= recovery(machine, inertia, w, summary)
+    checks = {}
+    if wanted is not None and balance.inertia.varies:
+        more = speed.fluctuation - wanted.value
+        checks["flywheel"] = abs(more) if wheel.value else max(more, 0.0)
+    low, _, high, _ = speed.extremes
+    swings, notices = 2 * (high - low) / (high + low), tuple[Notice, ...]()
+    if abs(swings / (speed.fluctuation or swings or 1.0) - 1) > _BOOKS_ARE_NEAR:
+        notices = (Notice("fluctuation_of_books", {"books": speed.fluctuation, "speeds": swings}),)
+    return Turn(columns, summary, checks, notices, between, speed, wheel.value)
+
+
+def _at_constant_speed(balance: Balance, w: Known) -> Known:
+    """Return the excess work of the torque at the mean speed, that of inertia in it, as Mertsalov takes it."""
+    slope = slope_of_mean_speed(w)
+    least, _, largest, _ = (balance.excess.curve - balance.inertia_curve * slope.value).extremes()
+    found = Flywheel("mertsalov", 0.0, largest - least)
+    return _excess(found, 2 * (slope.named("wittenbauer_slope.mertsalov"),), (balance.torque, balance.inertia))
+
+
+def _whole(balance: Balance, between: Mapping[str, Known], wheel: Known) -> Known:
+    """Return the moment of inertia with the flywheel that was found; of a constant one it is that which is needed."""
+    if not wheel.value:
+        return balance.inertia
+    if balance.inertia.varies:
+        return (balance.inertia + wheel).named("whole_inertia")
+    return next(one for key, one in between.items() if key in ("whole_inertia", "flywheel_inertia"))
+
+
+def _extremes(speed: TrueSpeed, column: Known, of: tuple[Known, ...], found: SpeedOfPolynomials) -> dict[str, Known]:
+    """Return the extremes of the speed, each with its angle."""
+    low, at_low, high, at_high = speed.extremes
+    result = {}
+    for part, (word, value, at) in ((1, ("max", high, at_high)), (3, ("min", low, at_low))):
+        degrees = math.degrees(at)
+        by, where = (Known(Procedure(one, word, of, found, part + k)) for k, one in enumerate((value, at)))
+        result[f"crank_speed_{word}"] = Known(Found(value, word, (column,), degrees, by))
+        result[f"crank_speed_{word}_angle"] = Known(Found(at, f"{word}_angle", (column,), degrees, where))
+    return result
+
+
+def _wheels(
+    balance: Balance, excess: Known, wanted: Known | None, w: Known
+) -> tuple[dict[str, Known], dict[str, Known], Known]:
+    """Return the flywheel by every way that differs, what lies between, and the flywheel; zero if none is needed."""
+    if wanted is None:
+        return {}, {}, absent("flywheel_inertia")
+    check_fluctuation(wanted.value, w.value)
+    if not balance.inertia.varies:
+        wheel, needed = constant_wheel(excess, wanted, w, balance.inertia)
+        return {"flywheel_inertia": wheel}, {needed.key: needed} if wheel.value else {}, wheel
+    inertia, load = balance.inertia_curve, balance.curve
+    found = [flywheel(inertia, load, w.value, wanted.value, way) for way in WAYS]
+    of = balance.torque, balance.inertia
+    ways = {f"flywheel_inertia.{one.way}": _wheel(one, inertia, w, wanted, of) for one in found}
+    wheel = ways["flywheel_inertia.exact"]
+    return {"flywheel_inertia": wheel, **ways}, {}, wheel
+
+
+def constant_wheel(excess: Known, wanted: Known, w: Known, own: Known) -> tuple[Known, Known]:
+    """Return the flywheel beside a constant inertia that turns already, zero where that is enough, and both."""
+    needed: Known = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
+    wheel = needed
+    if not own.is_absent:
+        needed = needed.named("whole_inertia")
+        wheel = flywheel_beside_machine(needed, own)
+    return (wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))), needed
+
+
+def _rotor(motor: GearedMotor) -> dict[str, Known]:
+    """Return the moment of inertia of the rotor on the crank; nothing without one."""
+    if not motor.inertia:
+        return {}
+    inertia = given("flywheel_inertia.motor", motor.inertia, "motor.inertia")
+    ratio = given("gear_ratio", motor.ratio, "motor.ratio")
+    return {"inertia_on_crank": inertia_on_other_shaft(inertia, ratio)}
+
+
+def _excess(one: Flywheel, slopes: tuple[Known, ...], of: tuple[Known, ...]) -> Known:
+    """Return the excess work in the sense of one way, by the slopes of its tangents if it has any."""
+    if one.way == "energy":
+        return Known(Found(one.excess, "range", of), "excess_work")
+    return Known(Found(one.excess, "tangents", (*of, *slopes)), f"excess_work.{one.way}")
+
+
+def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Known, ...]) -> Known:
+    """Return the flywheel of one way; zero where the machine needs none."""
+    key, way = f"flywheel_inertia.{one.way}", one.way
+    slopes = tuple(
+        slope(w, wanted).named(f"wittenbauer_slope.{way}.{word}")
+        for word, slope in zip(("largest", "least"), _SLOPES.get(way, ()), strict=False)
+    ) or 2 * (slope_of_mean_speed(w).named(f"wittenbauer_slope.{way}"),)
+    whole: Known = inertia_for_fluctuation(_excess(one, slopes, of), wanted, w)
+    parts = {"energy": ("mean", inertia.mean), "mertsalov": ("min", inertia.extremes().least)}
+    if way in parts:
+        word, value = parts[way]
+        less = Known(Found(value, word, of[1:]), f"reduced_inertia.{word}")
+        whole = flywheel_beside_machine(whole.named(f"whole_inertia.{way}"), less)
+    return Known(Found(0.0, "none", (whole,)), key) if one.inertia <= 0 else whole.named(key)
+
+
+def driven_by_motor(
+    machine: Machine, motor: GearedMotor, balance: Balance, w: Known, mean_torque: Known | None, added: float
+) -> Turn:
+    """Return the power that the motor needs and the speed that it settles at; `added`: a flywheel [kg m2]."""
+    drive, inertia, load = machine.drive, balance.inertia_curve, balance.curve
+    if not balance.inertia.varies and not balance.inertia.value and not added + motor.reduced_inertia:
+        return Turn({}, {}, {}, (Notice("no_steady_speed", {"message": Refusal("masses_missing")}),), {})
+    mean, eta, notices = (-load).mean, efficiency_of(drive), tuple[Notice, ...]()
+    if mean > 0 and mean_torque is not None:
+        power: Known = needed_power(absent("power_reserve", 1.0), mean_torque, w, eta)
+    else:
+        power = Known(Found(float(needed_power(1.0, mean, w.value, drive.efficiency)), "need", (w, eta)))
+    if power.value > drive.rated_power:
+        powers: dict[str, float | str] = {"needed": power.value / 1e3, "rated": drive.rated_power / 1e3}
+        notices = (Notice("overloaded", powers),)
+    more, told = _steady(motor, w.value, inertia, load, added)
+    steady = {key: Known(Found(value, "steady"), key) for key, value in more.items()}
+    return Turn({}, {"motor_power": power, **steady}, {}, notices + told, _rotor(motor))
+
+
+def _steady(
+    motor: GearedMotor, speed: float, inertia: Curve, load: Curve, flywheel: float
+) -> tuple[dict[str, float], tuple[Notice, ...]]:
+    """Return the steady speed with the motor, or why there is none."""
+    reduced = ReducedMachine.of_curves(inertia, load, motor, flywheel=flywheel + motor.reduced_inertia)
+    run = steady_speed(reduced, speed)
+    if run is not None:
+        return {"steady_speed": run.mean_speed, "steady_fluctuation": run.fluctuation}, ()
+    speeds = np.linspace(0.0, 2 * speed, 400)
+    greatest = float(np.max(motor.torque(speeds)))
+    stalls = first_angle_beyond(load * -1.0, greatest)
+    if stalls is None:
+        return {}, (Notice("no_steady_speed", {"message": Refusal("steady_unfound", speed=speed)}),)
+    return {}, (Notice("stalls", {"torque": greatest, "angle": float(np.degrees(stalls))}),)
