@@ -198,6 +198,8 @@ SPLIT = {
         (V_TWO, SPLIT, ["crank.angular_acceleration=200 rad/s2"]),
     ],
     [
+        (V_TWO, {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true"]),
+        (V_TWO, {}, ["method.weights=true", "cylinder.inclination=0 deg"]),
         (WHOLE, {}, ["engine.misfire=[3]", "engine.pressure_factors=[1.0, 0.93, 1.0, 1.05]"]),
         (FILES["radial-five"], {}, ["engine.misfire=[2, 4]"]),
         (FILES["radial-five"], {}, ["engine.misfire=[1]", "cycle.motored=ambient"]),

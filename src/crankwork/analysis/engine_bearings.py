@@ -131,7 +131,7 @@ def _small_end(whole: WholeEngine) -> Iterator[Known]:
         mass = memory["piston_mass"]
         if machine.has_gravity:
             g = given("gravity", whole.master.method.gravity, "method.gravity")
-            cos, sin = origins.inclination(machine)
+            cos, sin = origins.inclination(machine, whole.master.lean)
             along = weight_force(mass, g, cos).named("weight_force.piston")
             beside = transverse_weight(mass, g, sin).named("transverse_weight.piston")
             across += [beside] if beside.value else []

@@ -95,11 +95,15 @@ def speed_at(machine: Machine, method: Method, path: str, value: float, name: st
     return checked(given(f"speed{name}", stated.value, path), found) if stated and in_radians else found
 
 
-def inclination(machine: Machine) -> tuple[Known, Known]:
-    """Return cosine and sine of the angle by which the cylinder leans."""
-    lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
-    angle = given("inclination", lean, "cylinder.inclination")
-    return Known(Found(math.cos(lean), "cosine", (angle,))), Known(Found(math.sin(lean), "sine", (angle,)))
+def inclination(machine: Machine, lean: float) -> tuple[Known, Known]:
+    """Return cosine and sine of the angle by which a cylinder leans that is so far ahead of cylinder 1. [deg]"""
+    angle = given("inclination", machine.inclination, "cylinder.inclination")
+    if lean:
+        angle = (angle + given("bank_axis", math.radians(lean), "engine.bank_angle")).named("inclination")
+    return tuple(
+        Known(Found(function(angle.value), word, (angle,)))
+        for word, function in (("cosine", math.cos), ("sine", math.sin))
+    )
 
 
 def cycle_angle(machine: Machine) -> Known:

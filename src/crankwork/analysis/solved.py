@@ -83,7 +83,8 @@ class SolvedLinkage(Solved):
 class SolvedCylinder(Solved):
     """A crank gear made ready: its lengths and its diagram known.
 
-    `moving` is the remembered motion; `slave` the articulated rod of a cylinder that hangs on the master rod.
+    `moving` is the remembered motion; `slave` the articulated rod of a cylinder that hangs on the master rod; `lean`
+    how far its axis is ahead of that of cylinder 1, where weights count [deg].
     """
 
     lengths: SliderCrank
@@ -91,6 +92,7 @@ class SolvedCylinder(Solved):
     moving: MovingCylinder = field(compare=False)
     notices: tuple[Notice, ...] = ()
     slave: ArticulatedRod | None = None
+    lean: float = 0.0
 
     @cached_property
     def memory(self) -> dict[str, Known]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
@@ -100,6 +101,10 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     """
     whole = whole_engine(results.solved) if found is None else found.whole
     notices = [Notice(*one) for one in whole.engine.notices]
+    machine = whole.machine
+    stated = machine.cylinder.inclination if machine.cylinder is not None else None
+    if machine.has_gravity and stated is None and machine.inclination:
+        notices.append(Notice("upright", {"inclination": math.degrees(machine.inclination)}))
     if any(whole.engine.slaves) and whole.masses.rod_inertia_excess and whole.engine.slave_rod is None:
         notices.append(Notice("articulated_two_mass", {}))
     if len({one.position for one in whole.layout.places}) == 1 < len({one.throw for one in whole.layout.places}):

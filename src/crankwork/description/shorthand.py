@@ -92,11 +92,8 @@ def gears_of(machine: Machine) -> list[Gear]:
 
 
 def _head(machine: Machine, axis: float, first: float) -> float:
-    """Return the direction of a head, upright unless a lean of cylinder 1 is stated or weights count. [deg]"""
-    leaning = machine.cylinder.inclination if machine.cylinder is not None else 0.0
-    if leaning or machine.has_gravity:
-        axis += math.degrees(leaning) - first
-    return round(90.0 - axis, 9)
+    """Return the direction of a head, cylinder 1 leaning as the machine does. [deg]"""
+    return round(90.0 - axis + first - math.degrees(machine.inclination), 9)
 
 
 def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str, Any]]:
