@@ -24,7 +24,10 @@ _OF_ORDERS = (
     "rotating_mass", "counterweight_moment", "best_balanced_share", "best_counterweight_moment", "shaft_unbalance",
     "unbalance_force",
 )  # fmt: skip
-_ON_MAINS = ("shaft_unbalance", "unbalance_force", "journal_share", "main_journal_load")
+_ON_MAINS = (
+    "shaft_unbalance", "unbalance_force", "unbalance_weight", "unbalance_tangential_force", "journal_share",
+    "main_journal_load",
+)  # fmt: skip
 
 
 def _cylinders(material: Material) -> int:
