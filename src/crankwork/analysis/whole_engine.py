@@ -27,7 +27,7 @@ from crankwork.analysis.engine_bearings import (
     load_values,
     wear_memory,
 )
-from crankwork.analysis.engine_firing import firing_listing, firing_memory, work_memory
+from crankwork.analysis.engine_firing import delivery_memory, firing_listing, firing_memory, work_memory
 from crankwork.analysis.engine_torque import (
     engine_reduction,
     engine_torque,
@@ -117,6 +117,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     torque = engine_torque(whole, memory, over, extremes)
     loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory, samples)
     works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
+    delivered = delivery_memory(whole, firing, works)
     sampled = samples(results.grid)
     columns = {key: sampled[key].copy() for key in _table_keys(memory)} | Program(torque.columns)(results.grid)
     memory |= torque.columns
@@ -136,7 +137,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         left = balance_summary(whole, balance, balanced)
         balanced |= left
     whole_values = {key: one for key, one in {**firing, **works}.items() if key in _WHOLE_VALUES}
-    single = {**whole_values, **torque.summary, **bearing_summary(whole, loads), **left}
+    single = {**whole_values, **delivered, **torque.summary, **bearing_summary(whole, loads), **left}
     summary = {key: one.value for key, one in single.items()}
     thrown, joints = dict[str, float](), dict[str, Known]()
     if any(whole.engine.slaves):
