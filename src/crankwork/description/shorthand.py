@@ -198,7 +198,9 @@ def _chambers(values: Mapping[str, Any], gear: Gear) -> Iterator[tuple[str, Any]
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
     if "pressure" not in stated:
         plain["period"] = f"{gas.cycle:g} deg"
-        plain |= {"delay": f"{gear.place.firing_angle:.15g} deg"} if gear.place.firing_angle else {}
+        is_stated = gas.calculated is None and gas.valves is None
+        delay = gear.place.firing_angle + (gear.solved.begins if is_stated else 0.0)
+        plain |= {"delay": f"{delay % gas.cycle:.15g} deg"} if delay else {}
     name = f"chambers.cylinder{gear.own}"
     yield name, {**face, **room, **plain}
     yield from ((f"{name}.{key}", one) for key, one in stated.items() if key not in plain)
