@@ -100,10 +100,8 @@ def inclination(machine: Machine, lean: float) -> tuple[Known, Known]:
     angle = given("inclination", machine.inclination, "cylinder.inclination")
     if lean:
         angle = (angle + given("bank_axis", math.radians(lean), "engine.bank_angle")).named("inclination")
-    return tuple(
-        Known(Found(function(angle.value), word, (angle,)))
-        for word, function in (("cosine", math.cos), ("sine", math.sin))
-    )
+    turned = angle.value
+    return Known(Found(math.cos(turned), "cosine", (angle,))), Known(Found(math.sin(turned), "sine", (angle,)))
 
 
 def cycle_angle(machine: Machine) -> Known:
