@@ -91,15 +91,16 @@ class Cylinder:
         One of them where the volume matters, that is, with gas. [m3], [-]
     piston_rod_diameter : float
         Of a double-acting piston; the rod takes its area from the crank side. [m]
-    inclination : float
-        From the upward vertical to the direction of the head, leaning towards the crankpin at 90 degrees. [rad]
+    inclination : float or None
+        From the upward vertical to the direction of the head, leaning towards the crankpin at 90 degrees; None where
+        the engine stands upright. [rad]
     """
 
     bore: float
     clearance_volume: float | None = None
     compression_ratio: float | None = None
     piston_rod_diameter: float = 0.0
-    inclination: float = 0.0
+    inclination: float | None = None
 
 
 @dataclass(frozen=True)
@@ -406,6 +407,13 @@ class Machine:
     def lengths(self) -> SliderCrank | None:
         """The lengths of crank and rod, where neither a drawing nor a table gives the motion. [m]"""
         return as_slider_crank(self.mechanism) if self.linkage is None and self.transfer is None else None
+
+    @property
+    def inclination(self) -> float:
+        """From the upward vertical to the head of cylinder 1, stated or that of an upright layout. [rad]"""
+        if self.cylinder is not None and self.cylinder.inclination is not None:
+            return self.cylinder.inclination
+        return math.radians(self.engine.layout.places[0].axis) if self.engine is not None else 0.0
 
     def __post_init__(self) -> None:
         """Refuse what a machine file could not state either."""

@@ -35,7 +35,8 @@ def test_they_are_those_of_the_linkage(settings):
     crank = machine.mechanism.crank
     bodies = (body_at(crank.link, masses.crank, 0.0, crank.pin), *_bodies(rod, masses))
     mechanism = replace(machine.mechanism, bodies=bodies)
-    system = system_joint_forces(_running(solved, mechanism, {rod.slider: found["gas_force"]}, grid))
+    gas = {rod.slider: found["gas_force"]}
+    system = system_joint_forces(_running(solved, mechanism, gas, grid, machine.inclination))
     largest = max(float(np.max(one.resultant)) for one in system.pins.values())
     for name in ("crank_pin", "piston_pin"):
         pin = system.pins[name]

@@ -27,9 +27,9 @@ PINNED = {
         "linkage": "587b6d3c978c",
         "machine": "93e6fd34e1f6",
     },
-    "formulas": "20833fffc8c3",
-    "quantities": "cb726b0f503a",
-    "defaults": "bf7446aa320f",
+    "formulas": "9c940da83c5f",
+    "quantities": "6afc290ef2c5",
+    "defaults": "a359d14cd0b1",
 }
 
 

@@ -43,9 +43,12 @@ def _shafts(draw):
     loads = [BearingLoad(*generator.normal(0, 1e4, (2, 7))) for _ in places]
     reach = (journals[0] - 0.05, journals[-1] + 0.05)
     masses = [
-        Unbalance(generator.uniform(0, 0.1), generator.uniform(0, 360), generator.uniform(*reach))
-        for _ in range(draw(st.integers(0, 6)))
-    ]
+        Unbalance(
+            generator.uniform(0, 0.1), generator.uniform(0, 360), generator.uniform(*reach),
+            held=BearingLoad(*generator.normal(0, 1e3, (2, 7))) if at % 2 else None,
+        )
+        for at in range(draw(st.integers(0, 6)))
+    ]  # fmt: skip
     return Layout("inline", tuple(places), 720.0, (1,), tuple(journals.tolist())), loads, masses
 
 
@@ -59,9 +62,9 @@ def test_a_shaft_of_hinged_throws_is_in_equilibrium(shaft):
         (place.position, (load.x + 1j * load.y) * np.exp(1j * np.radians(place.pin_angle)))
         for place, load in zip(layout.places, loads, strict=True)
     ]
-    acting += [
-        (one.position, one.mass_moment * SPEED**2 * np.exp(1j * np.radians(one.angle)) * np.ones(7)) for one in masses
-    ]
+    for one in masses:
+        held = one.held.x + 1j * one.held.y if one.held is not None else np.zeros(7)
+        acting.append((one.position, (one.mass_moment * SPEED**2 + held) * np.exp(1j * np.radians(one.angle))))
     every = acting + list(zip(journals, reactions, strict=True))
     tolerance = 1e-12 * sum(np.max(np.abs(force)) for _, force in every)
     assert np.max(np.abs(sum(force for _, force in every))) < tolerance

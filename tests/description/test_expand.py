@@ -183,6 +183,26 @@ def test_an_engine_of_many_cylinders_is_written_out_as_the_linkage_that_it_is(tm
     numbers_of_an_engine_are_those_of_its_linkage(tmp_path, FILES[name])
 
 
+STATED = """
+[gas]
+cycle = "720 deg"
+pressures = "absolute"
+ambient = "0.1 MPa"
+pieces = [
+    { law = "constant", points = ["r", "a"] },
+    { law = "polytropic", points = ["a", "c"], exponent = 1.35 },
+    { law = "polytropic", points = ["z", "b"], exponent = 1.25 },
+    { law = "constant", points = ["s", "t"] },
+]
+[gas.points]
+r = { angle = "0 deg", pressure = "0.09 MPa" }
+a = { angle = "180 deg", pressure = "0.09 MPa" }
+c = { angle = "360 deg" }
+z = { angle = "360 deg", pressure = "5 MPa" }
+b = { angle = "540 deg" }
+s = { angle = "540 deg", pressure = "0.11 MPa" }
+t = { angle = "720 deg", pressure = "0.11 MPa" }
+"""
 WHOLE, V_TWO = template("whole-engine"), FILES["v-two"]
 FOUR = '[engine]\nlayout = "inline"\ncylinders = 4\n\n[cycle]'
 SPLIT = {
@@ -198,12 +218,15 @@ SPLIT = {
         (V_TWO, SPLIT, ["crank.angular_acceleration=200 rad/s2"]),
     ],
     [
+        (V_TWO, {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true"]),
+        (V_TWO, {}, ["method.weights=true", "cylinder.inclination=0 deg"]),
         (WHOLE, {}, ["engine.misfire=[3]", "engine.pressure_factors=[1.0, 0.93, 1.0, 1.05]"]),
         (FILES["radial-five"], {}, ["engine.misfire=[2, 4]"]),
         (FILES["radial-five"], {}, ["engine.misfire=[1]", "cycle.motored=ambient"]),
         (FILES["wiebe"], {"[cycle]": FOUR}, ["engine.misfire=[2]", "engine.pressure_factors=[1.0, 1.0, 0.9, 1.0]"]),
         (FILES["wiebe"], {"[cycle]": FOUR}, ["engine.misfire=[3]", "cycle.motored=ambient"]),
         (FILES["narrow-v6"], {}, ["crank.angular_acceleration=200 rad/s2", "method.weights=true"]),
+        (FILES["narrow-v6"].partition("[cycle]")[0] + STATED, {}, []),
         (V_TWO, SPLIT, []),
     ],
 )

@@ -119,15 +119,15 @@ class _Kind(NamedTuple):
 
 def _of_kind(solved: SolvedCylinder, engine: Engine, kind: _Kind) -> SolvedCylinder:
     """Return a cylinder of an engine, made ready from its first."""
-    machine = _own_machine(solved.machine, kind.lean, kind.slave, is_first=kind.is_first)
+    machine, solved = _own_machine(solved.machine, kind.slave, is_first=kind.is_first), replace(solved, lean=kind.lean)
     if kind.gas:
         machine = replace(machine, gas=engine.gases[kind.gas])
     if kind.slave is not None:
         return solve_slave(replace(solved, machine=machine), kind.slave)
     if kind.offset not in (None, solved.lengths.offset):
         sizes = solved.lengths._replace(offset=kind.offset)
-        return solve(replace(machine, mechanism=slider_crank(*sizes)), solved.method)
-    return solve(machine, solved.method) if kind.gas else replace(solved, machine=machine)
+        return replace(solve(replace(machine, mechanism=slider_crank(*sizes)), solved.method), lean=kind.lean)
+    return replace(solve(machine, solved.method), lean=kind.lean) if kind.gas else replace(solved, machine=machine)
 
 
 def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
@@ -145,16 +145,13 @@ def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
     return _Kind(slave, offset, gas, places[at].axis - places[0].axis, places[at] is first)
 
 
-def _own_machine(machine: Machine, lean: float, slave: ArticulatedRod | None, *, is_first: bool) -> Machine:
-    """Return the machine as a cylinder of that lean, with a rod of its own where it is articulated, sees it. [deg]"""
+def _own_machine(machine: Machine, slave: ArticulatedRod | None, *, is_first: bool) -> Machine:
+    """Return the machine as a cylinder, with a rod of its own where it is articulated, sees it."""
     if slave is not None and machine.masses is not None:
         own = machine.engine.slave_rod if machine.engine is not None else None
         parts = ("rod_small_end", "rod_big_end", "rod_inertia_excess")
         rod = {"rod_inertia_excess": 0.0} if own is None else {one: getattr(own, one) for one in parts}
         machine = replace(machine, masses=replace(machine.masses, **rod))
-    if lean and machine.cylinder is not None:
-        inclination = machine.cylinder.inclination + float(np.radians(lean))
-        machine = replace(machine, cylinder=replace(machine.cylinder, inclination=inclination))
     if not is_first and machine.masses is not None:
         machine = replace(machine, masses=replace(machine.masses, crank=0.0))
     return machine

@@ -157,12 +157,12 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
         power = found["indicated_power"] = gas_formulas.indicated_power(work, memory["speed"], cycle)
         valves = solved.machine.gas.valves if solved.machine.gas is not None else None
         if valves is not None:
-            found |= StatedValves(valves, "gas.valves").delivery(
-                memory["clearance_volume"],
-                memory["swept_volume"],
-                power,
-                lambda volume: inlet_flow(volume, memory["speed"], cycle),
-            )
+            stated = StatedValves(valves, "gas.valves")
+            found |= stated.drawn(memory["clearance_volume"], memory["swept_volume"])
+            engine = solved.machine.engine
+            if engine is None or len(engine.layout.places) == 1:
+                # of several cylinders all together deliver
+                found |= stated.passed(inlet_flow(found["induced_volume"], memory["speed"], cycle), power)
     return found
 
 

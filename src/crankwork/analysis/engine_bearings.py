@@ -15,7 +15,7 @@ from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
 from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
-from crankwork.cylinders.journal_loads import main_journal_loads
+from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
 from crankwork.cylinders.layout import Layout, Place
 from crankwork.cylinders.load_statistics import reversal, reversal_of_polynomials
 from crankwork.cylinders.load_vectors import BearingLoad
@@ -30,7 +30,7 @@ from crankwork.kinematics.slider_crank import RodSwing
 # between the loads that wear diagrams add up [deg]
 _WEAR_STEP = 10.0
 _X, _Y = "bearing_force_x", "bearing_force_y"
-_ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_force", "journal_share", "bearing_force_")
+_ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_", "journal_share", "bearing_force_")
 _OF_ROD = ("crankpin_radial_force", "crankpin_tangential_force", "tangential_force")
 _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 
@@ -70,7 +70,8 @@ def bearing_memory(whole: WholeEngine) -> dict[str, Known]:
     on_rod = formulas.big_end_bearing_load(load, RodSwing(*(master[key] for key in _SWING))).named("big_end")
     found |= {one.key: one for one in (*on_rod, size.named("big_end_load"), *_small_end(whole))}
     layout = _spaced(whole.layout)
-    mains = main_journal_loads(layout, rods, shaft_unbalances(whole, layout), master["speed"])
+    masses = [_held(whole, one) for one in shaft_unbalances(whole, layout)]
+    mains = main_journal_loads(layout, rods, masses, master["speed"])
     for at, load in enumerate(mains, start=1):
         found |= {one.key: one for one in (*load, load.resultant.named(f"main_journal_load.{at}"))}
     ends = [part for load in mains for part in load]
@@ -131,7 +132,7 @@ def _small_end(whole: WholeEngine) -> Iterator[Known]:
         mass = memory["piston_mass"]
         if machine.has_gravity:
             g = given("gravity", whole.master.method.gravity, "method.gravity")
-            cos, sin = origins.inclination(machine)
+            cos, sin = origins.inclination(machine, whole.master.lean)
             along = weight_force(mass, g, cos).named("weight_force.piston")
             beside = transverse_weight(mass, g, sin).named("transverse_weight.piston")
             across += [beside] if beside.value else []
@@ -217,6 +218,23 @@ def shaft_unbalances(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...
         moment = (mass / share * r if share > 1 else mass * r).named("shaft_unbalance.throw")
         found.append(Unbalance(moment, place.pin_angle, middle, f"throw.{pin + 1}"))
     return (*(one for one in found if one.mass_moment.value), *counterweights(whole, layout))
+
+
+def _held(whole: WholeEngine, one: Unbalance) -> Unbalance:
+    """Return a mass on the shaft with its weight and its inertia across, where the machine has them."""
+    machine, moving = whole.machine, whole.master.moving
+    if not (machine.has_gravity or machine.angular_acceleration):
+        return one
+    g = given("gravity", whole.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
+    (cos, sin), angle, r = (
+        origins.inclination(machine, whole.master.lean), moving.angle.shifted(one.angle), moving.lengths.crank_radius,
+    )  # fmt: skip
+    along = unbalance_weight(one.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
+    across = unbalance_tangential_force(
+        one.mass_moment, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration
+    )
+    named = along.named(f"unbalance_weight.{one.name}"), across.named(f"unbalance_tangential_force.{one.name}")
+    return one._replace(held=BearingLoad(*named))
 
 
 def counterweights(whole: WholeEngine, layout: Layout) -> tuple[Unbalance, ...]:

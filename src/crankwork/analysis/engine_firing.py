@@ -16,6 +16,7 @@ from crankwork.cylinders.torque import even_firing_interval, firing_intervals, m
 from crankwork.formula.known import Found, Known, given, total
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.gas import indicated_power, mean_torque
+from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.working_cycle.engine_size import displacement
 
 _LISTED = ("bank_axis", "crankpin_angle", "firing_angle", "firing_interval")
@@ -93,6 +94,31 @@ def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Kn
         torque = total("mean_total_torque.indicated", each)
     found["mean_total_torque.indicated"] = torque
     return {key: one.named(key) for key, one in found.items()}
+
+
+def delivery_memory(whole: WholeEngine, firing: Mapping[str, Known], works: Mapping[str, Known]) -> dict[str, Known]:
+    """Return what all cylinders with valves deliver per unit of time, after the flow of one of them or of each.
+
+    `firing` and `works`: number and work of the cylinders. Nothing of one cylinder alone, whose delivery is its own.
+    """
+    gases = {number: one.machine.gas for number, one in enumerate(whole.cylinders, start=1)}
+    valved = {number: gas.valves for number, gas in gases.items() if gas is not None and gas.valves is not None}
+    if not valved or "engine_indicated_power" not in works:
+        return {}
+    cycle, speed, flows = origins.cycle_angle(whole.machine), whole.master.memory["speed"], dict[int, Known]()
+    for number, valves in valved.items():
+        memory = whole.cylinders[number - 1].memory
+        stated = StatedValves(valves, "gas.valves")
+        volume = stated.drawn(memory["clearance_volume"], memory["swept_volume"])["induced_volume"]
+        flows[number] = inlet_flow(volume, speed, cycle).named(f"inlet_flow.{number}")
+    stated = StatedValves(next(iter(valved.values())), "gas.valves")
+    if whole.is_uniform:
+        one = flows[1].named("inlet_flow.of_cylinder")
+        found, flow = {one.key: one}, firing["cylinder_count"] * one
+    else:
+        found = {one.key: one for one in flows.values()}
+        flow = total("inlet_flow", found.values())
+    return found | stated.passed(flow, works["engine_indicated_power"])
 
 
 def firing_listing(whole: WholeEngine, firing: Mapping[str, Known]) -> Listing:

@@ -44,7 +44,8 @@ def joint_force_residuals(solved: SolvedCylinder, samples: Samples) -> dict[str,
     mechanism, masses = solved.machine.mechanism, solved.machine.masses or CrankGearMasses()
     bodies = (body_at(mechanism.crank.link, masses.crank, 0.0, mechanism.crank.pin), *_bodies(rod, masses))
     gas = {rod.slider: own["gas_force"]} if "gas_force" in own else {}
-    found = system_joint_forces(_running(solved, replace(mechanism, bodies=bodies), gas, grid))
+    lean = solved.machine.inclination + math.radians(solved.lean)
+    found = system_joint_forces(_running(solved, replace(mechanism, bodies=bodies), gas, grid, lean))
     (guide,) = found.guides.values()
     pressed = _largest(found)
     return {
@@ -75,9 +76,10 @@ def throw_residuals(whole: WholeEngine, memory: Mapping[str, Known]) -> dict[str
         rod.slider: whole.of(at, "gas_force") for rod, at in zip(rods, numbers, strict=True) if whole.has("gas_force")
     }
     own = Program({**torques, **gases, "load": memory[pin]})(grid)
-    found = system_joint_forces(
-        _running(solved, replace(mechanism, bodies=tuple(bodies)), {name: own[name] for name in gases}, grid)
-    )
+    # the axis of cylinder 1 stands in the mechanism as in the layout
+    lean = solved.machine.inclination - math.radians(whole.layout.places[0].axis)
+    pushing = {name: own[name] for name in gases}
+    found = system_joint_forces(_running(solved, replace(mechanism, bodies=tuple(bodies)), pushing, grid, lean))
     pressed, torque = _largest(found), np.sum([own[key] for key in torques], axis=0)
     (joint,) = (
         one for one in found.pins.values() if one.joint.link == rods[0].link and one.joint.point == rods[0].joint
@@ -93,13 +95,17 @@ def _largest(found: JointForces) -> float:
     return max(float(np.max(pin.resultant)) for pin in found.pins.values())
 
 
-def _running(solved: SolvedCylinder, mechanism: Mechanism, gas: Mapping[str, Array], grid: CrankGrid) -> Running:
-    """Return rods and pistons at work, the gas pushing the pistons by their names, with weights where they count."""
+def _running(
+    solved: SolvedCylinder, mechanism: Mechanism, gas: Mapping[str, Array], grid: CrankGrid, lean: float
+) -> Running:
+    """Return rods and pistons at work, the gas pushing the pistons by their names, with weights where they count.
+
+    `lean`: from the upward vertical to what is up in the mechanism, with the rotation [rad].
+    """
     machine, motion = solved.machine, linkage_motion(mechanism, grid)
     frames = {name: motion.frames[name] for name in gas}
     loads = [AppliedForce(name, one.origin, -gas[name] * one.cos, -gas[name] * one.sin) for name, one in frames.items()]
     if machine.has_gravity:
-        lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
         down = solved.method.gravity * math.sin(lean), -solved.method.gravity * math.cos(lean)
         loads += [
             AppliedForce(body.link, centre, *(np.full(len(grid), body.mass * one) for one in down))

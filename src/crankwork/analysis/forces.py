@@ -110,7 +110,7 @@ def _axial_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Kn
         yield inertia
         if machine.has_gravity:
             g = given("gravity", solved.method.gravity, "method.gravity")
-            cos, sin = origins.inclination(solved.machine)
+            cos, sin = origins.inclination(solved.machine, solved.lean)
             weight = forces.weight_force(mass, g, cos)
             yield weight
             across = forces.transverse_weight(mass, g, sin)
@@ -153,7 +153,7 @@ def _in_joints(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known
         mass = memory["piston_mass"]
         if solved.machine.has_gravity:
             g = given("gravity", solved.method.gravity, "method.gravity")
-            cos, sin = origins.inclination(solved.machine)
+            cos, sin = origins.inclination(solved.machine, solved.lean)
             along = forces.weight_force(mass, g, cos).named("weight_force.piston")
             beside = forces.transverse_weight(mass, g, sin).named("transverse_weight.piston")
             side = side - beside if beside.value else side
@@ -214,7 +214,8 @@ def _rotating(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Known]
     yield forces.rotating_inertia_force(mass, r, moving.speed)
     if machine.has_gravity or machine.angular_acceleration:
         g = given("gravity", solved.method.gravity, "method.gravity") if machine.has_gravity else absent("")
-        (cos, sin), eps, big = origins.inclination(machine), moving.angular_acceleration, memory["rod_big_end_mass"]
+        cos, sin = origins.inclination(machine, solved.lean)
+        eps, big = moving.angular_acceleration, memory["rod_big_end_mass"]
         yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, eps)
         yield big_end_weight(big, g, angle.cos, cos, angle.sin, sin)
         yield big_end_tangential_force(big, g, angle.sin, cos, angle.cos, sin, r, eps)
@@ -237,7 +238,7 @@ def _slave_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Kn
         ]
         yield from accelerations
     g = given("gravity", solved.method.gravity, "method.gravity") if solved.machine.has_gravity else absent("gravity")
-    lean_cos, lean_sin = origins.inclination(solved.machine)
+    lean_cos, lean_sin = origins.inclination(solved.machine, solved.lean)
     dN, across = couple[-1] if couple else absent("side_force.couple"), memory.get("transverse_weight", absent(""))
     held = KnuckleMass(mass, accelerations[0], accelerations[1], g, lean_cos, lean_sin, dN, across)
     found = slave_forces(memory["piston_force"], moving.lengths, solved.slave, moving.angle, rod, held)

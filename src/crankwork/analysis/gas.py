@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from functools import partial
 
 from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
 from crankwork.analysis.solved import SolvedCylinder, WorkingSpace
+from crankwork.formula.expression import Value
 from crankwork.formula.known import Found, Known, absent, given
+from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
 from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
@@ -86,8 +89,16 @@ def _retold(
         return None if remembered is None else partial(remembered, volume, solved.stroke[1:])
     size = memory["clearance_volume"], memory["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
-    told = StatedDiagram(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves)
+    told = StatedDiagram(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
     return partial(told.retold, space.diagram)
+
+
+def _begins(solved: SolvedCylinder) -> Value:
+    """Return the crank angle that the points of a diagram count from, remembered where it is not zero. [deg]"""
+    if not solved.begins:
+        return 0.0
+    r, l, e = solved.moving.lengths  # noqa: E741
+    return top_dead_centre_angle(e, l, r) * (180 / math.pi)
 
 
 def _ambient(solved: SolvedCylinder) -> str:

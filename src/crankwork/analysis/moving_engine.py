@@ -87,8 +87,7 @@ def _alone(machine: Machine) -> Engine | None:
     """Return a machine with one cylinder as an engine."""
     if machine.cylinder is None:
         return None
-    lean = math.degrees(machine.cylinder.inclination)
-    place = Place(1, lean, 0, 0, pin_angle=0.0, position=0.0, firing_angle=0.0)
+    place = Place(1, math.degrees(machine.inclination), 0, 0, pin_angle=0.0, position=0.0, firing_angle=0.0)
     return Engine(Layout("inline", (place,), machine.cycle, (1,)))
 
 

@@ -101,11 +101,13 @@ def acceleration(machine: Machine) -> Known:
     return given(key, value, f"crank.{key}") if value else absent(key)
 
 
-def inclination(machine: Machine) -> tuple[Known, Known]:
-    """Return cosine and sine of the angle by which the cylinder leans."""
-    lean = machine.cylinder.inclination if machine.cylinder is not None else 0.0
-    angle = given("inclination", lean, "cylinder.inclination")
-    return Known(Found(math.cos(lean), "cosine", (angle,))), Known(Found(math.sin(lean), "sine", (angle,)))
+def inclination(machine: Machine, lean: float) -> tuple[Known, Known]:
+    """Return cosine and sine of the angle by which a cylinder leans that is so far ahead of cylinder 1. [deg]"""
+    angle = given("inclination", machine.inclination, "cylinder.inclination")
+    if lean:
+        angle = (angle + given("bank_axis", math.radians(lean), "engine.bank_angle")).named("inclination")
+    turned = angle.value
+    return Known(Found(math.cos(turned), "cosine", (angle,))), Known(Found(math.sin(turned), "sine", (angle,)))
 
 
 def cycle_angle(machine: Machine) -> Known:

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from crankwork.working_cycle.calculated_cycle import Calculated
 
 
+_TURN = 360.0
+
+
 class Notice(NamedTuple):
     """Something the reader should know about a result: a code of `report.notices` and its values."""
 
@@ -83,7 +86,8 @@ class SolvedLinkage(Solved):
 class SolvedCylinder(Solved):
     """A crank gear made ready: its lengths and its diagram known.
 
-    `moving` is the remembered motion; `slave` the articulated rod of a cylinder that hangs on the master rod.
+    `moving` is the remembered motion; `slave` the articulated rod of a cylinder that hangs on the master rod; `lean`
+    how far its axis is ahead of that of cylinder 1, where weights count [deg].
     """
 
     lengths: SliderCrank
@@ -91,6 +95,7 @@ class SolvedCylinder(Solved):
     moving: MovingCylinder = field(compare=False)
     notices: tuple[Notice, ...] = ()
     slave: ArticulatedRod | None = None
+    lean: float = 0.0
 
     @cached_property
     def memory(self) -> dict[str, Known]:
@@ -104,6 +109,12 @@ class SolvedCylinder(Solved):
         if self.slave is not None:
             return Known(Found(self.stroke[0], "dead_centre", lengths), "stroke")
         return origins.stroke(lengths)
+
+    @property
+    def begins(self) -> float:
+        """The crank angle that a stated diagram counts from: its own top dead centre where offsets differ. [deg]"""
+        places = self.machine.engine.layout.places if self.machine.engine is not None else ()
+        return self.stroke[1] if any(place.top for place in places) else 0.0
 
     @property
     def stroke(self) -> tuple[float, float, float]:
@@ -178,7 +189,11 @@ def _with_space(solved: SolvedCylinder, notices: list[Notice]) -> SolvedCylinder
     else:
         if gas.valves is not None:
             StatedValves(gas.valves, "gas.valves").check(clearance, swept)
-        diagram = _given_diagram(gas, volume_at, (top, bottom), notices)
+        # valves open by the volume, wherever the dead centre is
+        begins = solved.begins if gas.valves is None else top
+        ends = ((top - begins) % _TURN, (bottom - begins) % _TURN) if begins else (top, bottom)
+        diagram = _given_diagram(gas, lambda degrees: volume_at(degrees + begins), ends, notices).later(begins)
+        notices += [Notice("jump", {"point": name, "angle": at, "step": step}) for name, at, step in diagram.jumps]
     rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
     work, of_rod = gas.factor * diagram.work(volume_at), (rod_area, gas.back_pressure)
     space = WorkingSpace(area, clearance, swept, diagram, ambient, work, *of_rod, calculated, gas.factor)
@@ -188,7 +203,10 @@ def _with_space(solved: SolvedCylinder, notices: list[Notice]) -> SolvedCylinder
 def _given_diagram(
     gas: Gas, volume_at: Callable[[Array], Array], centres: tuple[float, float], notices: list[Notice]
 ) -> IndicatorDiagram:
-    """Return the diagram that the description or a measurement gives."""
+    """Return the diagram that the description or a measurement gives, over the angles that it counts.
+
+    `volume_at` and `centres`: volume and dead centres by these angles. [deg]
+    """
     if gas.measured is not None:
         around = Around(volume_at, centres[0])
         diagram, told = measured_diagram(
@@ -196,16 +214,8 @@ def _given_diagram(
         )
         notices += [Notice(*one) for one in told]
         return diagram
-    if gas.valves is not None:
-        top, bottom = centres
-        ends = (0.0, (bottom - top) % 360)
-        found = solve_diagram(
-            gas.points, gas.pieces, gas.cycle, lambda degrees: volume_at(degrees + top), dead_centres=ends
-        )
-        return StatedValves(gas.valves, "gas.valves").remembered(found).later(top)
     diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
-    notices += [Notice("jump", {"point": name, "angle": angle, "step": step}) for name, angle, step in diagram.jumps]
-    return diagram
+    return diagram if gas.valves is None else StatedValves(gas.valves, "gas.valves").remembered(diagram)
 
 
 def _clearance(cylinder: Cylinder, swept: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
@@ -26,7 +27,7 @@ from crankwork.analysis.engine_bearings import (
     load_values,
     wear_memory,
 )
-from crankwork.analysis.engine_firing import firing_listing, firing_memory, work_memory
+from crankwork.analysis.engine_firing import delivery_memory, firing_listing, firing_memory, work_memory
 from crankwork.analysis.engine_torque import (
     engine_reduction,
     engine_torque,
@@ -107,6 +108,10 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     """
     whole = whole_engine(results.solved) if found is None else found.whole
     notices = [Notice(*one) for one in whole.engine.notices]
+    machine = whole.machine
+    stated = machine.cylinder.inclination if machine.cylinder is not None else None
+    if machine.has_gravity and stated is None and machine.inclination:
+        notices.append(Notice("upright", {"inclination": math.degrees(machine.inclination)}))
     if any(whole.engine.slaves) and whole.masses.rod_inertia_excess and whole.engine.slave_rod is None:
         notices.append(Notice("articulated_two_mass", {}))
     if len({one.position for one in whole.layout.places}) == 1 < len({one.throw for one in whole.layout.places}):
@@ -119,6 +124,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     torque = engine_torque(whole, memory, over, extremes)
     loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory, samples)
     works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
+    delivered = delivery_memory(whole, firing, works)
     sampled = samples(results.grid)
     columns = {key: sampled[key].copy() for key in _table_keys(memory)} | Program(torque.columns)(results.grid)
     memory |= torque.columns
@@ -138,7 +144,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         left = balance_summary(whole, balance, balanced)
         balanced |= left
     whole_values = {key: one for key, one in {**firing, **works}.items() if key in _WHOLE_VALUES}
-    single = {**whole_values, **torque.summary, **bearing_summary(whole, loads), **left}
+    single = {**whole_values, **delivered, **torque.summary, **bearing_summary(whole, loads), **left}
     summary = {key: one.value for key, one in single.items()}
     thrown, joints = dict[str, float](), dict[str, Known]()
     if any(whole.engine.slaves):

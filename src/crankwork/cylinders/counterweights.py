@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, unit_vectors, vector_sum
 from crankwork.cylinders.layout import Layout
+from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import plain
@@ -33,6 +34,8 @@ class Unbalance(NamedTuple):
     angle: float  # Its direction, ahead of the crankpin of cylinder 1 [deg]
     position: float  # Its place along the shaft, as those of the cylinders [m]
     name: str = ""  # What it is: `throw.2`, `counterweights.3`
+    # Its weight and what an angular acceleration takes, away from the shaft along its arm and with the rotation [N]
+    held: BearingLoad | None = None
 
 
 def rotating_unbalances(layout: Layout, mass: ArrayLike, crank_radius: float) -> tuple[Unbalance, ...]:

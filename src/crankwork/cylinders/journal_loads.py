@@ -29,6 +29,22 @@ def unbalance_force(Q_u: Value, w: Value) -> Value:
     return Q_u * w**2
 
 
+@formula("unbalance_weight", "artobolevsky_1988, ch. 13")
+def unbalance_weight(  # noqa: PLR0913 - one argument per symbol
+    Q_u: Value, r: Value, g: Value, cos_phi: Value, cos_theta: Value, sin_phi: Value, sin_theta: Value
+) -> Value:
+    """Weight of a mass on the crankshaft at the crank radius, along its arm away from the crankshaft."""
+    return -Q_u / r * g * (cos_phi * cos_theta - sin_phi * sin_theta)
+
+
+@formula("unbalance_tangential_force", "artobolevsky_1988, ch. 13")
+def unbalance_tangential_force(  # noqa: PLR0913 - one argument per symbol
+    Q_u: Value, r: Value, g: Value, sin_phi: Value, cos_theta: Value, cos_phi: Value, sin_theta: Value, eps: Value
+) -> Value:
+    """Weight of a mass on the crankshaft across its arm, less what its angular acceleration takes."""
+    return Q_u / r * g * (sin_phi * cos_theta + cos_phi * sin_theta) - Q_u * eps
+
+
 @formula("journal_share", "kolchin_demidov_2008, ch. 7")
 def journal_share(z_b: Value, z_left: Value, z_right: Value) -> Value:
     """Share of a force on a throw that its further journal carries; the nearer one carries the rest."""
@@ -58,7 +74,7 @@ def main_journal_loads(
         for one, load in zip(places, loads, strict=True)
     ]
     acting += [
-        _Acting(_centrifugal(one, speed), one.position, _span(one.position, journals), one.name) for one in unbalances
+        _Acting(_of_mass(one, speed), one.position, _span(one.position, journals), one.name) for one in unbalances
     ]
     held: list[list[BearingLoad]] = [[] for _ in journals]
     for one in acting:
@@ -108,9 +124,12 @@ def _span(position: float, journals: Sequence[float]) -> int:
     return int(np.clip(np.searchsorted(journals, position, side="right") - 1, 0, len(journals) - 2))
 
 
-def _centrifugal(one: Unbalance, speed: Value) -> BearingLoad:
+def _of_mass(one: Unbalance, speed: Value) -> BearingLoad:
+    """Return the force of a mass on the shaft in the frame of the shaft."""
     grid = CrankGrid.from_degrees(one.angle)
     force = named(unbalance_force(one.mass_moment, speed), f"unbalance_force.{one.name}")
+    if one.held is not None:
+        return turned_by(BearingLoad(force + one.held.x, one.held.y), one.angle).named(one.name)
     return BearingLoad(force * float(grid.cos), force * float(grid.sin)).named(one.name)
 
 

@@ -50,7 +50,7 @@ _CYLINDER = Table("cylinder", {
     "clearance_volume": Key(_VOLUME, instead_of=("compression_ratio",)),
     "compression_ratio": Key(Number(1.001, 100.0), instead_of=("clearance_volume",)),
     "offset": Key(Quantity(("length",), -100.0, 100.0), default="0 mm"),
-    "inclination": Key(_ANGLE, default="0 deg"),
+    "inclination": Key(_ANGLE),
     "piston_rod_diameter": Key(_LENGTH),
 })  # fmt: skip
 

@@ -18,7 +18,7 @@ from crankwork.description.stated import stated_numbers
 _SAME = 1e-9
 # what a key follows from where the file leaves it out
 _FOLLOWS = (
-    (r"engine\.bank_angle", ("engine.bank_angles", "engine.layout")),
+    (r"engine\.bank_angle|cylinder\.inclination", ("engine.bank_angle", "engine.bank_angles", "engine.layout")),
     (r"engine\.(throws|firing_order)", ("engine.firing_order", "engine.layout")),
     (r"(gas|gas\.motored|gas\.cylinders\.\d+|chambers\.[^.]+)\.points\..*", (r"\1.pieces",)),
     (r"gas\.motored\.points\..*", ("gas.motored",)),

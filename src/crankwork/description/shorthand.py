@@ -89,11 +89,8 @@ def gears_of(machine: Machine) -> list[Gear]:
 
 
 def _head(machine: Machine, axis: float, first: float) -> float:
-    """Return the direction of a head, upright unless a lean of cylinder 1 is stated or weights count. [deg]"""
-    leaning = machine.cylinder.inclination if machine.cylinder is not None else 0.0
-    if leaning or machine.has_gravity:
-        axis += math.degrees(leaning) - first
-    return round(90.0 - axis, 9)
+    """Return the direction of a head, cylinder 1 leaning as the machine does. [deg]"""
+    return round(90.0 - axis + first - math.degrees(machine.inclination), 9)
 
 
 def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str, Any]]:
@@ -196,7 +193,9 @@ def _chambers(values: Mapping[str, Any], gear: Gear) -> Iterator[tuple[str, Any]
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
     if "pressure" not in stated:
         plain["period"] = f"{gas.cycle:g} deg"
-        plain |= {"delay": f"{gear.place.firing_angle:.15g} deg"} if gear.place.firing_angle else {}
+        is_stated = gas.calculated is None and gas.valves is None
+        delay = gear.place.firing_angle + (gear.solved.begins if is_stated else 0.0)
+        plain |= {"delay": f"{delay % gas.cycle:.15g} deg"} if delay else {}
     name = f"chambers.cylinder{gear.own}"
     yield name, {**face, **room, **plain}
     yield from ((f"{name}.{key}", one) for key, one in stated.items() if key not in plain)

@@ -138,7 +138,8 @@ class Segment:
             # p1 V1 ((V2/V1)^(1-n) - 1) / (1-n), in a form that keeps its digits as n goes to 1
             growth, less = np.log(volume[1] / volume[0]), 1 - self.state[2]
             return float(pressure[0] * volume[0] * (np.expm1(less * growth) / less if less else growth))
-        nodes, weights = quadrature(self.knots)
+        # of a curve that the end of the cycle cuts only what lies in between
+        nodes, weights = quadrature(np.clip(self.knots, self.start, self.end))
         slope = hermite_slope(self.knots, self.pressures, self.slopes, nodes)
         change = weights @ (volume_at(nodes) * np.degrees(slope))
         return float(pressure[1] * volume[1] - pressure[0] * volume[0] - change)

@@ -79,7 +79,7 @@ class StatedDiagram(NamedTuple):
     clearance: Known
     swept: Known
     valves: StatedValves | None = None
-    begins: float = 0.0
+    begins: Value = 0.0
 
     def retold(self, diagram: IndicatorDiagram) -> Known:
         """Return the pressure of the solved diagram over the crank angle. [Pa]"""
@@ -173,7 +173,7 @@ class _Told:
             return self._volume_at([self._angle(name, self._named[name][0])])[0]  # type: ignore[no-any-return]
         if point.angle is None:
             return self._wanted(name, point)
-        angle = self._angle_stated(name, point.angle, point.angle + self._of.begins)
+        angle = self._angle_stated(name, point.angle, point.angle + plain(self._of.begins))
         return self._volume_at([angle])[0]  # type: ignore[no-any-return]
 
     def _wanted(self, name: str, point: DiagramPoint) -> Known:
@@ -200,5 +200,9 @@ class _Told:
 
     def _angle_stated(self, name: str, angle: float, degrees: float) -> Known:
         stated = given("", angle, f"{self._of.path}.points.{name}.angle", "deg")
+        if isinstance(self._of.begins, Known):
+            # later by this, and by what whole cycles lie between
+            turns = round(degrees - angle - self._of.begins.value, 9)
+            return stated + (self._of.begins + turns if turns else self._of.begins)
         by = round(degrees - angle, 9)
         return stated + by if by else stated

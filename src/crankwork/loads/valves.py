@@ -286,20 +286,28 @@ class StatedValves:
         self, clearance: Known, swept: Known, power: Known, per_time: Callable[[Known], Known]
     ) -> dict[str, Known]:
         """Return what passes the valves, by key; `per_time`: from a volume of a cycle to a flow."""
-        found = {one.key: one for one in self._delivery(clearance, swept, power, per_time)}
-        return {key: one for key, one in found.items() if not one.is_absent}
+        found = self.drawn(clearance, swept)
+        return found | self.passed(per_time(found[f"induced_volume{self.own}"]), power)
 
-    def _delivery(
-        self, clearance: Known, swept: Known, power: Known, per_time: Callable[[Known], Known]
-    ) -> Iterator[Known]:
+    def drawn(self, clearance: Known, swept: Known) -> dict[str, Known]:
+        """Return what is drawn in during a cycle, and what expands before, by key."""
         own, exponents, (low, high) = self.own, self.exponents, self.pressures
-        drawn = swept.named(f"induced_volume{own}")
+        volume, found = swept.named(f"induced_volume{own}"), list[Known]()
         if exponents is not None and not clearance.is_absent:
             left = expanded_volume(clearance, high, low, exponents[1]).named(f"expanded_volume{own}")
-            drawn = induced_volume(swept, clearance, left).named(drawn.key)
-            yield left
-        flow: Known = per_time(drawn).named(f"inlet_flow{own}")
-        yield from (drawn, drawn_share(drawn, swept).named(f"clearance_volumetric_efficiency{own}"), flow)
+            volume = induced_volume(swept, clearance, left).named(volume.key)
+            found.append(left)
+        share = drawn_share(volume, swept).named(f"clearance_volumetric_efficiency{own}")
+        return {one.key: one for one in (*found, volume, share)}
+
+    def passed(self, flow: Known, power: Known) -> dict[str, Known]:
+        """Return what passes per unit of time, by key, of the flow that is drawn in and the power of its gas."""
+        found = {one.key: one for one in self._passed(flow.named(f"inlet_flow{self.own}"), power)}
+        return {key: one for key, one in found.items() if not one.is_absent}
+
+    def _passed(self, flow: Known, power: Known) -> Iterator[Known]:
+        own, exponents, (low, high) = self.own, self.exponents, self.pressures
+        yield flow
         if self.valves.delivered is not None:
             share = discharge_coefficient(self._given("delivered_flow", "delivered"), flow)
             share = share.named(f"discharge_coefficient{own}")

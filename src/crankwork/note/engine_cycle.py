@@ -145,6 +145,8 @@ def indicator(material: Material) -> Iterator[Block]:
     kinds = ("indicated_work", "indicated_mean_pressure", "indicated_power")
     yield from material.intro("work", material.equations("power", *kinds))
     yield from material.intro("delivery", material.equations("delivery"), source=Citation(_DELIVERED))
+    if any(key.startswith("inlet_flow.") for key in material.summary):
+        yield words.paragraph("delivery_of_all")
 
 
 def _measured(material: Material) -> Iterator[Block]:

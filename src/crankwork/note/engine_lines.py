@@ -65,7 +65,9 @@ _BEARINGS = tuple(
     for kind in (
         "big_end_inertia_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "big_end_load",
         "weight_force.piston", "transverse_weight.piston", "piston_pin_force", "side_force.small_end", "small_end_load",
-        "shaft_unbalance.throw", "unbalance_force.throw", "unbalance_force.counterweights", "journal_share",
+        "shaft_unbalance.throw", "unbalance_force.throw", "unbalance_force.counterweights", "unbalance_weight.throw",
+        "unbalance_weight.counterweights", "unbalance_tangential_force.throw",
+        "unbalance_tangential_force.counterweights", "journal_share",
         "bearing_force_x", "bearing_force_y", "main_journal_load",
     )
     for one in (kind, f"{kind}.")

@@ -25,7 +25,10 @@ _OF_ORDERS = (
     "rotating_mass", "counterweight_moment", "best_balanced_share", "best_counterweight_moment", "shaft_unbalance",
     "unbalance_force",
 )  # fmt: skip
-_ON_MAINS = ("shaft_unbalance", "unbalance_force", "journal_share", "main_journal_load")
+_ON_MAINS = (
+    "shaft_unbalance", "unbalance_force", "unbalance_weight", "unbalance_tangential_force", "journal_share",
+    "main_journal_load",
+)  # fmt: skip
 
 
 def _cylinders(material: Material) -> int:
@@ -224,13 +227,12 @@ def evenness(material: Material) -> Iterator[Block]:
     if "excess_work" not in material.summary:
         return
     yield from _heading(material, "evenness")
-    has_methods = "flywheel_inertia.exact" in material.summary
     is_full = "excess_work.mertsalov" in material.summary
     yield material.words.paragraph("evenness_of_all" if is_full else "evenness")
     yield from material.equations("uniformity")
-    if has_methods:
-        wanted = material.words.number(material.machine.drive.fluctuation)
-        yield material.words.paragraph("flywheel", value=wanted)
+    wanted = material.machine.drive.fluctuation
+    if wanted is not None and "flywheel_inertia.exact" in material.summary:
+        yield material.words.paragraph("flywheel", value=material.words.number(wanted))
         yield from flywheel_by_methods(material.groups["flywheel"].lines, material.summary, material.words)
     keys = ("kinetic_energy_change", "crank_speed")
     caption = "speed" if "crank_speed" in material.columns else "energy"

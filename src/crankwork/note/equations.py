@@ -52,7 +52,9 @@ _OF_HARMONICS = (
 )  # fmt: skip
 _AT_POINTS = ("cylinder_volume", "diagram_pressure")
 # parts of quantities of links that are no links or points
-_NO_LINKS = ("exact", "start", "drive", "all", "mean", "min", "of_piston", "of_rod", "rotating", "knuckle_pins")
+_NO_LINKS = (
+    "exact", "start", "drive", "all", "mean", "min", "of_cylinder", "of_piston", "of_rod", "rotating", "knuckle_pins",
+)  # fmt: skip
 _OF_ORDERS = ("free_force", "free_moment")
 _WITHOUT_ORDER = ("rotating", "counterweights")
 _TIGHT_UNITS = ("°", "%")

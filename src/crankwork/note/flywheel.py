@@ -9,7 +9,7 @@ from crankwork.formula.lines import Line
 from crankwork.locale import capital
 from crankwork.note.document import Block, Bold, Paragraph
 from crankwork.note.linkage_tables import equations
-from crankwork.note.words import Words
+from crankwork.note.words import NoteWords
 
 WHEEL_SIZES = (
     "flywheel_mass", "rim_speed", "rim_stress", "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width",
@@ -27,7 +27,7 @@ def values_by_method(memory: Mapping[str, Known]) -> Iterator[Known]:
                 yield known
 
 
-def flywheel_by_methods(lines: Iterable[Line], summary: Mapping[str, float], words: Words) -> Iterator[Block]:
+def flywheel_by_methods(lines: Iterable[Line], summary: Mapping[str, float], words: NoteWords) -> Iterator[Block]:
     """Yield the lines of every method under its name, and the table of what they find."""
     methods = [key.partition(".")[2] for key in summary if key.startswith("flywheel_inertia.")]
     lines, last = tuple(lines), ""
@@ -50,7 +50,7 @@ def flywheel_by_methods(lines: Iterable[Line], summary: Mapping[str, float], wor
     yield words.table("flywheels", titles, rows, "lrr", "flywheels")
 
 
-def _marks(methods: Iterable[str], words: Words) -> Mapping[str, str]:
+def _marks(methods: Iterable[str], words: NoteWords) -> Mapping[str, str]:
     """Return symbols of the slopes and inertias of each method: its name does not stand in a symbol."""
     marks: dict[str, str] = {}
     for name in methods:

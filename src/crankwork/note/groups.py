@@ -7,7 +7,8 @@ from typing import NamedTuple
 from crankwork.formula.lines import Line
 
 DELIVERY = (
-    "expanded_volume", "induced_volume", "clearance_volumetric_efficiency", "inlet_flow", "discharge_coefficient",
+    "expanded_volume", "induced_volume", "clearance_volumetric_efficiency", "inlet_flow.", "inlet_flow",
+    "discharge_coefficient",
     "pump_slip", "polytropic_exponent", "discharge_temperature", "gas_mass_flow", "free_air_delivery",
     "isothermal_power", "isothermal_efficiency",
 )  # fmt: skip

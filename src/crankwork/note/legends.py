@@ -16,7 +16,7 @@ from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.report.language import label
 
 # parts of a quantity that are no cylinder or point, and arguments made of a quantity
-_PARTS = {"inertia": "of_inertia", "drive": "of_drive"}
+_PARTS = {"inertia": "note.of_inertia", "drive": "note.of_drive", "of_cylinder": "report.of_cylinder"}
 _DERIVED = {
     "{}′": "derivative_1",
     "{}″": "derivative_2",
@@ -94,7 +94,7 @@ def words_of(name: str, language: Language) -> str:
 def _meaning(key: str, language: Language) -> str:
     """Return the name of a quantity, and of a part of it that is no cylinder or point what it is for."""
     kind, _, part = key.partition(".")
-    return label(kind, language) + (f" {say(f'note.{_PARTS[part]}', language)}" if part in _PARTS else "")
+    return label(kind, language) + (f" {say(_PARTS[part], language)}" if part in _PARTS else "")
 
 
 def explained_keys(step: FormulaLine | Formula) -> set[str]:

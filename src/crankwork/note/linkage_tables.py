@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from crankwork.analysis import Array
 from crankwork.formula.lines import Line
 from crankwork.note.document import Equation, Runs, Table
-from crankwork.note.words import Words, in_display_unit
+from crankwork.note.words import NoteWords, Words, in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
 
 # columns of numbers beside position and crank angle that fit on a page
@@ -76,11 +76,11 @@ def _parts(columns: Sequence[Column]) -> Iterator[Sequence[Column]]:
         yield columns[start : start + each]
 
 
-def equations(steps: Iterable[Line], words: Words, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
+def equations(steps: Iterable[Line], words: NoteWords, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
     """Yield equations of lines."""
     for one in steps:
         yield Equation(one, symbol=_mark(one.key, words, marks))
 
 
-def _mark(key: str, words: Words, marks: Mapping[str, str] | None) -> str:
+def _mark(key: str, words: NoteWords, marks: Mapping[str, str] | None) -> str:
     return (marks or {}).get(key) or (words.symbol(key) if base_key(key) in QUANTITIES else key)

@@ -95,6 +95,10 @@ class NoteWords(ABC):
         """Return a sentence as a paragraph."""
         return Paragraph(self.sentence(key, **values))
 
+    def way(self, key: str) -> str:
+        """Return the name of a way to find a flywheel."""
+        return say("report.exact" if key == "exact" else f"report.way_{key}", self.language)
+
     @abstractmethod
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`."""
@@ -175,10 +179,6 @@ class Words(NoteWords):
         """Return the heading of a column of positions at which values are reached."""
         symbol, _, unit = self.place(0.0)
         return (self.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, self.language)}")
-
-    def way(self, key: str) -> str:
-        """Return the name of a way to find a flywheel."""
-        return say("report.exact" if key == "exact" else f"report.way_{key}", self.language)
 
     def figure(self, name: str, drawing: Drawing) -> Figure:
         """Return a figure with caption and description."""

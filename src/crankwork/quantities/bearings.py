@@ -30,6 +30,8 @@ ROWS = (
     Quantity("shaft_unbalance", "kg*m",
              "Mass of a throw or a counterweight times the distance of its centre from the axis of rotation."),
     Quantity("unbalance_force", "N", "Force of a mass fixed to the crankshaft, away from the axis of rotation."),
+    Quantity("unbalance_weight", "N", "Weight of such a mass at the crank radius, along its arm away from the shaft."),
+    Quantity("unbalance_tangential_force", "N", "Weight and inertia of such a mass across its arm, with the rotation."),
     Quantity("shaft_position", "mm", "Distance along the crankshaft, positive towards higher throws."),
     Quantity("journal_share", "", "By the lever between the two journals of a throw."),
     Quantity("main_journal_load", "N", "Size of the force of the main bearing on the journal.", "MPa"),

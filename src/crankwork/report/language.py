@@ -25,6 +25,8 @@ _BY_ORDER = ("reciprocating", "knuckle_pins", "balance_shafts", "residual")
 _OF_ORDERS = ("free_force", "free_moment")
 # what is found in several ways
 _BY_WAY = ("excess_work", "flywheel_inertia", "whole_inertia")
+# what valves let through per unit of time, of all cylinders or of one
+_DELIVERED = ("inlet_flow", "gas_mass_flow", "free_air_delivery", "isothermal_power")
 # key of the machine file: the quantity or word that it means, where that has another name
 FILE_KEYS = {
     "heating": "charge_heating",
@@ -130,7 +132,13 @@ def is_per_area(key: str) -> bool:
 
 
 def told_as(key: str, results: Results) -> str:
-    """Return the key whose name a single value has: the mean torque of a linkage may be what its driver must give."""
+    """Return the key whose name a single value has: the mean torque of a linkage may be what its driver must give.
+
+    What several cylinders deliver is that of all.
+    """
+    engine = results.machine.engine
+    if key in _DELIVERED and engine is not None and len(engine.layout.places) > 1:
+        return f"{key}.all"
     return results.memory[key].key if key == "mean_torque" else key
 
 
@@ -147,6 +155,9 @@ def label(key: str, language: Language) -> str:
 
 def _part(kind: str, name: str, language: Language) -> str:
     """Return what a part of a quantity is called: the report's own phrase, or the name as it is."""
+    if kind in _DELIVERED and (name.isdecimal() or name == "all"):
+        told = say("drawing.all_cylinders", language)
+        return told if name == "all" else say("drawing.cylinder", language, number=name)
     way = f"report.way_{name}"
     key = way if kind in _BY_WAY and has_text(way) else f"report.{name}"
     return say(key, language) if has_text(key) else own_name(kind, name)
