@@ -128,15 +128,15 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
         "kinetic_energy_change",
     )
     columns, wanted, excess = {"kinetic_energy_change": change}, wanted_fluctuation(machine, w), excess_of(balance)
+    of_all = {"excess_work.mertsalov": _at_constant_speed(balance, w)} if balance.inertia.varies else {}
     if not (has_flywheel(machine.drive) or machine.drive.inertia):
-        return Turn(columns, {}, {}, (), {})
+        return Turn(columns, of_all, {}, (), {})
     try:
         summary, between, wheel = _wheels(balance, excess, wanted, w)
     except MethodError as error:
         return Turn(columns, {}, {}, (Notice("no_flywheel", {"message": error.args[0]}),), {})
     summary |= sizes_of_given(machine, w) if wanted is None else sizes_of(machine, wheel, w) if wheel.value else {}
-    if balance.inertia.varies:
-        summary["excess_work.mertsalov"] = _at_constant_speed(balance, w)
+    summary |= of_all
     inertia = _whole(balance, between, wheel)
     if not (inertia.varies or inertia.value > 0):
         told = () if wanted is None else (Notice("no_flywheel", {"message": Refusal("masses_missing")}),)
