@@ -359,10 +359,16 @@ def _load(load: Values) -> Load:
         case "damper" if "slider" in load:
             return load.made(SliderDamper)
         case "damper":
-            return Damper(*load["between"], load.si("damping"), *(load["links"] or ()))
+            return load.made(Damper, **_ends(load))
         case _ if "slider" in load:
             return SliderSpring(load["slider"], *(load.si(key) for key in _OF_SPRING))
-    return Spring(*load["between"], *(load.si(key) for key in _OF_SPRING), *(load["links"] or ()))
+    return load.made(Spring, **_ends(load))
+
+
+def _ends(load: Values) -> dict[str, str]:
+    """Return the points that a spring or damper joins, and the links that are named there."""
+    named = zip(("start", "end", "start_link", "end_link"), (*load["between"], *(load["links"] or ())), strict=False)
+    return dict(named)
 
 
 def _curve(load: Values, key: str) -> LoadTable:

@@ -90,8 +90,8 @@ class Placed:
         if bar.end == (0.0, 0.0):
             return frame._replace(origin=self.points[ends[1]])
         (x, y), frame = bar.start, named_link(frame, link)
-        to_origin = (one if is_nothing(one) else -one for one in (x, y))
-        origin = point_on_link(frame, *to_origin, f"{link}.origin")
+        along, across = (one if is_nothing(one) else -one for one in (x, y))
+        origin = point_on_link(frame, along, across, f"{link}.origin")
         return frame._replace(origin=named_point(origin, f"{link}.origin"))
 
 
