@@ -11,8 +11,6 @@ import crankwork
 from crankwork.report.summary import summary_text
 from each import for_each
 
-pytestmark = pytest.mark.elsewhere
-
 # lengths of a shaper that was made up [mm], [rpm]
 CRANK, BASE, LEVER, LINK, SPEED = 95.464406235492845, 217.525383016890908, 437.98729887315682, 357.67353639089129, 284.4
 RAM = 226.995  # of the bed over the crankshaft
@@ -43,6 +41,7 @@ def ram(turned):
     return x + np.sqrt(LINK**2 - (RAM - y) ** 2)
 
 
+@pytest.mark.elsewhere
 def test_the_lever_is_fastest_where_its_slot_is_shortest(summary):
     """The crank pin goes across the lever there; in between the lever is in line with what turns it."""
     assert summary["link_angular_velocity_max.lever"] == pytest.approx(RATE * CRANK / (BASE - CRANK), rel=1e-12)
@@ -52,6 +51,7 @@ def test_the_lever_is_fastest_where_its_slot_is_shortest(summary):
     )
 
 
+@pytest.mark.elsewhere
 def test_the_block_goes_as_fast_as_the_crank_pin_where_that_goes_along_the_slot(summary):
     assert summary["slider_velocity_max.block"] == pytest.approx(RATE * CRANK / 1e3, rel=1e-12)
     assert summary["slider_velocity_min.block"] == pytest.approx(-RATE * CRANK / 1e3, rel=1e-12)
@@ -61,6 +61,7 @@ def test_the_block_goes_as_fast_as_the_crank_pin_where_that_goes_along_the_slot(
     assert summary["slider_acceleration_min.block"] == pytest.approx(-outer, rel=1e-12)
 
 
+@pytest.mark.elsewhere
 def test_both_strokes_of_the_ram_are_those_of_its_place_differentiated(summary):
     """By a complex step at 20,000 crank angles, which miss a maximum by less than 1e-7 of it."""
     turned = np.linspace(0.0, math.tau, 20001)

@@ -14,8 +14,6 @@ from crankwork.kinematics.motion import linkage_motion
 from each import for_each
 from machine_texts import analysed
 
-pytestmark = pytest.mark.elsewhere
-
 # G lies 100 mm from B towards A and 30 mm to the left of that
 FOUR_BAR = """
 fixed_points = {{ O = ["0 mm", "0 mm"], E = ["300 mm", "20 mm"] }}
@@ -102,6 +100,7 @@ def along(results: crankwork.Results, link: str, first: str, u: float, v: float)
     return x + u * np.cos(angle) - v * np.sin(angle), y + u * np.sin(angle) + v * np.cos(angle)
 
 
+@pytest.mark.elsewhere
 def test_a_link_that_joins_b_and_a_points_from_b_to_a() -> None:
     """At 0 degrees A and E are the root of 58000 mm apart; the law of cosines gives the angle at A between E and B."""
     results = analysed(REVERSED)
@@ -131,6 +130,7 @@ def test_the_order_of_joints_turns_a_link_by_half_a_turn_and_nothing_else() -> N
     assert max(one.checks.values()) < 1e-12
 
 
+@pytest.mark.elsewhere
 @for_each("joins", [list(some) for some in permutations("BCE")], ids=["".join(some) for some in permutations("BCE")])
 def test_a_link_of_three_joints_has_the_frame_of_its_first_two(joins: list[str]) -> None:
     results = analysed(SIX_BAR.replace("JOINS", str(joins)))
@@ -156,6 +156,7 @@ def test_a_link_of_three_joints_has_the_frame_of_its_first_two(joins: list[str])
     assert found.points["D"].x.position == pytest.approx(moved.points["D"].x.position, abs=1e-10)
 
 
+@pytest.mark.elsewhere
 def test_a_rod_named_from_its_piston() -> None:
     results = analysed(ROD)
     assert apart(results.columns["link_angle.rod"], direction(results, "B", "A")) < 1e-13
@@ -164,6 +165,7 @@ def test_a_rod_named_from_its_piston() -> None:
     assert max(results.checks.values()) < 1e-12
 
 
+@pytest.mark.elsewhere
 def test_links_that_a_motor_opens() -> None:
     results = analysed(ELBOW)
     for link, joins in (("upper", "CO"), ("lower", "DC"), ("rocker", "DE")):

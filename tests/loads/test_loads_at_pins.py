@@ -11,8 +11,6 @@ from crankwork.report.notices import notice_text
 from each import for_each
 from machine_texts import analysed
 
-pytestmark = pytest.mark.elsewhere
-
 # the guide goes through the crankshaft, and the load along it
 SLIDER_CRANK = """
 fixed_points = { O = ["0 mm", "0 mm"] }
@@ -59,6 +57,7 @@ def acceleration() -> np.ndarray:
     return -0.1 * speed**2 * (cos + (cos**2 - sin**2) / root + (sin * cos) ** 2 / root**3)
 
 
+@pytest.mark.elsewhere
 @for_each("kind", list(LOADS))
 def test_the_pin_carries_what_bears_on_the_rod(kind: str) -> None:
     """On the piston the load balances in it: Newton for 5 kg, the pin and the load, on a guide without friction."""
