@@ -55,12 +55,6 @@ FOLLOWED = (
     "torque_with_friction", "driver_force_with_friction", "driver_torque_with_friction", "friction_power",
     "joint_force_with_friction", "static_torque_with_friction",
 )  # fmt: skip
-SIGNED = (
-    "torque_with_friction",
-    "static_torque_with_friction",
-    "driver_force_with_friction",
-    "driver_torque_with_friction",
-)
 _OF_MOTION = ("self_locking", "not_balanced", "two_balances")
 _REST = 1e-12
 _BESIDE = 1e-6

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -14,7 +14,7 @@ from crankwork.analysis import origins
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.friction import COLUMNS as FRICTION
 from crankwork.analysis.friction import FOLLOWED as FOLLOWED_FRICTION
-from crankwork.analysis.friction import SIGNED, Rubbed, friction_of, mean_values
+from crankwork.analysis.friction import Rubbed, friction_of, mean_values
 from crankwork.analysis.linkage_balance import counterweight_balance
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, remembered_running, speed_of
 from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
@@ -65,6 +65,9 @@ from crankwork.shaft.motor_choice import needed_power
 _DENSE_STEP = 1.0
 _STANDS = 1e-12
 _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
+_TURNING = ("link_angular_velocity", "link_angular_acceleration")
+# what has no sign, so that its least value says nothing
+_SIZES = ("joint_force", "joint_force_with_friction", "friction_power", "gas_pressure", "shaking_force")
 _MOST_COEFFICIENTS = 10_000_000
 _OF_DRIVER = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
@@ -196,7 +199,9 @@ def _singles(moved: _Moved, memory: Mapping[str, Known], name: str | None = None
     machine, found = moved.machine, moved.reached.travel
     quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
     quality = {key: one for key, one in quality.items() if name is None or key.partition(".")[2] == name}
-    followed, told = _followed(memory, has_friction=moved.rubbing.is_free) | quality, list[Notice]()
+    pivoted = pivoted_links(machine.mechanism)
+    followed = _followed(memory, pivoted, has_friction=moved.rubbing.is_free) | quality
+    told = list[Notice]()
     start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
     ends = _where_unbounded(machine, found)
     without = boundless(followed, *ends, machine.cycle if found is None else found.end - found.start)
@@ -292,14 +297,22 @@ def _where(columns: Mapping[str, tuple[float, ...]]) -> dict[str, float | str]:
     return {"angles": "°, ".join(f"{one:.6g}" for one in angles), "quantities": ", ".join(kinds)}
 
 
-def _followed(memory: Mapping[str, Known], *, has_friction: bool) -> dict[str, Known]:
-    """Return the columns that single values are taken from; those with friction where it locks nowhere."""
+def _followed(memory: Mapping[str, Known], pivoted: Collection[str], *, has_friction: bool) -> dict[str, Known]:
+    """Return the columns that single values are taken from; those with friction where it locks nowhere.
+
+    `pivoted`: links that turn about fixed pivots, of which it is told how fast.
+    """
     kinds = (
-        "slider_displacement", "link_angle", "joint_force", "tooth_force", "axial_force", "slider_velocity",
-        "gas_pressure", "gas_force", "rod_load", *_OF_DRIVER, "shaking_force",
+        "slider_displacement", "slider_velocity", "slider_acceleration", "link_angle", "joint_force", "tooth_force",
+        "axial_force", "gas_pressure", "gas_force", "rod_load", *_OF_DRIVER, "shaking_force",
         *(FOLLOWED_FRICTION if has_friction else ()),
     )  # fmt: skip
-    return {key: one for key, one in memory.items() if key in DYNAMICS or key.partition(".")[0] in kinds}
+    turning = {f"{kind}.{name}" for kind in _TURNING for name in pivoted}
+    return {
+        key: one
+        for key, one in memory.items()
+        if key in DYNAMICS or key.partition(".")[0] in kinds or (key in turning and one.varies)
+    }
 
 
 def _summary(
@@ -323,14 +336,7 @@ def _summary(
         if is_place and (kind == "slider_displacement" or travel.value < math.pi):
             result[f"{_TRAVEL[kind]}.{name}"] = travel
         if not is_place or rocks(pivoted, key, travel.value):
-            both = (
-                is_place
-                or key in DYNAMICS
-                or kind in ("gas_force", "rod_load", "tooth_force")
-                or key in (*_OF_DRIVER, *SIGNED)
-            )
-            words = ("max", "min") if both else ("max",)
-            for word in words:
+            for word in ("max",) if kind in _SIZES else ("max", "min"):
                 extreme = f"{kind}_{word}{dot}{name}"
                 result[extreme] = extremes[extreme]
                 angle = extremes[f"{kind}_{word}_angle{dot}{name}"]

@@ -48,14 +48,13 @@ def smooth_transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple
 
 def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, LinkMotion, LinkMotion]]:
     """Yield the two links of RRR dyads, link and guide of RRP dyads, with the point between them."""
-    frames = motion.frames
     for dyad in mechanism.dyads:
         match dyad:
             # the third side of a triangle whose shape a motor drives is no link
             case RRR() if mechanism.driver.link not in (dyad.link_a, dyad.link_b):
-                yield "transmission", dyad.point, frames[dyad.link_a], frames[dyad.link_b]
+                yield "transmission", dyad.point, motion.bar(dyad.link_a), motion.bar(dyad.link_b)
             case RRP():
-                yield "pressure", dyad.slider, frames[dyad.link], frames[dyad.piece]
+                yield "pressure", dyad.slider, motion.bar(dyad.link), motion.frames[dyad.piece]
 
 
 def _in_line(found: Known, formula: Callable[[Known], Known], limit: float) -> Known:

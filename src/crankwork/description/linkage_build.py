@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -34,7 +35,8 @@ from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.description import linkage_from
-from crankwork.mechanism.driver import Law
+from crankwork.mechanism.driver import Law, LinkMotor
+from crankwork.mechanism.joints import bearers
 from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.method import Method
@@ -81,6 +83,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if reader.problems:
         return None
     friction = build_friction(values, linkage, mechanism, reader)
+    notices += tuple(_on_pins(loads, linkage, mechanism))
     loads = with_starts(loads, values, mechanism, way)
     if values["method"]["weights"]:
         loads = (*loads, Weight(method.gravity))
@@ -289,9 +292,37 @@ def _check_names(key: str, load: Values, linkage: Linkage, reader: Reader) -> No
             reader.complain(
                 f"{key}.between", Refusal("absent_point", name=point, known=", ".join(sorted(names["point"])))
             )
-    owners = linkage.owners.get(load["point"] or "", [])
-    if load["kind"] == "force" and owners and (load["link"] or owners[0]) not in owners:
-        reader.complain(f"{key}.link", Refusal("load_elsewhere", point=load["point"], owners=", ".join(owners)))
+    ends = [("links", *end) for end in zip(load["between"], load["links"] or (), strict=False)]
+    ends += [("link", load["point"], load["link"])] if load["point"] and load["link"] else []
+    for where, point, link in ends:
+        owners = linkage.owners.get(point, [])
+        if owners and link not in owners:
+            told = Refusal("load_elsewhere", point=point, link=link, owners=", ".join(owners))
+            reader.complain(f"{key}.{where}", told)
+
+
+def _on_pins(
+    loads: Iterable[Load], linkage: Linkage, mechanism: Mechanism
+) -> Iterator[tuple[str, dict[str, float | str]]]:
+    """Yield notices of loads at pins of several links of which none is named, and which is taken."""
+    bearer = bearers(mechanism)
+    # the third side of a triangle that a motor opens is no link
+    no_link = mechanism.driver.link if isinstance(mechanism.driver, LinkMotor) else ""
+    for number, load in enumerate(loads, start=1):
+        match load:
+            case ForceOnPoint():
+                key, ends = "link", [(load.point, load.link)]
+            case Spring() | Damper():
+                key, ends = "links", [(load.start, load.start_link), (load.end, load.end_link)]
+            case _:
+                continue
+        for point, link in ends:
+            owners = [one for one in linkage.owners[point] if one != no_link]
+            if not link and len(owners) > 1 and GROUND not in owners:
+                yield "load_on_pin", {
+                    "load": f"loads[{number}]", "point": point, "owners": ", ".join(owners), "link": bearer[point],
+                    "field": key,
+                }  # fmt: skip
 
 
 def _check_table(key: str, load: Values, reader: Reader) -> None:
@@ -327,11 +358,16 @@ def _load(load: Values) -> Load:
         case "damper" if "slider" in load:
             return load.made(SliderDamper)
         case "damper":
-            start, end = load["between"]
-            return load.made(Damper, start=start, end=end)
+            return load.made(Damper, **_ends(load))
         case _ if "slider" in load:
             return SliderSpring(load["slider"], *(load.si(key) for key in _OF_SPRING))
-    return Spring(*load["between"], *(load.si(key) for key in _OF_SPRING))
+    return load.made(Spring, **_ends(load))
+
+
+def _ends(load: Values) -> dict[str, str]:
+    """Return the points that a spring or damper joins, and the links that are named there."""
+    named = zip(("start", "end", "start_link", "end_link"), (*load["between"], *(load["links"] or ())), strict=False)
+    return dict(named)
 
 
 def _curve(load: Values, key: str) -> LoadTable:

@@ -125,6 +125,7 @@ _LOAD = Table("load", {
     "point": Key(_NAME, required=True, only=_PUSH),
     "link": Key(_NAME, required=("torque",), only={"kind": ("force", "torque")}),
     "between": Key(ListOf(_NAME, fewest=2, most=2), only=_BETWEEN),
+    "links": Key(ListOf(_NAME, fewest=2, most=2), only={"between": ()}),
     "x": Key(_FORCE, default="0 N", only=_PUSH),
     "y": Key(_FORCE, default="0 N", only=_PUSH),
     "against": Key(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),

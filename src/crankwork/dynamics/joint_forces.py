@@ -47,7 +47,7 @@ def joint_forces(running: Running) -> JointForces:
     for group, links in _held_together(mechanism):
         held = [joint for joint in every if joint.link in links]
         if group is not None:
-            reactions = _group_reactions(group, motion, held, wrenches)
+            reactions = _group_reactions(group, running, held, wrenches)
             passage = next((one for at, one in mechanism.passages.items() if mechanism.dyads[at] is group), None)
             if passage is not None:
                 reactions = bridged_forces(reactions, passage)
@@ -161,12 +161,12 @@ def _held_together(mechanism: Mechanism) -> Iterator[tuple[Dyad | Chain | None, 
 
 
 def _group_reactions(
-    group: Dyad | Chain, motion: Motion, held: Sequence[Joint], wrenches: Wrenches
+    group: Dyad | Chain, running: Running, held: Sequence[Joint], wrenches: Wrenches
 ) -> dict[Joint, Reaction]:
     """Return the reactions in the joints of a group: of a dyad in closed form."""
     if isinstance(group, Chain):
-        return solved_group(motion, group_links(group), held, wrenches)
-    forces = _dyad_reactions(group, motion, wrenches, held[1].name)
+        return solved_group(running.motion, group_links(group), held, wrenches)
+    forces = _dyad_reactions(group, running, wrenches, held[1].name)
     return {joint: _reaction(joint, one) for joint, one in zip(held, forces, strict=True)}
 
 
@@ -176,12 +176,11 @@ def _arm(link: str, origin: PointMotion, pin: PointMotion) -> Vector:
 
 
 def _dyad_reactions(
-    dyad: Dyad, motion: Motion, wrenches: Wrenches, name: str
+    dyad: Dyad, running: Running, wrenches: Wrenches, name: str
 ) -> tuple[Vector | OnGuide, Vector | OnGuide, Vector | OnGuide]:
     """Return the reactions of a dyad in the order of its joints."""
-    one, two = group_links(dyad)
-    first, second = wrenches[one], wrenches[two]
-    origin, other = motion.frames[one].origin, motion.frames[two].origin
+    (one, two), motion = group_links(dyad), running.motion
+    (first, origin), (second, other) = (_about_joint(link, running, wrenches[link]) for link in (one, two))
     along_one, along_two = ((motion.frames[link].cos, motion.frames[link].sin) for link in (one, two))
     match dyad:
         case RRR():
@@ -195,6 +194,16 @@ def _dyad_reactions(
             return prp_forces(first, second, along_one, along_two, name)
         case RPP():
             return rpp_forces(first, second, _arm(one, origin, other), along_two, along_one, name)
+
+
+def _about_joint(link: str, running: Running, own: Wrench) -> tuple[Wrench, PointMotion]:
+    """Return what acts on a link of a dyad with its moment about the joint that it hangs on, and that joint."""
+    origin = running.motion.frames[link].origin
+    if link not in running.mechanism.bars:
+        return own, origin
+    joint = running.motion.bars[link].origin
+    moved = moment_of(arm(joint, origin), (own.x, own.y), f"{link}.moved")
+    return Wrench(own.x, own.y, named(own.moment + moved, f"link_moment.{link}.hung")), joint
 
 
 def _reaction(joint: Joint, force: Vector | OnGuide) -> Reaction:

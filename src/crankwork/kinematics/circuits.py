@@ -226,7 +226,7 @@ def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Ar
         points[driver.link] = {}
         slides.append(Slide(driver.link, driver.guide))
     for group in mechanism.dyads:
-        chain = group if isinstance(group, Chain) else as_chain(group, placed.links, 0.0)
+        chain = group if isinstance(group, Chain) else as_chain(group, placed.links, 0.0, mechanism.bars)
         points |= {link.name: dict(link.points) for link in chain.links}
         slides += chain.slides
     halves = {half.link for half in mechanism.halves}

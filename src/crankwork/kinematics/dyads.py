@@ -224,6 +224,8 @@ def turned(link: LinkMotion, angle: float, name: str = "line") -> LinkMotion:
     """Return a frame with the same origin, its x axis at an angle to that of the link, under a name. [rad]"""
     if is_nothing(angle):
         return link
+    if not is_known(angle) and abs(angle) == math.pi:
+        return link._replace(cos=-link.cos, sin=-link.sin)
     cos, sin = plane.cosine_of_direction(angle), plane.sine_of_direction(angle)
     cos, sin = named(cos, f"line_cos.{name}"), named(sin, f"line_sin.{name}")
     return link._replace(

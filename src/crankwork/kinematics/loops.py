@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ from crankwork.kinematics.dyads import Closure, LinkMotion, seen_from
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Point
 
 _STEP = np.radians(6.0)
 _SMALLEST_STEP = 1e-4
@@ -328,11 +329,13 @@ def _as_motion(
     return ChainMotion(points, frames, sliders, Closure(np.where(ratio > 0, ratio * ratio, np.nan), 1.0, ratio))
 
 
-def as_chain(dyad: Dyad, placed: Mapping[str, LinkMotion], start: float) -> Chain:
+def as_chain(
+    dyad: Dyad, placed: Mapping[str, LinkMotion], start: float, bars: Mapping[str, Bar] = MappingProxyType({})
+) -> Chain:
     """Return a dyad as a chain that starts from a solved position, to be solved the other way.
 
     `placed`: solved frames of links, of which the first position is taken; `start`: crank angle of the first position
-    [rad].
+    [rad]; `bars`: those of the mechanism.
     """
 
     def link(name: str, **own: Point) -> ChainLink:
@@ -341,14 +344,18 @@ def as_chain(dyad: Dyad, placed: Mapping[str, LinkMotion], start: float) -> Chai
         cos, sin = float(np.ravel(frame.cos)[0]), float(np.ravel(frame.sin)[0])
         return ChainLink(name, (x, y), math.atan2(sin, cos), own)
 
+    def bar(name: str, joint: str, point: str, length: float) -> ChainLink:
+        own = bars.get(name, Bar((0.0, 0.0), (length, 0.0), 0.0))
+        return link(name, **{joint: own.start, point: own.end})
+
     at = (0.0, 0.0)
     match dyad:
         case RRR():
-            a = link(dyad.link_a, **{dyad.joint_a: at, dyad.point: (dyad.length_a, 0.0)})
-            b = link(dyad.link_b, **{dyad.joint_b: at, dyad.point: (dyad.length_b, 0.0)})
+            a = bar(dyad.link_a, dyad.joint_a, dyad.point, dyad.length_a)
+            b = bar(dyad.link_b, dyad.joint_b, dyad.point, dyad.length_b)
             return Chain((a, b), (), frozenset({dyad.joint_a, dyad.joint_b}), start)
         case RRP():
-            a = link(dyad.link, **{dyad.joint: at, dyad.slider: (dyad.length, 0.0)})
+            a = bar(dyad.link, dyad.joint, dyad.slider, dyad.length)
             b = link(dyad.piece, **{dyad.slider: at})
             return Chain((a, b), (Slide(dyad.piece, dyad.guide),), frozenset({dyad.joint}), start)
         case RPR():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -18,7 +19,7 @@ from crankwork.kinematics.plane_motion import cosine_of_direction, direction_of_
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide, Point
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Body, Crank, Driver, LinkPoint, Mechanism
 
@@ -69,7 +70,7 @@ def remembered_motion(mechanism: Mechanism, moved: Motion, linkage: Linkage | No
             turns = Known(HalfTurns(frame.sin, frame.cos, near), f"half_turns.{name}")
             angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
             links[name] = Transfer(angle, frame.angle_1, frame.angle_2)
-    return Motion(grid, placed.points, links, placed.sliders, placed.links, rates)
+    return Motion(grid, placed.points, links, placed.sliders, placed.links, placed.bars, rates)
 
 
 def _coordinate(driver: Driver, angle: Known) -> CrankAngle:
@@ -128,6 +129,7 @@ def given_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Mec
         bodies=tuple(_body(one, places) for one in mechanism.bodies),
         ground=ground,
         points=tuple(_link_point(one, places) for one in mechanism.points),
+        bars={name: _bar(name, one) for name, one in mechanism.bars.items()},
     )
 
 
@@ -251,6 +253,15 @@ def _dyad(dyad: Dyad, places: _Places) -> Dyad:
                 slot=_slot(dyad.block, dyad.slot, places.guide(dyad.block)),
                 guide=_guide(dyad.link, dyad.guide, places.guide(dyad.link)),
             )
+
+
+def _bar(name: str, bar: Bar) -> Bar:
+    """Return a bar with what is measured of it given; one that lies the other way round needs no more than that."""
+    if bar.end == (0.0, 0.0) and abs(bar.angle) == math.pi:
+        return bar
+    path = f"links.{name}"
+    start: Any = _along_across(f"{name}.origin", bar.start, path)
+    return replace(bar, start=start, angle=_stated(f"line_angle.{name}", bar.angle, path))
 
 
 def _chain(chain: Chain, places: _Places) -> Chain:

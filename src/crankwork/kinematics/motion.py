@@ -33,8 +33,14 @@ class Motion:
     sliders: Mapping[str, Transfer]  # Distance of each slider along its guide, arrays of shape (n,) [m]
     # Links and sliding pieces as frames, with origin and direction; empty where the motion comes from a table
     frames: Mapping[str, LinkMotion] = field(default_factory=dict)
+    # Lines between the joints of those links of dyads whose frames they are not
+    bars: Mapping[str, LinkMotion] = field(default_factory=dict)
     # Coordinate of the driver, its rate and second rate, where a law moves it; columns or knowns
     driver: Transfer | None = None
+
+    def bar(self, link: str) -> LinkMotion:
+        """Return the line from the joint of a link of a dyad that was known first to its other one, as a frame."""
+        return self.bars.get(link, self.frames[link])
 
 
 class Directions(Mapping[str, Transfer]):
@@ -60,12 +66,13 @@ class Directions(Mapping[str, Transfer]):
 def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
     """Return the direction of a link, free of jumps by a turn. [rad]
 
-    Angle from the x axis, from -pi to pi at the first position, and its derivatives.
+    Angle from the x axis, over -pi and up to pi at the first position, and its derivatives.
 
     Between neighbours the angle grows by about the mean rate times the step, which says how many turns to add.
     """
     still = np.zeros_like(grid.angle)
-    angle, rate = np.arctan2(link.sin, link.cos) + still, link.angle_1 + still
+    # -0 would be -180 degrees where the cosine is negative
+    angle, rate = np.arctan2(link.sin + still, link.cos), link.angle_1 + still
     grown = np.diff(grid.angle) * (rate[1:] + rate[:-1]) / 2
     turns = np.nan_to_num(np.rint((grown - np.diff(angle)) / math.tau))
     angle[1:] += math.tau * np.cumsum(turns)
@@ -87,4 +94,4 @@ def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, paths: dict[int, Ch
     links = {name: frame for name, frame in placed.links.items() if name not in sliders and name not in halves}
     law = mechanism.driver.law
     driver = None if law is None else law_at(law, grid)
-    return Motion(grid, points, Directions(placed.grid, links), sliders, placed.links, driver)
+    return Motion(grid, points, Directions(placed.grid, links), sliders, placed.links, placed.bars, driver)

@@ -104,13 +104,13 @@ def _quantities(part: Mechanism, index: int, grid: CrankGrid) -> dict[str, Array
     placed, full = place(part, grid), np.zeros(len(grid))
     match part.dyads[index]:
         case RRR() as dyad:
-            a, b = placed.links[dyad.link_a], placed.links[dyad.link_b]
+            a, b = (placed.bars.get(one, placed.links[one]) for one in (dyad.link_a, dyad.link_b))
             found = {
                 "arm_x": dyad.length_a * a.cos, "arm_y": dyad.length_a * a.sin,
                 "rate_a": a.angle_1, "rate_b": b.angle_1, "rate_a_1": a.angle_2, "rate_b_1": b.angle_2,
             }  # fmt: skip
         case RRP() as dyad:
-            a, b = placed.links[dyad.link], placed.links[dyad.piece]
+            a, b = placed.bars.get(dyad.link, placed.links[dyad.link]), placed.links[dyad.piece]
             reach = dyad.length * (a.cos * b.cos + a.sin * b.sin)
             found = {"reach": reach, "rate": a.angle_1 - b.angle_1, "rate_1": a.angle_2 - b.angle_2}
         case RPR() as dyad:

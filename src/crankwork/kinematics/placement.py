@@ -34,6 +34,7 @@ from crankwork.kinematics.dyads import (
     rrp_motion,
     rrr_motion,
     straight,
+    turned,
 )
 from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import extent, law_at
@@ -42,7 +43,7 @@ from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad, Guide
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide
 from crankwork.mechanism.joints import group_links, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
 from crankwork.mechanism.passage import Passage
@@ -65,6 +66,8 @@ class Placed:
     links: dict[str, LinkMotion] = field(default_factory=dict)
     sliders: dict[str, Transfer] = field(default_factory=dict)
     lengths: dict[str, Transfer] = field(default_factory=dict)
+    # Lines between the joints of those links of dyads whose frames they are not, by link
+    bars: dict[str, LinkMotion] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
     plain: Mechanism | None = None
     # What has been followed of chains, by their place; it serves what hangs on them
@@ -75,6 +78,21 @@ class Placed:
         line = guide_on_link(self.links[guide.link], guide) if guide.link else fixed_guide(guide)
         line = named_link(line, f"{piece}.guide")
         return line._replace(origin=named_point(line.origin, f"{piece}.guide"))
+
+    def frame(self, bar: Bar | None, link: str, line: LinkMotion, ends: tuple[str, str]) -> LinkMotion:
+        """Return the frame of a link, given the line from its known joint to its other one."""
+        if bar is None:
+            return line
+        name = "–".join(ends)
+        line = line._replace(cos=named(line.cos, f"link_cos.{name}"), sin=named(line.sin, f"link_sin.{name}"))
+        self.bars[link] = line
+        frame = turned(line, bar.angle if is_nothing(bar.angle) else -bar.angle, f"{link}.{name}")
+        if bar.end == (0.0, 0.0):
+            return frame._replace(origin=self.points[ends[1]])
+        (x, y), frame = bar.start, named_link(frame, link)
+        along, across = (one if is_nothing(one) else -one for one in (x, y))
+        origin = point_on_link(frame, along, across, f"{link}.origin")
+        return frame._replace(origin=named_point(origin, f"{link}.origin"))
 
 
 def place(mechanism: Mechanism, grid: CrankGrid) -> Placed:
@@ -189,16 +207,23 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
         through = over_bridges(passage, placed.grid)
     match group:
         case RRR() as dyad:
-            ends, driver, opened = (points[dyad.joint_a], points[dyad.joint_b]), mechanism.driver, None
+            hung, driver, opened = (points[dyad.joint_a], points[dyad.joint_b]), mechanism.driver, None
             if isinstance(driver, LinkMotor) and {dyad.link_a, dyad.link_b} == {*driver.links}:
                 opened = opened_pair(driver, dyad, links[driver.link], placed.lengths[driver.link])
-            rrr = rrr_motion(dyad, *ends, placed.lengths, through, opened)
-            points[dyad.point], links[dyad.link_a], links[dyad.link_b] = rrr.point, rrr.link_a, rrr.link_b
+            rrr = rrr_motion(dyad, *hung, placed.lengths, through, opened)
+            points[dyad.point] = named_point(rrr.point, dyad.point)
+            for link, line, joint in (
+                (dyad.link_a, rrr.link_a, dyad.joint_a),
+                (dyad.link_b, rrr.link_b, dyad.joint_b),
+            ):
+                links[link] = placed.frame(mechanism.bars.get(link), link, line, (joint, dyad.point))
             return rrr.closure
         case RRP() as dyad:
             rrp = rrp_motion(dyad, points[dyad.joint], placed.guide(dyad.guide, dyad.piece), placed.lengths, through)
-            points[dyad.slider], sliders[dyad.piece] = rrp.point, rrp.slide
-            links[dyad.link], links[dyad.piece] = rrp.link, rrp.piece
+            points[dyad.slider], sliders[dyad.piece] = named_point(rrp.point, dyad.slider), rrp.slide
+            ends = dyad.joint, dyad.slider
+            links[dyad.link] = placed.frame(mechanism.bars.get(dyad.link), dyad.link, rrp.link, ends)
+            links[dyad.piece] = rrp.piece
             return rrp.closure
         case RPR() as dyad:
             rpr = rpr_motion(dyad, points[dyad.joint], points[dyad.pivot], through)

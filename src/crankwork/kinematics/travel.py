@@ -12,7 +12,7 @@ from crankwork.errors import GeometryError
 from crankwork.kinematics.circuits import Circuit, Part, assembled_stretches, circuit_through
 from crankwork.kinematics.coordinates import Stretch, driver_coordinate
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import LinkMotion
+from crankwork.kinematics.dyads import LinkMotion, turned
 from crankwork.kinematics.passages import with_passages
 from crankwork.kinematics.placement import assembled, place
 from crankwork.locale import Refusal
@@ -123,7 +123,7 @@ def _changes(circuit: Circuit, branch: Part) -> Array:
     there = circuit.stretch(between)
     for dyad in circuit.mechanism.dyads:
         if isinstance(dyad, RRR | RRP | RPR):
-            sides = _side(dyad, there.frames)
+            sides = _side(dyad, there.frames, circuit.mechanism)
             clear = np.isfinite(sides)
             at, sides = between[clear], sides[clear]
             for one in np.flatnonzero(sides[1:] * sides[:-1] < 0):
@@ -140,21 +140,26 @@ def _crank_at_change(circuit: Circuit, dyad: RRR | RRP | RPR, near: float) -> fl
     for reach in _ASIDE:
         at = near + reach * np.array([-1.0, -0.7, -0.4, 0.4, 0.7, 1.0])
         there = circuit.stretch(at)
-        sides = _side(dyad, there.frames)
+        sides = _side(dyad, there.frames, circuit.mechanism)
         cranks = np.degrees(driver(there).position)
         degrees = float(np.polyval(np.polyfit(sides, cranks - cranks.mean(), at.size - 1), 0.0) + cranks.mean())
         near += float(np.polyval(np.polyfit(sides, at - near, at.size - 1), 0.0))
     return degrees
 
 
-def _side(dyad: RRR | RRP | RPR, frames: Mapping[str, LinkMotion]) -> Array:
+def _side(dyad: RRR | RRP | RPR, frames: Mapping[str, LinkMotion], mechanism: Mechanism) -> Array:
     """Return what has the sign of the branch of a dyad."""
+
+    def line(link: str) -> LinkMotion:
+        bar = mechanism.bars.get(link)
+        return turned(frames[link], bar.angle) if bar else frames[link]
+
     match dyad:
         case RRR():
-            a, b = frames[dyad.link_a], frames[dyad.link_b]
+            a, b = line(dyad.link_a), line(dyad.link_b)
             return np.asarray(a.cos * b.sin - a.sin * b.cos)
         case RRP():
-            a, b = frames[dyad.link], frames[dyad.piece]
+            a, b = line(dyad.link), frames[dyad.piece]
             return np.asarray(a.cos * b.cos + a.sin * b.sin)
         case RPR():
             a, b = frames[dyad.link], frames[dyad.block]
@@ -165,7 +170,7 @@ def _side(dyad: RRR | RRP | RPR, frames: Mapping[str, LinkMotion]) -> Array:
 def branches_of(mechanism: Mechanism, there: Stretch) -> tuple[Branch, ...]:
     """Return the branches of the dyads that can be put together in two ways, at one position of a circuit."""
     signed = (one for one in mechanism.dyads if isinstance(one, RRR | RRP | RPR))
-    return tuple(1 if float(_side(one, there.frames)[0]) > 0 else -1 for one in signed)
+    return tuple(1 if float(_side(one, there.frames, mechanism)[0]) > 0 else -1 for one in signed)
 
 
 def _stated(mechanism: Mechanism) -> float:

@@ -25,6 +25,9 @@ class Damper:
     start: str
     end: str
     damping: float  # Force over the rate of its length [N s/m]
+    # Links it is fixed to; empty for the first ones of those that meet there
+    start_link: str = ""
+    end_link: str = ""
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,10 @@ def point_damper(load: Damper, mechanism: Mechanism, motion: Motion, speed: Valu
         raise GeometryError(Refusal("damper_shut", start=load.start, end=load.end))
     rate = named(damper_velocity(x, x_1, y, y_1, length, speed), f"damper_velocity.{name}")
     force = named(damper_force(_damping(load, name, rate, path), rate), f"damper_force.{name}")
-    return force_between(mechanism, motion, (load.start, load.end), (x / length * force, y / length * force))
+    return force_between(
+        mechanism, motion, (load.start, load.end), (x / length * force, y / length * force),
+        (load.start_link, load.end_link),
+    )  # fmt: skip
 
 
 def slider_damper(

@@ -10,7 +10,7 @@ from crankwork.errors import Problem
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.driver import Cylinder
-from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Dyad, Guide, Point
+from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Branch, Dyad, Guide, Point
 from crankwork.mechanism.linkage import Linkage, Member
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism, body_at
 from crankwork.mechanism.structure import known_points, structure
@@ -44,17 +44,19 @@ def mechanism_of(linkage: Linkage, solved: Mapping[str, Point] | None = None) ->
         if half.mass:
             order.points.append(LinkPoint(name, half.link, sense * along, sense * across))
             bodies.append(body_at(half.link, half.mass, half.inertia, name))
-    return Mechanism(linkage.driver, tuple(groups), tuple(bodies), dict(linkage.ground), tuple(order.points)), []
+    found_points, ground = tuple(order.points), dict(linkage.ground)
+    return Mechanism(linkage.driver, tuple(groups), tuple(bodies), ground, found_points, order.bars), []
 
 
 @dataclass
 class _Order:
-    """What is solved so far: the names of the members, their frames in their own drawn frames, further points."""
+    """What is solved so far: the names of the members, the origins of their frames as drawn, further points."""
 
     linkage: Linkage
     at: Mapping[str, Point]
     solved: list[str] = field(default_factory=list)
-    frames: dict[str, tuple[Point, float]] = field(default_factory=dict)
+    origins: dict[str, Point] = field(default_factory=dict)
+    bars: dict[str, Bar] = field(default_factory=dict)
     points: list[LinkPoint] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
     branched: set[str] = field(default_factory=set)
@@ -82,13 +84,13 @@ class _Order:
                 return self._rpr(a, b, ka[0], kb[0], guide)
             case [Guide() as one, Guide() as other], 0, 0, [point] if a.name != other.link and b.name != one.link:
                 one, other = self._shifted(one, a, point), self._shifted(other, b, point)
-                self._place(a, a.points[point], 0.0, {point})
-                self._place(b, b.points[point], 0.0, {point})
+                self._place(a, a.points[point], {point})
+                self._place(b, b.points[point], {point})
                 return PRP(point, a.name, b.name, one, other)
             case [Guide() as guide, Guide(link=a.name) as slot], 0, 1, []:
-                self._place(a, (0.0, 0.0), 0.0, set())
+                self._place(a, (0.0, 0.0), set())
                 slot = _moved(slot, b.points[kb[0]])
-                self._place(b, b.points[kb[0]], 0.0, {kb[0]})
+                self._place(b, b.points[kb[0]], {kb[0]})
                 return RPP(kb[0], a.name, b.name, slot, self._guide(guide))
         return None
 
@@ -105,11 +107,11 @@ class _Order:
     def _rrp(self, link: Member, piece: Member, joint: str, point: str, guide: Guide) -> RRP:
         length = self._placed_bar(link, joint, point)
         line = self._shifted(guide, piece, point)
-        self._place(piece, piece.points[point], 0.0, {point})
+        self._place(piece, piece.points[point], {point})
         stated, at = self.linkage.positions, self.at
         ahead = 0.0
         if point in stated and joint in at:
-            angle, (x, y) = line.angle + self._angle_at_zero(line.link), _difference(at[joint], stated[point])
+            angle, (x, y) = line.angle + self._drawn_angle(line.link), _difference(at[joint], stated[point])
             ahead = (x * math.cos(angle) + y * math.sin(angle)) / length
         branch = self._branch(point, ahead)
         return RRP(joint, point, link.name, length, line.point, line.angle, branch, line.link, piece.name)
@@ -118,8 +120,8 @@ class _Order:
         x, y = lever.points[pivot]
         slot = Guide((guide.point[0] - x, guide.point[1] - y), guide.angle)
         slot = _moved(slot, block.points[joint])
-        self._place(lever, (x, y), 0.0, {pivot})
-        self._place(block, block.points[joint], 0.0, {joint})
+        self._place(lever, (x, y), {pivot})
+        self._place(block, block.points[joint], {joint})
         at, ahead = self.at, 0.0
         stated = self.linkage.positions
         named = next((name for name in lever.points if name in stated and name != pivot), None)
@@ -131,22 +133,27 @@ class _Order:
         return RPR(joint, pivot, lever.name, block.name, slot, self._branch(lever.name, ahead))
 
     def _placed_bar(self, link: Member, joint: str, point: str) -> float:
-        """Return the length of a link from a known joint to a new one, and note its frame."""
-        (x, y), (to_x, to_y) = link.points[joint], link.points[point]
-        self._place(link, (x, y), math.atan2(to_y - y, to_x - x), {joint, point})
-        return math.hypot(to_x - x, to_y - y)
+        """Return the length of a link from a known joint to a new one, and note where that line lies in its frame."""
+        start, end = link.points[joint], link.points[point]
+        along, across = _difference(start, end)
+        bar = Bar(start, end, math.atan2(across, along))
+        # the frame of a length that drives leads from the end that is known first
+        if link.name != self.linkage.driver.link:
+            self._place(link, (0.0, 0.0), {joint, point})
+            if start != (0.0, 0.0) or bar.angle:
+                self.bars[link.name] = bar
+        return math.hypot(along, across)
 
-    def _place(self, member: Member, origin: Point, angle: float, without: set[str]) -> None:
-        """Note the frame in which a member is solved, and its points in that frame."""
-        self.frames[member.name] = (origin, angle)
+    def _place(self, member: Member, origin: Point, without: set[str]) -> None:
+        """Note where the origin of the frame in which a member is solved is drawn, and its points in that frame."""
+        self.origins[member.name] = origin
         for name, place in member.points.items():
             if name not in without:
-                self.points.append(LinkPoint(name, member.name, *_seen(place, origin, angle)))
+                self.points.append(LinkPoint(name, member.name, *_difference(origin, place)))
 
     def _guide(self, guide: Guide) -> Guide:
         """Return a guide in the frame in which its carrier is solved."""
-        origin, angle = self.frames.get(guide.link, ((0.0, 0.0), 0.0))
-        return Guide(_seen(guide.point, origin, angle), guide.angle - angle, guide.link)
+        return replace(guide, point=_difference(self.origins.get(guide.link, (0.0, 0.0)), guide.point))
 
     def _shifted(self, guide: Guide, piece: Member, point: str) -> Guide:
         """Return the line that a point of a sliding piece runs on."""
@@ -166,10 +173,6 @@ class _Order:
                 choice = ", ".join(sorted(self.branched))
                 told = Refusal("branch_absent" if choice else "branch_none", name=name, known=choice)
                 self.problems.append(Problem(f"branch.{name}", told))
-
-    def _angle_at_zero(self, link: str) -> float:
-        """Return the direction of the solved frame of a link at a crank angle of zero. [rad]"""
-        return self._drawn_angle(link) + self.frames.get(link, ((0.0, 0.0), 0.0))[1]
 
     def _joints(self, member: Member) -> list[str]:
         """Return the points of a member that something else is joined at."""
@@ -212,7 +215,6 @@ class _Order:
         """Return members that no dyad describes, with the start that the positions give."""
         links, slides = [], []
         for one in members:
-            self.frames[one.name] = ((0.0, 0.0), 0.0)
             # a cylinder is drawn where its ends are, which are points of other links
             at = self._drawn_ends(one) if one.name == self.linkage.driver.link else self.linkage.at_zero()
             anchor = next((name for name in one.points if name in at), None)
@@ -242,12 +244,6 @@ def _moved(guide: Guide, by: Point) -> Guide:
     cos, sin = math.cos(guide.angle), math.sin(guide.angle)
     (x, y), (u, v) = guide.point, by
     return replace(guide, point=(x + u * cos - v * sin, y + u * sin + v * cos))
-
-
-def _seen(place: Point, origin: Point, angle: float) -> Point:
-    """Return a point in a frame of given origin and direction."""
-    x, y, cos, sin = place[0] - origin[0], place[1] - origin[1], math.cos(angle), math.sin(angle)
-    return x * cos + y * sin, y * cos - x * sin
 
 
 def _difference(start: Point, end: Point) -> Point:

@@ -24,6 +24,16 @@ class Guide:
 
 
 @dataclass(frozen=True)
+class Bar:
+    """Where the line from the known joint of a link of a dyad to its other joint lies in the frame of the link."""
+
+    # Its ends, at the known joint and at the other one [m]
+    start: Point
+    end: Point
+    angle: float  # Its direction, from the x axis of the frame [rad]
+
+
+@dataclass(frozen=True)
 class RRR:
     """Two links between two known points."""
 

@@ -13,7 +13,7 @@ from crankwork.mechanism.dyads import RRP
 
 if TYPE_CHECKING:
     from crankwork.mechanism.chain import Chain
-    from crankwork.mechanism.dyads import Branch, Dyad, Point
+    from crankwork.mechanism.dyads import Bar, Branch, Dyad, Point
     from crankwork.mechanism.passage import Passage
 
 
@@ -86,6 +86,8 @@ class Mechanism:
     bodies: tuple[Body, ...] = ()  # Moving masses; may be empty where only the motion is wanted
     ground: Mapping[str, Point] = field(default_factory=dict)  # Fixed points by name [m]
     points: tuple[LinkPoint, ...] = ()  # Further points of the links; a dyad may rest on them
+    # Lines between the joints of those links of dyads whose frames they are not, by link
+    bars: Mapping[str, Bar] = field(default_factory=dict)
     # Those of the dyads, by their place, that go through change points
     passages: Mapping[int, Passage] = field(default_factory=dict)
 

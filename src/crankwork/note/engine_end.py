@@ -19,14 +19,14 @@ from crankwork.report.language import displayed, key_unit, label
 from crankwork.report.notices import notice_text
 
 _MAIN = (
-    "mean_piston_speed", "piston_velocity_max", "piston_acceleration_max", "piston_acceleration_min",
-    "gas_pressure_max", "inertia_force_max", "inertia_force_min", "piston_force_max", "piston_force_min",
-    "side_force_max", "tangential_force_max", "tangential_force_min", "rotating_inertia_force", "crank_torque_max",
-    "crank_torque_min", "mean_torque", "indicated_work", "indicated_mean_pressure", "indicated_power",
-    "effective_mean_pressure", "effective_power", "effective_torque", "effective_efficiency",
-    "effective_fuel_consumption", "displacement", "mean_total_torque", "total_torque_max", "total_torque_min",
-    "excess_work", "flywheel_inertia", "speed_fluctuation", "mean_crankpin_load", "crankpin_load_max",
-    "oil_hole_angle",
+    "mean_piston_speed", "piston_velocity_max", "piston_velocity_min", "piston_acceleration_max",
+    "piston_acceleration_min", "gas_pressure_max", "inertia_force_max", "inertia_force_min", "piston_force_max",
+    "piston_force_min", "side_force_max", "side_force_min", "tangential_force_max", "tangential_force_min",
+    "rotating_inertia_force", "crank_torque_max", "crank_torque_min", "mean_torque", "indicated_work",
+    "indicated_mean_pressure", "indicated_power", "effective_mean_pressure", "effective_power", "effective_torque",
+    "effective_efficiency", "effective_fuel_consumption", "displacement", "mean_total_torque", "total_torque_max",
+    "total_torque_min", "excess_work", "flywheel_inertia", "speed_fluctuation", "mean_crankpin_load",
+    "crankpin_load_max", "oil_hole_angle",
 )  # fmt: skip
 _OF_ENGINES = ("displacement", "mean_total_torque", "total_torque_max", "total_torque_min", "cylinder_count")
 

@@ -224,7 +224,8 @@ def _without_gone(stated: Description, before: Mapping[str, Any], now: Mapping[s
     gone = _names(before) - _names(now)
     loads = stated.values.get("loads", [])
     for number, one in reversed(list(enumerate(loads, start=1))):
-        if gone.intersection([one.get("point"), one.get("link"), one.get("slider"), *one.get("between", ())]):
+        named = [one.get("point"), one.get("link"), one.get("slider"), *one.get("between", ()), *one.get("links", ())]
+        if gone.intersection(named):
             del stated[f"loads[{number}]"]
     for table in ("friction.pins", "friction.sliders", "branch"):
         for name in gone:
