@@ -48,10 +48,10 @@ from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
 from crankwork.show.theme import fill_colours
 from crankwork.studio import answers, sketch
 from crankwork.studio.additions import additions, with_addition
-from crankwork.study.chunks import nothing
+from crankwork.study.chunks import empty_aggregate
 from crankwork.study.found_text import found_files
 from crankwork.study.ranking import Shares
-from crankwork.study.running import Where, _Pool, _written
+from crankwork.study.running import ExecutionOptions, _Pool, _written
 from crankwork.study.sliders import moved
 from crankwork.study.study_file import _flat, read_study
 from each import failing
@@ -307,7 +307,7 @@ def studied(folder: Path, more: str = ""):
 def test_one_objective_has_no_pareto_set(tmp_path) -> None:
     one = '[objectives]\nstroke = "minimise"\n'
     studies = [studied(tmp_path, text) for text in (one, f'{one}piston_acceleration_max = "minimise"\n')]
-    tables = [{name.rpartition("/")[2] for name in found_files(each, nothing(each))} for each in studies]
+    tables = [{name.rpartition("/")[2] for name in found_files(each, empty_aggregate(each))} for each in studies]
     assert "best.stroke.csv" in tables[0] & tables[1]
     assert ["pareto.csv" in each for each in tables] == [False, True]
 
@@ -322,7 +322,7 @@ def test_values_of_a_study_may_stand_in_tables_of_tables() -> None:
 def test_one_worker_is_a_thread_and_several_are_processes(tmp_path) -> None:
     study = studied(tmp_path)
     assert study.angles is None
-    assert [_Pool(study, Where(), workers)._by_threads for workers in (1, 2)] == [True, False]
+    assert [_Pool(study, ExecutionOptions(), workers)._by_threads for workers in (1, 2)] == [True, False]
 
 
 def test_a_figure_of_a_shaft_with_one_crankpin_does_not_say_of_which() -> None:

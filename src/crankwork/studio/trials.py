@@ -40,7 +40,7 @@ def _swept(
 ) -> dict[str, Any]:  # fmt: skip
     from crankwork.study.found_figures import found_drawings  # noqa: PLC0415 - only sweeps need its parts
     from crankwork.study.found_text import found_text  # noqa: PLC0415
-    from crankwork.study.running import Where, run_study  # noqa: PLC0415
+    from crankwork.study.running import ExecutionOptions, run_study  # noqa: PLC0415
     from crankwork.study.study_file import read_study  # noqa: PLC0415
 
     ends = {key: dict(zip(("from", "to"), ends_of(text), strict=True)) for key, text in over.items()}
@@ -55,7 +55,8 @@ def _swept(
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         files.write_files({Path(folder) / "machine.toml": description.dump().encode()})
         study = read_study(text, "study", folder=Path(folder))
-        found = run_study(study, Path(folder) / "found", Where(1), told=lambda count: told(count / study.count))
+        done: Callable[[int], None] = lambda count: told(count / study.count)  # noqa: E731
+        found = run_study(study, Path(folder) / "found", ExecutionOptions(1), progress=done)
         drawn = found_drawings(study, found, language)
         return {"text": found_text(study, found, language), "figures": _figures(drawn)}
 
