@@ -230,9 +230,9 @@ def test_an_archive_holds_its_files_whole() -> None:
 def test_a_branch_goes_with_its_joint() -> None:
     description = crankwork.Description(template("four-bar"))
     assert "branch.B" in description
-    sketch._without_gone(description, description.values, description.values)
+    sketch._delete_removed(description, description.values, description.values)
     assert "branch.B" in description
-    sketch._without_gone(description, description.values, {"crank": description.values["crank"]})
+    sketch._delete_removed(description, description.values, {"crank": description.values["crank"]})
     assert "branch.B" not in description
 
 
