@@ -12,7 +12,7 @@ from crankwork.description.document import Description
 from crankwork.locale import Language
 from crankwork.note.live import page_data
 from crankwork.page.document import follow
-from crankwork.page.sliders import FAINT, Live, Slider
+from crankwork.page.sliders import FAINT, LivePage, Slider
 from crankwork.report.drawing import film_of
 from crankwork.report.language import in_own_units
 from crankwork.show.alt import described
@@ -51,7 +51,7 @@ def live_preview(
     far = [value for value in far if not np.isclose(value, near, rtol=_ROUNDING, atol=0.0).any()]
     variants = around(description, key, results, near)
     further = around(description, key, results, far)
-    live = Live(made, language, names, variants, further)
+    live = LivePage(made, language, names, variants, further)
     data = page_data(results, live.drawn, None, language, only_read=True)
     marks, steps, stays = follow(live, results, data)
     behind = [name for name, figure in data["figures"].items() if figure.pop("filed", False) or FAINT in marks[name]]

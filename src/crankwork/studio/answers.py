@@ -25,7 +25,7 @@ from crankwork.note.explain import place_text
 from crankwork.note.live import controls, page_data
 from crankwork.note.options import NoteOptions
 from crankwork.page.document import page, tables, values
-from crankwork.page.memories import Memories
+from crankwork.page.memories import TraceExport
 from crankwork.page.sliders import scale
 from crankwork.report.drawing import drawn, film_of
 from crankwork.report.figure_data import figure_title
@@ -205,7 +205,7 @@ class Session:
 
         with shown_in(results.machine.units):
             columns = page_data(results, {}, None, self.language)["columns"]
-            return {"memories": Memories(results, self.language, place, columns).of([key]), "key": key}
+            return {"memories": TraceExport(results, self.language, place, columns).of([key]), "key": key}
 
     def _reach(self, request: Mapping[str, Any]) -> dict[str, Any]:
         """Return the results that depend on a number."""

@@ -15,7 +15,7 @@ from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
-from crankwork.page.sliders import Moved, Slider
+from crankwork.page.sliders import Slider, SliderDesigns
 from crankwork.study.mapped import ends_of
 from crankwork.study.sought import NumericField, limit, numeric_field
 
@@ -38,7 +38,7 @@ def moved(
     overrides: Sequence[str | Setting],
     stated: Results,
     around: float = _AROUND,
-) -> Moved:
+) -> SliderDesigns:
     """Return the sliders of options such as `crank.speed=1000..6000rpm`, with results of designs in their ranges.
 
     The default range is a fraction `around` of the number either way, within its limits; a range ends before designs
@@ -77,8 +77,8 @@ def moved(
         except CrankworkError:
             together /= 2
             continue
-        return Moved(tuple(sliders), np.array([*rows, row]), (*analysed, results))
-    return Moved(tuple(sliders), np.array(rows), tuple(analysed))
+        return SliderDesigns(tuple(sliders), np.array([*rows, row]), (*analysed, results))
+    return SliderDesigns(tuple(sliders), np.array(rows), tuple(analysed))
 
 
 def ends(description: Description, key: str, low: str, high: str) -> list[float]:
