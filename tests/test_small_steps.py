@@ -176,7 +176,7 @@ def test_every_addition_to_a_linkage_states_keys_that_there_are() -> None:
 def test_two_links_that_are_added_stand_beside_the_middle_of_the_path_of_their_point() -> None:
     description = crankwork.Description(template("four-bar"))
     results = crankwork.analyse(description.machine())
-    found = {one.of: one for one in additions(description, results) if one.name == "links"}
+    found = {one.target: one for one in additions(description, results) if one.name == "links"}
     assert found
     for point, one in found.items():
         (pivot,) = (places for key, places in one.fields.items() if key.startswith("fixed_points."))

@@ -98,10 +98,10 @@ class Problem:
         row, scale = self._objective, self._sign / self.size
         above: list[tuple[Array, Array]] = [(np.zeros(0), np.zeros((0, n)))]
         level = list(above)
-        for limit, size, is_apart in zip(self.limits, self.sizes, self._are_split, strict=True):
+        for limit, size, is_split in zip(self.limits, self.sizes, self._are_split, strict=True):
             index = self._row[limit.key]
             values, slopes = near.values[[index]], near.slopes[[index]]
-            if is_apart and near.parts is not None:
+            if is_split and near.parts is not None:
                 values, slopes = near.parts[0][index], near.parts[1][index]
             sign = -1.0 if limit.sense == "<=" else 1.0
             kept = level if limit.sense == "=" else above
@@ -169,12 +169,12 @@ class Problem:
     def _by_limit(self, above: Array, level: Array) -> Array:
         """Return the change of the objective with each limit, from the multipliers of all constraints."""
         changes, next_above, next_level = [], 0, 0
-        for limit, size, is_apart in zip(self.limits, self.sizes, self._are_split, strict=True):
+        for limit, size, is_split in zip(self.limits, self.sizes, self._are_split, strict=True):
             if limit.sense == "=":
                 changes.append(level[next_level] / size)
                 next_level += 1
             else:
-                count = PARTS if is_apart else 1
+                count = PARTS if is_split else 1
                 sign = -1.0 if limit.sense == "<=" else 1.0
                 changes.append(sign * above[next_above : next_above + count].sum() / size)
                 next_above += count
