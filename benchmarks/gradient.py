@@ -14,7 +14,7 @@ import numpy as np
 import crankwork
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.sought import sought_number
+from crankwork.study.sought import numeric_field
 
 FILE = Path(__file__).parents[1] / "tests" / "machines" / "v-two.toml"
 FIELDS = ("crank.radius", "rod.length", "crank.speed", "piston.mass", "cylinder.bore", "cylinder.compression_ratio")
@@ -28,7 +28,7 @@ RUNS, WANTED = 20, 4
 def kernel(count: int) -> tuple[Kernel, np.ndarray]:
     """Return a kernel of the first keys, and the design that the file states."""
     description = crankwork.Description(FILE.read_text(encoding="utf-8"))
-    numbers = [sought_number(description.values, key) for key in FIELDS]
+    numbers = [numeric_field(description.values, key) for key in FIELDS]
     middle = np.array([one.now for one in numbers])
     rows = [middle, *(middle * (1 + sign * 0.02 * one) for one in np.eye(len(FIELDS)) for sign in (-1, 1))]
     memories = []

@@ -48,10 +48,10 @@ from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
 from crankwork.show.theme import fill_colours
 from crankwork.studio import answers, sketch
 from crankwork.studio.additions import additions, with_addition
-from crankwork.study.chunks import nothing
+from crankwork.study.chunks import empty_aggregate
 from crankwork.study.found_text import found_files
 from crankwork.study.ranking import Shares
-from crankwork.study.running import Where, _Pool, _written
+from crankwork.study.running import ExecutionOptions, _Pool, _written
 from crankwork.study.sliders import moved
 from crankwork.study.study_file import _flat, read_study
 from each import failing
@@ -176,7 +176,7 @@ def test_every_addition_to_a_linkage_states_keys_that_there_are() -> None:
 def test_two_links_that_are_added_stand_beside_the_middle_of_the_path_of_their_point() -> None:
     description = crankwork.Description(template("four-bar"))
     results = crankwork.analyse(description.machine())
-    found = {one.of: one for one in additions(description, results) if one.name == "links"}
+    found = {one.target: one for one in additions(description, results) if one.name == "links"}
     assert found
     for point, one in found.items():
         (pivot,) = (places for key, places in one.fields.items() if key.startswith("fixed_points."))
@@ -230,9 +230,9 @@ def test_an_archive_holds_its_files_whole() -> None:
 def test_a_branch_goes_with_its_joint() -> None:
     description = crankwork.Description(template("four-bar"))
     assert "branch.B" in description
-    sketch._without_gone(description, description.values, description.values)
+    sketch._delete_removed(description, description.values, description.values)
     assert "branch.B" in description
-    sketch._without_gone(description, description.values, {"crank": description.values["crank"]})
+    sketch._delete_removed(description, description.values, {"crank": description.values["crank"]})
     assert "branch.B" not in description
 
 
@@ -307,7 +307,7 @@ def studied(folder: Path, more: str = ""):
 def test_one_objective_has_no_pareto_set(tmp_path) -> None:
     one = '[objectives]\nstroke = "minimise"\n'
     studies = [studied(tmp_path, text) for text in (one, f'{one}piston_acceleration_max = "minimise"\n')]
-    tables = [{name.rpartition("/")[2] for name in found_files(each, nothing(each))} for each in studies]
+    tables = [{name.rpartition("/")[2] for name in found_files(each, empty_aggregate(each))} for each in studies]
     assert "best.stroke.csv" in tables[0] & tables[1]
     assert ["pareto.csv" in each for each in tables] == [False, True]
 
@@ -322,7 +322,7 @@ def test_values_of_a_study_may_stand_in_tables_of_tables() -> None:
 def test_one_worker_is_a_thread_and_several_are_processes(tmp_path) -> None:
     study = studied(tmp_path)
     assert study.angles is None
-    assert [_Pool(study, Where(), workers)._by_threads for workers in (1, 2)] == [True, False]
+    assert [_Pool(study, ExecutionOptions(), workers)._by_threads for workers in (1, 2)] == [True, False]
 
 
 def test_a_figure_of_a_shaft_with_one_crankpin_does_not_say_of_which() -> None:

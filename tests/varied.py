@@ -7,7 +7,7 @@ import numpy as np
 import crankwork
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.sought import sought_number
+from crankwork.study.sought import numeric_field
 
 
 class Varied:
@@ -16,7 +16,7 @@ class Varied:
     def __init__(self, file, fields, part=0.02):
         self.description = crankwork.Description(file if "\n" in file else crankwork.template(file))
         self.fields, values = fields, self.description.values
-        self.numbers = [sought_number(values, key) for key in fields]
+        self.numbers = [numeric_field(values, key) for key in fields]
         self.middle = np.array([one.now for one in self.numbers])
         moved = [self.middle * (1 + sign * part * one) for one in np.eye(len(fields)) for sign in (-1, 1)]
         self.rows = np.array([self.middle, *moved])

@@ -32,7 +32,7 @@ from crankwork.kernel import compiled
 from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.trace import Designs, NotCompiledError, Trace
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.sought import Sought, sought_number
+from crankwork.study.sought import NumericField, numeric_field
 
 plausible_file = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible.py"))["plausible_file"]
 # how many numbers are varied, by how much of what they are, and how many designs are compared
@@ -67,7 +67,7 @@ class Comparison(NamedTuple):
         return all(apart <= LIMITS[kind] for kind, (apart, _) in self.worst.items())
 
 
-def numbers(description: Description) -> Iterator[tuple[str, Sought]]:
+def numbers(description: Description) -> Iterator[tuple[str, NumericField]]:
     """Yield the numbers of a machine file that may vary, by their keys."""
 
     def leaves(of: Any, key: str) -> Iterator[str]:
@@ -80,7 +80,7 @@ def numbers(description: Description) -> Iterator[tuple[str, Sought]]:
     values = description.values_with(())
     for key in leaves(values, ""):
         try:
-            found = sought_number(values, key)
+            found = numeric_field(values, key)
         except (CrankworkError, ValueError):
             continue
         if found.now:
@@ -93,7 +93,7 @@ class Machine:
     def __init__(self, description: Description, draw: random.Random, named: Sequence[str] = ()) -> None:
         self.description = description
         self.stated = analyse(description.machine())
-        self.fields: dict[str, Sought] = {}
+        self.fields: dict[str, NumericField] = {}
         self.traced = [self.stated]
         every = [one for one in numbers(description) if not named or one[0] in named]
         draw.shuffle(every)

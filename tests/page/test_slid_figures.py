@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.page.sliders import Live
+from crankwork.page.sliders import LivePage
 from crankwork.report.figures import drawings
 from crankwork.report.language import displayed
 from crankwork.study.sliders import moved
@@ -124,7 +124,7 @@ def test_a_curve_begins_where_its_graph_does_with_its_dot(slid):
 def test_a_curve_is_not_taken_for_another_that_it_equals_in_the_designs_compared():
     description = crankwork.Description(crankwork.template("toggle-press"))
     one = moved(description, ["fixed_points.O[1]"], (), crankwork.analyse(description.machine()))
-    followed = Live(one, "en", only={"links", "sliders"})
+    followed = LivePage(one, "en", only={"links", "sliders"})
     # beyond change points the lower lever parts from the upper one
     levers = {name: made for plot in followed.figure("links")[0] for name, made in plot["curves"].items()}
     assert levers["link_angular_velocity.upper"]["y"][0] == "link_angular_velocity.upper"

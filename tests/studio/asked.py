@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from crankwork.studio.answers import Studio
+from crankwork.studio.answers import Session
 
 FOUR = {"1": "OA", "2": "AB", "3": "BC"}
 PLACES = {
@@ -12,7 +12,7 @@ PLACES = {
 
 def answer(text, do="show", language="en", **asked):
     """Return the answer to a question of a text; nothing is drawn but what is asked for."""
-    return Studio(language).answer({"do": do, "text": text, "figures": [], **asked})
+    return Session(language).answer({"do": do, "text": text, "figures": [], **asked})
 
 
 def typed(text, language="en", **fields):
@@ -37,4 +37,4 @@ def sketch(links=FOUR, at=None, slides="", **more):
 
 def drawn(links=FOUR, **asked):
     """Return the answer to a sketch."""
-    return Studio("en").answer(sketch(links, **asked))
+    return Session("en").answer(sketch(links, **asked))

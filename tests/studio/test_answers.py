@@ -14,7 +14,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import told
 from crankwork.page import sliders
 from crankwork.studio import answers
-from crankwork.studio.answers import Studio, opened_share, shared
+from crankwork.studio.answers import Session, opened_share, shared
 from crankwork.studio.trials import StoppedError
 from crankwork.study.mapped import map_text, mapped
 from each import for_each
@@ -33,7 +33,7 @@ def test_every_example_opens_with_what_the_command_line_finds(names):
     failures = []
     for name in sorted(names):
         path = EXAMPLES[name]
-        found = Studio("en", path).answer({"do": "show", "text": path.read_text("utf-8"), "figures": None})
+        found = Session("en", path).answer({"do": "show", "text": path.read_text("utf-8"), "figures": None})
         results = crankwork.analyse(crankwork.read(path))
         fields = {re.sub(r"\[[12]\]$", "", key) for key in rows_of(found)}
         is_right = {
@@ -55,7 +55,7 @@ def test_every_example_opens_with_what_the_command_line_finds(names):
 def test_a_field_typed_as_it_stands_changes_nothing(names, monkeypatch):
     failures = []
     for name in names:
-        text, studio = template(name), Studio("en")
+        text, studio = template(name), Session("en")
         # what is drawn is not looked at
         monkeypatch.setattr(studio, "_seen", lambda *_: {})
         for key, row in rows_of(studio.answer({"do": "show", "text": text})).items():
@@ -116,7 +116,7 @@ def test_what_is_refused_is_told_as_the_command_line_tells_it():
     for language in ("en", "ru", "vi"):
         for value in ("-3 mm", "0 mm", "", "abc", "1.7 cms", "1.7.0 cm"):
             asked = {"do": "set", "text": template("engine"), "fields": {"crank.radius": value}, "figures": None}
-            found = Studio(language, Path("machine.toml")).answer(asked)
+            found = Session(language, Path("machine.toml")).answer(asked)
             with pytest.raises(crankwork.InputError) as error:
                 crankwork.read_machine(found["text"], "machine.toml")
             lines = error.value.lines(lambda one, language=language: told(one, language))
@@ -253,9 +253,9 @@ def test_a_shared_machine_comes_back_whole_and_a_damaged_one_is_refused():
 def test_files_that_a_text_names_are_read_only_where_that_is_allowed():
     found = answer(MEASURED)
     assert (found["named"], found["refusals"]) == (["/etc/hostname"], [])
-    assert Studio("en", reads=True).answer({"do": "show", "text": MEASURED, "figures": None})["refusals"] != []
+    assert Session("en", reads=True).answer({"do": "show", "text": MEASURED, "figures": None})["refusals"] != []
     with pytest.raises(CrankworkError, match="read only if you allow it"):
-        Studio("en").export(MEASURED, "note.html")
+        Session("en").export(MEASURED, "note.html")
     # nor does any other question read one
     explained = answer(MEASURED, "explain", key="swept_volume")
     assert "read only if you allow it" in explained["refusals"][0]["text"]
@@ -384,7 +384,7 @@ DOCUMENTS = {"page.html": b"<!DOCTYPE", "note.html": b"<!DOCTYPE", "sheets.zip":
 
 @pytest.mark.parametrize("starts", [STARTS, pytest.param(DOCUMENTS, marks=pytest.mark.slow)])
 def test_a_machine_is_exported_as_what_its_name_says(starts):
-    studio = Studio("ru")
+    studio = Session("ru")
     found = {name: studio.export(template("engine"), name).lstrip(b"\xef\xbb\xbf") for name in starts}
     assert {name: data[:9] for name, data in found.items() if not data.startswith((starts[name], b"<?xml"))} == {}
     assert min(map(len, found.values())) > 1000
@@ -394,7 +394,7 @@ def test_a_map_is_told_as_it_goes_on_and_ends_where_the_command_line_does():
     shares = []
     text = template("slider-crank")
     asked = {"text": text, "over": {"crank.radius": "40..60 mm"}}
-    found = Studio("en").tried(asked, shares.append)
+    found = Session("en").run_experiment(asked, shares.append)
     expected = map_text(mapped(crankwork.Description(text), ["crank.radius=40..60 mm"]), "en")
     assert found["text"] == expected
     assert shares == pytest.approx([k / 13 for k in range(1, 14)])
@@ -408,7 +408,7 @@ def test_designs_are_swept_and_the_best_is_named():
         "objectives": {"stroke": "maximise"},
     }  # fmt: skip
     shares = []
-    found = Studio("en").tried(asked, shares.append)
+    found = Session("en").run_experiment(asked, shares.append)
     assert shares[-1] == 1.0
     assert "119" in found["text"]
     assert found["figures"]
@@ -425,7 +425,7 @@ CANNOT_BE_TRIED = (
 
 def test_what_cannot_be_tried_is_refused_in_words():
     for asked in CANNOT_BE_TRIED:
-        found = Studio("en").tried({"text": template("slider-crank"), **asked}, lambda _: None)
+        found = Session("en").run_experiment({"text": template("slider-crank"), **asked}, lambda _: None)
         assert found["refusals"], asked
         assert all(";" in one["text"] for one in found["refusals"]), asked
 
@@ -435,4 +435,4 @@ def test_a_trial_that_nobody_waits_for_ends():
         raise StoppedError
 
     with pytest.raises(StoppedError):
-        Studio("en").tried({"text": template("slider-crank"), "over": {"crank.radius": "40..60 mm"}}, told)
+        Session("en").run_experiment({"text": template("slider-crank"), "over": {"crank.radius": "40..60 mm"}}, told)

@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 
 import crankwork
 from crankwork.report.figures import drawings
-from crankwork.studio.answers import Studio
+from crankwork.studio.answers import Session
 from studio.hands import begin, hold, let_go, prepared, settled, slider_of, with_figure
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -78,7 +78,7 @@ def test_the_machine_and_its_diagrams_follow_a_held_ratio_without_asking(filed, 
 )
 def test_curves_lie_between_those_of_machines_around(name, figures):
     text = TEXTS[name]
-    found = Studio("en").answer({"do": "ahead", "text": text, "key": "rod.ratio", "figures": figures})["ahead"]
+    found = Session("en").answer({"do": "ahead", "text": text, "key": "rod.ratio", "figures": figures})["ahead"]
     assert not set(figures) & set(found["behind"])
     values = np.array(found["values"])
     between = 0

@@ -10,7 +10,7 @@ import pytest
 import crankwork
 from crankwork.description.machine_file import template, template_names
 from crankwork.locale import told
-from crankwork.studio.answers import Studio
+from crankwork.studio.answers import Session
 from crankwork.studio.form import form
 from studio.asked import answer, drawn, rows_of, sketch
 
@@ -66,11 +66,11 @@ MISSING = (
 def test_mobility_structure_and_what_is_missing_are_told_of_a_sketch():
     for links, slides, comes in MISSING:
         asked = sketch(links, slides=slides) | {"do": "missing", "typed": ["", ""]}
-        assert Studio("en").answer(asked)["missing"][: len(comes)] == comes
+        assert Session("en").answer(asked)["missing"][: len(comes)] == comes
 
 
 def measured(*stated, language="en"):
-    return Studio(language).answer({"do": "missing", "pins": [], "links": [], "typed": stated})["measured"]
+    return Session(language).answer({"do": "missing", "pins": [], "links": [], "typed": stated})["measured"]
 
 
 def test_what_is_typed_while_drawing_is_refused_as_the_command_line_refuses_it():

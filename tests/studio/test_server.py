@@ -133,10 +133,10 @@ def test_a_message_of_ten_megabytes_is_refused(started):
 
 def test_what_fails_in_a_calculation_is_told_and_the_next_one_is_answered(monkeypatch):
     from crankwork.studio import server
-    from crankwork.studio.answers import Studio
+    from crankwork.studio.answers import Session
 
-    rooms = server.Rooms(server.Opening(""), "en")
-    studio = Studio("en")
+    rooms = server.ServerState(server.StartupOptions(""), "en")
+    studio = Session("en")
     monkeypatch.setattr(studio, "_show", lambda _: 1 / 0)
     found = server._answer(rooms, studio, {"n": 1, "do": "show", "text": ""})
     assert "inside crankwork" in found["refusals"][0]["text"]
@@ -187,10 +187,10 @@ def test_two_pages_do_not_disturb_each_other(started):
 def test_the_studio_ends_after_its_last_page_has_gone():
     from crankwork.studio import server
 
-    rooms = server.Rooms(server.Opening(""), "en")
-    assert not rooms.deserted
+    rooms = server.ServerState(server.StartupOptions(""), "en")
+    assert not rooms.is_idle
     rooms.left = time.monotonic() - 60
-    assert rooms.deserted
+    assert rooms.is_idle
     rooms.pages = 1
-    assert not rooms.deserted
-    assert not server.Rooms(server.Opening(""), "en", lingers=True).deserted
+    assert not rooms.is_idle
+    assert not server.ServerState(server.StartupOptions(""), "en", keeps_running=True).is_idle

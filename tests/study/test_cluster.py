@@ -15,7 +15,7 @@ import pytest
 import crankwork
 from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
-from crankwork.study.running import Where, run_study
+from crankwork.study.running import ExecutionOptions, run_study
 from crankwork.study.study_file import load_study
 
 pytestmark = pytest.mark.data
@@ -45,7 +45,7 @@ def test_killed_workers_and_drivers_of_a_cluster_lose_nothing(study, tmp_path):
     """At moments that a generator chooses: a worker while a driver is at work, or that driver."""
     import distributed
 
-    run_study(study, tmp_path / "whole", Where(1))
+    run_study(study, tmp_path / "whole", ExecutionOptions(1))
     out, generator = tmp_path / "out", np.random.default_rng(14)
     killed, gone = {"worker": 0, "driver": 0}, set()
     with distributed.LocalCluster(
@@ -104,6 +104,6 @@ def one_of(cluster, gone, generator):
 
 @pytest.mark.filterwarnings("default")
 def test_a_cluster_that_does_not_answer_is_named(study, tmp_path, monkeypatch):
-    monkeypatch.setattr("crankwork.study.running._WAITS", "1s")
+    monkeypatch.setattr("crankwork.study.running._TIMEOUT", "1s")
     with pytest.raises(CrankworkError, match="nothing answers there"):
-        run_study(study, tmp_path / "out", Where(scheduler="tcp://127.0.0.1:1"))
+        run_study(study, tmp_path / "out", ExecutionOptions(scheduler="tcp://127.0.0.1:1"))

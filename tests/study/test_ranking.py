@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from crankwork.study.ranking import Histogram, Moments, Shares, best, front, thinned
+from crankwork.study.ranking import Histogram, Moments, Shares, best_designs, pareto_front, thin_front
 
 
 def by_definition(costs):
@@ -30,14 +30,14 @@ def test_a_pareto_set_is_what_its_definition_says():
     for objectives, count in itertools.product((1, 2, 3, 5), (0, 1, 300, 2000)):
         generator = np.random.default_rng(count + objectives)
         costs = generator.normal(size=(count, objectives)).round(1 if objectives < 3 else 6)
-        if front(costs).tolist() != by_definition(costs):
+        if pareto_front(costs).tolist() != by_definition(costs):
             wrong.append((objectives, count))
     assert wrong == []
 
 
 def test_a_large_pareto_set_is_thinned_and_keeps_its_ends():
     costs = np.stack([np.arange(100.0), -np.arange(100.0)], axis=1)
-    found = thinned(costs, front(costs), 11)
+    found = thin_front(costs, pareto_front(costs), 11)
     assert found.size == 11
     assert (found[0], found[-1]) == (0, 99)
 
@@ -45,7 +45,7 @@ def test_a_large_pareto_set_is_thinned_and_keeps_its_ends():
 @given(st.lists(st.integers(-5, 5), max_size=60), st.integers(1, 70))
 def test_the_best_are_the_first_of_all_in_order(costs, count):
     wanted = sorted(range(len(costs)), key=lambda at: costs[at])[:count]
-    assert best(np.array(costs, dtype=float), count).tolist() == wanted
+    assert best_designs(np.array(costs, dtype=float), count).tolist() == wanted
 
 
 finite = st.floats(-1e12, 1e12, allow_subnormal=False)

@@ -131,5 +131,5 @@ def test_no_value_may_be_infinite_or_none():
 
 def test_progress_is_told():
     parts = []
-    find_roots(lambda x: x - 1.0, PLACES, told=parts.append)
+    find_roots(lambda x: x - 1.0, PLACES, progress=parts.append)
     assert (parts == sorted(parts), len(parts), parts[-1]) == (True, 401, 1.0)

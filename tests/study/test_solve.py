@@ -11,7 +11,7 @@ import crankwork
 from crankwork import CrankworkError, Description
 from crankwork.report.language import key_unit
 from crankwork.study.solution import solution_data, solution_text
-from crankwork.study.sought import sought_number
+from crankwork.study.sought import numeric_field
 from crankwork.units import coherent_unit
 
 pytestmark = pytest.mark.usefixtures("by_arrays")
@@ -160,7 +160,7 @@ def test_a_value_that_nothing_changes_is_wanted_all_along_or_never():
     along = solved(ENGINE, "side_force@0 = 0", "crank.speed", steps=20)
     assert (along.roots, len(along.found.zero)) == ((), 1)
     assert (along.found.zero[0].start, along.found.zero[0].end) == pytest.approx(
-        (along.places.at[0], along.places.at[-1])
+        (along.places.values[0], along.places.values[-1])
     )
     never = solved(ENGINE, "stroke = 100 mm", "crank.speed", steps=20)
     assert (never.roots, never.found.zero) == ((), ())
@@ -176,7 +176,7 @@ def test_the_range_follows_from_the_file_or_is_asked_for():
         ("cylinder.inclination", (-180.0, 180.0), math.pi / 180, True),
     ):
         places = solved(ENGINE, wanted, sought, steps=10).places
-        assert (places.at[0] / unit, places.at[-1] / unit) == pytest.approx(ends), sought
+        assert (places.values[0] / unit, places.values[-1] / unit) == pytest.approx(ends), sought
         assert (places.is_even, places.is_stated) == (is_even, False), sought
     for sought in ("crank.angular_acceleration", "rod.inertia"):
         for limits, told in (((None, None), "--from"), (("0", None), "--to")):
@@ -236,7 +236,7 @@ def test_the_value_that_a_machine_has_is_found_at_its_own_number(present):
         machine = Description(crankwork.template(name))
         column, _, place = key.partition("@")
         value = crankwork.analyse(machine.machine()).value(column, float(place.removesuffix("deg")) if place else None)
-        now = sought_number(machine.values, sought)
+        now = numeric_field(machine.values, sought)
         limits = [now.written(share * now.now) for share in (0.937, 1.071)]
         found = solved(machine, f"{key} = {value!r} {coherent_unit(key_unit(column))}", sought, *limits, steps=12)
         if not min(abs(one.at / now.now - 1) for one in found.roots) < 1e-9:

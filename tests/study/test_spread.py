@@ -104,7 +104,7 @@ def test_draws_calculated_at_once_are_those_analysed_one_by_one(monkeypatch, way
     monkeypatch.setattr("crankwork.kernel.compiled.compiles", lambda: way == "compiled")
     at_once = crankwork.spread(description, keys, samples=150)
     assert at_once[keys[1]].is_sampled
-    monkeypatch.setattr("crankwork.study.spread._Beside.compile", lambda *_: None)
+    monkeypatch.setattr("crankwork.study.spread._Neighbours.compile", lambda *_: None)
     alone = crankwork.spread(description, keys, samples=150)
     for key in keys:
         assert at_once[key].deviation == pytest.approx(alone[key].deviation, rel=1e-9)

@@ -18,7 +18,7 @@ from crankwork.study.found_figures import found_drawings
 from crankwork.study.found_text import found_data
 from crankwork.study.map_figures import map_drawings
 from crankwork.study.mapped import mapped
-from crankwork.study.running import Where, run_study
+from crankwork.study.running import ExecutionOptions, run_study
 from crankwork.study.study_file import load_study
 from looks import faults
 
@@ -102,7 +102,7 @@ def found(tmp_path_factory):
     (folder / "machine.toml").write_text(template("slider-crank"), encoding="utf-8")
     (folder / "study.toml").write_text(STUDY, encoding="utf-8")
     study = load_study(folder / "study.toml")
-    return study, run_study(study, folder / "out", Where(1))
+    return study, run_study(study, folder / "out", ExecutionOptions(1))
 
 
 @pytest.mark.data

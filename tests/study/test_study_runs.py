@@ -20,9 +20,9 @@ from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
 from crankwork.kernel import compiled
 from crankwork.locale import LANGUAGES, say
-from crankwork.study.chunks import opened
+from crankwork.study.chunks import prepared_study
 from crankwork.study.found_text import found_data, found_text, ranked
-from crankwork.study.running import Where, run_study
+from crankwork.study.running import ExecutionOptions, run_study
 from crankwork.study.study_file import load_study
 
 pytestmark = pytest.mark.data
@@ -115,7 +115,7 @@ def test_indices_of_a_swept_volume_are_those_of_a_product(write, tmp_path):
         '[vary]\ncrank.radius = { uniform = "45 ± 9 mm" }\ncylinder.bore = { uniform = "85 ± 17 mm" }\n'
     )
     study = load_study(write(text, "engine"))
-    found = run_study(study, tmp_path / "out", Where(1))
+    found = run_study(study, tmp_path / "out", ExecutionOptions(1))
     alone, _, total, _ = found.shares["swept_volume"].indices()
     # of a uniform share about 1 within h: E x^2 = 1 + h^2/3, E x^4 = 1 + 2 h^2 + h^4/5
     h = 0.2
@@ -132,8 +132,8 @@ def test_the_example_says_which_engine_is_best(tmp_path):
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
     (tmp_path / "petrol-cylinder.toml").write_text(MILLION.with_name("petrol-cylinder.toml").read_text("utf-8"))
     study = load_study(tmp_path / "study.toml")
-    assert opened(study).reason == ""
-    found = run_study(study, tmp_path / "out", Where(2))
+    assert prepared_study(study).reason == ""
+    found = run_study(study, tmp_path / "out", ExecutionOptions(2))
     assert found.designs == 8192
     assert 0 < found.within < 8192
     best, pareto = ranked(study, found)
@@ -147,7 +147,7 @@ def test_the_example_says_which_engine_is_best(tmp_path):
 
 def test_rows_tell_their_units_and_the_seed(write, tmp_path):
     study = load_study(write(COMPILED.replace("count = 3000", "count = 700\nseed = 42")))
-    run_study(study, tmp_path / "out", Where(1))
+    run_study(study, tmp_path / "out", ExecutionOptions(1))
     table = rows_of(tmp_path / "out" / "parts" / "part-0000001.parquet")
     units = {one.name: (one.metadata or {}).get(b"unit") for one in table.schema}
     assert units == {"design": None, "crank.radius": b"m", "rod.ratio": b"", "piston_velocity_max": b"m/s",
@@ -159,16 +159,16 @@ def test_rows_tell_their_units_and_the_seed(write, tmp_path):
 
 def test_a_run_goes_on_where_it_was_stopped(write, tmp_path):
     study = load_study(write())
-    whole = run_study(study, tmp_path / "whole", Where(2))
+    whole = run_study(study, tmp_path / "whole", ExecutionOptions(2))
 
     def stop(count):
         if count > 1000:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_study(study, tmp_path / "stopped", Where(2), told=stop)
+        run_study(study, tmp_path / "stopped", ExecutionOptions(2), progress=stop)
     assert 1 < len(parts_of(tmp_path / "stopped")) < 6
-    found = run_study(study, tmp_path / "stopped", Where(1), resume=True)
+    found = run_study(study, tmp_path / "stopped", ExecutionOptions(1), resume=True)
     assert parts_of(tmp_path / "stopped") == parts_of(tmp_path / "whole")
     np.testing.assert_array_equal(found.numbers, whole.numbers)
     assert found.moments == whole.moments
@@ -180,7 +180,7 @@ def test_a_run_goes_on_where_it_was_stopped(write, tmp_path):
 def test_who_compiles_and_who_finds_it_compiled_give_the_same_bits(write, tmp_path, monkeypatch, values):
     text = ALONE.replace('["free_force.1", "counterweight_moment"]', values)
     study = write(text.replace("count = 60", "count = 12"), "four-bar")
-    assert opened(load_study(study)).reason == ""
+    assert prepared_study(load_study(study)).reason == ""
     monkeypatch.setenv("CRANKWORK_CACHE", str(tmp_path / "cache"))
     for out in ("first", "second"):
         assert started(study, "-o", tmp_path / out, "--workers", 1).wait(100) == 0
@@ -190,8 +190,8 @@ def test_who_compiles_and_who_finds_it_compiled_give_the_same_bits(write, tmp_pa
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are found as Linux tells of them")
 def test_killed_workers_and_drivers_lose_nothing(write, tmp_path):
     study = write(ALONE, "four-bar")
-    assert opened(load_study(study)).reason == "procedure"
-    run_study(load_study(study), tmp_path / "whole", Where(1))
+    assert prepared_study(load_study(study)).reason == "procedure"
+    run_study(load_study(study), tmp_path / "whole", ExecutionOptions(1))
     out, kills = tmp_path / "out", 0
     while True:
         resume = ["--resume"] if (out / "study.json").exists() else []
@@ -228,8 +228,8 @@ def test_a_worker_that_ends_while_nobody_looks_loses_nothing(write, tmp_path):
             # the pool notices, and takes nothing more
             time.sleep(1)
 
-    run_study(study, tmp_path / "whole", Where(1))
-    found = run_study(study, tmp_path / "out", Where(2), told=end_one)
+    run_study(study, tmp_path / "whole", ExecutionOptions(1))
+    found = run_study(study, tmp_path / "out", ExecutionOptions(2), progress=end_one)
     assert ended
     assert found.designs == 60
     assert parts_of(tmp_path / "out") == parts_of(tmp_path / "whole")
@@ -243,18 +243,18 @@ def _lives(pid):
 
 
 def test_another_study_is_refused(write, tmp_path):
-    run_study(load_study(write()), tmp_path / "out", Where(1))
+    run_study(load_study(write()), tmp_path / "out", ExecutionOptions(1))
     with pytest.raises(CrankworkError, match="holds a study already; go on with it by --resume"):
-        run_study(load_study(write()), tmp_path / "out", Where(1))
+        run_study(load_study(write()), tmp_path / "out", ExecutionOptions(1))
     other = load_study(write(COMPILED.replace("0.01", "0.02")))
     with pytest.raises(CrankworkError, match="holds another study, study, machine differ; undo the change"):
-        run_study(other, tmp_path / "out", Where(1), resume=True)
+        run_study(other, tmp_path / "out", ExecutionOptions(1), resume=True)
     study = load_study(write())
     (tmp_path / "machine.toml").write_text(template("slider-crank").replace("0.55 kg", "0.56 kg") + "# changed\n")
     with pytest.raises(CrankworkError, match="machine differ"):
-        run_study(load_study(tmp_path / "study.toml"), tmp_path / "out", Where(1), resume=True)
+        run_study(load_study(tmp_path / "study.toml"), tmp_path / "out", ExecutionOptions(1), resume=True)
     with pytest.raises(CrankworkError, match="holds no study to go on with"):
-        run_study(study, tmp_path / "empty", Where(1), resume=True)
+        run_study(study, tmp_path / "empty", ExecutionOptions(1), resume=True)
 
 
 def test_one_driver_works_in_a_folder(write, tmp_path):
@@ -264,16 +264,16 @@ def test_one_driver_works_in_a_folder(write, tmp_path):
 
     def beside(_):
         with pytest.raises(CrankworkError, match="another run is working on this study") as error:
-            run_study(study, tmp_path / "out", Where(1), resume=True)
+            run_study(study, tmp_path / "out", ExecutionOptions(1), resume=True)
         refused.append(error)
 
-    run_study(study, tmp_path / "out", Where(1), told=beside)
+    run_study(study, tmp_path / "out", ExecutionOptions(1), progress=beside)
     assert len(refused) == 6
 
 
 def test_a_damaged_part_is_named(write, tmp_path):
     study = load_study(write())
-    run_study(study, tmp_path / "out", Where(1))
+    run_study(study, tmp_path / "out", ExecutionOptions(1))
     path = tmp_path / "out" / "parts" / "part-0000003.parquet"
     whole = path.read_bytes()
     for data in (
@@ -283,9 +283,9 @@ def test_a_damaged_part_is_named(write, tmp_path):
     ):
         path.write_bytes(data)
         with pytest.raises(CrankworkError, match=r"part-0000003.parquet: is damaged, or not a part of this study"):
-            run_study(study, tmp_path / "out", Where(1), resume=True)
+            run_study(study, tmp_path / "out", ExecutionOptions(1), resume=True)
     path.unlink()
-    run_study(study, tmp_path / "out", Where(1), resume=True)
+    run_study(study, tmp_path / "out", ExecutionOptions(1), resume=True)
     assert path.read_bytes() == whole
 
 
@@ -304,9 +304,9 @@ def test_a_full_disk_stops_a_run_that_can_go_on(write, tmp_path, monkeypatch):
         with pytest.raises(
             CrankworkError, match=r"cannot be written \(no space left on device\); choose another place"
         ):
-            run_study(study, tmp_path / "out", Where(1))
+            run_study(study, tmp_path / "out", ExecutionOptions(1))
     assert len(parts_of(tmp_path / "out")) == 3
-    assert run_study(study, tmp_path / "out", Where(1), resume=True).designs == 3000
+    assert run_study(study, tmp_path / "out", ExecutionOptions(1), resume=True).designs == 3000
 
 
 @pytest.fixture
@@ -328,18 +328,18 @@ def small_disk(tmp_path):
 
 def test_what_was_written_before_a_disk_was_full_is_whole(write, tmp_path, small_disk):
     (disk, enlarged), study = small_disk, load_study(write())
-    run_study(study, tmp_path / "whole", Where(1))
+    run_study(study, tmp_path / "whole", ExecutionOptions(1))
     whole = parts_of(tmp_path / "whole")
     with pytest.raises(CrankworkError, match=r"cannot be written \(no space left on device\)"):
-        run_study(study, disk / "out", Where(1))
+        run_study(study, disk / "out", ExecutionOptions(1))
     written = parts_of(disk / "out")
     assert 0 < len(written) < len(whole)
     assert written.items() < whole.items()
     # nothing else has room either, and says so
     with pytest.raises(CrankworkError, match="no space left on device"):
-        run_study(study, disk / "out", Where(1), resume=True)
+        run_study(study, disk / "out", ExecutionOptions(1), resume=True)
     assert enlarged()
-    run_study(study, disk / "out", Where(1), resume=True)
+    run_study(study, disk / "out", ExecutionOptions(1), resume=True)
     assert parts_of(disk / "out") == whole
 
 
@@ -347,14 +347,16 @@ def test_what_cannot_be_assembled_is_counted_by_reason(write, tmp_path):
     text = ALONE.replace('"55 mm", to = "65 mm"', '"20 mm", to = "120 mm"').replace(
         '["free_force.1", "counterweight_moment"]', '"joint_force_max.B"'
     )
-    found = run_study(load_study(write(text, "four-bar")), tmp_path / "out", Where(1))
+    found = run_study(load_study(write(text, "four-bar")), tmp_path / "out", ExecutionOptions(1))
     absent = 60 - found.moments["joint_force_max.B"].count
     assert absent > 0
     assert sum(count for count, _ in found.refused.values()) == absent
 
 
 def test_draws_outside_what_a_field_may_be_are_counted(write, tmp_path):
-    found = run_study(load_study(write(COMPILED.replace("0.25 ± 0.01", "0.25 ± 0.2"))), tmp_path / "out", Where(1))
+    found = run_study(
+        load_study(write(COMPILED.replace("0.25 ± 0.01", "0.25 ± 0.2"))), tmp_path / "out", ExecutionOptions(1)
+    )
     count, reason = found.refused["vary_outside"]
     # below zero is what lies 1.25 deviations below the mean
     assert count / 3000 == pytest.approx(0.10565, abs=2e-3)
@@ -367,7 +369,7 @@ def test_words_have_designs_of_their_own(write, tmp_path):
         "[vary]\n"
         'method.kinematics = ["exact", "textbook"]\nrod.ratio = [0.2, 0.25, 0.3]\n'
     )
-    run_study(load_study(write(text)), tmp_path / "out", Where(1))
+    run_study(load_study(write(text)), tmp_path / "out", ExecutionOptions(1))
     rows = rows_of(tmp_path / "out" / "parts").to_pylist()
     assert [row["method.kinematics"] for row in rows] == ["exact"] * 3 + ["textbook"] * 3
     # r w^2 (1 + lambda) at the top, by either
@@ -394,7 +396,7 @@ def test_a_study_says_whether_it_is_compiled_and_why_not(tmp_path, monkeypatch):
     for key in ("mean_torque", "filling_factor.diagram"):
         (tmp_path / "study.toml").write_text(OF_CYCLE.format(key=key), encoding="utf-8")
         study = load_study(tmp_path / "study.toml")
-        found = run_study(study, str(tmp_path / key), Where(1))
+        found = run_study(study, str(tmp_path / key), ExecutionOptions(1))
         is_compiled, reason = key == "mean_torque", found_data(study, found)["not_compiled"]
         assert (found.one_by_one, key in (reason or "")) == ((0, False) if is_compiled else (8, True))
         for language in LANGUAGES:

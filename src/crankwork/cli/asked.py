@@ -68,9 +68,9 @@ class Asked:
         if self.compare is None:
             return analysed(self.machine)
         from crankwork.analysis.compare import compare
-        from crankwork.study.beside import others
+        from crankwork.study.beside import comparison_machines
 
-        name, machines = others(self.machine, self.file, self.compare)
+        name, machines = comparison_machines(self.machine, self.file, self.compare)
         results = analysed(self.machine)
         found = compare(results, {other: analysed(one) for other, one in machines.items()}, name)
         if self.per_area and found.compared is not None and not found.compared.is_of_methods:

@@ -42,10 +42,10 @@ def sweep(asked: Asked, study: str, output: str, workers: str | None, scheduler:
     from crankwork import files
     from crankwork.study.found_figures import found_drawings
     from crankwork.study.found_text import found_data, found_files, found_text
-    from crankwork.study.running import Where, run_study
+    from crankwork.study.running import ExecutionOptions, run_study
     from crankwork.study.study_file import load_study
 
-    where = Where(_number_of(workers, scheduler), scheduler or "")
+    where = ExecutionOptions(_number_of(workers, scheduler), scheduler or "")
     wanted = () if asked.no_figures else formats_of(asked.formats)
     wished = load_study(study, asked.settings)
     if extras := missing_extras(_MODULES):
@@ -53,7 +53,7 @@ def sweep(asked: Asked, study: str, output: str, workers: str | None, scheduler:
     started = time.monotonic()
     try:
         with counting(wished.count) as told:
-            found = run_study(wished, output, where, resume=resume, told=told)
+            found = run_study(wished, output, where, resume=resume, progress=told)
     except KeyboardInterrupt:
         click.echo(f"\n{say('study.stopped', asked.language)}", err=True)
         raise

@@ -27,15 +27,16 @@ def studio(file: str | None, port: str, language: Language, *, no_browser: bool)
         raise MissingExtraError(Refusal("extra_studio"), *extras)
     from crankwork import files
     from crankwork.studio.answers import is_share, opened_share
-    from crankwork.studio.server import Opening, serve
+    from crankwork.studio.server import StartupOptions, serve
 
     if file is None:
-        opening = Opening()
+        opening = StartupOptions()
     elif is_share(file):
-        opening = Opening(opened_share(file, language))
+        opening = StartupOptions(opened_share(file, language))
     else:
         path = Path(file)
         text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
         # what came in another form is not saved in the place of that
-        opening = Opening(opened_share(text, language)) if is_share(text) else Opening(text, path.resolve())
+        is_shared = is_share(text)
+        opening = StartupOptions(opened_share(text, language)) if is_shared else StartupOptions(text, path.resolve())
     serve(opening, language, int(port), opens=not no_browser, says=click.echo)

@@ -1,4 +1,4 @@
-"""What of drawings is alike: the same on paper, the same but for rounding, the same to whoever sees it move."""
+"""Comparison of drawings: equal up to rounding, or without a visible difference."""
 
 from __future__ import annotations
 
@@ -13,53 +13,53 @@ from crankwork.show.inline import frame_marks
 from crankwork.show.moving import MovingDrawing
 from crankwork.show.scene import Arc, Box, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
 
-# of its size, how far a line may be from another that is the same
+# relative distance of equal lines
 _SAME_PLACE = 1e-6
-# millimetres that nobody sees; beyond a graph, above and to the right, where marks of its scales stand
-_UNSEEN, _BESIDE = 1e-3, 8.0
-# of parts that move, in millimetres and degrees
+# invisible distance, and margin of a graph for the labels of its scales [mm]
+_UNSEEN, _MARGIN = 1e-3, 8.0
+# invisible difference of moving parts, in millimetres and degrees
 _UNSEEN_MOVE = 0.05
 
 
 def is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
-    """Return whether nobody sees a difference between two films."""
-    own, others = ({one.name: one for one in each.parts} for each in (film, other))
-    return own.keys() == others.keys() and all(
-        one.track.shape == others[name].track.shape
-        and bool(np.all(np.abs(one.track - others[name].track) < _UNSEEN_MOVE))
-        and list(map(signed, one.items)) == list(map(signed, others[name].items))
-        for name, one in own.items()
+    """Return whether two animations have no visible difference."""
+    own, other_parts = ({part.name: part for part in each.parts} for each in (film, other))
+    return own.keys() == other_parts.keys() and all(
+        part.track.shape == other_parts[name].track.shape
+        and bool(np.all(np.abs(part.track - other_parts[name].track) < _UNSEEN_MOVE))
+        and list(map(signature, part.items)) == list(map(signature, other_parts[name].items))
+        for name, part in own.items()
     )
 
 
 def scaled(drawn: Sequence[Drawing]) -> list[bool]:
-    """Return which items stand within graphs whose scales differ: the same on paper, they say something else."""
+    """Return which items lie within graphs whose scales differ: equal on paper, they mean different values."""
     boxes = []
-    for own, *others in zip(*(one.plots for one in drawn), strict=False):
-        is_other = ~np.all([_is_near_scale(own, one) for one in others], axis=0)
+    for own, *other_plots in zip(*(drawing.plots for drawing in drawn), strict=False):
+        is_other = ~np.all([_is_near_scale(own, plot) for plot in other_plots], axis=0)
         if is_other.any():
-            across, up = np.where(is_other, _BESIDE, 0.0)
+            across, up = np.where(is_other, _MARGIN, 0.0)
             box = own.box
             boxes += [box._replace(height=box.height + across), box._replace(width=box.width + up)]
     items, frames = drawn[0].items, frame_marks(drawn[0])
-    # a legend says of curves what they are
-    legend = {id(one) for pair in pairwise(items) for one in pair if getattr(pair[0], "name", "") == "legend"}
+    # legends do not depend on the scales
+    legend = {id(item) for pair in pairwise(items) for item in pair if getattr(pair[0], "name", "") == "legend"}
     return [
         not frame and id(item) not in legend and is_within(item, boxes)
         for frame, item in zip(frames, items, strict=True)
     ]
 
 
-def _is_near_scale(one: Plot, other: Plot) -> list[bool]:
-    """Return whether the scales across and upward are the same but for rounding."""
+def _is_near_scale(plot: Plot, other_plot: Plot) -> list[bool]:
+    """Return for x and y whether the scales are equal up to rounding."""
     return [
-        bool(np.all(np.abs(np.subtract(own, of)) <= _SAME_PLACE * abs(own[0] - own[1])))
-        for own, of in zip((one.x, one.y), (other.x, other.y), strict=True)
+        bool(np.all(np.abs(np.subtract(own, ends)) <= _SAME_PLACE * abs(own[0] - own[1])))
+        for own, ends in zip((plot.x, plot.y), (other_plot.x, other_plot.y), strict=True)
     ]
 
 
 def is_within(item: Item, boxes: Iterable[Box]) -> bool:
-    """Return whether the middle of an item lies within some box."""
+    """Return whether the middle of an item lies within one of the boxes."""
     match item:
         case Text(place=place):
             x, y = place
@@ -67,55 +67,55 @@ def is_within(item: Item, boxes: Iterable[Box]) -> bool:
             x, y = centre
         case Polyline(points=points) | Hatch(points=points):
             x, y = (np.min(points, axis=0) + np.max(points, axis=0)) / 2
-    return any(0 <= x - one.left <= one.width and 0 <= y - one.bottom <= one.height for one in boxes)
+    return any(0 <= x - box.left <= box.width and 0 <= y - box.bottom <= box.height for box in boxes)
 
 
 def is_title(item: Item, boxes: Iterable[Box]) -> bool:
-    """Return whether an item is the title of an axis of a graph in some box: upright beside it, or below its middle."""
+    """Return whether an item is the title of an axis of a graph: upright left of it, or below its middle."""
     if not isinstance(item, Text):
         return False
     x, y = item.place
     return any(
-        (x < one.left and one.bottom < y < one.top)
+        (x < box.left and box.bottom < y < box.top)
         if item.angle == 90
-        else y < one.bottom and abs(x - one.left - one.width / 2) < _UNSEEN
-        for one in boxes
+        else y < box.bottom and abs(x - box.left - box.width / 2) < _UNSEEN
+        for box in boxes
     )
 
 
-def is_beside(item: Item, boxes: Iterable[Box]) -> bool:
-    """Return whether an item stands within some box, or where marks of its scales do."""
-    return is_within(item, (one.inset(*[-_BESIDE] * 4) for one in boxes))
+def is_near(item: Item, boxes: Iterable[Box]) -> bool:
+    """Return whether an item lies within one of the boxes or its margin for labels."""
+    return is_within(item, (box.inset(*[-_MARGIN] * 4) for box in boxes))
 
 
-def staying(drawn: Sequence[Drawing]) -> set[str]:
-    """Return the names of curves that are the same in every design but for rounding, which thins them otherwise."""
-    found, moving = set[str](), set[str]()
-    for plots in zip(*(one.plots for one in drawn), strict=False):
+def unchanged_curves(drawn: Sequence[Drawing]) -> set[str]:
+    """Return the names of curves that are equal in every design up to rounding, which may thin them differently."""
+    constant, moving = set[str](), set[str]()
+    for plots in zip(*(drawing.plots for drawing in drawn), strict=False):
         for name, curve in plots[0].curves.items():
-            others = [one.curves.get(name, ()) for one in plots[1:]]
-            is_same = all(len(one) == 2 and _are_near(curve, one) for one in others)
-            (found if is_same else moving).add(name)
-    return found - moving
+            other_curves = [plot.curves.get(name, ()) for plot in plots[1:]]
+            is_same = all(len(other) == 2 and _are_near(curve, other) for other in other_curves)
+            (constant if is_same else moving).add(name)
+    return constant - moving
 
 
-def _are_near(one: Sequence[Array], other: Sequence[Array]) -> bool:
-    """Return whether two curves are the same line; extremes may add points to either."""
-    (x, y), (across, up) = map(np.asarray, one), map(np.asarray, other)
-    shared, others = np.isin(x, across), np.isin(across, x)
-    if shared.sum() == others.sum() and 2 * shared.sum() > max(x.size, across.size):
-        x, y, across, up = x[shared], y[shared], across[others], up[others]
+def _are_near(first: Sequence[Array], second: Sequence[Array]) -> bool:
+    """Return whether two curves are the same line; either may have additional points at extremes."""
+    (x, y), (across, up) = map(np.asarray, first), map(np.asarray, second)
+    shared, common = np.isin(x, across), np.isin(across, x)
+    if shared.sum() == common.sum() and 2 * shared.sum() > max(x.size, across.size):
+        x, y, across, up = x[shared], y[shared], across[common], up[common]
     if x.shape != across.shape:
         return False
-    near = [_SAME_PLACE * np.max(np.abs(of[np.isfinite(of)]), initial=0.0) for of in (x, y)]
+    near = [_SAME_PLACE * np.max(np.abs(values[np.isfinite(values)]), initial=0.0) for values in (x, y)]
     return np.allclose(x, across, rtol=0, atol=near[0]) and np.allclose(y, up, rtol=0, atol=near[1], equal_nan=True)
 
 
-def signed(item: Item) -> tuple[Any, ...]:
-    """Return what tells an item from others that look otherwise."""
+def signature(item: Item) -> tuple[Any, ...]:
+    """Return a key that is equal for items that look the same."""
 
-    def rounded(of: Any) -> bytes:  # noqa: ANN401 - numbers
-        return (np.rint(np.asarray(of, dtype=float) / _UNSEEN) + 0.0).tobytes()
+    def rounded(numbers: Any) -> bytes:  # noqa: ANN401 - numbers
+        return (np.rint(np.asarray(numbers, dtype=float) / _UNSEEN) + 0.0).tobytes()
 
     match item:
         case Polyline():

@@ -1,4 +1,4 @@
-"""The page of a machine: one file that needs no server and asks for nothing else."""
+"""The page of a machine: one self-contained HTML file."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.note.equations import value_symbol
 from crankwork.note.explain import Place
 from crankwork.note.live import bar, controls, look, page_data, stored, symbol_html, words
-from crankwork.page.memories import Memories
-from crankwork.page.sliders import Live, Moved, scale
+from crankwork.page.memories import TraceExport
+from crankwork.page.sliders import LivePage, SliderDesigns, scale
 from crankwork.quantities import Language
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
@@ -29,27 +29,29 @@ from crankwork.show.scene import Drawing
 
 
 @in_own_units
-def page(results: Results, language: Language = "en", place: Place | None = None, moved: Moved | None = None) -> bytes:
+def page(
+    results: Results, language: Language = "en", place: Place | None = None, moved: SliderDesigns | None = None
+) -> bytes:
     """Return the page of a machine, UTF-8.
 
-    `place` says where a value stands that comes from a path of its file; `moved`: what its reader may move.
+    `place` returns the location of an input path in the file; `moved`: sliders of the page.
     """
-    live = None if moved is None else Live(moved, language=language)
+    live = None if moved is None else LivePage(moved, language=language)
     drawn = drawings(results, language=language) if live is None else live.drawn
     film = film_of(results, language=language, forces=True)
     data = page_data(results, drawn, film, language)
-    for name, one in drawn.items():
-        # without script a figure is called by its title
-        data["figures"][name]["told"] = described(one)
+    for name, drawing in drawn.items():
+        # without script the alternative text is the title
+        data["figures"][name]["told"] = described(drawing)
     data["tables"] = tables(results, data, language)
-    keys = dict.fromkeys([*(key for one in data["tables"] for key in one["k"]), *results.summary])
-    memories = Memories(results, language, place or (lambda path, _: path), data["columns"])
-    data["memories"] = memories.of(keys)
+    keys = dict.fromkeys([*(key for table in data["tables"] for key in table["k"]), *results.summary])
+    trace = TraceExport(results, language, place or (lambda path, _: path), data["columns"])
+    data["memories"] = trace.of(keys)
     marks, steps, is_filed = dict[str, list[str]](), "", False
     if live is not None:
-        memories.follow(live)
+        trace.follow(live)
         marks, steps, is_filed = follow(live, results, data)
-    title = html.escape(results.machine.title or "crankwork")
+    title, listed = html.escape(results.machine.title or "crankwork"), words("tables", language)
     parts = [
         f'<!DOCTYPE html>\n<html lang="{language}"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
@@ -64,63 +66,67 @@ def page(results: Results, language: Language = "en", place: Place | None = None
         "</div><main>",
         *_figures(drawn, marks, language),
         *values(results, set(data["memories"]["keys"]), language, live),
-        *_table_room(language),
+        f'<section id="tables"><h2>{listed}</h2><p><select aria-label="{words("choice", language)}"></select></p>',
+        f'<div class="scroll" tabindex="0" role="region" aria-label="{listed}"><table></table></div></section>',
+        f'<p class="without">{words("without_script", language)}</p>',
         f"<footer><p>{html.escape(provenance(results))}</p></footer></main>",
-        *_explanation_room(language),
+        f'<aside id="explanation" tabindex="-1" hidden aria-label="{words("explanation", language)}">',
+        f'<button aria-label="{words("close", language)}">×</button><div class="body"></div></aside>',
         stored(data),
         f"<script>{steps}{script('slid' if steps else 'page')}</script></body></html>\n",
     ]
     return "\n".join(parts).encode()
 
 
-def _followed(live: Live, name: str, data: dict[str, Any]) -> list[str]:
-    """Say in the data of a figure which curves follow the sliders; return what becomes of its items."""
+def _followed(live: LivePage, name: str, data: dict[str, Any]) -> list[str]:
+    """Add the curves that follow the sliders to the data of a figure; return the marks of its items."""
     plots, marks, differs = live.figure(name)
-    for one, more in zip(data["plots"], plots, strict=False):
-        one.update(more)
+    for plot, more in zip(data["plots"], plots, strict=False):
+        plot.update(more)
     if differs and not plots:
         data["filed"] = True
     return marks if plots else []
 
 
-def follow(live: Live, results: Results, data: dict[str, Any]) -> tuple[dict[str, list[str]], str, bool]:
-    """Say in the data of a page what follows its sliders, and by what.
+def follow(live: LivePage, results: Results, data: dict[str, Any]) -> tuple[dict[str, list[str]], str, bool]:
+    """Add to the page data what follows its sliders.
 
-    Return what becomes of the items of each figure, the steps of the calculation, whether the machine stays behind.
+    Return the marks of the items of each figure, the script of the calculation, and whether the machine stays
+    unchanged.
     """
-    marks = {name: _followed(live, name, one) for name, one in data["figures"].items()}
+    marks = {name: _followed(live, name, figure) for name, figure in data["figures"].items()}
     moves, joints = live.machine()
     columns = {key: scale(key)[0] for key in data["columns"] if live.follows(key)}
     followed = [key for key in results.summary if live.follows(key)]
-    found, steps = live.data()
-    # of which some were found wrong
+    live_data, steps = live.data()
+    # data() may have excluded some values
     values = {key: live.value_data(key) for key in followed if live.follows(key)}
     filed = [key for key in (*data["columns"], *results.summary) if live.differs(key) and not live.follows(key)]
-    data["sliders"] = {**found, "columns": columns, "values": values, "filed": filed}
+    data["sliders"] = {**live_data, "columns": columns, "values": values, "filed": filed}
     if joints is not None:
         data["sliders"]["joints"] = joints
     return marks, steps, moves and joints is None
 
 
-def _sliders(live: Live, moved: Moved, language: Language) -> list[str]:
-    """Return the elements by which a reader states numbers of the machine file."""
+def _sliders(live: LivePage, moved: SliderDesigns, language: Language) -> list[str]:
+    """Return the elements of the sliders."""
     title = words("sliders", language)
     parts = [f'<section id="sliders" aria-label="{title}"><h2>{title}</h2>']
-    for at, one in enumerate(moved.sliders):
-        now, low, high = (one.shown(value) for value in (one.now, one.low, one.high))
-        key = live.name(one)
-        name = html.escape(f"{capital(label(key, language))} ({one.key})" if key else one.key)
-        unit = html.escape(unit_name(one.unit, language))
+    for index, slider in enumerate(moved.sliders):
+        now, low, high = (slider.shown(value) for value in (slider.now, slider.low, slider.high))
+        key = live.name(slider)
+        name = html.escape(f"{capital(label(key, language))} ({slider.key})" if key else slider.key)
+        unit = html.escape(unit_name(slider.unit, language))
         ends = f'min="{low!r}" max="{high!r}"'
         reach = " … ".join(number(value, language, digits=4) for value in (low, high))
         parts += [
-            f'<p class="slid"><label for="move{at}">{name} <small>{reach} {unit}</small></label>',
-            f'<input type="range" id="move{at}" data-field="{at}" {ends} step="any" value="{now!r}">',
-            f'<input type="text" inputmode="decimal" data-box="{at}" aria-label="{name}, {unit}" size="7">',
+            f'<p class="slid"><label for="move{index}">{name} <small>{reach} {unit}</small></label>',
+            f'<input type="range" id="move{index}" data-field="{index}" {ends} step="any" value="{now!r}">',
+            f'<input type="text" inputmode="decimal" data-box="{index}" aria-label="{name}, {unit}" size="7">',
             f"<span>{unit}</span></p>",
         ]
-        if one.stop is not None:
-            stop = html.escape(_cause(one.stop, language))
+        if slider.stop is not None:
+            stop = html.escape(_cause(slider.stop, language))
             parts.append(f'<p class="words">{words("slider_stops", language)} {stop}</p>')
     return [
         *parts,
@@ -132,7 +138,7 @@ def _sliders(live: Live, moved: Moved, language: Language) -> list[str]:
 
 
 def _cause(error: CrankworkError, language: Language) -> str:
-    """Return why there is no machine: of several mistakes the first."""
+    """Return why there is no machine: the first of several messages."""
     return told(error.problems[0].message if isinstance(error, InputError) else error.args[0], language)
 
 
@@ -143,38 +149,40 @@ def _machine(film: MovingDrawing, language: Language, *, is_filed: bool) -> list
 
 
 def tables(results: Results, data: dict[str, Any], language: Language) -> list[dict[str, Any]]:
-    """Return which columns each table of a page has."""
-    found = []
+    """Return the columns of each table of a page."""
+    listed = []
     for name, keys in results.tables.items():
         known = [key for key in keys if key in data["columns"]]
         if known:
-            found.append({"n": say(f"tables.{name}", language), "k": [data["axis"], *known]})
-    return found
+            listed.append({"n": say(f"tables.{name}", language), "k": [data["axis"], *known]})
+    return listed
 
 
 def _contents(drawn: dict[str, Drawing], language: Language) -> list[str]:
-    links = [f'<li><a href="#figure-{name}">{html.escape(capital(one.title))}</a></li>' for name, one in drawn.items()]
+    links = [
+        f'<li><a href="#figure-{name}">{html.escape(capital(drawing.title))}</a></li>'
+        for name, drawing in drawn.items()
+    ]
     links += [f'<li><a href="#{room}">{words(room, language)}</a></li>' for room in ("values", "tables")]
     return [f'<nav aria-label="{words("contents", language)}"><ul>', *links, "</ul></nav>"]
 
 
 def _figures(drawn: dict[str, Drawing], marks: dict[str, list[str]], language: Language) -> list[str]:
     parts = [f'<section><h2>{words("diagrams", language)}</h2><div class="figures">']
-    for name, one in drawn.items():
-        told = f"<figcaption>{html.escape(capital(one.title))}</figcaption>"
-        parts.append(
-            f'<figure id="figure-{name}">{inline_svg(one, name, one.title, marks.get(name, ()))}{told}</figure>'
-        )
+    for name, drawing in drawn.items():
+        caption = f"<figcaption>{html.escape(capital(drawing.title))}</figcaption>"
+        picture = inline_svg(drawing, name, drawing.title, marks.get(name, ()))
+        parts.append(f'<figure id="figure-{name}">{picture}{caption}</figure>')
     return [*parts, "</div></section>"]
 
 
-def values(results: Results, explained: Container[str], language: Language, live: Live | None = None) -> list[str]:
-    """Return single values, checks and notices as a section; `explained`: those that a click explains."""
+def values(results: Results, explained: Container[str], language: Language, live: LivePage | None = None) -> list[str]:
+    """Return single values, checks and notices as a section; `explained`: keys that can be explained."""
     parts = [f'<section id="values"><h2>{words("values", language)}</h2><div class="values">']
-    for subject, found in by_subject(results).items():
+    for subject, values_of_subject in by_subject(results).items():
         rows = [
-            _value_row(results, key, one, language, is_explained=key in explained, marks=_value_marks(live, key))
-            for key, one in found.items()
+            _value_row(results, key, value, language, is_explained=key in explained, marks=_value_marks(live, key))
+            for key, value in values_of_subject.items()
         ]
         parts += _small_table(say(f"subjects.{subject}", language), rows)
     if results.checks:
@@ -183,10 +191,10 @@ def values(results: Results, explained: Container[str], language: Language, live
         )
     parts.append("</div>")
     if results.notices:
-        told = (html.escape(notice_text(one.code, one.values, language)) for one in results.notices)
+        texts = (html.escape(notice_text(notice.code, notice.values, language)) for notice in results.notices)
         parts += [
             f"<h3>{html.escape(say('report.notices', language))}</h3><ul class=filed>",
-            *(f"<li>{one}</li>" for one in told),
+            *(f"<li>{text}</li>" for text in texts),
         ]
         parts.append("</ul>")
     return [*parts, "</section>"]
@@ -196,8 +204,8 @@ def _small_table(caption: str, rows: list[str]) -> list[str]:
     return [f"<table><caption>{html.escape(caption)}</caption><tbody>", *rows, "</tbody></table>"]
 
 
-def _value_marks(live: Live | None, key: str) -> tuple[str, str]:
-    """Return what a row and the number in it are marked with: that it follows the sliders, or cannot."""
+def _value_marks(live: LivePage | None, key: str) -> tuple[str, str]:
+    """Return the attributes of a row and of its number, which follow the sliders or cannot."""
     if live is None or not live.differs(key):
         return "", ""
     return ("", f' data-value="{html.escape(key)}"') if live.follows(key) else (' class="filed"', "")
@@ -214,26 +222,10 @@ def _value_row(
     elif marks[1]:
         shown = f"<span{marks[1]}>{shown}</span>"
     unit = html.escape(unit_name(key_unit(key), language))
-    # a table needs no ends of its cells
+    # HTML closes cells itself
     return f"<tr{marks[0]}><th>{name}<td>{symbol_html(value_symbol(key, language))}<td>{shown}<td>{unit}"
 
 
 def _check_row(results: Results, key: str, language: Language) -> str:
-    shown, told = number(results.checks[key], language, digits=2), html.escape(met(results, key, language))
-    return f"<tr class=filed><th>{html.escape(say(f'report.{key}', language))}<td>{shown}<td>{told}"
-
-
-def _table_room(language: Language) -> list[str]:
-    title = words("tables", language)
-    return [
-        f'<section id="tables"><h2>{title}</h2><p><select aria-label="{words("choice", language)}"></select></p>',
-        f'<div class="scroll" tabindex="0" role="region" aria-label="{title}"><table></table></div></section>',
-        f'<p class="without">{words("without_script", language)}</p>',
-    ]
-
-
-def _explanation_room(language: Language) -> list[str]:
-    return [
-        f'<aside id="explanation" tabindex="-1" hidden aria-label="{words("explanation", language)}">',
-        f'<button aria-label="{words("close", language)}">×</button><div class="body"></div></aside>',
-    ]
+    shown, status = number(results.checks[key], language, digits=2), html.escape(met(results, key, language))
+    return f"<tr class=filed><th>{html.escape(say(f'report.{key}', language))}<td>{shown}<td>{status}"

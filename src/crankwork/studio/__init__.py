@@ -1,1 +1,1 @@
-"""The studio: a local page over the calculation as it is, for looking and trying."""
+"""The studio: a local page to view a machine and to change its file."""

@@ -1,4 +1,4 @@
-"""What a page calculates by itself while a number is held: made before the first move, so that nothing waits for it."""
+"""Live preview: what the page calculates while a number is dragged, prepared before the first move."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from crankwork.description.document import Description
 from crankwork.locale import Language
 from crankwork.note.live import page_data
 from crankwork.page.document import follow
-from crankwork.page.sliders import FAINT, Live, Slider
+from crankwork.page.sliders import FAINT, LivePage, Slider
 from crankwork.report.drawing import film_of
 from crankwork.report.language import in_own_units
 from crankwork.show.alt import described
 from crankwork.show.inline import inline_film, inline_svg
 from crankwork.study.sliders import around, ends, moved
 
-# of a number, how far from it the designs lie that tell what follows it
+# relative range of the number in which the calculation is compiled
 _NEAR = 0.02
-# of it, where machines lie that others are drawn between: nearer to each other towards the ends, as polynomials ask for
+# relative values of the machines to interpolate between, close to Chebyshev nodes
 _AROUND = (-0.25, -0.177, 0.0, 0.177, 0.25)
-# where the ends of its slider are unless the page tells; machines there and halfway nobody draws
+# default ends of the slider; machines there and halfway are analysed but not drawn
 _ENDS = (-0.5, 1.0)
 _ROUNDING = 1e-9
 
 
 @in_own_units
-def ahead(
+def live_preview(
     results: Results,
     description: Description,
     key: str,
@@ -37,31 +37,33 @@ def ahead(
     language: Language,
     reach: tuple[str, str] | None = None,
 ) -> tuple[dict[str, Any], str]:
-    """Return what is drawn anew of figures when a number is moved, what stays behind, and the steps of the calculation.
+    """Return the data of a live preview and the script of its calculation.
 
-    `reach`: from where to where its slider goes, as written.
-    `behind`: figures that cannot follow, or only in part; `stays`: whether the machine does.
-    What is not calculated goes between `films`, and curves, of machines with other `values` of the number.
+    `reach`: range of the slider as text. In the data, `behind`: figures that cannot follow, or only in part; `stays`:
+    whether the machine follows. Figures and curves that are not calculated are interpolated between `films` of machines
+    with other `values` of the number.
     """
     made = moved(description, [key], (), results, _NEAR)
     now = made.sliders[0].now
     near = [now * (1 + share) for share in _AROUND]
     low, high = (reach and ends(description, key, *reach)) or [now * (1 + share) for share in _ENDS]
     far = [low, (low + now) / 2, (now + high) / 2, high]
-    far = [one for one in far if not np.isclose(one, near, rtol=_ROUNDING, atol=0.0).any()]
-    others = around(description, key, results, near)
+    far = [value for value in far if not np.isclose(value, near, rtol=_ROUNDING, atol=0.0).any()]
+    variants = around(description, key, results, near)
     further = around(description, key, results, far)
-    live = Live(made, language, names, others, further)
+    live = LivePage(made, language, names, variants, further)
     data = page_data(results, live.drawn, None, language, only_read=True)
     marks, steps, stays = follow(live, results, data)
-    behind = [name for name, one in data["figures"].items() if one.pop("filed", False) or FAINT in marks[name]]
-    for name, one in live.drawn.items():
-        data["figures"][name]["told"] = described(one)
+    behind = [name for name, figure in data["figures"].items() if figure.pop("filed", False) or FAINT in marks[name]]
+    for name, drawing in live.drawn.items():
+        data["figures"][name]["told"] = described(drawing)
     figures = {
-        name: inline_svg(one, name, one.title, marks[name]) for name, one in live.drawn.items() if name not in behind
+        name: inline_svg(figure, name, figure.title, marks[name])
+        for name, figure in live.drawn.items()
+        if name not in behind
     }
-    trusted = _trusted(made.sliders[0], [*near, *far], {*others, *further})
-    found = {
+    trusted = _trusted(made.sliders[0], [*near, *far], {*variants, *further})
+    preview = {
         "unit": made.sliders[0].unit,
         "trusted": trusted,
         "behind": behind,
@@ -69,25 +71,25 @@ def ahead(
         "data": data,
         "figures": figures,
     }
-    films = [_filmed(one, language) for one in others.values()] if stays else []
-    return {**found, "values": list(others), "films": films}, steps
+    films = [_filmed(variant, language) for variant in variants.values()] if stays else []
+    return {**preview, "values": list(variants), "films": films}, steps
 
 
-def _trusted(slider: Slider, asked: Collection[float], there: Collection[float]) -> tuple[float, float]:
-    """Return between which numbers the steps are believed: as far as there are machines one after another. [SI]"""
+def _trusted(slider: Slider, values: Collection[float], available: Collection[float]) -> tuple[float, float]:
+    """Return the range of the number in which the script is valid: up to the first value without a machine. [SI]"""
     reached, now = [slider.low, slider.high], slider.now
-    outwards = sorted(asked, key=lambda one: abs(one - now))
+    outwards = sorted(values, key=lambda item: abs(item - now))
     for end in (0, 1):
-        for value in (one for one in outwards if (one > now if end else one < now)):
-            if value not in there or abs(reached[end] - now) < _NEAR * abs(now) * (1 - _ROUNDING):
+        for value in (item for item in outwards if (item > now if end else item < now)):
+            if value not in available or abs(reached[end] - now) < _NEAR * abs(now) * (1 - _ROUNDING):
                 break
             reached[end] = value
-    spare = _ROUNDING * max(map(abs, reached))
-    return reached[0] - spare, reached[1] + spare
+    margin = _ROUNDING * max(map(abs, reached))
+    return reached[0] - margin, reached[1] + margin
 
 
 def _filmed(results: Results, language: Language) -> dict[str, Any]:
-    """Return a machine as a page plays it."""
+    """Return the animation of a machine as page data."""
     film = film_of(results, language=language)
     if film is None:
         return {}

@@ -1,4 +1,4 @@
-"""A machine file as a form: what each field is, what stands in it, what may be added."""
+"""A machine file as a form: its fields with meanings and values, and the fields that may be added."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from crankwork.units import EXAMPLES, from_si
 _NUMBER = re.compile(r"\s*[+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?\s*")
 _COMMA = re.compile(r"(\s*[+-]?[0-9]+),([0-9]+)(?![0-9.,])")
 _THOUSANDS = 3
-# of a point, by the number of the entry
+# coordinates of a point by index
 _AXES = {"1]": "x", "2]": "y"}
 _LEAVES = (Quantity, Number, NumberOr, WordOr, Choice, Flag, Text)
 
 
 def form(description: Description, language: Language) -> list[dict[str, Any]]:
-    """Return the tables of a machine file in order: their fields as stated, and those that may be added."""
+    """Return the tables of a machine file in order, with their fields and those that may be added."""
     values = description.values
     kinds = file_keys(values)
     groups: dict[str, dict[str, Any]] = {}
@@ -43,7 +43,7 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
 
 
 def _keys(description: Description, kinds: Table) -> Iterator[str]:
-    """Yield the keys of fields: those of the file that say what the machine is, of a point those of its coordinates."""
+    """Yield the keys of the fields of the machine; a point has one for each coordinate."""
     for key in description:
         match _kind(kinds, key), description[key]:
             case _ if key == "format":
@@ -55,24 +55,24 @@ def _keys(description: Description, kinds: Table) -> Iterator[str]:
 
 
 def _place(kinds: Table, key: str) -> tuple[str, object, Key | None]:
-    """Return the table in which a key stands, what is known of that table, and of the key."""
+    """Return the table of a key, its specification, and that of the key."""
     path, _, name = key.rpartition(".")
     table = _kind(kinds, path)
     return path, table, table.keys.get(name) if isinstance(table, Table) else None
 
 
 def _kind(kinds: Table, path: str) -> object:
-    found: object = kinds
+    kind: object = kinds
     for step in steps_of(path) if path else ():
-        found = entry_at(found, step)
-    return found
+        kind = entry_at(kind, step)
+    return kind
 
 
 def _stated(values: Mapping[str, Any], path: str) -> Mapping[str, Any]:
-    found: Any = values
+    table: Any = values
     for step in steps_of(path) if path else ():
-        found = found[step - 1] if isinstance(step, int) else found.get(step, {})
-    return found if isinstance(found, Mapping) else {}
+        table = table[step - 1] if isinstance(step, int) else table.get(step, {})
+    return table if isinstance(table, Mapping) else {}
 
 
 def _meaning(kinds: Table, path: str, language: Language) -> str:
@@ -82,12 +82,12 @@ def _meaning(kinds: Table, path: str, language: Language) -> str:
 
 
 def _row(description: Description, key: str, table: object, entry: Key | None, language: Language) -> dict[str, Any]:
-    """Return a field: its key, name, meaning, what stands in it, and how it may be changed."""
+    """Return a field: key, name, meaning, value and how it can be changed."""
     name, stated = key.rpartition(".")[2], description[key]
     kind = entry.kind if entry else _kind(file_keys(description.values), key)
-    name, at, number = name.partition("[")
+    name, bracket, number = name.partition("[")
     means = table.meaning(name, language) if isinstance(table, Table) else ""
-    axis = f", {_AXES[number]}" if at else ""
+    axis = f", {_AXES[number]}" if bracket else ""
     label = _label(name, means, language)
     row: dict[str, Any] = {"key": key, "name": name + axis, "label": label + axis, "value": _written(kind, stated)}
     if means and means != label:
@@ -103,46 +103,46 @@ def _row(description: Description, key: str, table: object, entry: Key | None, l
 
 
 def _written(kind: object, stated: object) -> str:
-    """Return what stands in a field: texts as they are, with commas where there are several."""
+    """Return the value of a field as text, names separated by commas."""
     if isinstance(kind, ListOf) and isinstance(kind.entry, Text) and isinstance(stated, list):
         names = list(map(str, stated))
-        if not any("," in one for one in names):
+        if not any("," in name for name in names):
             return ", ".join(names)
     return stated if isinstance(stated, str) else toml(stated)
 
 
 def _slid(kind: object, stated: object) -> dict[str, Any]:
-    """Return what a slider of a field goes by: its number and unit, and what the number may be."""
+    """Return the data of a field's slider: number, unit and limits; empty if it has none."""
     match single_kind(kind, stated), stated:
-        case Quantity() as of, str():
-            found = of.read(stated, "", Reader())
-            if isinstance(found, Measure):
-                low, high = (float(from_si(end, found.unit)) for end in (of.low, of.high))
-                return {"number": float(from_si(found.value, found.unit)), "unit": found.unit,
+        case Quantity() as numeric, str():
+            measure = numeric.read(stated, "", Reader())
+            if isinstance(measure, Measure):
+                low, high = (float(from_si(end, measure.unit)) for end in (numeric.low, numeric.high))
+                return {"number": float(from_si(measure.value, measure.unit)), "unit": measure.unit,
                         "after": _after(stated), "low": low, "high": high}  # fmt: skip
-        case Number() as of, int() | float() if not isinstance(stated, bool):
-            whole = {"whole": True} if of.whole else {}
-            return {"number": float(stated), "unit": "", "after": "", "low": of.low, "high": of.high, **whole}
+        case Number() as numeric, int() | float() if not isinstance(stated, bool):
+            slider = {"number": float(stated), "unit": "", "after": "", "low": numeric.low, "high": numeric.high}
+            return slider | ({"whole": True} if numeric.whole else {})
     return {}
 
 
 def _label(name: str, means: str, language: Language) -> str:
-    """Return what a field is called: its own word where that is of the language, what it means elsewhere, shortly."""
+    """Return the label of a field: its key in English, otherwise the beginning of its meaning."""
     first = re.split(r"[;:(,]| – | \S+ \[", means)[0].strip()
     return first if first[:1].isalpha() and language != "en" else name
 
 
 def _after(stated: str) -> str:
-    """Return what stands behind the number of a quantity: its unit, and what it may be off by."""
-    found = _NUMBER.match(stated)
-    return f" {stated[found.end() :]}" if found else ""
+    """Return the text after the number: unit and tolerance."""
+    match = _NUMBER.match(stated)
+    return f" {stated[match.end() :]}" if match else ""
 
 
 def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language) -> Iterator[dict[str, Any]]:
-    """Yield the fields that a table may have beside what it states, each with a value to begin with."""
+    """Yield the fields that may be added to a table, each with an initial value."""
     for name, entry in table.keys.items():
         excluded = any(other in stated for other in entry.instead_of)
-        fits = all(stated.get(one) in wanted if wanted else one in stated for one, wanted in entry.only.items())
+        fits = all(stated.get(key) in allowed if allowed else key in stated for key, allowed in entry.only.items())
         if name in stated or excluded or not fits or not isinstance(entry.kind, _LEAVES):
             continue
         first = first_value(entry.kind) if entry.default is None or isinstance(entry.default, By) else entry.default
@@ -150,21 +150,21 @@ def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language
         row: dict[str, Any] = {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written,
                                "means": means, "label": _label(name, means, language)}  # fmt: skip
         if name == "mass" and "centre" in table.keys and "centre" not in stated and "joins" in stated:
-            # a mass means nothing without its place
+            # a mass needs its centre
             row["also"] = {f"{path}.centre": _middle(stated)}
         yield row
 
 
 def _middle(link: Mapping[str, Any]) -> str:
-    """Return the middle of a link that states its length, or else its first joint."""
-    found = Quantity(("length",), 0.0, 1e3).read(link.get("length"), "", Reader())
-    if found is None:
+    """Return the middle of a link with a length, otherwise its first joint."""
+    length = Quantity(("length",), 0.0, 1e3).read(link.get("length"), "", Reader())
+    if length is None:
         return str(link["joins"][0])
-    return toml([f"{from_si(found.value, found.unit) / 2:.4g} {found.unit}", f"0 {found.unit}"])
+    return toml([f"{from_si(length.value, length.unit) / 2:.4g} {length.unit}", f"0 {length.unit}"])
 
 
 def first_value(kind: object) -> object:
-    """Return a value to begin with."""
+    """Return an initial value of a type."""
     match kind:
         case Quantity(dimensions=("mass", *_)):
             return "1 kg"
@@ -184,15 +184,15 @@ def first_value(kind: object) -> object:
 
 
 def stated_text(description: Description, key: str, typed: str, language: Language = "en") -> object:
-    """Return what a text typed into a field states: a text where one stands or belongs, what TOML reads otherwise.
+    """Parse text typed into a field: text if the field holds text, otherwise TOML.
 
-    A number alone has the unit that stood there, and a comma is a decimal one, unless it may set thousands apart.
+    A bare number gets the unit of the field, and a comma is a decimal comma unless it may separate thousands.
     """
     kind = single_kind(_kind(file_keys(description.values), key), description.get(key))
     if isinstance(kind, Text):
         return typed
     if isinstance(kind, ListOf) and isinstance(kind.entry, Text) and not typed.lstrip().startswith("["):
-        return [one.strip() for one in typed.split(",")]
+        return [text.strip() for text in typed.split(",")]
     if isinstance(kind, Quantity | Number):
         comma = _COMMA.match(typed)
         if comma and description.get("decimal_mark") != "," and (language != "en" or len(comma[2]) != _THOUSANDS):

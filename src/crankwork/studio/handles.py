@@ -1,4 +1,4 @@
-"""What is dragged of a drawing: dimensions by the field that states each, and dyads, which go on in two ways."""
+"""What can be dragged in a drawing: dimensions, by the field of each, and dyads, which have two branches."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from crankwork.mechanism.dyads import RPR, RRP, RRR
 
 
 class Handle(NamedTuple):
-    """A dimension between two parts of the drawing; `power`: of the distance, by which the number of the field goes."""
+    """A dimension between two parts of the drawing; its field is proportional to the distance to the `power`."""
 
     key: str
     start: str
@@ -20,19 +20,19 @@ class Handle(NamedTuple):
 
 
 def handles(values: Mapping[str, Any], groups: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Return the dimensions that a machine file states by a number, with that number."""
+    """Return the dimensions that a machine file states as numbers, with the numbers."""
     numbers = {row["key"]: row for group in groups for row in group["rows"] if "number" in row}
-    listed = _of_linkage(values) if "links" in values or "sliders" in values else _of_crank_gear(values)
+    listed = _of_linkage(values) if "links" in values or "sliders" in values else _of_crank_mechanism(values)
     return [
-        {"key": one.key, "from": one.start, "to": one.end, "power": one.power,
-         "number": numbers[one.key]["number"], "unit": numbers[one.key]["after"].strip()}
-        for one in listed
-        if one.key in numbers
+        {"key": handle.key, "from": handle.start, "to": handle.end, "power": handle.power,
+         "number": numbers[handle.key]["number"], "unit": numbers[handle.key]["after"].strip()}
+        for handle in listed
+        if handle.key in numbers
     ]  # fmt: skip
 
 
-def _of_crank_gear(values: Mapping[str, Any]) -> Iterator[Handle]:
-    crank, rod, piston = (f"side.{one}.1" for one in ("crank", "rod", "piston"))
+def _of_crank_mechanism(values: Mapping[str, Any]) -> Iterator[Handle]:
+    crank, rod, piston = (f"side.{part}.1" for part in ("crank", "rod", "piston"))
     yield Handle("crank.radius", crank, rod)
     yield Handle("crank.stroke", crank, rod)
     yield Handle("rod.length", rod, piston)
@@ -51,27 +51,28 @@ def _of_linkage(values: Mapping[str, Any]) -> Iterator[Handle]:
 
 
 def dyads(machine: Machine) -> list[dict[str, Any]]:
-    """Return the dyads that go together in two ways: their branch, their parts, where they change it.
+    """Return the dyads with two branches: branch, parts, and where the branch changes.
 
-    `at`: the joint at which links come into line; `ends`: what it hangs on; `others`: what turns with a lever.
+    `at`: the joint where links come into line; `ends`: the joints at its ends; `others`: points that turn with a lever.
     """
-    mechanism, drawn, found = machine.mechanism, machine.drawn, list[dict[str, Any]]()
-    for index, one in enumerate(mechanism.dyads):
+    mechanism, drawn, listed = machine.mechanism, machine.drawn, list[dict[str, Any]]()
+    for index, dyad in enumerate(mechanism.dyads):
         parts: dict[str, Any]
-        match one:
+        match dyad:
             case RRR():
-                parts = {"kind": "RRR", "name": one.point, "ends": [one.joint_a, one.joint_b], "at": one.point,
-                         "links": [one.link_a, one.link_b]}  # fmt: skip
+                parts = {"kind": "RRR", "name": dyad.point, "ends": [dyad.joint_a, dyad.joint_b], "at": dyad.point,
+                         "links": [dyad.link_a, dyad.link_b]}  # fmt: skip
             case RRP(guide_link=""):
-                parts = {"kind": "RRP", "name": one.slider, "ends": [one.joint], "at": one.slider, "links": [one.link],
-                         "way": [math.cos(one.guide_angle), -math.sin(one.guide_angle)]}  # fmt: skip
+                direction = [math.cos(dyad.guide_angle), -math.sin(dyad.guide_angle)]
+                parts = {"kind": "RRP", "name": dyad.slider, "ends": [dyad.joint], "at": dyad.slider,
+                         "links": [dyad.link], "way": direction}  # fmt: skip
             case RPR():
-                others = [name for name in drawn.member(one.link).points if name != one.pivot]
-                parts = {"kind": "RPR", "name": one.link, "ends": [one.pivot], "at": one.joint, "links": [one.link],
-                         "others": others}  # fmt: skip
+                turning = [name for name in drawn.member(dyad.link).points if name != dyad.pivot]
+                parts = {"kind": "RPR", "name": dyad.link, "ends": [dyad.pivot], "at": dyad.joint, "links": [dyad.link],
+                         "others": turning}  # fmt: skip
             case _:
                 continue
         passage = mechanism.passages.get(index)
-        changes = [] if passage is None else [float(at) for at in passage.changes]
-        found.append({**parts, "branch": one.branch, "changes": changes})
-    return found
+        changes = [] if passage is None else [float(angle) for angle in passage.changes]
+        listed.append({**parts, "branch": dyad.branch, "changes": changes})
+    return listed

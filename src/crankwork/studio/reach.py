@@ -1,4 +1,4 @@
-"""Everything that a number of a machine file reaches."""
+"""Results that depend on a number of a machine file."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import Language
 from crankwork.studio.form import form, stated_text
 
-# of what a number is, how far it is moved; of what a value is, what does not count as another
+# relative change of the number, and relative difference of equal values
 _MOVED = 0.01
 _SAME = 1e-7
 
 
-def reached(results: Results, description: Description, key: str, language: Language) -> dict[str, list[str]]:
-    """Return the single values and columns that are others where a number is a little larger, or smaller.
+def dependent_results(results: Results, description: Description, key: str, language: Language) -> dict[str, list[str]]:
+    """Return the single values and columns that change with a number.
 
     `description`: that of the results; it is changed.
     """
@@ -30,8 +30,8 @@ def reached(results: Results, description: Description, key: str, language: Lang
         moved = _moved(description, key, f"{number + size:.9g}{row['after']}", language)
     except CrankworkError:
         moved = _moved(description, key, f"{number - size:.9g}{row['after']}", language)
-    values = [one for one, value in results.summary.items() if not _same(value, moved.summary.get(one))]
-    columns = [one for one, column in results.columns.items() if not _same(column, moved.columns.get(one))]
+    values = [name for name, value in results.summary.items() if not _same(value, moved.summary.get(name))]
+    columns = [name for name, column in results.columns.items() if not _same(column, moved.columns.get(name))]
     return {"values": values, "columns": columns}
 
 
@@ -40,8 +40,8 @@ def _moved(description: Description, key: str, text: str, language: Language) ->
     return analyse(description.machine())
 
 
-def _same(one: object, other: object) -> bool:
-    a, b = np.asarray(one, dtype=float), np.asarray(np.nan if other is None else other, dtype=float)
+def _same(value: object, other: object) -> bool:
+    a, b = np.asarray(value, dtype=float), np.asarray(np.nan if other is None else other, dtype=float)
     return a.shape == b.shape and bool(
         np.allclose(a, b, rtol=_SAME, atol=_SAME * float(np.max(np.abs(a), initial=0.0)), equal_nan=True)
     )

@@ -1,4 +1,4 @@
-"""The machines that were opened last by this user: files by their paths, and texts that stand in none."""
+"""Recently opened machines of this user: files by path, or texts without a file."""
 
 from __future__ import annotations
 
@@ -9,55 +9,55 @@ from typing import NamedTuple
 from crankwork import files
 
 _NAME = "recent.json"
-_MOST = 8
-_LONGEST = 2 * _MOST * files.MAX_MACHINE_FILE
+_MAX_ENTRIES = 8
+_MAX_LENGTH = 2 * _MAX_ENTRIES * files.MAX_MACHINE_FILE
 
 
 class Recent(NamedTuple):
-    """A machine that was opened: what it is called, which is its path where it stands in a file; else its text."""
+    """A machine that was opened: the path of its file, or a name and its text."""
 
     name: str
     text: str | None = None
 
 
 def recent(opened: Recent | None = None) -> list[Recent]:
-    """Return the machines that were opened last, the one first that is opened now."""
+    """Return the recent machines, with the one just opened first."""
 
     def change(text: str) -> str:
         before = _read(text)
         if opened is None or not _is_kept(opened):
             return text
-        others = [one for one in before if one.name != opened.name]
-        return json.dumps([list(one) for one in [opened, *others][:_MOST]])
+        remaining = [entry for entry in before if entry.name != opened.name]
+        return json.dumps([list(entry) for entry in [opened, *remaining][:_MAX_ENTRIES]])
 
-    return _read(files.changed(_NAME, change, limit=_LONGEST))
-
-
-def named(found: list[Recent]) -> list[list[str]]:
-    """Return what a page shows of machines: their names, and the folders of files that are there."""
-    there = [one for one in found if one.text is not None or Path(one.name).is_file()]
-    return [[one.name, "" if one.text is not None else str(Path(one.name).parent)] for one in there]
+    return _read(files.changed(_NAME, change, limit=_MAX_LENGTH))
 
 
-def _is_kept(one: Recent) -> bool:
+def named(machines: list[Recent]) -> list[list[str]]:
+    """Return the names of machines and the folders of existing files, for the page."""
+    existing = [machine for machine in machines if machine.text is not None or Path(machine.name).is_file()]
+    return [[machine.name, "" if machine.text is not None else str(Path(machine.name).parent)] for machine in existing]
+
+
+def _is_kept(machine: Recent) -> bool:
     try:
-        size = len(f"{one.name}{one.text or ''}".encode())
+        size = len(f"{machine.name}{machine.text or ''}".encode())
     except UnicodeEncodeError:
         return False
-    return bool(one.name) and size <= files.MAX_MACHINE_FILE
+    return bool(machine.name) and size <= files.MAX_MACHINE_FILE
 
 
 def _read(text: str) -> list[Recent]:
-    """Return what a list says; of one that was damaged what can be read."""
+    """Parse the list of recent machines; skip damaged entries."""
     try:
-        found = json.loads(text or "[]")
+        entries = json.loads(text or "[]")
     except (ValueError, RecursionError):
         return []
-    return [Recent(*one) for one in found if _is_sound(one)] if isinstance(found, list) else []
+    return [Recent(*entry) for entry in entries if _is_valid(entry)] if isinstance(entries, list) else []
 
 
-def _is_sound(one: object) -> bool:
-    if not (isinstance(one, list) and len(one) == 2 and isinstance(one[0], str)):
+def _is_valid(entry: object) -> bool:
+    if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[0], str)):
         return False
-    is_text = isinstance(one[1], str)
-    return (is_text or (one[1] is None and Path(one[0]).is_absolute())) and _is_kept(Recent(*one))
+    is_text = isinstance(entry[1], str)
+    return (is_text or (entry[1] is None and Path(entry[0]).is_absolute())) and _is_kept(Recent(*entry))

@@ -1,4 +1,4 @@
-"""The page of the studio as it is before anything has been told: rooms, buttons, words of its script."""
+"""The initial page of the studio: sections, buttons and texts of its script."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from crankwork.locale import LANGUAGES, Language, say, texts
 from crankwork.note.live import bar, look
 from crankwork.show.formats import FORMATS
 
-# names of languages in themselves
+# names of the languages in their own language
 _OWN = {"en": "English", "ru": "Русский", "vi": "Tiếng Việt"}
-# what may be saved of a machine, by the name of the file
+# files that can be exported, by name
 EXPORTS = ("note.pdf", "note.docx", "note.html", "page.html", "tables.xlsx", "sheets.zip", "machine.gif", "machine.svg")
 
 
@@ -33,79 +33,65 @@ def shell(language: Language) -> str:
         f'<div id="bar">{"".join(bar(language))}</div>',
         f'<p id="notice" role="alert" hidden></p><script type="application/json" id="words">{stored}</script>',
         "<main>",
-        *_left(language), *_middle(language), *_right(language),
-        f'<section id="results" aria-label="{_said("results", language)}"></section>',
+        *_left(language),
+        f'<section id="machine" aria-label="{html.escape(say("page.machine", language))}">',
+        '<div id="film"></div><output id="chip" hidden></output>',
+        '<p id="turn" hidden></p>',
+        f'<p class="hint">{_text("hint", language)}</p></section>',
+        f'<section id="diagrams" aria-label="{html.escape(say("page.diagrams", language))}">',
+        f'<select id="add" aria-label="{_text("add", language)}"></select><div class="figures"></div>',
+        f'<details id="trial"><summary>{_text("vary", language)}</summary></details></section>',
+        f'<section id="results" aria-label="{_text("results", language)}"></section>',
         f'<aside id="explanation" tabindex="-1" hidden aria-label="{html.escape(say("page.explanation", language))}">',
         f'<button aria-label="{html.escape(say("page.close", language))}">×</button><div class="body"></div></aside>',
         "</main>",
-        f'<dialog id="commands" aria-label="{_said("commands", language)}"><input role="combobox" aria-expanded="true"',
-        f' aria-controls="found" aria-autocomplete="list" aria-label="{_said("commands", language)}">',
-        f'<ul id="found" role="listbox" aria-label="{_said("commands", language)}"></ul></dialog>',
+        f'<dialog id="commands" aria-label="{_text("commands", language)}"><input role="combobox" aria-expanded="true"',
+        f' aria-controls="found" aria-autocomplete="list" aria-label="{_text("commands", language)}">',
+        f'<ul id="found" role="listbox" aria-label="{_text("commands", language)}"></ul></dialog>',
         '<p id="told" role="status" class="unseen"></p>',
         '<script src="studio.js"></script></body></html>\n',
     ])  # fmt: skip
 
 
-def _said(key: str, language: Language) -> str:
+def _text(key: str, language: Language) -> str:
     return html.escape(say(f"studio.{key}", language))
-
-
-def _button(name: str, language: Language) -> str:
-    return f'<button id="{name}">{_said(name, language)}</button>'
 
 
 def _header(language: Language) -> list[str]:
     templates = "".join(
-        f'<option value="{one}">{html.escape(template_title(one, language))}' for one in template_names()
+        f'<option value="{name}">{html.escape(template_title(name, language))}' for name in template_names()
     )
-    exports = "".join(f"<option>{one}" for one in EXPORTS)
-    spoken = "".join(
-        f'<option value="{one}" lang="{one}"{" selected" if one == language else ""}>{_OWN[one]}' for one in LANGUAGES
+    exports = "".join(f"<option>{name}" for name in EXPORTS)
+    languages = "".join(
+        f'<option value="{key}" lang="{key}"{" selected" if key == language else ""}>{_OWN[key]}' for key in LANGUAGES
     )
     return [
         '<header><h1 id="title">crankwork</h1>',
-        f'<button id="all" aria-keyshortcuts="/" title="{_said("commands", language)}: /">',
-        f'<kbd aria-hidden="true">/</kbd> <span>{_said("commands", language)}</span></button>',
-        f'<select id="template" aria-label="{_said("template", language)}">',
-        f'<option value="">{_said("template", language)}</option><optgroup label="{_said("recent", language)}" hidden>',
-        f'</optgroup><optgroup label="{_said("examples", language)}">{templates}</optgroup></select>',
-        f'<label class="button" tabindex="-1">{_said("open", language)}',
+        f'<button id="all" aria-keyshortcuts="/" title="{_text("commands", language)}: /">',
+        f'<kbd aria-hidden="true">/</kbd> <span>{_text("commands", language)}</span></button>',
+        f'<select id="template" aria-label="{_text("template", language)}">',
+        f'<option value="">{_text("template", language)}</option><optgroup label="{_text("recent", language)}" hidden>',
+        f'</optgroup><optgroup label="{_text("examples", language)}">{templates}</optgroup></select>',
+        f'<label class="button" tabindex="-1">{_text("open", language)}',
         '<input id="open" type="file" accept=".toml,.txt,.pmks,text/plain"></label>',
-        *(_button(name, language) for name in ("save", "undo", "redo", "share", "pin")),
-        f'<span id="pins"></span><button id="draw" aria-pressed="false">{_said("draw", language)}</button>',
-        f'<select id="export" aria-label="{_said("export", language)}" data-formats="{" ".join(FORMATS)}">',
-        f'<option value="">{_said("export", language)}</option>{exports}</select>',
-        f'<select id="language" aria-label="{_said("language", language)}">{spoken}</select></header>',
+        *(f'<button id="{name}">{_text(name, language)}</button>' for name in ("save", "undo", "redo", "share", "pin")),
+        f'<span id="pins"></span><button id="draw" aria-pressed="false">{_text("draw", language)}</button>',
+        f'<select id="export" aria-label="{_text("export", language)}" data-formats="{" ".join(FORMATS)}">',
+        f'<option value="">{_text("export", language)}</option>{exports}</select>',
+        f'<select id="language" aria-label="{_text("language", language)}">{languages}</select></header>',
     ]
 
 
 def _left(language: Language) -> list[str]:
     tabs = "".join(
         f'<button role="tab" id="{name}-tab" aria-controls="{name}" aria-selected="{chosen}">'
-        f"{_said(name, language)}</button>"
+        f"{_text(name, language)}</button>"
         for name, chosen in (("form", "true"), ("text", "false"))
     )
     return [
-        f'<section id="description" aria-label="{_said("description", language)}"><div role="tablist">{tabs}</div>',
+        f'<section id="description" aria-label="{_text("description", language)}"><div role="tablist">{tabs}</div>',
         '<div id="form" role="tabpanel" aria-labelledby="form-tab"></div>',
         '<div id="text" role="tabpanel" aria-labelledby="text-tab" hidden><pre id="lines" aria-hidden="true"></pre>',
-        f'<textarea id="source" spellcheck="false" wrap="off" aria-label="{_said("text", language)}"></textarea></div>',
+        f'<textarea id="source" spellcheck="false" wrap="off" aria-label="{_text("text", language)}"></textarea></div>',
         '<ul id="refusals"></ul></section>',
-    ]
-
-
-def _middle(language: Language) -> list[str]:
-    return [
-        f'<section id="machine" aria-label="{html.escape(say("page.machine", language))}">',
-        '<div id="film"></div><output id="chip" hidden></output>',
-        '<p id="turn" hidden></p>',
-        f'<p class="hint">{_said("hint", language)}</p></section>',
-    ]
-
-
-def _right(language: Language) -> list[str]:
-    return [
-        f'<section id="diagrams" aria-label="{html.escape(say("page.diagrams", language))}">',
-        f'<select id="add" aria-label="{_said("add", language)}"></select><div class="figures"></div>',
-        f'<details id="trial"><summary>{_said("vary", language)}</summary></details></section>',
     ]

@@ -1,1 +1,1 @@
-"""Studies of a machine file with one number replaced: where a value is what is wanted."""
+"""Studies of a machine file whose numbers vary: solve, spread, sweep, map, optimise."""

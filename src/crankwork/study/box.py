@@ -1,4 +1,4 @@
-"""Designs between bounds: their single values, how those change, and in parts of the cycle."""
+"""Designs between bounds: their single values with derivatives, extremes also for each part of the cycle."""
 
 from __future__ import annotations
 
@@ -17,29 +17,29 @@ from crankwork.kernel.slopes import in_part
 from crankwork.kernel.trace import NotCompiledError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
-from crankwork.study.machines import Machines, single, threaded
-from crankwork.study.sought import Sought, limit, sought_number
+from crankwork.study.machines import MachineVariants, single, threaded
+from crankwork.study.sought import NumericField, limit, numeric_field
 from crankwork.units import System
 
-# parts of the cycle in each of which an extreme is followed for itself
+# parts of the cycle, each with its own extremes
 PARTS = 24
-# designs that are tried where the stated one is no machine
-_TRIED = 100
-# other places from which the calculation is compiled, and how far around, of the bounds
-_ELSEWHERE, _AROUND = 3, 0.02
-# of the bounds, the step of differences where values are analysed and not compiled
+# designs drawn if the stated design cannot be analysed
+_MAX_TRIES = 100
+# further points to compile the calculation at, and the half width of the range there, as a fraction of the bounds
+_FURTHER_POINTS, _AROUND = 3, 0.02
+# step of finite differences without a compiled calculation, as a fraction of the bounds
 _STEP = 3e-5
-# beside the size of a value, what is the same
+# relative difference of equal values
 _SAME = 1e-9
-# of the bounds
+# rounding of a point at a bound
 _ROUNDING = 1e-12
 
 
-class Near(NamedTuple):
-    """Single values of a design, shape (keys,), and their derivatives by the place, shape (keys, fields).
+class LocalModel(NamedTuple):
+    """Single values of a design, shape (keys,), and their derivatives by the point, shape (keys, fields).
 
-    `parts` are values and derivatives of extremes in each part of the cycle, shape (keys, parts) and
-    (keys, parts, fields).
+    `parts`: values and derivatives of the extremes in each part of the cycle, shape (keys, parts) and (keys, parts,
+    fields).
     """
 
     values: Array
@@ -47,18 +47,18 @@ class Near(NamedTuple):
     parts: tuple[Array, Array] | None
 
 
-def _in_si(number: Sought, stated: float | str) -> float | None:
-    """Return a bound in SI, as numbers are; a text without a unit is in that of the file."""
+def _in_si(number: NumericField, stated: float | str) -> float | None:
+    """Return a bound in SI; text without a unit is in the unit of the file."""
     return limit(number, stated if isinstance(stated, str) else str(number.written(float(stated))), number.key)
 
 
-class Box:
-    """Designs between bounds. A place is 0 at the lower bound of a field and 1 at the upper one.
+class DesignSpace:
+    """Designs between bounds. A point is 0 at the lower bound of a field and 1 at the upper bound.
 
-    `seen` is told every design that is calculated and its values.
+    `seen` is called with every design that is calculated and its values.
     """
 
-    def __init__(  # noqa: PLR0913 - what varies from where, and what is wanted
+    def __init__(  # noqa: PLR0913 - fields, bounds and results
         self,
         description: Description,
         bounds: Mapping[str, tuple[float | str, float | str]],
@@ -70,15 +70,15 @@ class Box:
         seen: Callable[[Array, Array], None],
     ) -> None:
         values = description.values_with(overrides)
-        numbers = {key: sought_number(values, key) for key in (*bounds, *start)}
+        numbers = {key: numeric_field(values, key) for key in (*bounds, *start)}
         self.numbers = {key: numbers[key] for key in bounds}
         self.low, self.high = (
-            np.array([_in_si(numbers[key], of[end]) for key, of in bounds.items()], dtype=float) for end in (0, 1)
+            np.array([_in_si(numbers[key], pair[end]) for key, pair in bounds.items()], dtype=float) for end in (0, 1)
         )
-        for key, of, low, high in zip(bounds, bounds.values(), self.low, self.high, strict=True):
+        for key, bound, low, high in zip(bounds, bounds.values(), self.low, self.high, strict=True):
             if not low < high:
-                raise CrankworkError(Refusal("bounds_empty", key=key, low=str(of[0]), high=str(of[1])))
-        stated = {key: _in_si(numbers[key], of) for key, of in start.items()}
+                raise CrankworkError(Refusal("bounds_empty", key=key, low=str(bound[0]), high=str(bound[1])))
+        stated = {key: _in_si(numbers[key], value) for key, value in start.items()}
         for key, low, high in zip(bounds, self.low, self.high, strict=True):
             if not low <= stated.get(key, low) <= high:
                 ends = {"low": str(bounds[key][0]), "high": str(bounds[key][1])}
@@ -86,32 +86,33 @@ class Box:
         middle = (self.low + self.high) / 2
         now = [stated.get(key, numbers[key].now) for key in bounds]
         first = np.clip(
-            [half if one is None else one for one, half in zip(now, middle, strict=True)], self.low, self.high
+            [half if value is None else value for value, half in zip(now, middle, strict=True)], self.low, self.high
         )
         self.keys, self._seen, self._seed = list(keys), seen, seed
 
-        def around(design: Array, part: float = 1.0) -> Machines:
+        def around(design: Array, part: float = 1.0) -> MachineVariants:
             low, high = (design + sign * part * (self.high - self.low) for sign in (-1, 1))
             spans = np.array([np.maximum(low, self.low), design, np.minimum(high, self.high)]).T
-            return Machines(description, self.numbers, spans, keys, overrides)
+            return MachineVariants(description, self.numbers, spans, keys, overrides)
 
         self._machines, self.start = self._first(around, first, is_stated=bool(start))
         self._kernel: Kernel | None = None
         self._many: Kernel | None = None
         self.reason = self._compiled(around)
-        self._found: dict[bytes, Near | Array] = {}
+        self._found: dict[bytes, LocalModel | Array] = {}
         self.is_extreme = self._extremes()
 
-    def _compiled(self, around: Callable[..., Machines]) -> str:
-        """Compile what the values come from; return why that cannot be done.
+    def _compiled(self, around: Callable[..., MachineVariants]) -> str:
+        """Compile the calculation; return the reason if that fails.
 
-        A calculation may go other ways far from the start, or where a number is nothing.
+        The calculation may take other branches far from the start, or if a number is zero; then a narrower range is
+        tried.
         """
         reason = ""
-        places = [self.start, self.start, *self.drawn(_ELSEWHERE)]
-        for at, place in enumerate(places):
+        places = [self.start, self.start, *self.sample(_FURTHER_POINTS)]
+        for attempt, place in enumerate(places):
             try:
-                varied = around(self.design(place), 1.0 if at == 0 else _AROUND)
+                varied = around(self.design(place), 1.0 if attempt == 0 else _AROUND)
                 kernel = varied.kernel(parts=PARTS, is_for_few=True)
                 varied.check_at(kernel, self.design(self.start))
             except NotCompiledError as error:
@@ -125,15 +126,17 @@ class Box:
                 return ""
         return reason
 
-    def give_up(self, reason: str) -> None:
-        """Go on with whole analyses."""
+    def use_full_analyses(self, reason: str) -> None:
+        """Discard the compiled calculation and analyse each design."""
         self._kernel, self.reason, self.is_extreme = None, reason, {}
         self._found.clear()
 
-    def _first(self, around: Callable[..., Machines], first: Array, *, is_stated: bool) -> tuple[Machines, Array]:
-        """Return designs around the first that is a machine: the stated one, or one that is drawn."""
-        told: dict[str, list[str]] = {}
-        drawn = self.low + self.drawn(_TRIED) * (self.high - self.low)
+    def _first(
+        self, around: Callable[..., MachineVariants], first: Array, *, is_stated: bool
+    ) -> tuple[MachineVariants, Array]:
+        """Return the variants around the first design that can be analysed, stated or drawn, and its point."""
+        reasons: dict[str, list[str]] = {}
+        drawn = self.low + self.sample(_MAX_TRIES) * (self.high - self.low)
         for design in [first, *drawn]:
             try:
                 return around(design), (design - self.low) / (self.high - self.low)
@@ -145,82 +148,82 @@ class Box:
                 if is_stated:
                     raise CrankworkError(Refusal("start_absent", reason=error.args[0])) from None
                 reason = error.args[0]
-            told.setdefault(getattr(reason, "name", ""), []).append(reason)
-        most = max(told.values(), key=len)[0]
-        raise CrankworkError(Refusal("bounds_absent", count=str(_TRIED + 1), reason=most))
+            reasons.setdefault(getattr(reason, "name", ""), []).append(reason)
+        most = max(reasons.values(), key=len)[0]
+        raise CrankworkError(Refusal("bounds_absent", count=str(_MAX_TRIES + 1), reason=most))
 
     def _extremes(self) -> dict[str, str]:
-        """Return which values are the largest, or the least, of those in the parts of the cycle."""
+        """Return the values that are the extreme of those in the parts of the cycle, with "max" or "min"."""
         if self._kernel is None:
             return {}
-        near = self.near(self.start)
-        found = {}
+        near = self.local_model(self.start)
+        extremes = {}
         for row, key in enumerate(self.keys):
             if near is None or near.parts is None or np.isnan(near.parts[0][row]).any():
                 continue
             size = _SAME * abs(near.values[row])
             for kind, best in (("max", near.parts[0][row].max()), ("min", near.parts[0][row].min())):
                 if abs(best - near.values[row]) <= size:
-                    found[key] = kind
-        return found
+                    extremes[key] = kind
+        return extremes
 
     @property
     def units(self) -> System:
-        """The system of units that the machine is shown in."""
+        """System of units of the machine."""
         return self._machines.stated.machine.units
 
-    def drawn(self, count: int) -> Array:
-        """Return places that fill the bounds evenly, shape (count, fields)."""
+    def sample(self, count: int) -> Array:
+        """Return points spread evenly between the bounds, shape (count, fields)."""
         from scipy.stats import qmc  # noqa: PLC0415 - an optional part
 
         return np.asarray(qmc.LatinHypercube(self.low.size, rng=np.random.default_rng(self._seed)).random(count))
 
     def design(self, place: Array) -> Array:
-        """Return what a design states. [SI]"""
+        """Return the numbers of the design at a point. [SI]"""
         inside = self.low + np.clip(place, 0.0, 1.0) * (self.high - self.low)
-        # at a bound to the last digit
+        # exactly the bound, to the last digit
         return np.where(place >= 1 - _ROUNDING, self.high, np.where(place <= _ROUNDING, self.low, inside))
 
     def results(self, place: Array) -> Results:
-        """Return the whole analysis of a design."""
+        """Return the full analysis of the design at a point."""
         return self._machines.results(self.design(place))
 
     def values(self, place: Array) -> Array:
-        """Return the single values of a design; not numbers where there is no machine."""
+        """Return the single values of the design at a point; NaN if there is no machine."""
         near = self._at(place)
         return near if isinstance(near, np.ndarray) else near.values
 
-    def near(self, place: Array) -> Near | None:
-        """Return values and derivatives at a place, or None where there is no machine."""
+    def local_model(self, place: Array) -> LocalModel | None:
+        """Return values and derivatives at a point, or None if there is no machine."""
         near = self._at(place)
         if isinstance(near, np.ndarray) and np.isfinite(near).all():
             near = self._found[place.tobytes()] = self._by_differences(place)
-        return near if isinstance(near, Near) and np.isfinite(near.values).all() else None
+        return near if isinstance(near, LocalModel) and np.isfinite(near.values).all() else None
 
-    def _at(self, place: Array) -> Near | Array:
-        """Return what is known of a design: derivatives where they cost nothing more."""
+    def _at(self, place: Array) -> LocalModel | Array:
+        """Return the cached values at a point, with derivatives if the calculation is compiled."""
         key = place.tobytes()
         if key not in self._found:
-            found = self._found[key] = self._analysed(place) if self._kernel is None else self._near(place)
-            self._seen(self.design(place), found if isinstance(found, np.ndarray) else found.values)
+            result = self._found[key] = self._analysed(place) if self._kernel is None else self._near(place)
+            self._seen(self.design(place), result if isinstance(result, np.ndarray) else result.values)
         return self._found[key]
 
     def many(self, places: Array, *, is_often: bool = False) -> Array:
-        """Return the single values of designs at places of shape (fields, n), shape (keys, n); often, compiled."""
+        """Return single values at points of shape (fields, n), shape (keys, n); `is_often`: compile for many calls."""
         if self._kernel is None:
-            return np.array([self.values(np.ascontiguousarray(one)) for one in places.T]).T
+            return np.array([self.values(np.ascontiguousarray(place)) for place in places.T]).T
         designs = self.low[:, None] + places * (self.high - self.low)[:, None]
         if is_often:
             self._many = self._many or self._machines.kernel()
-            found = threaded(self._many, designs, os.cpu_count() or 1).values
+            result = threaded(self._many, designs, os.cpu_count() or 1).values
         else:
-            found = self._kernel(designs).values[: len(self.keys)]
-        for design, values in zip(designs.T, found.T, strict=True):
+            result = self._kernel(designs).values[: len(self.keys)]
+        for design, values in zip(designs.T, result.T, strict=True):
             self._seen(design, values)
-        return found
+        return result
 
-    def _near(self, place: Array) -> Near:
-        """Return what the kernel says of a place."""
+    def _near(self, place: Array) -> LocalModel:
+        """Return values and derivatives of the compiled calculation at a point."""
         kernel: Kernel = self._kernel  # type: ignore[assignment]
         values, slopes = kernel.slopes(self.design(place))
         slopes = np.nan_to_num(slopes * (self.high - self.low))
@@ -229,9 +232,9 @@ class Box:
         row_of = {key: row for row, key in enumerate(kernel.keys)}
         for row, key in enumerate(self.keys):
             if in_part(key, 0) in row_of:
-                of = slice(row_of[in_part(key, 0)], row_of[in_part(key, 0)] + PARTS)
-                parts[0][row], parts[1][row] = values[of], slopes[of]
-        return Near(values[:count], slopes[:count], parts)
+                rows = slice(row_of[in_part(key, 0)], row_of[in_part(key, 0)] + PARTS)
+                parts[0][row], parts[1][row] = values[rows], slopes[rows]
+        return LocalModel(values[:count], slopes[:count], parts)
 
     def _analysed(self, place: Array) -> Array:
         try:
@@ -240,19 +243,19 @@ class Box:
             return np.full(len(self.keys), np.nan)
         return np.array([single(results, key) for key in self.keys])
 
-    def _by_differences(self, place: Array) -> Near:
-        """Return derivatives by differences of analyses, which stay between the bounds."""
+    def _by_differences(self, place: Array) -> LocalModel:
+        """Return values and derivatives by differences of analyses inside the bounds."""
         slopes = np.empty((len(self.keys), self.low.size))
         middle = self.values(place)
-        for at in range(self.low.size):
-            # away from a bound that is near
+        for index in range(self.low.size):
+            # one-sided near a bound
             step = np.zeros(self.low.size)
-            step[at] = _STEP
-            if _STEP <= place[at] <= 1 - _STEP:
+            step[index] = _STEP
+            if _STEP <= place[index] <= 1 - _STEP:
                 low, high = (self._analysed(place + sign * step) for sign in (-1, 1))
-                slopes[:, at] = (high - low) / (2 * _STEP)
+                slopes[:, index] = (high - low) / (2 * _STEP)
             else:
-                sign = 1 if place[at] < 0.5 else -1
-                one, two = (self._analysed(place + sign * many * step) for many in (1, 2))
-                slopes[:, at] = sign * (4 * one - two - 3 * middle) / (2 * _STEP)
-        return Near(middle, np.nan_to_num(slopes), None)
+                sign = 1 if place[index] < 0.5 else -1
+                once, twice = (self._analysed(place + sign * many * step) for many in (1, 2))
+                slopes[:, index] = sign * (4 * once - twice - 3 * middle) / (2 * _STEP)
+        return LocalModel(middle, np.nan_to_num(slopes), None)

@@ -1,8 +1,7 @@
-"""A chunk of a study: a function of study and number that gives the bytes of a Parquet file."""
+"""Chunks of a study: each chunk number gives the bytes of one Parquet file."""
 
 from __future__ import annotations
 
-import itertools
 import json
 import math
 import threading
@@ -13,48 +12,49 @@ from typing import Any
 
 import numpy as np
 
-from crankwork.errors import CrankworkError, InputError
+from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.report.language import key_unit
 from crankwork.study.designs import block_of, designs_of
-from crankwork.study.machines import Machines
-from crankwork.study.ranking import Histogram, Index, Moments, Shares, best, feasible, front, thinned
+from crankwork.study.machines import MachineVariants
+from crankwork.study.ranking import Histogram, Index, Moments, Shares, best_designs, feasible, pareto_front, thin_front
+from crankwork.study.roots import reason_of
 from crankwork.study.study_file import Study
 from crankwork.units import coherent_unit, shown_in
 
-# designs of a chunk: at evenly spaced angles, with exact extremes, and analysed one by one
+# designs of a chunk: with sampled angles, with exact extremes, and analysed one by one
 _SAMPLED, _EXACT, _ALONE = 2**16, 2**12, 2**6
-# designs of a chunk without a value that are analysed to tell why
-_LOOKED_INTO = 32
-# designs that are calculated both ways before a kernel is believed
+# designs without a value that are analysed for the reason, in each chunk
+_MAX_EXPLAINED = 32
+# designs analysed to check a compiled calculation
 _CHECKED = 4
-# how many designs stand for all of them in figures, about
+# approximate number of designs plotted for all of them
 _SHOWN = 400
-# what stands in the metadata of a part
+# key of the metadata of a part
 META = b"crankwork"
 NUMBER = "design"
 
 
-class Opened:
-    """A study ready to be calculated: what compiles is compiled for each choice of words."""
+class PreparedStudy:
+    """A study ready to be calculated; the calculation is compiled for each choice of the non-numeric fields."""
 
     def __init__(self, study: Study) -> None:
         self.study, self._lock = study, threading.Lock()
-        self._numbers = [at for at, one in enumerate(study.varied) if one.number is not None]
-        self._words = [at for at, one in enumerate(study.varied) if one.number is None]
-        self._machines: dict[tuple[int, ...], Machines | CrankworkError] = {}
+        self._numbers = [index for index, variable in enumerate(study.varied) if variable.number is not None]
+        self._words = [index for index, variable in enumerate(study.varied) if variable.number is None]
+        self._machines: dict[tuple[int, ...], MachineVariants | CrankworkError] = {}
         self._few = designs_of(study, 8, 0)[:, :_CHECKED]
-        first = self._chosen(tuple(int(at) for at in self._few[self._words, 0]))
-        self.reason = first.reason if isinstance(first, Machines) else "absent"
-        self.at_key = first.at_key if isinstance(first, Machines) else study.keys[0]
+        first = self._chosen(tuple(int(index) for index in self._few[self._words, 0]))
+        self.reason = first.reason if isinstance(first, MachineVariants) else "absent"
+        self.at_key = first.at_key if isinstance(first, MachineVariants) else study.keys[0]
         rows = study.chunk or (_ALONE if self.reason else _SAMPLED if study.angles else _EXACT)
         self.block = block_of(study)
         self.points = 1 << max((rows // self.block).bit_length() - 1, 0)
         self.chunks = -(-(study.count // self.block) // self.points)
 
-    def _chosen(self, words: tuple[int, ...]) -> Machines | CrankworkError:
-        """Return the machines of one choice of words, or why there are none."""
+    def _chosen(self, words: tuple[int, ...]) -> MachineVariants | CrankworkError:
+        """Return the variants with one choice of the non-numeric fields, or the error that prevents them."""
         with self._lock:
             if words not in self._machines:
                 try:
@@ -63,68 +63,68 @@ class Opened:
                     self._machines[words] = error
             return self._machines[words]
 
-    def _with(self, words: tuple[int, ...]) -> Machines:
+    def _with(self, words: tuple[int, ...]) -> MachineVariants:
         study = self.study
-        settings = [study.varied[at].setting(value) for at, value in zip(self._words, words, strict=True)]
-        varied = [study.varied[at] for at in self._numbers]
-        numbers = {one.key: one.number for one in varied if one.number is not None}
-        spans = np.array([one.span for one in varied]).reshape(len(varied), 3)
-        machines = Machines(study.machine, numbers, spans, study.keys, [*study.overrides, *settings])
+        settings = [study.varied[index].setting(value) for index, value in zip(self._words, words, strict=True)]
+        varied = [study.varied[index] for index in self._numbers]
+        numbers = {variable.key: variable.number for variable in varied if variable.number is not None}
+        spans = np.array([variable.span for variable in varied]).reshape(len(varied), 3)
+        machines = MachineVariants(study.machine, numbers, spans, study.keys, [*study.overrides, *settings])
         machines.compile(study.angles, self._few[self._numbers])
         return machines
 
     def values(self, designs: Array) -> tuple[Array, dict[int, CrankworkError], int]:
-        """Return single values of designs, why there are none, and how many were analysed one by one."""
+        """Return single values of designs, errors by design, and the number of designs analysed one by one."""
         count = designs.shape[1]
-        found, alone = np.full((len(self.study.keys), count), np.nan), 0
+        values, alone = np.full((len(self.study.keys), count), np.nan), 0
         refused: dict[int, CrankworkError] = {}
         inside = np.ones(count, dtype=bool)
-        for at in self._numbers:
-            number = self.study.varied[at].number
-            assert number is not None  # noqa: S101 - one that has
-            out = (designs[at] < number.low) | (designs[at] > number.high)
+        for index in self._numbers:
+            number = self.study.varied[index].number
+            assert number is not None  # noqa: S101 - numeric fields only
+            out = (designs[index] < number.low) | (designs[index] > number.high)
             refused |= dict.fromkeys(np.flatnonzero(out & inside).tolist(), outside(number.key))
             inside &= ~out
-        choices, of = np.unique(designs[self._words].T, axis=0, return_inverse=True)
-        for at, choice in enumerate(choices):
-            rows = np.flatnonzero((of.reshape(-1) == at) & inside)
-            machines = self._chosen(tuple(int(one) for one in choice))
+        choices, choice_of = np.unique(designs[self._words].T, axis=0, return_inverse=True)
+        for index, choice in enumerate(choices):
+            rows = np.flatnonzero((choice_of.reshape(-1) == index) & inside)
+            machines = self._chosen(tuple(int(word) for word in choice))
             if isinstance(machines, CrankworkError):
                 refused |= dict.fromkeys(rows.tolist(), machines)
                 continue
             part = machines.values(
-                designs[self._numbers][:, rows], looked_into=None if machines.reason else _LOOKED_INTO
+                designs[self._numbers][:, rows], explained=None if machines.reason else _MAX_EXPLAINED
             )
-            found[:, rows] = part.of
-            refused |= {int(rows[at]): error for at, error in part.refused.items()}
+            values[:, rows] = part.values
+            refused |= {int(rows[row]): error for row, error in part.refused.items()}
             alone += part.one_by_one
-        return found, refused, alone
+        return values, refused, alone
 
 
 def outside(key: str) -> CrankworkError:
-    """Return why there is no machine with a drawn value."""
+    """Return the error of a drawn value outside the range of its field."""
     return CrankworkError(Refusal("vary_outside", key=key))
 
 
-_kept: dict[str, Opened] = {}
-_keeping = threading.Lock()
+_cache: dict[str, PreparedStudy] = {}
+_cache_lock = threading.Lock()
 
 
-def opened(study: Study) -> Opened:
-    """Return a study ready to be calculated; of this process the last one is kept."""
-    with _keeping:
-        if study.digest not in _kept:
-            _kept.clear()
-            _kept[study.digest] = Opened(study)
-        return _kept[study.digest]
+def prepared_study(study: Study) -> PreparedStudy:
+    """Return a study ready to be calculated; the last one is cached in this process."""
+    with _cache_lock:
+        if study.digest not in _cache:
+            _cache.clear()
+            _cache[study.digest] = PreparedStudy(study)
+        return _cache[study.digest]
 
 
 @dataclass
-class Reduced:
-    """What is kept of designs, SI: counts and sums, and rows of the best ones, of the Pareto set and of some of all.
+class StudyAggregate:
+    """Aggregate of designs in SI: counts, sums, and rows of the best, of the Pareto set and of the plotted designs.
 
-    `refused`: by the kind of reason how many designs have none of the values, and the reason of the first one;
-    `alone`: why the calculation is not compiled and of what that shows, if it is not.
+    `refused`: by kind of error, the number of designs without any value and the first message; `alone`: why the
+    calculation is not compiled and the key that shows it, or None.
     """
 
     numbers: Index
@@ -140,8 +140,8 @@ class Reduced:
     is_thinned: bool = False
     alone: tuple[str, str] | None = None
 
-    def add(self, study: Study, other: Reduced) -> None:
-        """Add what is kept of the designs that come next."""
+    def add(self, study: Study, other: StudyAggregate) -> None:
+        """Add the aggregate of the following designs."""
         self.numbers = np.concatenate([self.numbers, other.numbers])
         self.fields = np.concatenate([self.fields, other.fields], axis=1)
         self.values = np.concatenate([self.values, other.values], axis=1)
@@ -161,93 +161,88 @@ class Reduced:
                 self.shares[key].add(other.shares[key])
 
 
-def nothing(study: Study) -> Reduced:
-    """Return what is kept of no designs."""
+def empty_aggregate(study: Study) -> StudyAggregate:
+    """Return the aggregate of no designs."""
     none = np.zeros(0)
     fields, values = none.reshape(len(study.varied), 0), none.reshape(len(study.keys), 0)
-    found = Reduced(none.astype(np.int64), fields, values)
+    aggregate = StudyAggregate(none.astype(np.int64), fields, values)
     for key in study.keys:
         near = study.stated[key]
-        found.moments[key], found.histograms[key] = Moments(near), Histogram()
+        aggregate.moments[key], aggregate.histograms[key] = Moments(near), Histogram()
         if block_of(study) > 1:
-            found.shares[key] = Shares(near)
-    return found
+            aggregate.shares[key] = Shares(near)
+    return aggregate
 
 
-def reduced(study: Study, chunk: int) -> Reduced:
-    """Return the designs of a chunk, and what is kept of them."""
-    of = opened(study)
-    fields = designs_of(study, of.points, chunk)
-    values, refused, alone = of.values(fields)
+def calculate_chunk(study: Study, chunk: int) -> StudyAggregate:
+    """Return the aggregate of a chunk, with all its designs."""
+    prepared = prepared_study(study)
+    fields = designs_of(study, prepared.points, chunk)
+    values, refused, alone = prepared.values(fields)
     count = fields.shape[1]
-    numbers = np.arange(count) + chunk * of.points * of.block
-    found = Reduced(numbers, fields, values, count, int(within(study, values).sum()), alone)
+    numbers = np.arange(count) + chunk * prepared.points * prepared.block
+    aggregate = StudyAggregate(numbers, fields, values, count, int(feasible_designs(study, values).sum()), alone)
     absent = int((~np.isfinite(values).any(axis=0)).sum()) - len(refused)
-    for at in sorted(refused):
-        _count(found.refused, reason_of(refused[at]), 1)
+    for design in sorted(refused):
+        _count(aggregate.refused, reason_of(refused[design]), 1)
     if absent > 0:
-        _count(found.refused, Refusal("vary_unlooked"), absent)
+        _count(aggregate.refused, Refusal("vary_unlooked"), absent)
     for key, row in zip(study.keys, values, strict=True):
         finite, near = row[np.isfinite(row)], study.stated[key]
-        found.moments[key] = Moments.of(finite, near)
-        found.histograms[key] = Histogram.of(finite)
-        if of.block > 1:
-            found.shares[key] = Shares.of(row.reshape(-1, of.block), near)
-    return found
+        aggregate.moments[key] = Moments.of(finite, near)
+        aggregate.histograms[key] = Histogram.of(finite)
+        if prepared.block > 1:
+            aggregate.shares[key] = Shares.of(row.reshape(-1, prepared.block), near)
+    return aggregate
 
 
-def within(study: Study, values: Array) -> Index:
-    """Return which designs have every value that objectives and limits need, and keep the limits."""
-    place = {key: at for at, key in enumerate(study.keys)}
-    found = feasible([values[place[key]] for key in study.limits], list(study.limits.values()), values.shape[1])
+def feasible_designs(study: Study, values: Array) -> Index:
+    """Return whether each design has the values of objectives and limits, and satisfies the limits."""
+    place = {key: row for row, key in enumerate(study.keys)}
+    is_within = feasible([values[place[key]] for key in study.limits], list(study.limits.values()), values.shape[1])
     objectives = values[[place[key] for key in study.objectives]]
-    return np.asarray(found & np.isfinite(objectives).all(axis=0))
+    return np.asarray(is_within & np.isfinite(objectives).all(axis=0))
 
 
 def is_shown(study: Study, numbers: Index) -> Index:
-    """Return which designs stand for all of them in figures: those whose number is a multiple of a prime."""
-    every = max(study.count // _SHOWN, 1)
-    # of a grid no row or column has a divisor with it
-    every = next(one for one in itertools.count(every) if all(one % part for part in range(2, math.isqrt(one) + 1)))
-    return np.asarray(numbers % every == 0)
+    """Return whether each design is plotted: every design whose number is a multiple of a prime."""
+    stride = max(study.count // _SHOWN, 1)
+    # a prime has no common divisor with the rows and columns of a grid
+    while not all(stride % divisor for divisor in range(2, math.isqrt(stride) + 1)):
+        stride += 1
+    return np.asarray(numbers % stride == 0)
 
 
 def kept_of(study: Study, numbers: Index, values: Array) -> tuple[Index, bool]:
-    """Return which designs are kept, and whether their Pareto set was thinned.
+    """Return the designs to keep and whether their Pareto set was thinned.
 
-    That is the best of each objective, the Pareto set, and some of all.
+    Kept are the best designs of each objective, the Pareto set and the plotted designs.
     """
-    rows = np.flatnonzero(within(study, values))
+    rows = np.flatnonzero(feasible_designs(study, values))
     ranked, pareto, is_thinned = ranks(study, values[:, rows])
-    every = [rows[one] for one in (*ranked.values(), pareto)]
-    every.append(np.flatnonzero(is_shown(study, numbers)))
-    return np.unique(np.concatenate(every)) if study.objectives else rows[:0], is_thinned
+    selected = [rows[chosen] for chosen in (*ranked.values(), pareto)]
+    selected.append(np.flatnonzero(is_shown(study, numbers)))
+    return np.unique(np.concatenate(selected)) if study.objectives else rows[:0], is_thinned
 
 
 def ranks(study: Study, values: Array) -> tuple[dict[str, Index], Index, bool]:
     """Return the best designs for each objective, the Pareto set, and whether it was thinned."""
-    place = {key: at for at, key in enumerate(study.keys)}
+    place = {key: row for row, key in enumerate(study.keys)}
     costs = np.array([sign * values[place[key]] for key, sign in study.objectives.items()]).T
-    ranked = {key: best(costs[:, at], study.best) for at, key in enumerate(study.objectives)}
+    ranked = {key: best_designs(costs[:, column], study.best) for column, key in enumerate(study.objectives)}
     if len(study.objectives) < 2:
         return ranked, np.zeros(0, dtype=np.intp), False
-    every = front(costs)
-    pareto = thinned(costs, every)
-    return ranked, pareto, len(pareto) < len(every)
-
-
-def reason_of(error: CrankworkError) -> str:
-    """Return why there is no machine: of several mistakes the first."""
-    told: str = error.problems[0].message if isinstance(error, InputError) else error.args[0]
-    return told
+    full_front = pareto_front(costs)
+    pareto = thin_front(costs, full_front)
+    return ranked, pareto, len(pareto) < len(full_front)
 
 
 def by_kind(reasons: Iterable[str]) -> Counter[str]:
-    """Return how often there is each kind of reason, under the first of its kind: each length is another sentence."""
-    first, found = dict[str, str](), Counter[str]()
-    for one in reasons:
-        found[first.setdefault(getattr(one, "name", one), one)] += 1
-    return found
+    """Count the messages of each kind under the first of the kind: texts differ in their numbers."""
+    first, counts = dict[str, str](), Counter[str]()
+    for reason in reasons:
+        counts[first.setdefault(getattr(reason, "name", reason), reason)] += 1
+    return counts
 
 
 def _count(refused: dict[str, tuple[int, str]], reason: str, count: int) -> None:
@@ -257,50 +252,50 @@ def _count(refused: dict[str, tuple[int, str]], reason: str, count: int) -> None
 
 
 def part_of(study: Study, chunk: int) -> bytes:
-    """Return the file of a chunk."""
-    found = reduced(study, chunk)
-    kept, found.is_thinned = kept_of(study, found.numbers, found.values)
-    rows = np.arange(found.designs) if study.has_rows else kept
+    """Return the Parquet file of a chunk."""
+    aggregate = calculate_chunk(study, chunk)
+    kept, aggregate.is_thinned = kept_of(study, aggregate.numbers, aggregate.values)
+    rows = np.arange(aggregate.designs) if study.has_rows else kept
     meta = {
         "chunk": chunk,
         "study": study.digest,
         "seed": study.seed,
         "kept": kept.tolist() if study.has_rows else None,
-        "refused": {kind: [count, _plain(reason)] for kind, (count, reason) in found.refused.items()},
-        "moments": {key: asdict(one) for key, one in found.moments.items()},
-        "histograms": {key: asdict(one) for key, one in found.histograms.items()},
-        "shares": {key: _lists(asdict(one)) for key, one in found.shares.items()},
-        **{name: getattr(found, name) for name in ("designs", "within", "one_by_one", "is_thinned")},
+        "refused": {kind: [count, _to_json(reason)] for kind, (count, reason) in aggregate.refused.items()},
+        "moments": {key: asdict(stored) for key, stored in aggregate.moments.items()},
+        "histograms": {key: asdict(stored) for key, stored in aggregate.histograms.items()},
+        "shares": {key: asdict(stored) for key, stored in aggregate.shares.items()},
+        **{name: getattr(aggregate, name) for name in ("designs", "within", "one_by_one", "is_thinned")},
     }
-    return written(study, found.numbers[rows], found.fields[:, rows], found.values[:, rows], meta)
+    return parquet_bytes(study, aggregate.numbers[rows], aggregate.fields[:, rows], aggregate.values[:, rows], meta)
 
 
-def written(study: Study, numbers: Index, fields: Array, values: Array, meta: Mapping[str, Any]) -> bytes:
-    """Return rows as a Parquet file, with units of columns, and what is said of all of them."""
+def parquet_bytes(study: Study, numbers: Index, fields: Array, values: Array, meta: Mapping[str, Any]) -> bytes:
+    """Return rows as a Parquet file with the units of columns and the metadata of the chunk."""
     import pyarrow as pa  # noqa: PLC0415 - an optional part
     import pyarrow.parquet as pq  # noqa: PLC0415
 
     columns, kinds = [pa.array(numbers)], [pa.field(NUMBER, pa.int64(), nullable=False)]
-    for one, of in zip(study.varied, fields, strict=True):
-        if one.number is None:
-            columns.append(pa.array([str(one.values[int(at)]) for at in of], pa.string()))
-            kinds.append(pa.field(one.key, pa.string()))
+    for variable, column in zip(study.varied, fields, strict=True):
+        if variable.number is None:
+            columns.append(pa.array([str(variable.values[int(index)]) for index in column], pa.string()))
+            kinds.append(pa.field(variable.key, pa.string()))
         else:
-            columns.append(pa.array(of))
-            kinds.append(pa.field(one.key, pa.float64(), metadata={"unit": coherent_unit(one.number.unit)}))
+            columns.append(pa.array(column))
+            kinds.append(pa.field(variable.key, pa.float64(), metadata={"unit": coherent_unit(variable.number.unit)}))
     with shown_in("si"):
-        for key, of in zip(study.keys, values, strict=True):
-            columns.append(pa.array(of))
+        for key, column in zip(study.keys, values, strict=True):
+            columns.append(pa.array(column))
             kinds.append(pa.field(key, pa.float64(), metadata={"unit": coherent_unit(key_unit(key))}))
-    table = pa.Table.from_arrays(columns, schema=pa.schema(kinds, {META: json.dumps(meta)}))
+    table = pa.Table.from_arrays(columns, schema=pa.schema(kinds, {META: json.dumps(meta, default=np.ndarray.tolist)}))
     sink = pa.BufferOutputStream()
-    # numbers of designs hardly shrink, and a checksum tells what a disk has lost
+    # numbers hardly compress; the checksum detects damaged files
     pq.write_table(table, sink, compression="NONE", use_dictionary=False, write_page_checksum=True)
     return bytes(sink.getvalue())
 
 
-def read_part(study: Study, chunk: int, data: bytes) -> Reduced:
-    """Return what a part keeps; a ValueError if it is not that part."""
+def read_part(study: Study, chunk: int, data: bytes) -> StudyAggregate:
+    """Return the aggregate in a part; raise ValueError if it is not that part."""
     import pyarrow as pa  # noqa: PLC0415 - an optional part
     import pyarrow.parquet as pq  # noqa: PLC0415
 
@@ -316,42 +311,38 @@ def read_part(study: Study, chunk: int, data: bytes) -> Reduced:
         raise ValueError(str(error)) from error
 
 
-def _read(study: Study, table: Any, meta: dict[str, Any]) -> Reduced:  # noqa: ANN401 - pyarrow has no types
+def _read(study: Study, table: Any, meta: dict[str, Any]) -> StudyAggregate:  # noqa: ANN401 - pyarrow has no types
     fields = []
-    for one in study.varied:
-        column = table[one.key].to_numpy()
-        if one.number is None:
-            places = {str(value): at for at, value in enumerate(one.values)}
+    for variable in study.varied:
+        column = table[variable.key].to_numpy()
+        if variable.number is None:
+            places = {str(value): index for index, value in enumerate(variable.values)}
             column = np.array([places[value] for value in column], dtype=float)
         fields.append(column)
     values = [table[key].to_numpy() for key in study.keys]
-    return Reduced(
+    return StudyAggregate(
         numbers=table[NUMBER].to_numpy(),
         fields=np.array(fields, dtype=float).reshape(len(fields), table.num_rows),
         values=np.array(values, dtype=float).reshape(len(values), table.num_rows),
         refused={kind: (count, _reason(reason)) for kind, (count, reason) in meta["refused"].items()},
-        moments={key: Moments(**one) for key, one in meta["moments"].items()},
-        histograms={key: Histogram(**one) for key, one in meta["histograms"].items()},
-        shares={key: Shares(**_arrays(one)) for key, one in meta["shares"].items()},
+        moments={key: Moments(**stored) for key, stored in meta["moments"].items()},
+        histograms={key: Histogram(**stored) for key, stored in meta["histograms"].items()},
+        shares={key: Shares(**_arrays(stored)) for key, stored in meta["shares"].items()},
         **{name: meta[name] for name in ("designs", "within", "one_by_one", "is_thinned")},
     )
 
 
-def _lists(values: dict[str, Any]) -> dict[str, Any]:
-    return {name: one.tolist() if isinstance(one, np.ndarray) else one for name, one in values.items()}
-
-
 def _arrays(values: dict[str, Any]) -> dict[str, Any]:
-    return {name: np.array(one) if isinstance(one, list) else one for name, one in values.items()}
+    return {name: np.array(value) if isinstance(value, list) else value for name, value in values.items()}
 
 
-def _plain(reason: object) -> Any:  # noqa: ANN401 - plain data
-    """Return a reason as plain data that it can be said from in any language."""
+def _to_json(reason: object) -> Any:  # noqa: ANN401 - plain data
+    """Return a message as JSON data from which it can be translated again."""
     match reason:
         case Refusal():
-            return {"name": reason.name, "values": {key: _plain(one) for key, one in reason.values.items()}}
+            return {"name": reason.name, "values": {key: _to_json(value) for key, value in reason.values.items()}}
         case tuple() | list():
-            return [isinstance(reason, tuple), [_plain(one) for one in reason]]
+            return [isinstance(reason, tuple), [_to_json(entry) for entry in reason]]
         case bool() | int() | float():
             return reason
         case _:
@@ -361,8 +352,8 @@ def _plain(reason: object) -> Any:  # noqa: ANN401 - plain data
 def _reason(data: Any) -> Any:  # noqa: ANN401 - plain data
     match data:
         case {"name": name, "values": values}:
-            return Refusal(name, **{key: _reason(one) for key, one in values.items()})
+            return Refusal(name, **{key: _reason(value) for key, value in values.items()})
         case [bool(is_tuple), list(entries)]:
-            return tuple(map(_reason, entries)) if is_tuple else [_reason(one) for one in entries]
+            return tuple(map(_reason, entries)) if is_tuple else [_reason(entry) for entry in entries]
         case _:
             return data

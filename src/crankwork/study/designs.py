@@ -1,4 +1,4 @@
-"""What each design of a study states, by its number alone."""
+"""The numbers of each design of a study, from its index alone."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from numpy.typing import NDArray
 from crankwork.kinematics.crank_grid import Array
 from crankwork.study.study_file import GRID, LIST, Study
 
-# bits of a Sobol sequence as SciPy has it
+# bits of SciPy's Sobol sequences
 _BITS = 30
 
 
 def block_of(study: Study) -> int:
-    """Return how many designs there are of one point: for Sobol indices two, and one more for each field."""
+    """Return the number of designs for each point: for Sobol indices two, and one for each field."""
     return len(study.varied) + 2 if study.drawing == "saltelli" else 1
 
 
 def designs_of(study: Study, points: int, chunk: int) -> Array:
-    """Return the designs of a chunk, shape (fields, n), of which each full one has a number of points. [SI]"""
+    """Return the designs of a chunk, shape (fields, n); each full chunk has the same number of points. [SI]"""
     block = block_of(study)
     first = chunk * points
     count = min(points, study.count // block - first)
     numbers = np.arange(first, first + count)
     if study.drawing == LIST:
-        return np.array([one.of_places(numbers) for one in study.varied])
+        return np.array([field.of_places(numbers) for field in study.varied])
     if study.drawing == GRID:
-        counts = tuple(one.count for one in study.varied)
+        counts = tuple(field.count for field in study.varied)
         places = np.unravel_index(numbers, counts)
-        return np.array([one.of_places(at) for one, at in zip(study.varied, places, strict=True)])
+        return np.array([field.of_places(place) for field, place in zip(study.varied, places, strict=True)])
     shares = _shares(study, points, chunk)[:, :count]
     if block > 1:
         shares = _blocks(*np.split(shares, 2))
-    return np.array([one.of_shares(at) for one, at in zip(study.varied, shares, strict=True)])
+    return np.array([field.of_shares(share) for field, share in zip(study.varied, shares, strict=True)])
 
 
 def _shares(study: Study, points: int, chunk: int) -> Array:
@@ -52,20 +52,20 @@ def _shares(study: Study, points: int, chunk: int) -> Array:
 
 
 def _blocks(first: Array, second: Array) -> Array:
-    """Return points, others, and the first with one field of the others after another; all of a point side by side."""
+    """Return for each point its design, the second design, and the first with one field of the second after another."""
     fields, points = first.shape
-    found = np.repeat(first[:, :, None], fields + 2, axis=2)
-    found[:, :, 1] = second
-    for at in range(fields):
-        found[at, :, 2 + at] = second[at]
-    return found.reshape(fields, points * (fields + 2))
+    designs = np.repeat(first[:, :, None], fields + 2, axis=2)
+    designs[:, :, 1] = second
+    for row in range(fields):
+        designs[row, :, 2 + row] = second[row]
+    return designs.reshape(fields, points * (fields + 2))
 
 
 class _Sobol:
     """A scrambled Sobol sequence in blocks of 2^m points.
 
-    Binary digits of its points are sums of directions, so that a block is the first one with a number laid over it,
-    which is that of the powers of two that its first place is the sum of.
+    Points are XOR sums of direction numbers, so that every block is the first one XOR a mask: that of the powers of two
+    whose sum is the index of its first point.
     """
 
     def __init__(self, width: int, seed: int, points: int) -> None:
@@ -80,7 +80,7 @@ class _Sobol:
     @classmethod
     @functools.lru_cache(maxsize=2)
     def of(cls, width: int, seed: int, points: int) -> _Sobol:
-        """Return a sequence that is kept: what it has found of itself does not depend on who asked first."""
+        """Return a cached sequence; its masks do not depend on the order of calls."""
         return cls(width, seed, points)
 
     @staticmethod
@@ -89,14 +89,14 @@ class _Sobol:
 
     def block(self, number: int) -> Array:
         """Return the points of a block, shape (width, points)."""
-        laid_over = np.zeros_like(self._first[:, :1])
+        mask = np.zeros_like(self._first[:, :1])
         for power in range(number.bit_length()):
             if number >> power & 1:
-                laid_over = laid_over ^ self._power(power)
-        return np.asarray((self._first ^ laid_over) / 2.0**_BITS)
+                mask = mask ^ self._power(power)
+        return np.asarray((self._first ^ mask) / 2.0**_BITS)
 
     def _power(self, power: int) -> NDArray[np.int64]:
-        """Return what is laid over the first block by that of the place 2^power."""
+        """Return the mask of the block at the index 2^power."""
         with self._lock:
             while len(self._powers) <= power:
                 place = self._points << len(self._powers)

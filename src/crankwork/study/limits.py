@@ -1,4 +1,4 @@
-"""Limits of single values: what a design must keep to."""
+"""Limits of single values of a design."""
 
 from __future__ import annotations
 
@@ -16,36 +16,36 @@ _EXAMPLE = "stroke >= 80 mm"
 
 
 class Limit(NamedTuple):
-    """A single value and what it must not be above, below or other than. [SI]"""
+    """A single value and its upper, lower or required level. [SI]"""
 
     key: str
     sense: Sense
     level: float
 
-    def missed(self, value: float) -> float:
-        """Return by how much a value misses it; nothing where it is kept. [SI]"""
+    def violation(self, value: float) -> float:
+        """Return by how much a value violates the limit; 0 if it is satisfied. [SI]"""
         above = value - self.level
         return {"<=": max(above, 0.0), ">=": max(-above, 0.0), "=": abs(above)}[self.sense]
 
 
 class WrittenLimit(NamedTuple):
-    """A limit as it is written."""
+    """A limit as text."""
 
     key: str
     sense: Sense
     level: str
 
     def in_si(self) -> Limit:
-        """Return it in SI; a bare number is in the unit of the tables."""
+        """Return the limit in SI; a bare number is in the unit of the tables."""
         return Limit(self.key, self.sense, level(self.key, self.level))
 
 
 def written_limits(texts: Sequence[str]) -> list[WrittenLimit]:
-    """Return limits as they are written, `stroke >= 80 mm`."""
-    found = []
-    for one in texts:
-        form = _FORM.fullmatch(one)
-        if form is None or len(one) > 200:
-            raise CrankworkError(Refusal("limit_form", limit=one[:60], example=_EXAMPLE))
-        found.append(WrittenLimit(form["key"], form["sense"], form["level"]))  # type: ignore[arg-type]
-    return found
+    """Parse limits such as `stroke >= 80 mm`."""
+    limits = []
+    for text in texts:
+        form = _FORM.fullmatch(text)
+        if form is None or len(text) > 200:
+            raise CrankworkError(Refusal("limit_form", limit=text[:60], example=_EXAMPLE))
+        limits.append(WrittenLimit(form["key"], form["sense"], form["level"]))  # type: ignore[arg-type]
+    return limits

@@ -1,4 +1,4 @@
-"""The best design of a machine file between bounds, with limits to what it must keep."""
+"""The best design of a machine file between bounds, subject to limits of values."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.report.language import key_unit
-from crankwork.study.box import Box
+from crankwork.study.box import DesignSpace
 from crankwork.study.limits import written_limits
-from crankwork.study.search import REACHED, Place, Problem, Way, searched
+from crankwork.study.search import REACHED, Candidate, Problem, SearchMethod, searched
 from crankwork.study.study_file import Study
 from crankwork.study.sweep import Swept, units_of
 from crankwork.units import coherent_unit, from_si, shown_in
 
 STARTS = 4
 _SAME = 1e-8
-# beside the size of a value, by how much a limit is contradicted
+# relative violation of a limit from which limits contradict each other
 _MISSED = 1e-7
 
 
-class Holding(NamedTuple):
-    """What an optimum is held by: a limit of a value, or a bound of a field. [SI]"""
+class ActiveConstraint(NamedTuple):
+    """A limit of a value or a bound of a field that is active at an optimum. [SI]"""
 
     key: str
     sense: str
@@ -39,7 +39,7 @@ class Holding(NamedTuple):
 
 @dataclass(frozen=True)
 class Optimum:
-    """The best design that was found. [SI]
+    """The best design found. [SI]
 
     Parameters
     ----------
@@ -48,25 +48,25 @@ class Optimum:
     sense : str
         "least" or "largest".
     fields : mapping of str to float
-        What the design states, by the keys of the file.
+        Values of the fields, by the keys of the file.
     values : mapping of str to float
         The objective and the values with limits.
     gradient : mapping of str to float
-        Change of the objective by each field.
-    holding : tuple of Holding
-        The limits and bounds that hold it.
+        Derivative of the objective by each field.
+    holding : tuple of ActiveConstraint
+        Active limits and bounds.
     rest : float
-        What of the gradient they leave unexplained: nothing at an optimum. [-]
+        Share of the gradient that these leave, 0 at an optimum. [-]
     results : Results
-        The whole analysis of the design.
+        The full analysis of the design.
     history : Swept
-        Every design that was looked at from one place to the next, with units and seed, as a frame or a data set.
+        Every design calculated, in order, with units and seed, as a frame or a data set.
     places : tuple of mapping
-        Where the search from each start has come to: fields, and the objective where the limits are kept.
+        Optimum from each start that satisfies the limits: fields and objective.
     way, seed : str, int
-        How it was searched, and from where the generator of starts began.
+        Method of the search, and seed of the starts.
     reason : str
-        Why the calculation was not compiled, and derivatives are differences of analyses; empty where it was.
+        Why the calculation was not compiled, so that derivatives are differences of analyses; empty if it was.
     """
 
     objective: str
@@ -74,12 +74,12 @@ class Optimum:
     fields: Mapping[str, float]
     values: Mapping[str, float]
     gradient: Mapping[str, float]
-    holding: tuple[Holding, ...]
+    holding: tuple[ActiveConstraint, ...]
     rest: float
     results: Results = field(repr=False)
     history: Swept = field(repr=False)
     places: tuple[Mapping[str, float], ...] = field(repr=False)
-    way: Way
+    way: SearchMethod
     seed: int
     reason: str = ""
 
@@ -89,7 +89,7 @@ class Optimum:
         return self.values[self.objective]
 
 
-def optimise(  # noqa: PLR0913 - what is wanted of what, where, and how it is searched
+def optimise(  # noqa: PLR0913 - problem and options of the search
     description: Description,
     objective: str,
     bounds: Mapping[str, tuple[float | str, float | str]],
@@ -97,16 +97,16 @@ def optimise(  # noqa: PLR0913 - what is wanted of what, where, and how it is se
     sense: Literal["least", "largest"] = "least",
     limits: Sequence[str] = (),
     start: Mapping[str, float | str] | None = None,
-    way: Way = "slsqp",
+    way: SearchMethod = "slsqp",
     starts: int | None = None,
     seed: int = 0,
     overrides: Sequence[str | Setting] = (),
     told: Callable[[float], None] | None = None,
 ) -> Optimum:
-    """Return the design of a machine file between bounds whose objective is the least or the largest.
+    """Return the design of a machine file between bounds with the least or the largest objective.
 
-    Derivatives are exact where what an analysis remembers can be compiled. The least of a largest value, as of a peak
-    load, mostly stands where two peaks are level: each part of the cycle has a peak of its own then.
+    Derivatives are exact if the calculation can be compiled. The minimum of a largest value, as of a peak load, usually
+    is where two peaks are equal; therefore each part of the cycle has its own peak.
 
     Parameters
     ----------
@@ -115,34 +115,34 @@ def optimise(  # noqa: PLR0913 - what is wanted of what, where, and how it is se
     objective : str
         A single value: a key of the summary.
     bounds : mapping of str to tuple
-        The fields that vary, from where to where: numbers in SI, or texts with units.
+        Lower and upper bound of each field: numbers in SI, or texts with units.
     sense : {"least", "largest"}
-        What the objective is to be.
+        Whether to minimise or to maximise the objective.
     limits : sequence of str
-        What single values must keep to: `stroke >= 80 mm`, `time_ratio.rocker = 1.2`.
+        Limits of single values: `stroke >= 80 mm`, `time_ratio.rocker = 1.2`.
     start : mapping of str to float or str, optional
-        Where to start with; what the file states by default.
+        Start of the search; the values of the file by default.
     way : {"slsqp", "trust-constr", "evolution"}
-        Sequential quadratic programming or a trust region from some starts, or differential evolution of many designs
-        at once and then the first of these.
+        Sequential quadratic programming or a trust region from some starts, or differential evolution followed by the
+        first of these.
     starts : int, optional
-        From how many places: the stated one and the best of others; four where the calculation is compiled.
+        Number of starts: the stated design and the best of a sample; by default four if the calculation is compiled.
     seed : int
-        From where the generator of places starts.
+        Seed of the sample.
     overrides : sequence of str
-        Settings laid over the file, `KEY=VALUE`.
+        Settings that replace those of the file, `KEY=VALUE`.
     told : callable, optional
-        Told the part that is done. [-]
+        Called with the fraction done. [-]
 
     Returns
     -------
     Optimum
-        Fields and values, what holds them, gradient and history.
+        Fields, values, active constraints, gradient and history.
 
     Raises
     ------
     CrankworkError
-        If the question cannot be asked, there is no machine between the bounds, or the limits contradict each other.
+        If an argument is invalid, there is no machine between the bounds, or the limits contradict each other.
 
     Examples
     --------
@@ -152,97 +152,98 @@ def optimise(  # noqa: PLR0913 - what is wanted of what, where, and how it is se
     >>> round(found.fields["rod.length"], 9)
     0.22
     """
-    if way not in get_args(Way):
-        raise CrankworkError(Refusal("way_unknown", way=str(way)[:40], known=", ".join(get_args(Way))))
-    wanted = written_limits(limits)
-    keys = list(dict.fromkeys([objective, *(one.key for one in wanted)]))
+    if way not in get_args(SearchMethod):
+        raise CrankworkError(Refusal("way_unknown", way=str(way)[:40], known=", ".join(get_args(SearchMethod))))
+    stated_limits = written_limits(limits)
+    keys = list(dict.fromkeys([objective, *(limit.key for limit in stated_limits)]))
     designs: list[Array] = []
-    found: list[Array] = []
+    value_rows: list[Array] = []
 
     def seen(design: Array, values: Array) -> None:
         designs.append(design)
-        found.append(values)
+        value_rows.append(values)
 
-    box = Box(description, bounds, keys, start=start or {}, overrides=overrides, seed=seed, seen=seen)
+    box = DesignSpace(description, bounds, keys, start=start or {}, overrides=overrides, seed=seed, seen=seen)
     with shown_in(box.units):
-        asked = [one.in_si() for one in wanted]
+        limits_in_si = [limit.in_si() for limit in stated_limits]
     sign = 1.0 if sense == "least" else -1.0
     while True:
-        problem = Problem(box, objective, sign, asked)
+        problem = Problem(box, objective, sign, limits_in_si)
         places = searched(problem, way, starts if starts is not None else 1 if box.reason else STARTS, seed, told)
         best = places[0]
-        if best.missed > _MISSED:
+        if best.violation > _MISSED:
             raise _contradiction(problem, best)
-        results = box.results(best.at)
-        apart = np.abs([results.value(key) for key in keys] - box.values(best.at))
-        if box.reason or np.all(apart <= _SAME * np.maximum(np.abs(box.values(best.at)), _SAME)):
+        results = box.results(best.point)
+        difference = np.abs([results.value(key) for key in keys] - box.values(best.point))
+        if box.reason or np.all(difference <= _SAME * np.maximum(np.abs(box.values(best.point)), _SAME)):
             break
-        # far from where it was compiled the calculation goes another way
-        box.give_up("differs")
+        # far from where it was compiled the calculation takes another branch
+        box.use_full_analyses("differs")
     history = Swept(
-        dict(zip(bounds, np.array(designs).T, strict=True)), dict(zip(keys, np.array(found).T, strict=True)), {}, 0,
-        box.reason, units_of(box.numbers, keys),
+        dict(zip(bounds, np.array(designs).T, strict=True)), dict(zip(keys, np.array(value_rows).T, strict=True)), {},
+        0, box.reason, units_of(box.numbers, keys),
         {"objective": objective, "sense": sense, "way": way, "seed": str(seed), "limits": ", ".join(limits)},
     )  # fmt: skip
-    near = box.near(best.at)
+    near = box.local_model(best.point)
     span = box.high - box.low
     slope = np.full(len(bounds), np.nan) if near is None else near.slopes[0] / span
-    holding, rest = _holding(problem, list(bounds), best.at)
+    holding, rest = _holding(problem, list(bounds), best.point)
     return Optimum(
-        objective, sense, dict(zip(bounds, box.design(best.at).tolist(), strict=True)),
+        objective, sense, dict(zip(bounds, box.design(best.point).tolist(), strict=True)),
         {key: results.value(key) for key in keys}, dict(zip(bounds, slope.tolist(), strict=True)), holding, rest,
         results, history,
         tuple(
-            {**dict(zip(bounds, box.design(one.at).tolist(), strict=True)), objective: float(box.values(one.at)[0])}
-            for one in places if one.missed <= _MISSED
+            {**dict(zip(bounds, box.design(point).tolist(), strict=True)), objective: float(box.values(point)[0])}
+            for point, _, violation in places if violation <= _MISSED
         ),
         way, seed, box.reason,
     )  # fmt: skip
 
 
-def best_of(study: Study, told: Callable[[float], None] | None = None) -> Optimum:
-    """Return the best design of a study that was read as a search for it."""
+def best_of(study: Study, progress: Callable[[float], None] | None = None) -> Optimum:
+    """Return the best design of a study that was read as a search."""
     (objective, sign), *_ = study.objectives.items()
     return optimise(
-        study.machine, objective, {one.key: one.ends for one in study.varied},
+        study.machine, objective, {variable.key: variable.ends for variable in study.varied},
         sense="least" if sign > 0 else "largest", limits=list(_limits_of(study)), way=study.search["way"],
         starts=None if study.search["starts"] is None else int(study.search["starts"]), seed=study.seed,
-        overrides=study.overrides, told=told,
+        overrides=study.overrides, told=progress,
     )  # fmt: skip
 
 
 def _limits_of(study: Study) -> Iterator[str]:
-    """Yield the limits of a study as they are written, in SI."""
+    """Yield the limits of a study as text, in SI."""
     for key, (low, high) in study.limits.items():
         with shown_in("si"):
             unit = coherent_unit(key_unit(key))
-        every = {"=": low} if low == high else {">=": low, "<=": high}
-        yield from (f"{key} {sense} {level!r} {unit}".rstrip() for sense, level in every.items() if np.isfinite(level))
+        levels = {"=": low} if low == high else {">=": low, "<=": high}
+        yield from (f"{key} {sense} {level!r} {unit}".rstrip() for sense, level in levels.items() if np.isfinite(level))
 
 
-def _holding(problem: Problem, fields: Sequence[str], at: Array) -> tuple[tuple[Holding, ...], float]:
-    """Return the limits and bounds that hold an optimum, and what they leave unexplained."""
-    price, box = problem.price(at), problem.box
-    values = dict(zip(box.keys, box.values(at).tolist(), strict=True))
-    found = [
-        Holding(one.key, one.sense, one.level, float(by))
-        for one, size, by in zip(problem.limits, problem.sizes, price.limits, strict=True)
-        if abs(values[one.key] - one.level) <= REACHED * size
+def _holding(problem: Problem, fields: Sequence[str], point: Array) -> tuple[tuple[ActiveConstraint, ...], float]:
+    """Return the active constraints of an optimum, and the share of the gradient that they leave."""
+    price, box = problem.price(point), problem.box
+    values = dict(zip(box.keys, box.values(point).tolist(), strict=True))
+    active = [
+        ActiveConstraint(limit.key, limit.sense, limit.level, float(multiplier))
+        for limit, size, multiplier in zip(problem.limits, problem.sizes, price.limits, strict=True)
+        if abs(values[limit.key] - limit.level) <= REACHED * size
     ]
     for row, key in enumerate(fields):
-        for sense, level, by in ((">=", box.low, price.low), ("<=", box.high, price.high)):
-            if by[row]:
-                found.append(Holding(key, sense, float(level[row]), float(by[row])))
-    return tuple(found), price.rest
+        for sense, level, multipliers in ((">=", box.low, price.low), ("<=", box.high, price.high)):
+            if multipliers[row]:
+                active.append(ActiveConstraint(key, sense, float(level[row]), float(multipliers[row])))
+    return tuple(active), price.rest
 
 
-def _contradiction(problem: Problem, best: Place) -> CrankworkError:
-    """Return the refusal of limits that no design keeps, with that which is missed most where all are missed least."""
-    values = dict(zip(problem.box.keys, problem.box.values(best.at).tolist(), strict=True))
+def _contradiction(problem: Problem, best: Candidate) -> CrankworkError:
+    """Return the error of contradicting limits, naming the one with the largest relative violation."""
+    values = dict(zip(problem.box.keys, problem.box.values(best.point).tolist(), strict=True))
     missed = [
-        (one.missed(values[one.key]) / size, one) for one, size in zip(problem.limits, problem.sizes, strict=True)
+        (limit.violation(values[limit.key]) / size, limit)
+        for limit, size in zip(problem.limits, problem.sizes, strict=True)
     ]
-    _, worst = max(missed, key=lambda one: one[0])
+    _, worst = max(missed, key=lambda item: item[0])
     return CrankworkError(
         Refusal(
             "limits_contradict", key=worst.key, value=_shown(worst.key, values[worst.key]),

@@ -1,4 +1,4 @@
-"""What is found of a search for the best design: its machine file, in words, as plain data and as tables."""
+"""Results of a search for the best design: its machine file, text, plain data and tables."""
 
 from __future__ import annotations
 
@@ -17,170 +17,165 @@ from crankwork.locale import Language, capital, say
 from crankwork.locale.numbers import aligned, number, unit_name
 from crankwork.report.language import displayed, displayed_column, displayed_size, key_unit, label, plain, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
-from crankwork.study.optimise import Holding, Optimum
+from crankwork.study.found_text import value_text, with_unit
+from crankwork.study.optimise import ActiveConstraint, Optimum
 from crankwork.study.study_file import Study
-from crankwork.study.varied import Varied
+from crankwork.study.varied import VariedField
 from crankwork.units import from_si, shown_in
 
 _DIGITS = 8
-# of what the machine file states of the best design
+# digits of numbers in the machine file of the best design
 _WRITTEN = 10
-# what limits and bounds may leave of a gradient
+# share of a gradient that active constraints may leave
 _EXPLAINED = 1e-3
 
 
-def optimum_files(study: Study, found: Optimum, folder: str | PurePath) -> dict[str, bytes]:
-    """Return what goes into a folder: the machine file of the best design, how it was found, and the summary."""
-    data = json.dumps(optimum_data(study, found), ensure_ascii=False, indent=1)
+def optimum_files(study: Study, optimum: Optimum, folder: str | PurePath) -> dict[str, bytes]:
+    """Return the files of a search's folder: machine file of the best design, history and summary."""
+    data = json.dumps(optimum_data(study, optimum), ensure_ascii=False, indent=1)
     with shown_in(study.units):
-        tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in _sheets(study, found).items()}
-    machine = _machine(study, found, folder).dump()
+        tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in _sheets(study, optimum).items()}
+    machine = _machine(study, optimum, folder).dump()
     return {"machine.toml": machine.encode(), "summary.json": f"{data}\n".encode(), **tables}
 
 
-def _machine(study: Study, found: Optimum, folder: str | PurePath) -> Description:
-    """Return the machine file with the numbers of the best design, that finds its tables from another folder."""
+def _machine(study: Study, optimum: Optimum, folder: str | PurePath) -> Description:
+    """Return the machine file of the best design, with paths to its tables relative to a folder."""
     own = study.machine
     best = Description(own.dump(), own.name, folder=own.folder)
-    settings = {one.key: one.value for one in settings_of(study.overrides)}
+    settings = {setting.key: setting.value for setting in settings_of(study.overrides)}
     tables = {
         key: Path(os.path.relpath((own.folder or Path()) / own[key], folder)).as_posix()
         for key in own
         if key.rpartition(".")[2] == "file" and isinstance(own[key], str)
     }
-    for key, value in (settings | tables | _written(study, found)).items():
+    for key, value in (settings | tables | _written(study, optimum)).items():
         best[key] = value
     return best
 
 
-def _written(study: Study, found: Optimum) -> dict[str, str | float]:
-    """Return what the machine file states of the best design."""
+def _written(study: Study, optimum: Optimum) -> dict[str, str | float]:
+    """Return the numbers of the best design as its machine file states them."""
     return {
-        one.key: f"{_of_field(one, value):.{_WRITTEN}g} {one.unit}" if one.unit else rounded(value, _WRITTEN)
-        for one, value in zip(study.varied, found.fields.values(), strict=True)
+        field.key: f"{_of_field(field, value):.{_WRITTEN}g} {field.unit}" if field.unit else rounded(value, _WRITTEN)
+        for field, value in zip(study.varied, optimum.fields.values(), strict=True)
     }
 
 
-def _of_field(one: Varied, value: float) -> float:
-    return float(from_si(value, one.unit))
+def _of_field(field: VariedField, value: float) -> float:
+    return float(from_si(value, field.unit))
 
 
-def _sheets(study: Study, found: Optimum) -> dict[str, Sheet]:
-    """Return every design that was looked at, and where the search from each start has come to."""
-    places = {key: np.array([one[key] for one in found.places]) for key in found.places[0]}
+def _sheets(study: Study, optimum: Optimum) -> dict[str, Sheet]:
+    """Return tables of every design evaluated and of the optimum from each start."""
+    places = {key: np.array([place[key] for place in optimum.places]) for key in optimum.places[0]}
     return {
-        "course": _sheet(study, {**found.history.fields, **found.history.values}),
+        "course": _sheet(study, {**optimum.history.fields, **optimum.history.values}),
         "starts": _sheet(study, places),
     }
 
 
 def _sheet(study: Study, columns: dict[str, Array]) -> Sheet:
-    units = {one.key: one.unit for one in study.varied}
+    units = {field.key: field.unit for field in study.varied}
     shown = {
-        key: np.asarray(from_si(of, units[key])) if key in units else displayed_column(key, of)
-        for key, of in columns.items()
+        key: np.asarray(from_si(column, units[key])) if key in units else displayed_column(key, column)
+        for key, column in columns.items()
     }
     return Sheet((), shown, {key: units[key] if key in units else key_unit(key) for key in columns})
 
 
-def optimum_text(study: Study, found: Optimum, language: Language = "en") -> str:
-    """Return the best design in words: what it states, what it gives and what holds it."""
+def optimum_text(study: Study, optimum: Optimum, language: Language = "en") -> str:
+    """Return the best design as text: fields, values and active constraints."""
     with shown_in(study.units):
-        return "\n".join(_lines(study, found, language))
+        return "\n".join(_lines(study, optimum, language))
 
 
-def _lines(study: Study, found: Optimum, language: Language) -> Iterator[str]:
+def _lines(study: Study, optimum: Optimum, language: Language) -> Iterator[str]:
     if study.title:
         yield study.title
-    of = label(found.objective, language)
-    value = _value(found.objective, found.value, language)
-    before = _value(found.objective, study.stated[found.objective], language)
-    yield say(f"study.best_{found.sense}", language, name=capital(of), value=value, stated=before)
+    name = label(optimum.objective, language)
+    value = value_text(optimum.objective, optimum.value, language, _DIGITS)
+    before = value_text(optimum.objective, study.stated[optimum.objective], language, _DIGITS)
+    yield say(f"study.best_{optimum.sense}", language, name=capital(name), value=value, stated=before)
     yield from ("", say("study.best_design", language))
-    yield from aligned([
-        (one.key, _field(one, found.fields[one.key], language), _stated(one, language)) for one in study.varied
-    ])  # fmt: skip
-    if others := [(label(key, language), _value(key, of, language)) for key, of in found.values.items()][1:]:
-        yield from ("", say("study.best_values", language), *aligned(others))
+    fields = zip(study.varied, optimum.fields.values(), strict=True)
+    yield from aligned(
+        [(field.key, _field(field, value, language), _stated(field, language)) for field, value in fields]
+    )
+    if len(optimum.values) > 1:
+        values = [(label(key, language), value_text(key, x, language, _DIGITS)) for key, x in optimum.values.items()]
+        yield from ("", say("study.best_values", language), *aligned(values[1:]))
     yield ""
-    yield say("study.held_by" if found.holding else "study.held_by_nothing", language, name=of)
-    yield from aligned([_held(study, found, one, language) for one in found.holding])
-    if found.rest > _EXPLAINED:
-        yield say("study.unexplained", language, share=number(100 * found.rest, language, digits=2))
+    yield say("study.held_by" if optimum.holding else "study.held_by_nothing", language, name=name)
+    yield from aligned([_held(study, optimum, constraint, language) for constraint in optimum.holding])
+    if optimum.rest > _EXPLAINED:
+        yield say("study.unexplained", language, share=number(100 * optimum.rest, language, digits=2))
 
 
-def _value(key: str, value: float, language: Language) -> str:
-    return f"{number(displayed(key, value), language, digits=_DIGITS)} {unit_name(key_unit(key), language)}".rstrip()
+def _field(field: VariedField, value: float, language: Language) -> str:
+    return with_unit(_of_field(field, value), field.unit, language, _DIGITS)
 
 
-def _field(one: Varied, value: float, language: Language) -> str:
-    return f"{number(_of_field(one, value), language, digits=_DIGITS)} {unit_name(one.unit, language)}".rstrip()
+def _stated(field: VariedField, language: Language) -> str:
+    now = None if field.number is None else field.number.now
+    return "" if now is None else f"({_field(field, now, language)})"
 
 
-def _stated(one: Varied, language: Language) -> str:
-    now = None if one.number is None else one.number.now
-    return "" if now is None else f"({_field(one, now, language)})"
+def _held(study: Study, optimum: Optimum, constraint: ActiveConstraint, language: Language) -> tuple[str, str, str]:
+    """Return an active constraint and the change of the objective with it, as text."""
+    key, sense, level, _ = constraint
+    field = next((field for field in study.varied if field.key == key), None)
+    shown = _field(field, level, language) if field else value_text(key, level, language, _DIGITS)
+    price = number(_price(study, optimum, constraint), language, digits=4)
+    units = (key_unit(optimum.objective), field.unit if field else key_unit(key))
+    unit = "/".join(unit_name(unit, language) or "1" for unit in units)
+    return key if field else label(key, language), f"{sense} {shown}", f"{price} {unit}"
 
 
-def _held(study: Study, found: Optimum, one: Holding, language: Language) -> tuple[str, str, str]:
-    """Return a limit or a bound, and what the objective changes by with it."""
+def _price(study: Study, optimum: Optimum, constraint: ActiveConstraint) -> float:
+    """Return the change of the objective with a level, in units of tables and of the file."""
     fields = {field.key: field for field in study.varied}
-    is_field = one.key in fields
-    level = _field(fields[one.key], one.level, language) if is_field else _value(one.key, one.level, language)
-    unit = fields[one.key].unit if is_field else key_unit(one.key)
-    price = number(_price(study, found, one), language, digits=4)
-    units = (unit_name(key_unit(found.objective), language) or "1", unit_name(unit, language) or "1")
-    return one.key if is_field else label(one.key, language), f"{one.sense} {level}", f"{price} {units[0]}/{units[1]}"
+    size = _in_file(fields[constraint.key], 1.0) if constraint.key in fields else displayed_size(constraint.key, 1.0)
+    return displayed_size(optimum.objective, constraint.price) / size
 
 
-def _price(study: Study, found: Optimum, one: Holding) -> float:
-    """Return what the objective changes by with a level, in units of tables and of the file."""
-    fields = {field.key: field for field in study.varied}
-    of = _in_file(fields[one.key], 1.0) if one.key in fields else displayed_size(one.key, 1.0)
-    return displayed_size(found.objective, one.price) / of
+def _in_file(field: VariedField, size: float) -> float:
+    return _of_field(field, size) - _of_field(field, 0.0)
 
 
-def _now(study: Study) -> dict[str, float | None]:
-    """Return what the machine file states of each field that varies. [SI]"""
-    return {one.key: one.number.now if one.number else None for one in study.varied}
-
-
-def _in_file(one: Varied, size: float) -> float:
-    return _of_field(one, size) - _of_field(one, 0.0)
-
-
-def optimum_data(study: Study, found: Optimum) -> dict[str, Any]:
+def optimum_data(study: Study, optimum: Optimum) -> dict[str, Any]:
     """Return the best design as plain data, in the units of the file and the tables."""
     with shown_in(study.units):
-        return _data(study, found)
+        return _data(study, optimum)
 
 
-def _data(study: Study, found: Optimum) -> dict[str, Any]:
-    fields = {one.key: one for one in study.varied}
-    size = displayed_size(found.objective, 1.0)
+def _data(study: Study, optimum: Optimum) -> dict[str, Any]:
+    fields = {field.key: field for field in study.varied}
+    stated = {key: field.number.now if field.number else None for key, field in fields.items()}
+    size = displayed_size(optimum.objective, 1.0)
 
     def shown(key: str, value: float) -> object:
         return plain(_of_field(fields[key], value) if key in fields else displayed(key, value))
 
     return {
         "title": study.title,
-        "objective": found.objective,
-        "sense": found.sense,
-        "units": {key: fields[key].unit if key in fields else key_unit(key) for key in (*fields, *found.values)},
-        "fields": {key: shown(key, value) for key, value in found.fields.items()},
-        "written": _written(study, found),
-        "stated": {key: None if now is None else shown(key, now) for key, now in _now(study).items()},
-        "values": {key: shown(key, value) for key, value in found.values.items()},
-        "gradient": {key: plain(size * by / _in_file(fields[key], 1.0)) for key, by in found.gradient.items()},
+        "objective": optimum.objective,
+        "sense": optimum.sense,
+        "units": {key: fields[key].unit if key in fields else key_unit(key) for key in (*fields, *optimum.values)},
+        "fields": {key: shown(key, value) for key, value in optimum.fields.items()},
+        "written": _written(study, optimum),
+        "stated": {key: None if now is None else shown(key, now) for key, now in stated.items()},
+        "values": {key: shown(key, value) for key, value in optimum.values.items()},
+        "gradient": {key: plain(size * slope / _in_file(fields[key], 1.0)) for key, slope in optimum.gradient.items()},
         "holding": [
-            {"key": one.key, "sense": one.sense, "level": shown(one.key, one.level),
-             "price": plain(_price(study, found, one))}
-            for one in found.holding
+            {"key": constraint.key, "sense": constraint.sense, "level": shown(constraint.key, constraint.level),
+             "price": plain(_price(study, optimum, constraint))}
+            for constraint in optimum.holding
         ],
-        "rest": plain(found.rest),
-        "places": [{key: shown(key, value) for key, value in one.items()} for one in found.places],
-        "designs": len(found.history),
-        "way": found.way,
-        "seed": found.seed,
-        "not_compiled": found.reason,
+        "rest": plain(optimum.rest),
+        "places": [{key: shown(key, value) for key, value in place.items()} for place in optimum.places],
+        "designs": len(optimum.history),
+        "way": optimum.way,
+        "seed": optimum.seed,
+        "not_compiled": optimum.reason,
     }  # fmt: skip

@@ -1,4 +1,4 @@
-"""What is kept of designs while they go by: the best, the Pareto set, histograms, moments and Sobol indices."""
+"""Running statistics of designs: the best, the Pareto set, histograms, moments and Sobol indices."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 
-# places of designs, or which of them
+# indices of designs, or a mask
 Index = NDArray[Any]
 
-# bins of a histogram at most, and designs of a Pareto set
-_BINS, MOST_IN_FRONT = 128, 10_000
+# largest number of bins of a histogram, and of designs of a Pareto set
+_BINS, MAX_PARETO = 128, 10_000
 _FINEST = -1074
-# from so many designs on, those that are clearly worse are put aside first
+# number of designs from which clearly dominated ones are removed first
 _FEW = 2000
 
 
-def front(costs: Array) -> Index:
-    """Return which designs no other is better than in everything, the first of equal ones; costs of shape (n, m)."""
+def pareto_front(costs: Array) -> Index:
+    """Return the designs that no other dominates, the first of equal ones; costs of shape (n, m)."""
     if len(costs) > _FEW:
         few = _promising(costs)
-        return few[front(costs[few])] if len(few) < len(costs) else _sorted_out(costs)
+        return few[pareto_front(costs[few])] if len(few) < len(costs) else _sorted_out(costs)
     return _sorted_out(costs)
 
 
 def _promising(costs: Array) -> Index:
-    """Return designs without those that a few good ones are better than in everything."""
+    """Return the designs that a few good ones do not dominate."""
     low, high = costs.min(axis=0), costs.max(axis=0)
     shares = (costs - low) / np.where(high > low, high - low, 1.0)
     left = np.arange(len(costs))
@@ -49,27 +49,27 @@ def _sorted_out(costs: Array) -> Index:
         last = costs[order, -1]
         least = np.minimum.accumulate(np.concatenate([[np.inf], last[:-1]]))
         return np.sort(order[last < least])
-    # what is better in everything has the smaller sum, and where rounding makes sums equal it stands before
+    # a dominating design has the smaller sum, and comes first if rounding makes sums equal
     low, high = costs.min(axis=0), costs.max(axis=0)
     sums = ((costs - low) / np.where(high > low, high - low, 1.0)).sum(axis=1)
     left = np.lexsort((*costs.T[::-1], sums))
-    found = []
+    kept = []
     while left.size:
-        found.append(left[0])
+        kept.append(left[0])
         left = left[1:][np.any(costs[left[1:]] < costs[left[0]], axis=1)]
-    return np.sort(np.array(found, dtype=np.intp))
+    return np.sort(np.array(kept, dtype=np.intp))
 
 
-def thinned(costs: Array, places: Index, most: int = MOST_IN_FRONT) -> Index:
-    """Return so many of the designs of a Pareto set, even ones along the first objective, its ends among them."""
+def thin_front(costs: Array, places: Index, most: int = MAX_PARETO) -> Index:
+    """Return at most so many designs of a Pareto set, evenly spaced along the first objective, with its ends."""
     if len(places) <= most:
         return places
     order = places[np.argsort(costs[places, 0], kind="stable")]
     return np.sort(order[np.linspace(0, len(order) - 1, most).astype(np.intp)])
 
 
-def best(cost: Array, count: int) -> Index:
-    """Return the designs with the smallest cost, first the best; of equal ones those that come first."""
+def best_designs(cost: Array, count: int) -> Index:
+    """Return the designs with the smallest cost in order; of equal ones the first."""
     near = np.arange(len(cost))
     if len(cost) > count:
         near = np.flatnonzero(cost <= np.partition(cost, count)[count])
@@ -78,7 +78,7 @@ def best(cost: Array, count: int) -> Index:
 
 @dataclass
 class Moments:
-    """How many values there are, their least and largest, and sums about a value near them."""
+    """Count, extremes and sums of values about a value close to them."""
 
     near: float
     count: int = 0
@@ -89,14 +89,14 @@ class Moments:
 
     @classmethod
     def of(cls, values: Array, near: float) -> Moments:
-        """Return those of finite values."""
+        """Return the moments of finite values."""
         if not values.size:
             return cls(near)
         away = values - near
         return cls(near, values.size, float(values.min()), float(values.max()), float(away.sum()), float(away @ away))
 
     def add(self, other: Moments) -> None:
-        """Add others about the same value."""
+        """Add moments about the same value."""
         self.count += other.count
         self.low, self.high = min(self.low, other.low), max(self.high, other.high)
         self.total += other.total
@@ -117,9 +117,9 @@ class Moments:
 
 @dataclass
 class Histogram:
-    """How many values lie in each of at most 128 bins of the width 2^exponent, from `first` times the width on.
+    """Number of values in each of at most 128 bins of the width 2^exponent, starting at `first` times the width.
 
-    Widths that are powers of two can be doubled exactly, so that histograms add up whatever comes first.
+    Widths that are powers of two can be doubled exactly, so that the order of histograms does not change their sum.
     """
 
     exponent: int = _FINEST
@@ -128,11 +128,11 @@ class Histogram:
 
     @classmethod
     def of(cls, values: Array) -> Histogram:
-        """Return that of finite values."""
+        """Return the histogram of finite values."""
         if not values.size:
             return cls()
         low, high = float(values.min()), float(values.max())
-        # of equal values a bin as wide as their last digits but ten, and of nothing the finest
+        # a bin for equal values is about 1e-13 of them wide, for zeros the finest
         size = max(high - low, abs(high), abs(low))
         exponent = max(math.frexp(size)[1] - 44, _FINEST) if size else _FINEST
         exponent = max(exponent, math.frexp((high - low) / _BINS)[1] - 1 if high > low else exponent)
@@ -143,31 +143,31 @@ class Histogram:
         return cls(exponent, first, np.bincount(places - first).tolist())
 
     def add(self, other: Histogram) -> None:
-        """Add another one."""
+        """Add another histogram."""
         if not other.counts:
             return
         if not self.counts:
             self.exponent, self.first, self.counts = other.exponent, other.first, list(other.counts)
             return
         exponent = max(self.exponent, other.exponent)
-        one, two = self._coarser(exponent), other._coarser(exponent)
-        while max(one.end, two.end) - min(one.first, two.first) > _BINS:
+        own, added = self._coarser(exponent), other._coarser(exponent)
+        while max(own.end, added.end) - min(own.first, added.first) > _BINS:
             exponent += 1
-            one, two = one._coarser(exponent), two._coarser(exponent)  # noqa: SLF001
-        first = min(one.first, two.first)
-        counts = np.zeros(max(one.end, two.end) - first, dtype=np.int64)
-        for part in (one, two):
+            own, added = own._coarser(exponent), added._coarser(exponent)  # noqa: SLF001
+        first = min(own.first, added.first)
+        counts = np.zeros(max(own.end, added.end) - first, dtype=np.int64)
+        for part in (own, added):
             counts[part.first - first : part.end - first] += np.array(part.counts, dtype=np.int64)
         self.exponent, self.first, self.counts = exponent, first, counts.tolist()
 
     @property
     def end(self) -> int:
-        """The number of the bin after the last."""
+        """Number of the bin after the last."""
         return self.first + len(self.counts)
 
     @property
     def edges(self) -> Array:
-        """The ends of the bins."""
+        """Edges of the bins."""
         return np.asarray(np.arange(self.first, self.end + 1) * 2.0**self.exponent)
 
     def _coarser(self, exponent: int) -> Histogram:
@@ -180,9 +180,9 @@ class Histogram:
 
 @dataclass
 class Shares:
-    """Sums over points for the Sobol indices of one value: of first order by Saltelli, total by Jansen.
+    """Sums over points for the Sobol indices of one value: first order by Saltelli, total by Jansen.
 
-    `products` and `differences`: sums of a point's estimate of either for each field, and of their squares.
+    `products`, `differences`: sums of the estimates for each field, and of their squares.
     """
 
     near: float
@@ -194,22 +194,17 @@ class Shares:
 
     @classmethod
     def of(cls, values: Array, near: float) -> Shares:
-        """Return those of values of shape (points, fields + 2); points without all of them are left out."""
+        """Return the sums of values of shape (points, fields + 2); points with a missing value are left out."""
         away = values[np.isfinite(values).all(axis=1)] - near
         first, second, mixed = away[:, :1], away[:, 1:2], away[:, 2:]
         products, differences = second * (mixed - first), (first - mixed) ** 2 / 2
         either = away[:, :2]
-        return cls(
-            near,
-            len(away),
-            float(either.sum()),
-            float((either**2).sum()),
-            np.array([products.sum(axis=0), (products**2).sum(axis=0)]),
-            np.array([differences.sum(axis=0), (differences**2).sum(axis=0)]),
-        )
+        total, squares = float(either.sum()), float((either**2).sum())
+        sums = (np.array([terms.sum(axis=0), (terms**2).sum(axis=0)]) for terms in (products, differences))
+        return cls(near, len(away), total, squares, *sums)
 
     def add(self, other: Shares) -> None:
-        """Add others about the same value."""
+        """Add sums about the same value."""
         self.points += other.points
         self.total += other.total
         self.squares += other.squares
@@ -218,23 +213,23 @@ class Shares:
         self.differences = other.differences if is_first else self.differences + other.differences
 
     def indices(self) -> tuple[Array, Array, Array, Array] | None:
-        """Return the indices of first order and their errors, and total ones and theirs; None where nothing varies."""
+        """Return first-order indices and their errors, total ones and their errors; None if nothing varies."""
         if self.points < 2:
             return None
         variance = self.squares / (2 * self.points) - (self.total / (2 * self.points)) ** 2
         if variance <= (1e-13 * self.near) ** 2:
             return None
-        found = []
+        indices = []
         for sums in (self.products, self.differences):
             mean = sums[0] / self.points
             error = np.sqrt(np.maximum(sums[1] / self.points - mean**2, 0.0) / self.points)
-            found += [mean / variance, error / variance]
-        return found[0], found[1], found[2], found[3]
+            indices += [mean / variance, error / variance]
+        return indices[0], indices[1], indices[2], indices[3]
 
 
 def feasible(values: Sequence[Array], limits: Sequence[tuple[float, float]], count: int) -> Index:
-    """Return which designs keep within limits; a value that is no number does not."""
-    found = np.ones(count, dtype=bool)
-    for of, (low, high) in zip(values, limits, strict=True):
-        found &= (of >= low) & (of <= high)
-    return found
+    """Return whether each design satisfies all limits; NaN does not."""
+    is_feasible = np.ones(count, dtype=bool)
+    for column, (low, high) in zip(values, limits, strict=True):
+        is_feasible &= (column >= low) & (column <= high)
+    return is_feasible

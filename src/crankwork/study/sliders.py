@@ -1,4 +1,4 @@
-"""The sliders of a page: which numbers of a machine file a reader may move, and how far the machine goes."""
+"""The sliders of a page: the numbers of a machine file that a reader may move, and their ranges."""
 
 from __future__ import annotations
 
@@ -15,164 +15,165 @@ from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
-from crankwork.page.sliders import Moved, Slider
-from crankwork.study.sought import Sought, limit, sought_number
+from crankwork.page.sliders import Slider, SliderDesigns
+from crankwork.study.mapped import ends_of
+from crankwork.study.sought import NumericField, limit, numeric_field
 
 _OPTION = "--slider"
-_ASKED = re.compile(r"\s*(?P<key>[^=\s]+)\s*(?:=\s*(?P<low>[^:]+?)\s*\.\.\s*(?P<high>[^:]+?)\s*)?")
-_NUMBER = re.compile(r"[+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?")
-_MOST = 8
-# of what a number is now, how far it goes where nobody says
+_OPTION_FORM = re.compile(r"\s*(?P<key>[^=\s]+)\s*(?:=\s*(?P<low>[^:]+?)\s*\.\.\s*(?P<high>[^:]+?)\s*)?")
+_MAX_SLIDERS = 8
+# default range either way, as a fraction of the number
 _AROUND = 0.5
-# halvings of the way to a machine that there is not
-_NEARER = 12
-# of the way to the last machine, how far a slider goes: beyond that forces grow without bounds
-_WITHIN = 0.97
-# where all sliders are moved at once, of the way to their ends
-_TOGETHER = 0.3
+# bisections towards the last design that can be analysed
+_BISECTIONS = 12
+# fraction of the range that a slider uses: near its end forces are unbounded
+_RANGE_SHARE = 0.97
+# fraction of their ranges at which all sliders are moved together
+_JOINT_SHARE = 0.3
 
 
 def moved(
     description: Description,
-    asked: Sequence[str],
+    options: Sequence[str],
     overrides: Sequence[str | Setting],
     stated: Results,
     around: float = _AROUND,
-) -> Moved:
-    """Return the sliders that options ask for, `crank.speed=1000..6000rpm`, with the results of designs between them.
+) -> SliderDesigns:
+    """Return the sliders of options such as `crank.speed=1000..6000rpm`, with results of designs in their ranges.
 
-    A range that nobody states is a share `around` of the number either way, within its limits; one that leads to where
-    there is no machine ends before that.
+    The default range is a fraction `around` of the number either way, within its limits; a range ends before designs
+    that cannot be analysed.
     """
-    if len(asked) > _MOST:
-        raise CrankworkError(Refusal("slider_many", most=str(_MOST)))
+    if len(options) > _MAX_SLIDERS:
+        raise CrankworkError(Refusal("slider_many", most=str(_MAX_SLIDERS)))
     values = description.values_with(overrides)
-    ranges = [_range(values, one, around) for one in asked]
+    ranges = [_range(values, text, around) for text in options]
     keys = [number.key for number, *_ in ranges]
     if len(set(keys)) < len(keys):
         raise CrankworkError(Refusal("slider_twice", key=next(key for key in keys if keys.count(key) > 1)))
     if "crank_range" in stated.summary:
-        # dead positions move with the design
+        # limit positions move with the design
         raise CrankworkError(Refusal("slider_swings"))
     machines = _Machines(description, overrides, [number for number, *_ in ranges], stated)
     now = machines.now
-    sliders, rows, found = [], [now], [stated]
-    for at, (number, low, high) in enumerate(ranges):
+    sliders, rows, analysed = [], [now], [stated]
+    for index, (number, low, high) in enumerate(ranges):
         ends, stop = [], None
         for end in (low, high):
-            reached, results, cause = machines.reached(at, end)
+            reached, results, cause = machines.reached(index, end)
             ends.append(reached)
             stop = stop or cause
-            rows.append(np.where(np.arange(now.size) == at, reached, now))
-            found.append(results)
+            rows.append(np.where(np.arange(now.size) == index, reached, now))
+            analysed.append(results)
         if not ends[0] < ends[1]:
             raise CrankworkError(Refusal("slider_fixed", key=number.key)) from stop
-        sliders.append(Slider(number.key, float(now[at]), ends[0], ends[1], number.unit, stop))
-    together = _TOGETHER
-    # of one slider the ends say it all
+        sliders.append(Slider(number.key, float(now[index]), ends[0], ends[1], number.unit, stop))
+    together = _JOINT_SHARE
+    # the ends are enough for one slider
     while len(sliders) > 1 and together > 1e-3:
-        row = now + together * np.array([one.high - one.now or one.low - one.now for one in sliders])
+        row = now + together * np.array([slider.high - slider.now or slider.low - slider.now for slider in sliders])
         try:
             results = machines.results(row)
         except CrankworkError:
             together /= 2
             continue
-        return Moved(tuple(sliders), np.array([*rows, row]), (*found, results))
-    return Moved(tuple(sliders), np.array(rows), tuple(found))
+        return SliderDesigns(tuple(sliders), np.array([*rows, row]), (*analysed, results))
+    return SliderDesigns(tuple(sliders), np.array(rows), tuple(analysed))
 
 
 def ends(description: Description, key: str, low: str, high: str) -> list[float]:
-    """Return between which values a number goes, as written; nothing where it may not, or is not between them. [SI]"""
+    """Return the range of a number as written; empty if it is not allowed or the number is outside. [SI]"""
     with suppress(CrankworkError):
         return list(_range(description.values_with(()), f"{key}={low}..{high}", _AROUND)[1:])
     return []
 
 
 def around(description: Description, key: str, stated: Results, values: Sequence[float]) -> dict[float, Results]:
-    """Return the results of machines with other values of one number, by what it is. [SI]
+    """Return the results of variants with other values of one number, by value, in the order of the values. [SI]
 
-    In the order of the values; none where there is no such machine, and for the value that is stated the stated one.
+    Values without a machine are left out; the stated value gives the stated results.
     """
     number, *_ = _range(description.values_with(()), key, _AROUND)
-    machines, found = _Machines(description, (), [number], stated), dict[float, Results]()
+    machines, by_value = _Machines(description, (), [number], stated), dict[float, Results]()
     for value in values:
         if number.low <= value <= number.high:
             with suppress(CrankworkError):
-                found[value] = stated if value == machines.now[0] else machines.results(np.array([value]))
-    return found
+                by_value[value] = stated if value == machines.now[0] else machines.results(np.array([value]))
+    return by_value
 
 
-def _range(values: dict[str, object], text: str, around: float) -> tuple[Sought, float, float]:
-    """Return the number that an option names, and between what it goes. [SI]"""
-    match = _ASKED.fullmatch(text)
+def _range(values: dict[str, object], text: str, around: float) -> tuple[NumericField, float, float]:
+    """Return the number that an option names, and its range. [SI]"""
+    match = _OPTION_FORM.fullmatch(text)
     if match is None:
         raise CrankworkError(Refusal("slider_form", text=text[:60]))
     key = match["key"]
     try:
-        sought = sought_number(values, key)
+        number = numeric_field(values, key)
     except CrankworkError as error:
         mistake = error.args[0]
         if mistake.name.startswith("sought"):
             raise CrankworkError(Refusal("slider_no_number", key=key[:60])) from None
         mistake = mistake.values["mistake"] if mistake.name == "option_key_wrong" else mistake
         raise CrankworkError(Refusal("option_wrong", option=f"{_OPTION} {key[:60]}", mistake=mistake)) from None
-    if sought.now is None:
+    if number.now is None:
         raise CrankworkError(Refusal("slider_unstated", key=key))
     if match["low"] is None:
-        reach = around * abs(sought.now) or around * min(sought.high, 1.0)
-        return sought, max(sought.low, sought.now - reach), min(sought.high, sought.now + reach)
-    low, high = match["low"], match["high"]
-    unit = _NUMBER.sub("", high, count=1)
-    # a unit that stands once holds for both
-    low = f"{low}{unit}" if _NUMBER.fullmatch(low) else low
+        reach = around * abs(number.now) or around * min(number.high, 1.0)
+        return number, max(number.low, number.now - reach), min(number.high, number.now + reach)
+    low, high = ends_of(f"{match['low']}..{match['high']}")
     option = f"{_OPTION} {key}"
-    ends = [limit(sought, one, option) for one in (low, high)]
+    ends = [limit(number, bound, option) for bound in (low, high)]
     assert ends[0] is not None and ends[1] is not None  # noqa: S101, PT018 - both are stated
     if not ends[0] < ends[1]:
         raise CrankworkError(Refusal("slider_empty", key=key, start=low, end=high))
-    if not ends[0] <= sought.now <= ends[1]:
-        raise CrankworkError(Refusal("slider_beside", key=key, now=shown(sought.written(sought.now))))
-    return sought, ends[0], ends[1]
+    if not ends[0] <= number.now <= ends[1]:
+        raise CrankworkError(Refusal("slider_beside", key=key, now=shown(number.written(number.now))))
+    return number, ends[0], ends[1]
 
 
 class _Machines:
-    """Machines of a file that differ in what the sliders move."""
+    """Variants of a machine file with other values of the sliders."""
 
     def __init__(
-        self, description: Description, overrides: Sequence[str | Setting], numbers: Sequence[Sought], stated: Results
+        self,
+        description: Description,
+        overrides: Sequence[str | Setting],
+        numbers: Sequence[NumericField],
+        stated: Results,
     ) -> None:
         self._description, self._overrides, self._numbers, self._stated = description, overrides, numbers, stated
-        self.now: Array = np.array([one.now for one in numbers])
+        self.now: Array = np.array([number.now for number in numbers])
 
     def results(self, design: Array) -> Results:
-        """Return the results of a design that moves as the stated one does."""
+        """Return the results of a design; raise an error if its crank no longer turns through."""
         settings = [
             Setting(_OPTION, number.key, number.written(float(value)))
             for number, value in zip(self._numbers, design, strict=True)
         ]
-        found = analyse(self._description.machine([*self._overrides, *settings]))
-        if "crank_range" in found.summary and "crank_range" not in self._stated.summary:
+        results = analyse(self._description.machine([*self._overrides, *settings]))
+        if "crank_range" in results.summary and "crank_range" not in self._stated.summary:
             raise CrankworkError(Refusal("slider_no_turn"))
-        return found
+        return results
 
-    def reached(self, at: int, end: float) -> tuple[float, Results, CrankworkError | None]:
-        """Return how far one number goes to an end, the results there, and why it goes no further."""
+    def reached(self, index: int, end: float) -> tuple[float, Results, CrankworkError | None]:
+        """Return how far one number can be moved to an end, the results there, and the error beyond."""
 
         def tried(share: float) -> Results:
             row = self.now.copy()
-            row[at] += share * (end - row[at])
+            row[index] += share * (end - row[index])
             return self.results(row)
 
         try:
             return end, tried(1.0), None
         except CrankworkError as error:
             cause = error
-        low, high, found = 0.0, 1.0, self._stated
-        for _ in range(_NEARER):
+        low, high, results = 0.0, 1.0, self._stated
+        for _ in range(_BISECTIONS):
             middle = (low + high) / 2
             try:
-                found, low = tried(middle), middle
+                results, low = tried(middle), middle
             except CrankworkError as error:
                 cause, high = error, middle
-        low *= _WITHIN
-        return float(self.now[at] + low * (end - self.now[at])), tried(low) if low else found, cause
+        low *= _RANGE_SHARE
+        return float(self.now[index] + low * (end - self.now[index])), tried(low) if low else results, cause

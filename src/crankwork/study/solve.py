@@ -1,4 +1,4 @@
-"""Which number of a machine file makes a value of its results what is wanted."""
+"""Solve for a number of a machine file that gives a value of its results."""
 
 from __future__ import annotations
 
@@ -11,69 +11,69 @@ from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
-from crankwork.study.roots import Found, Jump, Root, Sample, Stretch, find_roots
-from crankwork.study.sought import Places, Sought, places, sought_number
-from crankwork.study.wanted import Wanted, Written, is_rounding, shortest, wanted, written
+from crankwork.study.roots import Interval, Jump, Root, RootSearchResult, Sample, find_roots
+from crankwork.study.sought import NumericField, SearchPoints, numeric_field, search_points
+from crankwork.study.wanted import Target, TargetText, is_rounding, parse_target, split_target, value_function
 from crankwork.units import System
 
 STEPS = 400
-_FEWEST, _MOST = 10, 100_000
-# refusals of a value that another machine in the range may have
-_ELSEWHERE = ("result_absent", "angle_unreached")
+_MIN_STEPS, _MAX_STEPS = 10, 100_000
+# errors of a value that other machines in the range may have
+_LOCAL_ERRORS = ("result_absent", "angle_unreached")
 
 
 @dataclass(frozen=True)
 class Solution:
-    """Where a value is what is wanted, in SI; `sought.written` returns a number as the machine file states it.
+    """Solutions of a target equation, in SI; `sought.written` returns a number as the machine file states it.
 
     Parameters
     ----------
     title : str
-        That of the machine.
-    wanted : Wanted
-        The value: its key, where, and what it is to be.
-    sought : Sought
-        The number of the file.
-    places : Places
-        Where it was looked for. Two roots, or two ends of stretches, between two of these may be missed.
-    found : Found
-        Roots, jumps, stretches without a value, and what comes nearest; values are those above what is wanted.
+        Title of the machine.
+    wanted : Target
+        The value: its key, crank angle or time, and target.
+    sought : NumericField
+        The unknown, a number of the file.
+    places : SearchPoints
+        Sampled values of the unknown. Two roots, or two ends of intervals, between two of these may be missed.
+    found : RootSearchResult
+        Roots, jumps, intervals without a value, and the nearest sample; values are differences from the target.
     is_time : bool
         Whether the value is taken at a time, and not at a crank angle.
     units : str
-        The system of units that the machine is shown in.
+        The system of units of the machine.
     """
 
     title: str
-    wanted: Wanted
-    sought: Sought
-    places: Places
-    found: Found
+    wanted: Target
+    sought: NumericField
+    places: SearchPoints
+    found: RootSearchResult
     is_time: bool = False
     units: System = "metric"
 
     @property
     def roots(self) -> tuple[Root, ...]:
-        """The numbers that were sought."""
+        """Solutions."""
         return self.found.roots
 
     @property
     def jumps(self) -> tuple[Jump, ...]:
-        """The numbers at which the value passes what is wanted without being it."""
+        """Numbers at which the value jumps across the target."""
         return self.found.jumps
 
     @property
-    def without(self) -> tuple[Stretch, ...]:
-        """The stretches of numbers for which there is no machine or no value, and why."""
+    def without(self) -> tuple[Interval, ...]:
+        """Intervals without a machine or a value, and why."""
         return self.found.without
 
     @property
     def nearest(self) -> Sample | None:
-        """The number at which the value comes nearest to what is wanted."""
+        """The sample closest to the target."""
         return self.found.nearest
 
 
-def solve(  # noqa: PLR0913 - what is asked, where to look, and what is laid over the file
+def solve(  # noqa: PLR0913 - equation, unknown and options of the search
     description: Description,
     equation: str,
     sought: str,
@@ -83,36 +83,36 @@ def solve(  # noqa: PLR0913 - what is asked, where to look, and what is laid ove
     overrides: Sequence[str | Setting] = (),
     told: Callable[[float], None] | None = None,
 ) -> Solution:
-    """Return every number of a machine file that makes a value what is wanted, of those between some limits.
+    """Return every value of a number of the machine file, between limits, that satisfies a target equation.
 
     Parameters
     ----------
     description : Description
         The machine file.
     equation : str
-        The value and what it is to be: `piston_force@33deg = 0`, `time_ratio.rocker = 1.2`. A number without a unit is
-        in the unit of the tables.
+        The value and its target: `piston_force@33deg = 0`, `time_ratio.rocker = 1.2`. A number without a unit is in the
+        unit of the tables.
     sought : str
-        Key of the number, as `--set` takes it.
+        Key of the number, as in `--set`.
     limits : tuple of str or float
-        From where to where it is looked for, with a unit, or in that of the file; what is left out follows from the
-        limits of the field or from the number that the file has.
+        Range of the search, with a unit, or in the unit of the file; by default from the limits of the field or around
+        the number of the file.
     steps : int
-        How many steps the range has, even ones or of equal ratios.
+        Number of steps of the range, even or of equal ratios.
     overrides : sequence of str
-        Settings laid over the file, `KEY=VALUE`.
+        Settings that replace those of the file, `KEY=VALUE`.
     told : callable, optional
-        Told the part of the range that is done. [-]
+        Called with the fraction of the range done. [-]
 
     Returns
     -------
     Solution
-        Roots, jumps, stretches without a machine, and what comes nearest.
+        Roots, jumps, intervals without a machine, and the sample closest to the target.
 
     Raises
     ------
     CrankworkError
-        If the question cannot be asked of this file.
+        If the equation or an argument is invalid for this file.
 
     Examples
     --------
@@ -122,41 +122,41 @@ def solve(  # noqa: PLR0913 - what is asked, where to look, and what is laid ove
     >>> [round(root.at, 6) for root in found.roots]
     [0.072126]
     """
-    if not _FEWEST <= steps <= _MOST:
-        raise CrankworkError(Refusal("steps_outside", fewest=str(_FEWEST), most=str(_MOST)))
-    parts = written(equation)
-    number = sought_number(description.values_with(overrides), sought)
-    where = places(number, *limits, steps)
+    if not _MIN_STEPS <= steps <= _MAX_STEPS:
+        raise CrankworkError(Refusal("steps_outside", fewest=str(_MIN_STEPS), most=str(_MAX_STEPS)))
+    parts = split_target(equation)
+    number = numeric_field(description.values_with(overrides), sought)
+    where = search_points(number, *limits, steps)
 
     def machine_with(value: float | None) -> Machine:
         changed = [] if value is None else [Setting("--for", sought, number.written(value))]
         return description.machine([*overrides, *changed])
 
-    asked, machine, results = _first_with_value(parts, machine_with, where)
-    value = shortest(asked, machine, results)
-    if is_rounding(asked, results) and _is_nothing(asked, machine_with, where):
-        value = _nothing
+    target, machine, results = _first_with_value(parts, machine_with, where)
+    value = value_function(target, machine, results)
+    if is_rounding(target, results) and _is_zero(target, machine_with, where):
+        value = _zero
 
-    def above(at: float) -> float:
+    def above(field_value: float) -> float:
         try:
-            return value(machine_with(at)) - asked.level
+            return value(machine_with(field_value)) - target.level
         except UnknownKeyError:
-            raise CrankworkError(Refusal("value_absent", key=asked.key)) from None
+            raise CrankworkError(Refusal("value_absent", key=target.key)) from None
 
-    found = find_roots(above, where.at, abs(asked.level), told)
+    result = find_roots(above, where.values, abs(target.level), told)
     shown = results.machine
-    return Solution(shown.title, asked, number, where, found, is_time=bool(results.period), units=shown.units)
+    return Solution(shown.title, target, number, where, result, is_time=bool(results.period), units=shown.units)
 
 
 def _first_with_value(
-    parts: Written, machine_with: Callable[[float | None], Machine], where: Places
-) -> tuple[Wanted, Machine, Results]:
-    """Return what is asked of the machine of the file, or of the first one in the range that has such a value.
+    parts: TargetText, machine_with: Callable[[float | None], Machine], where: SearchPoints
+) -> tuple[Target, Machine, Results]:
+    """Return the target for the machine of the file, or for the first in the range that has such a value.
 
-    If none has, what keeps the machine of the file from having it is raised.
+    If there is none, the error of the machine of the file is raised.
     """
     first: CrankworkError | None = None
-    for value in (None, *where.at.tolist()):
+    for value in (None, *where.values.tolist()):
         try:
             machine = machine_with(value)
             results = analyse(machine)
@@ -164,24 +164,24 @@ def _first_with_value(
             first = first or error
             continue
         try:
-            return wanted(parts, results), machine, results
+            return parse_target(parts, results), machine, results
         except CrankworkError as error:
-            if not isinstance(error.args[0], Refusal) or error.args[0].name not in _ELSEWHERE:
+            if not isinstance(error.args[0], Refusal) or error.args[0].name not in _LOCAL_ERRORS:
                 raise
             first = first or error
     raise first or CrankworkError(Refusal("value_none"))
 
 
-def _is_nothing(asked: Wanted, machine_with: Callable[[float | None], Machine], where: Places) -> bool:
-    """Return whether only rounding is left of a value all over the range."""
-    for value in where.at[:: len(where.at) // 4].tolist():
+def _is_zero(target: Target, machine_with: Callable[[float | None], Machine], where: SearchPoints) -> bool:
+    """Return whether a value is rounding noise over the whole range."""
+    for value in where.values[:: len(where.values) // 4].tolist():
         try:
-            if not is_rounding(asked, analyse(machine_with(value))):
+            if not is_rounding(target, analyse(machine_with(value))):
                 return False
         except CrankworkError:
             continue
     return True
 
 
-def _nothing(_: Machine) -> float:
+def _zero(_: Machine) -> float:
     return 0.0

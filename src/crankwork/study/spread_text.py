@@ -10,65 +10,65 @@ from crankwork.report.language import displayed, displayed_size, key_unit, label
 from crankwork.study.spread import Spreads
 from crankwork.units import shown_in
 
-# causes that bring less of the variance are not told
-_LEAST = 0.005
+# least share of the variance that is printed
+_MIN_SHARE = 0.005
 
 
-def spread_text(found: Spreads, language: Language = "en") -> str:
-    """Return every value that spreads with its deviation, and where that comes from."""
-    with shown_in(found.results.machine.units):
-        return _text(found, language)
+def spread_text(spreads: Spreads, language: Language = "en") -> str:
+    """Return every uncertain value with its deviation and contributions, as text."""
+    with shown_in(spreads.results.machine.units):
+        return _text(spreads, language)
 
 
-def _text(found: Spreads, language: Language) -> str:
-    title = found.results.machine.title
+def _text(spreads: Spreads, language: Language) -> str:
+    title = spreads.results.machine.title
     lines = [title] if title else []
-    within = number(found.within, language)
+    within = number(spreads.within, language)
     lines += [say("study.normal", language), say("study.worst", language, within=within), ""]
     rows = []
-    for key, one in found.items():
+    for key, spread in spreads.items():
         causes = ", ".join(
             f"{cause.key} {number(100 * cause.share, language, digits=3)} %"
-            for cause in one.causes
-            if cause.share > _LEAST
+            for cause in spread.causes
+            if cause.share > _MIN_SHARE
         )
-        sign = say("study.sampled", language) if one.is_sampled else ""
-        if one.mean is not None:
-            mean = number(displayed(key, one.mean), language, digits=4)
+        sign = say("study.sampled", language) if spread.is_sampled else ""
+        if spread.mean is not None:
+            mean = number(displayed(key, spread.mean), language, digits=4)
             causes = f"{say('study.mean', language, value=mean)}; {causes}"
-        # draws tell no more digits
-        size = number(displayed_size(key, one.deviation), language, digits=3 if one.is_sampled else 6)
-        shown = [number(displayed(key, one.value), language), size]
-        worst = " … ".join(number(displayed(key, end), language) for end in one.worst)
+        # significant digits of sampled deviations
+        size = number(displayed_size(key, spread.deviation), language, digits=3 if spread.is_sampled else 6)
+        shown = [number(displayed(key, spread.value), language), size]
+        worst = " … ".join(number(displayed(key, end), language) for end in spread.worst)
         rows.append((label(key, language), " ± ".join(shown), worst, unit_name(key_unit(key), language), causes, sign))
-    wide = [max((len(row[at]) for row in rows), default=0) for at in range(5)]
+    wide = [max((len(row[column]) for row in rows), default=0) for column in range(5)]
     lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
-    if found.samples:
-        lines += ["", say("study.samples", language, count=str(found.samples), sign=say("study.sampled", language))]
-    for reason, count in found.refused.items():
+    if spreads.samples:
+        lines += ["", say("study.samples", language, count=str(spreads.samples), sign=say("study.sampled", language))]
+    for reason, count in spreads.refused.items():
         lines += ["", say("study.draws_refused", language, count=str(count), reason=told(reason, language))]
     return "\n".join(lines)
 
 
-def spread_data(found: Spreads) -> dict[str, Any]:
+def spread_data(spreads: Spreads) -> dict[str, Any]:
     """Return the spreads as plain data, in the units of the tables."""
-    with shown_in(found.results.machine.units):
+    with shown_in(spreads.results.machine.units):
         return {
-            "title": found.results.machine.title,
-            "samples": found.samples,
-            "within": found.within,
-            "refused": [{"count": count, "reason": str(reason)} for reason, count in found.refused.items()],
+            "title": spreads.results.machine.title,
+            "samples": spreads.samples,
+            "within": spreads.within,
+            "refused": [{"count": count, "reason": str(reason)} for reason, count in spreads.refused.items()],
             "spreads": {
                 key: {
-                    "value": rounded(displayed(key, one.value)),
-                    "deviation": rounded(displayed_size(key, one.deviation)),
+                    "value": rounded(displayed(key, spread.value)),
+                    "deviation": rounded(displayed_size(key, spread.deviation)),
                     "unit": key_unit(key),
-                    "least": rounded(displayed(key, one.worst[0])),
-                    "largest": rounded(displayed(key, one.worst[1])),
-                    "is_sampled": one.is_sampled,
-                    "mean": None if one.mean is None else rounded(displayed(key, one.mean)),
-                    "causes": {cause.key: rounded(cause.share) for cause in one.causes},
+                    "least": rounded(displayed(key, spread.worst[0])),
+                    "largest": rounded(displayed(key, spread.worst[1])),
+                    "is_sampled": spread.is_sampled,
+                    "mean": None if spread.mean is None else rounded(displayed(key, spread.mean)),
+                    "causes": {cause.key: rounded(cause.share) for cause in spread.causes},
                 }
-                for key, one in found.items()
+                for key, spread in spreads.items()
             },
         }

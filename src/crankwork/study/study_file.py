@@ -1,4 +1,4 @@
-"""The door for study files: which fields of a machine file vary and how, what is wanted of the designs."""
+"""Reader of study files: the fields that vary, objectives and limits."""
 
 from __future__ import annotations
 
@@ -20,51 +20,51 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import Language, Refusal
 from crankwork.report.language import key_unit
 from crankwork.study.machines import check_single
-from crankwork.study.search import Way
-from crankwork.study.sought import Sought, kind_of, single_kind, sought_number
-from crankwork.study.varied import Varied
+from crankwork.study.search import SearchMethod
+from crankwork.study.sought import NumericField, kind_of, numeric_field, single_kind
+from crankwork.study.varied import VariedField
 from crankwork.units import System, parse_in, shown_in
 
-# more points there are none of a Sobol sequence of 30 bits
-MOST = 2**30
-_MOST_FIELDS, _MOST_VALUES = 40, 10_000
-# tables of a machine file within each other
-_DEEP = 4
+# number of points of a Sobol sequence of 30 bits
+MAX_DESIGNS = 2**30
+_MAX_FIELDS, _MAX_VALUES = 40, 10_000
+# depth of tables of a machine file
+_MAX_DEPTH = 4
 GRID, LIST, DRAWN = "grid", "list", ("random", "latin", "sobol", "saltelli")
 _LIMITS = {"at_least": -math.inf, "at_most": math.inf}
 _SIGNS = {"minimise": 1.0, "maximise": -1.0}
 
 
 class Count(NamedTuple):
-    """How many designs there are."""
+    """Type of the number of designs."""
 
     def read(self, value: object, key: str, reader: Reader) -> int | None:
-        """Return the whole number."""
-        if isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= MOST:
+        """Return the integer; add an error if it is out of range."""
+        if isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= MAX_DESIGNS:
             return value
-        if isinstance(value, int) and not isinstance(value, bool) and value > MOST:
+        if isinstance(value, int) and not isinstance(value, bool) and value > MAX_DESIGNS:
             reader.complain(key, _many(value))
         else:
-            reader.complain(key, Refusal("whole_range", value=shown(value), low="1", high=str(MOST)))
+            reader.complain(key, Refusal("whole_range", value=shown(value), low="1", high=str(MAX_DESIGNS)))
         return None
 
     def schema(self, _: Language, /) -> dict[str, Any]:
-        """Return the schema of a whole number."""
-        return {"type": "integer", "minimum": 1, "maximum": MOST}
+        """Return the schema of the integer."""
+        return {"type": "integer", "minimum": 1, "maximum": MAX_DESIGNS}
 
 
 class As(NamedTuple):
-    """What is read by the kind of the field or value that it concerns, once that is known: of types, or a table."""
+    """A value read later by the type of the field or result that it concerns; here only JSON types, or a table."""
 
     types: tuple[str, ...]
     entry: Table | None = None
 
     def read(self, value: object, _: str, __: Reader) -> object:
-        """Return what the file states."""
+        """Return the value as stated."""
         return value
 
     def schema(self, language: Language, /) -> dict[str, Any]:
-        """Return the schema of any of these."""
+        """Return the schema of the allowed types."""
         own: dict[str, Any] = {"type": list(self.types)}
         return own if self.entry is None else {"anyOf": [own, self.entry.schema(language)]}
 
@@ -73,7 +73,7 @@ _VALUE = As(("string", "number"))
 _RANGE = Table("range", {
     "from": Key(_VALUE, instead_of=("uniform",)),
     "to": Key(_VALUE, instead_of=("uniform",)),
-    "steps": Key(Number(1, _MOST_VALUES, whole=True), only={"from": ()}),
+    "steps": Key(Number(1, _MAX_VALUES, whole=True), only={"from": ()}),
     "spacing": Key(Choice(("even", "ratios")), default="even", only={"from": ()}),
     "uniform": Key(As(("string",)), instead_of=("from", "to")),
 })  # fmt: skip
@@ -87,7 +87,7 @@ _DESIGNS = Table("designs", {
     "chunk": Key(Number(1, 2**17, whole=True)),
 })  # fmt: skip
 _SEARCH = Table("search", {
-    "way": Key(Choice(get_args(Way)), default="slsqp"),
+    "way": Key(Choice(get_args(SearchMethod)), default="slsqp"),
     "starts": Key(Number(1, 1000, whole=True)),
     "seed": Key(Number(0, 2**31, whole=True), default=0),
 })  # fmt: skip
@@ -97,9 +97,9 @@ STUDY_FILE = Table("study", {
     "title": Key(Text()),
     "machine": Key(Text(), required=True),
     "designs": Key(_DESIGNS),
-    "vary": Key(Named(As(("array", "string"), _RANGE), _MOST_FIELDS, _DEEP), required=True),
-    "objectives": Key(Named(Choice(tuple(_SIGNS)), 8, _DEEP)),
-    "limits": Key(Named(_OF_VALUE, _MOST_FIELDS, _DEEP)),
+    "vary": Key(Named(As(("array", "string"), _RANGE), _MAX_FIELDS, _MAX_DEPTH), required=True),
+    "objectives": Key(Named(Choice(tuple(_SIGNS)), 8, _MAX_DEPTH)),
+    "limits": Key(Named(_OF_VALUE, _MAX_FIELDS, _MAX_DEPTH)),
     "values": Key(OneOrMore(_KEY, most=100)),
     "search": Key(_SEARCH),
 })  # fmt: skip
@@ -107,18 +107,18 @@ STUDY_FILE = Table("study", {
 
 @dataclass(frozen=True)
 class Study:
-    """What is to be found of which designs. [SI]
+    """Designs to calculate, with objectives and limits. [SI]
 
-    `objectives`: 1 for a value that is to be small, -1 for one that is to be large; `limits`: from and to; `keys`:
-    every value that is calculated; `angles`: evenly spaced ones, None for exact extremes and integrals;
-    `stated`: values of the machine as its file states it; `search`: what is said of how the best design is sought.
+    `objectives`: 1 to minimise a value, -1 to maximise it; `limits`: lower and upper; `keys`: every value that is
+    calculated; `angles`: number of evenly spaced ones, None for exact extremes and integrals; `stated`: values of the
+    machine of the file; `search`: options of the search for the best design.
     """
 
     name: str
     title: str
     machine: Description
     overrides: tuple[str | Setting, ...]
-    varied: tuple[Varied, ...]
+    varied: tuple[VariedField, ...]
     drawing: str
     count: int
     seed: int
@@ -136,7 +136,7 @@ class Study:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """What makes the study this one: its text, the machine, the program, and what the stated machine has."""
+        """Digests and values that identify the study: its text, the machine, the program, the stated machine."""
         written = "\0".join([self.text, self.machine.dump(), *map(str, self.overrides)])
         values = {key: f"{value:.9g}" for key, value in self.stated.items()}
         return {
@@ -148,14 +148,14 @@ class Study:
 
     @property
     def digest(self) -> str:
-        """The identity in one word."""
+        """Digest of the identity."""
         return hashlib.sha256(json.dumps(self.identity, sort_keys=True).encode()).hexdigest()
 
 
 def load_study(path: str | Path, overrides: Sequence[str | Setting] = (), *, is_search: bool = False) -> Study:
-    """Return the study that a file describes; an `InputError` tells every mistake of it, each on its line.
+    """Return the study of a file; an `InputError` lists every mistake with its line.
 
-    `is_search`: the best design between two ends of each field is sought, and none are drawn.
+    `is_search`: the study is a search for the best design between two ends of each field.
     """
     path = Path(path)
     return read_study(files.read_text(path), str(path), overrides, folder=path.parent, is_search=is_search)
@@ -169,7 +169,7 @@ def read_study(
     folder: Path | None = None,
     is_search: bool = False,
 ) -> Study:
-    """Return the study that a text describes, as `load_study` does."""
+    """Return the study of a text, as `load_study` does."""
     values = parse(text, name)
     reader = Reader()
     machine = _machine(values, reader, folder or Path())
@@ -217,12 +217,12 @@ def read_study(
 
 
 def study_schema(language: Language = "en") -> str:
-    """Return the JSON Schema of study files, for editors, its descriptions in a language."""
+    """Return the JSON Schema of study files in a language, for editors."""
     return schema_text("crankwork study file", STUDY_FILE.schema(language))
 
 
 def _machine(values: Mapping[str, Any], reader: Reader, folder: Path) -> Description | None:
-    """Return the machine file that a study names."""
+    """Return the machine file that a study names, or None."""
     named = values.get("machine")
     if not isinstance(named, str) or not named:
         return None
@@ -234,7 +234,7 @@ def _machine(values: Mapping[str, Any], reader: Reader, folder: Path) -> Descrip
 
 
 def _analysed(machine: Description, overrides: Sequence[str | Setting], reader: Reader) -> Results | None:
-    """Return the results of the stated machine, whose own mistakes are told where nothing else is wrong."""
+    """Return the results of the stated machine; its own error is raised only if there is no other."""
     try:
         return analyse(machine.machine(overrides))
     except CrankworkError:
@@ -243,18 +243,18 @@ def _analysed(machine: Description, overrides: Sequence[str | Setting], reader: 
         raise
 
 
-def _flat_fields(table: object, stated: dict[str, Any], path: str = "") -> Any:  # noqa: ANN401 - what the file states
-    """Return fields by their dotted keys, where the file has tables within tables."""
+def _flat_fields(table: object, stated: dict[str, Any], path: str = "") -> Any:  # noqa: ANN401 - any TOML value
+    """Return fields by their dotted keys if the file nests tables."""
     if not isinstance(table, dict):
         return table
-    found: dict[str, Any] = {}
+    flat: dict[str, Any] = {}
     for name, value in table.items():
         key = f"{path}.{name}" if path else name
         if isinstance(value, dict) and _is_table(stated, key):
-            found |= _flat_fields(value, stated, key)
+            flat |= _flat_fields(value, stated, key)
         else:
-            found[key] = value
-    return found
+            flat[key] = value
+    return flat
 
 
 def _is_table(stated: dict[str, Any], key: str) -> bool:
@@ -264,20 +264,20 @@ def _is_table(stated: dict[str, Any], key: str) -> bool:
         return False
 
 
-def _flat(table: object, path: str = "") -> Any:  # noqa: ANN401 - what the file states
-    """Return values of the results by their dotted keys."""
+def _flat(table: object, path: str = "") -> Any:  # noqa: ANN401 - any TOML value
+    """Return keys of results by their dotted keys."""
     if not isinstance(table, dict):
         return table
-    found: dict[str, Any] = {}
+    flat: dict[str, Any] = {}
     for name, value in table.items():
         key = f"{path}.{name}" if path else name
         is_table = isinstance(value, dict) and not _LIMITS.keys() & value.keys() and value
-        found |= _flat(value, key) if is_table else {key: value}
-    return found
+        flat |= _flat(value, key) if is_table else {key: value}
+    return flat
 
 
 def _check_search(read: Values, reader: Reader) -> None:
-    """Refuse a search for the best design that does not say by which one value."""
+    """Add an error unless a search has exactly one objective."""
     objectives = read["objectives"] or {}
     if len(objectives) > 1:
         reader.complain("objectives", Refusal("objectives_several", keys=list(objectives)))
@@ -285,8 +285,8 @@ def _check_search(read: Values, reader: Reader) -> None:
         reader.complain("objectives", Refusal("objective_none"))
 
 
-def _varied(read: Values, stated: dict[str, Any], reader: Reader, *, is_search: bool) -> Iterator[Varied]:
-    """Yield the fields that vary, each read as the machine file reads it."""
+def _varied(read: Values, stated: dict[str, Any], reader: Reader, *, is_search: bool) -> Iterator[VariedField]:
+    """Yield the fields that vary, each read with the type of the machine file."""
     fields = read["vary"]
     if not fields and not reader.doubts("vary"):
         reader.complain("vary", Refusal("vary_none"))
@@ -298,38 +298,38 @@ def _varied(read: Values, stated: dict[str, Any], reader: Reader, *, is_search: 
             reader.complain(path, error.args[0])
             continue
         designs = {"drawing": None} if is_search else read["designs"] or {}
-        one = _Field(key, path, kind, stated, reader).varied(written, designs)
-        if one is not None and is_search and one.law not in ("even", "ratios", "uniform"):
+        variable = _Field(key, path, kind, stated, reader).varied(written, designs)
+        if variable is not None and is_search and variable.law not in ("even", "ratios", "uniform"):
             reader.complain(path, Refusal("vary_ends"))
-        elif one is not None:
-            yield one
+        elif variable is not None:
+            yield variable
 
 
 class _Field:
-    """A field that varies, and how what is said of it is read."""
+    """Reader of one field that varies."""
 
     def __init__(self, key: str, path: str, kind: Any, stated: dict[str, Any], reader: Reader) -> None:  # noqa: ANN401
         self._key, self._path, self._reader = key, path, reader
         self._kind = single_kind(kind, stated_value(stated, key))
-        self._number: Sought | None = None
+        self._number: NumericField | None = None
         try:
-            self._number = sought_number(stated, key)
+            self._number = numeric_field(stated, key)
         except CrankworkError:
-            # words and counts may stand in a list
+            # names and integers may be given in a list
             self._kind = kind
 
-    def varied(self, written: object, designs: Mapping[str, Any]) -> Varied | None:
-        """Return how the field varies, or None after complaints."""
+    def varied(self, written: object, designs: Mapping[str, Any]) -> VariedField | None:
+        """Return how the field varies, or None after errors."""
         drawing = designs.get("drawing")
         if isinstance(written, list):
             return self._list(written)
         if self._number is None:
-            self._complain("", Refusal("vary_words"))
+            self._add_error("", Refusal("vary_words"))
             return None
         if isinstance(written, str):
             return self._spread("normal", written, "", drawing)
         if not isinstance(written, dict):
-            self._complain("", Refusal("vary_form", value=shown(written)))
+            self._add_error("", Refusal("vary_form", value=shown(written)))
             return None
         read = _RANGE.read(written, self._path, self._reader)
         if read is None or self._reader.doubts(self._path):
@@ -338,67 +338,67 @@ class _Field:
             return self._spread("uniform", read["uniform"], ".uniform", drawing)
         for name in ("from", "to"):
             if name not in read:
-                self._complain(f".{name}", Refusal("missing", advice=f"{name} = ..."))
+                self._add_error(f".{name}", Refusal("missing", advice=f"{name} = ..."))
                 return None
         return self._range(read, drawing)
 
-    def _list(self, written: list[Any]) -> Varied | None:
-        if not 1 <= len(written) <= _MOST_VALUES:
-            wanted = Refusal("entries_between", fewest="1", most=str(_MOST_VALUES))
-            self._complain("", Refusal("entries", count=len(written), wanted=wanted))
+    def _list(self, written: list[Any]) -> VariedField | None:
+        if not 1 <= len(written) <= _MAX_VALUES:
+            wanted = Refusal("entries_between", fewest="1", most=str(_MAX_VALUES))
+            self._add_error("", Refusal("entries", count=len(written), wanted=wanted))
             return None
-        values = [self._read(one, f"[{at}]") for at, one in enumerate(written, start=1)]
-        if any(one is None for one in values):
+        values = [self._read(entry, f"[{index}]") for index, entry in enumerate(written, start=1)]
+        if any(value is None for value in values):
             return None
         if self._number is None:
-            return Varied(self._key, "words", values=tuple(written))
-        return Varied(self._key, "list", self._number, values=tuple(values))
+            return VariedField(self._key, "words", values=tuple(written))
+        return VariedField(self._key, "list", self._number, values=tuple(values))
 
-    def _range(self, read: Values, drawing: object) -> Varied | None:
+    def _range(self, read: Values, drawing: object) -> VariedField | None:
         low, high = (self._read(read[name], f".{name}") for name in ("from", "to"))
         if low is None or high is None:
             return None
         if not low < high or (read["spacing"] == "ratios" and low <= 0):
             name = "vary_ratios" if low < high else "vary_empty"
-            self._complain(".to", Refusal(name, start=shown(read["from"]), end=shown(read["to"])))
+            self._add_error(".to", Refusal(name, start=shown(read["from"]), end=shown(read["to"])))
             return None
         if drawing == GRID and "steps" not in read:
-            self._complain("", Refusal("vary_steps"))
+            self._add_error("", Refusal("vary_steps"))
             return None
         if drawing == LIST or ("steps" in read and drawing in DRAWN):
-            self._complain("", Refusal("vary_no_grid", drawing=shown(drawing)))
+            self._add_error("", Refusal("vary_no_grid", drawing=shown(drawing)))
             return None
-        return Varied(self._key, read["spacing"], self._number, (low, high), steps=int(read["steps"] or 0))
+        return VariedField(self._key, read["spacing"], self._number, (low, high), steps=int(read["steps"] or 0))
 
-    def _spread(self, law: Any, written: object, at: str, drawing: object) -> Varied | None:  # noqa: ANN401
-        """Return a distribution about a value that is stated with what it may be off by."""
-        value = self._read(written, at)
+    def _spread(self, law: Any, written: object, suffix: str, drawing: object) -> VariedField | None:  # noqa: ANN401
+        """Return a distribution from a value with its deviation."""
+        value = self._read(written, suffix)
         if value is None:
             return None
-        deviation = self._reader.deviations.get(self._path + at)
+        deviation = self._reader.deviations.get(self._path + suffix)
         if not deviation:
-            self._complain(at, Refusal("vary_form", value=shown(written)))
+            self._add_error(suffix, Refusal("vary_form", value=shown(written)))
             return None
         if drawing in (GRID, LIST):
-            self._complain(at, Refusal("vary_distribution", drawing=shown(drawing)))
+            self._add_error(suffix, Refusal("vary_distribution", drawing=shown(drawing)))
             return None
         ends = (value, deviation) if law == "normal" else (value - deviation, value + deviation)
-        return Varied(self._key, law, self._number, ends)
+        return VariedField(self._key, law, self._number, ends)
 
-    def _read(self, value: object, at: str) -> Any:  # noqa: ANN401 - a number, or what the file may state
-        found = self._kind.read(value, f"{self._path}{at}", self._reader)
-        return found.value if isinstance(found, Measure) else found
+    def _read(self, value: object, suffix: str) -> Any:  # noqa: ANN401 - any TOML value
+        result = self._kind.read(value, f"{self._path}{suffix}", self._reader)
+        return result.value if isinstance(result, Measure) else result
 
-    def _complain(self, at: str, message: Refusal) -> None:
-        self._reader.complain(f"{self._path}{at}", message)
+    def _add_error(self, suffix: str, message: Refusal) -> None:
+        self._reader.complain(f"{self._path}{suffix}", message)
 
 
 def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[float, float]]:
-    """Return limits of values after a look at every key that is named. [SI]"""
+    """Check every key that is named, and return the limits. [SI]"""
     named = {
         **{f"objectives.{key}": key for key in read["objectives"] or ()},
         **{f"limits.{key}": key for key in read["limits"] or ()},
-        **{f"values[{at}]": key for at, key in enumerate(read["values"] or (), start=1)},
+        **{f"values[{index}]": key for index, key in enumerate(read["values"] or (), start=1)},
     }
     known = set()
     for path, key in named.items():
@@ -411,11 +411,12 @@ def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[f
     if not named and not reader.problems:
         reader.complain("values", Refusal("study_nothing"))
     with shown_in(results.machine.units):
-        return {key: _limits(key, one, reader) for key, one in (read["limits"] or {}).items() if one and key in known}
+        limits = (read["limits"] or {}).items()
+        return {key: _limits(key, stated, reader) for key, stated in limits if stated and key in known}
 
 
 def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:
-    """Return from and to what a value may be; a bare number is in the unit of the tables. [SI]"""
+    """Return lower and upper limit of a value; a bare number is in the unit of the tables. [SI]"""
     unit, ends = key_unit(key), dict(_LIMITS)
     for name, written in stated.items():
         path = f"limits.{key}.{name}"
@@ -436,17 +437,17 @@ def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:
     return ends["at_least"], ends["at_most"]
 
 
-def _count(read: Values, varied: Sequence[Varied], reader: Reader) -> int:
-    """Return how many designs there are."""
+def _count(read: Values, varied: Sequence[VariedField], reader: Reader) -> int:
+    """Return the number of designs."""
     designs: Mapping[str, Any] = read.get("designs") or {}
     drawing = designs.get("drawing")
     if drawing == GRID:
-        count = math.prod(one.count for one in varied)
-        if count > MOST:
+        count = math.prod(variable.count for variable in varied)
+        if count > MAX_DESIGNS:
             reader.complain("vary", _many(count))
         return count
     if drawing == LIST:
-        lengths = {one.count for one in varied}
+        lengths = {variable.count for variable in varied}
         if len(lengths) > 1:
             reader.complain("vary", Refusal("vary_lengths", counts=sorted(map(str, lengths))))
         return max(lengths, default=0)
@@ -461,4 +462,4 @@ def _count(read: Values, varied: Sequence[Varied], reader: Reader) -> int:
 
 def _many(count: int) -> Refusal:
     written = f"{count}" if count < 10**30 else "10^30"
-    return Refusal("study_count", count=written, most=str(MOST))
+    return Refusal("study_count", count=written, most=str(MAX_DESIGNS))

@@ -1,4 +1,4 @@
-"""Many designs of one machine file: the single values of each."""
+"""Single values of many designs of one machine file."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.report.dataset import check_extras
 from crankwork.report.language import key_unit
-from crankwork.study.machines import Machines
-from crankwork.study.sought import Sought, sought_number
+from crankwork.study.machines import MachineVariants
+from crankwork.study.sought import NumericField, numeric_field
 from crankwork.units import coherent_unit, parse_in, shown_in
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-# designs that are calculated both ways before all others are compiled
+# designs analysed to check the compiled calculation
 _CHECKED = 4
 
 
@@ -36,19 +36,19 @@ class Swept:
     Parameters
     ----------
     fields : mapping of str to array, shape (n,)
-        What the designs state, by the keys of the file.
+        Values of the fields, by the keys of the file.
     values : mapping of str to array, shape (n,)
-        Single values by key, not numbers where there is no machine.
+        Single values by key, NaN without a machine.
     refused : mapping of str to int
-        How many designs there are no machines for, by the reason.
+        Number of designs without a machine, by reason.
     one_by_one : int
-        How many designs were analysed one by one.
+        Number of designs analysed one by one.
     reason : str
-        Why the calculation was not compiled; empty where it was.
+        Why the calculation was not compiled; empty if it was.
     units : mapping of str to str
         The SI units of fields and values, by their keys.
     about : mapping of str to str
-        Where the designs come from, such as the seed of what was drawn.
+        Origin of the designs, such as the seed of a sample.
     """
 
     fields: Mapping[str, Array]
@@ -73,10 +73,10 @@ class Swept:
         check_extras("xarray")
         import xarray as xr  # noqa: PLC0415 - an optional part
 
-        def of(columns: Mapping[str, Array]) -> dict[str, tuple[str, Array, dict[str, str]]]:
-            return {key: ("design", one, {"units": self.units.get(key, "")}) for key, one in columns.items()}
+        def variables(columns: Mapping[str, Array]) -> dict[str, tuple[str, Array, dict[str, str]]]:
+            return {key: ("design", column, {"units": self.units.get(key, "")}) for key, column in columns.items()}
 
-        return xr.Dataset(of(self.values), of(self.fields), dict(self.about))
+        return xr.Dataset(variables(self.values), variables(self.fields), dict(self.about))
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return fields and values as a frame, a row for each design; units are among its `attrs`.
@@ -89,9 +89,9 @@ class Swept:
         check_extras("pandas")
         import pandas as pd  # noqa: PLC0415 - an optional part
 
-        found = pd.DataFrame({**self.fields, **self.values})
-        found.attrs.update(self.about, units=dict(self.units))
-        return found
+        frame = pd.DataFrame({**self.fields, **self.values})
+        frame.attrs.update(self.about, units=dict(self.units))
+        return frame
 
 
 def sweep(
@@ -105,8 +105,8 @@ def sweep(
 ) -> Swept:
     """Return single values of many designs of a machine file.
 
-    What one analysis remembers is compiled and calculated for all designs at once; extremes and integrals are those of
-    the analysis. What does not compile, or is not followed to the last digits, is analysed one by one.
+    The calculation of one analysis is compiled and evaluated for all designs at once; extremes and integrals are those
+    of the analysis. Designs that are not compiled accurately are analysed one by one.
 
     Parameters
     ----------
@@ -115,13 +115,13 @@ def sweep(
     designs : mapping of str to sequence
         Values of fields by their keys, as many for each: numbers in SI, or texts with units.
     keys : sequence of str
-        Single values wanted: keys of the summary.
+        Keys of the summary.
     steps : int, optional
-        How many evenly spaced crank angles are looked at, where exact extremes and integrals are not needed.
+        Number of evenly spaced crank angles, if exact extremes and integrals are not needed.
     overrides : sequence of str
-        Settings laid over the file, `KEY=VALUE`.
+        Settings that replace those of the file, `KEY=VALUE`.
     workers : int, optional
-        Threads; as many as there are processors by default.
+        Number of threads, by default that of the processors.
 
     Returns
     -------
@@ -131,7 +131,7 @@ def sweep(
     Raises
     ------
     CrankworkError
-        If a field or a key is not there, or the fields have different numbers of values.
+        If a field or a key does not exist, or the fields have different numbers of values.
 
     Examples
     --------
@@ -142,30 +142,30 @@ def sweep(
     array([0.08, 0.1 ])
     """
     values = description.values_with(overrides)
-    numbers = {key: sought_number(values, key) for key in designs}
-    columns = [_in_si(numbers[key], of) for key, of in designs.items()]
-    if len({len(one) for one in columns}) != 1 or not columns[0]:
+    numbers = {key: numeric_field(values, key) for key in designs}
+    columns = [_in_si(numbers[key], column) for key, column in designs.items()]
+    if len({len(column) for column in columns}) != 1 or not columns[0]:
         raise CrankworkError(Refusal("sweep_lengths", keys=", ".join(designs)))
-    every: Array = np.array(columns)
-    spans = np.stack([every.min(axis=1), np.median(every, axis=1), every.max(axis=1)], axis=1)
-    machines = Machines(description, numbers, spans, keys, overrides)
-    machines.compile(steps, every[:, np.linspace(0, every.shape[1] - 1, _CHECKED).astype(int)])
-    found = machines.values(every, workers=workers or os.cpu_count() or 1)
-    refused = Counter(str(one) for one in found.refused.values())
-    fields = dict(zip(numbers, every, strict=True))
-    values_of = dict(zip(keys, found.of, strict=True))
-    return Swept(fields, values_of, refused, found.one_by_one, machines.reason, units_of(numbers, keys))
+    all_designs: Array = np.array(columns)
+    spans = np.stack([all_designs.min(axis=1), np.median(all_designs, axis=1), all_designs.max(axis=1)], axis=1)
+    machines = MachineVariants(description, numbers, spans, keys, overrides)
+    machines.compile(steps, all_designs[:, np.linspace(0, all_designs.shape[1] - 1, _CHECKED).astype(int)])
+    result = machines.values(all_designs, workers=workers or os.cpu_count() or 1)
+    refused = Counter(str(error) for error in result.refused.values())
+    fields = dict(zip(numbers, all_designs, strict=True))
+    values_of = dict(zip(keys, result.values, strict=True))
+    return Swept(fields, values_of, refused, result.one_by_one, machines.reason, units_of(numbers, keys))
 
 
-def units_of(numbers: Mapping[str, Sought], keys: Sequence[str]) -> dict[str, str]:
+def units_of(numbers: Mapping[str, NumericField], keys: Sequence[str]) -> dict[str, str]:
     """Return the SI units of fields and of single values."""
     with shown_in("si"):
         values = {key: coherent_unit(key_unit(key)) for key in keys}
     return {key: coherent_unit(number.unit) if number.unit else "" for key, number in numbers.items()} | values
 
 
-def _in_si(number: Sought, values: Sequence[float | str]) -> list[float]:
+def _in_si(number: NumericField, values: Sequence[float | str]) -> list[float]:
     try:
-        return [parse_in(one, number.unit) if isinstance(one, str) else float(one) for one in values]
+        return [parse_in(value, number.unit) if isinstance(value, str) else float(value) for value in values]
     except ValueError as error:
         raise CrankworkError(Refusal("option_key_wrong", key=number.key, mistake=error.args[0])) from None

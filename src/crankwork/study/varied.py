@@ -1,4 +1,4 @@
-"""A field of a machine file that differs between designs: by what law, between which values."""
+"""A field of a machine file that differs between designs, with its distribution."""
 
 from __future__ import annotations
 
@@ -10,41 +10,41 @@ from numpy.typing import NDArray
 
 from crankwork.description.machine_file import Setting
 from crankwork.kinematics.crank_grid import Array
-from crankwork.study.sought import Sought
+from crankwork.study.sought import NumericField
 
 Law = Literal["list", "even", "ratios", "uniform", "normal", "words"]
-# how far from their mean designs of a normal distribution are looked for when a calculation is compiled, in deviations
+# range of a normal distribution that a calculation is compiled for, in deviations
 _FAR = 5.0
-# parts of a probability that a normal distribution is asked for at most
-_NEVER = 2.0**-40
+# least probability of a quantile
+_MIN_PROBABILITY = 2.0**-40
 
 
 @dataclass(frozen=True)
-class Varied:
-    """A field that designs differ in. Designs state it in SI, words and counts by their place in the list.
+class VariedField:
+    """A field that designs differ in. Designs hold it in SI; names and integers by their index in the list.
 
-    `ends`: of a range, or of an even distribution; of a normal one mean and standard deviation.
+    `ends`: of a range or a uniform distribution; for a normal one mean and standard deviation.
     """
 
     key: str
     law: Law
-    number: Sought | None = None
+    number: NumericField | None = None
     ends: tuple[float, float] = (0.0, 0.0)
     values: tuple[Any, ...] = ()
     steps: int = 0
 
     @property
     def unit(self) -> str:
-        """The unit that the file states it in."""
+        """Unit in the file."""
         return self.number.unit if self.number else ""
 
     @property
     def count(self) -> int:
-        """How many values a grid has, 0 for any number."""
+        """Number of values of a grid, 0 for any number."""
         return len(self.values) or (self.steps + 1 if self.steps else 0)
 
     def of_places(self, places: NDArray[Any]) -> Array:
-        """Return the values at some places of a list or a range, counted from 0."""
+        """Return the values at indices of a list or a range, counted from 0."""
         if self.law == "words":
             return np.asarray(places, dtype=float)
         if self.values:
@@ -52,22 +52,21 @@ class Varied:
         return self.of_shares(places / self.steps)
 
     def of_shares(self, shares: Array) -> Array:
-        """Return the values below which shares of all designs lie."""
+        """Return the quantiles of the distribution at probabilities."""
         low, high = self.ends
         if self.values:
             return self.of_places(np.minimum(shares * len(self.values), len(self.values) - 1).astype(np.intp))
         if self.law == "ratios":
-            # exact at either end
             return np.where(shares < 1, low * (high / low) ** shares, high)
         if self.law == "normal":
             from scipy.special import ndtri  # noqa: PLC0415 - an optional part
 
-            return np.asarray(low + high * ndtri(np.clip(shares, _NEVER, 1 - _NEVER)))
+            return np.asarray(low + high * ndtri(np.clip(shares, _MIN_PROBABILITY, 1 - _MIN_PROBABILITY)))
         return np.asarray(low * (1 - shares) + high * shares)
 
     @property
     def span(self) -> tuple[float, float, float]:
-        """The least value, one between, and the largest that designs may have. [SI]"""
+        """Least, intermediate and largest value of designs. [SI]"""
         low, high = (min(self.values), max(self.values)) if self.values and self.number else self.ends
         if self.law == "normal" and self.number is not None:
             low, high = (low - _FAR * high, low + _FAR * high)
@@ -75,6 +74,6 @@ class Varied:
         return low, (low * high) ** 0.5 if self.law == "ratios" else (low + high) / 2, high
 
     def setting(self, value: float) -> Setting:
-        """Return what a design states."""
+        """Return the setting of a design."""
         stated = self.values[int(value)] if self.number is None else self.number.written(float(value))
         return Setting(self.key, self.key, stated)

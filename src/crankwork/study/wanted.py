@@ -1,4 +1,4 @@
-"""What is asked of a machine: a value of its results, where, and what it is to be."""
+"""Target equations of `solve`: a value of the results, where it is taken, and its target."""
 
 from __future__ import annotations
 
@@ -20,37 +20,37 @@ _SAME = 1e-12
 _EXAMPLE = "piston_force@33deg = 0"
 
 
-class Wanted(NamedTuple):
-    """A value of the results: its key, where it is taken, as results take it, and what it is to be. [SI]"""
+class Target(NamedTuple):
+    """A value of the results: key, crank angle or time, and its target. [SI]"""
 
     key: str
-    at: float | None  # Crank angle [deg], or time where a law drives [s]
+    position: float | None  # Crank angle [deg], or time with a time-based driver [s]
     level: float
 
 
-class Written(NamedTuple):
-    """An equation as it is written: what stands on its left, after an @ there, and on its right."""
+class TargetText(NamedTuple):
+    """An equation as text: left side, position after an @ there, right side."""
 
     key: str
     place: str
     level: str
 
 
-def written(equation: str) -> Written:
-    """Return the parts of an equation."""
+def split_target(equation: str) -> TargetText:
+    """Split the text of an equation."""
     left, sign, right = (part.strip() for part in equation.rpartition("="))
     key, place_sign, place = (part.strip() for part in left.rpartition("@"))
     key, place = (key, place) if place_sign else (left, "")
     if not sign or not key or not right or (place_sign and not place) or len(equation) > 200:
         raise CrankworkError(Refusal("equation_form", equation=equation[:60], example=_EXAMPLE))
-    return Written(key, place, right)
+    return TargetText(key, place, right)
 
 
-def wanted(parts: Written, results: Results) -> Wanted:
-    """Return what is asked of a machine like one whose results are at hand, or refuse what it cannot have."""
+def parse_target(parts: TargetText, results: Results) -> Target:
+    """Parse and validate a target equation against the results of the stated machine."""
     key, place, right = parts
     if key not in results:
-        # which names the nearest there are
+        # raises an error with the nearest keys
         results.value(key)
     known = results.memory.get(key)
     varies = known.varies if known is not None else key in results.columns
@@ -59,11 +59,11 @@ def wanted(parts: Written, results: Results) -> Wanted:
     if varies and not place:
         example = f"{results.period / 2:g}s" if results.period else "90deg"
         raise CrankworkError(Refusal("place_missing", key=key, example=f"{key}@{example}"))
-    at = _place(place, is_time=bool(results.period)) if place else None
-    # refuses an angle outside the cycle
-    results.value(key, at)
+    position = _place(place, is_time=bool(results.period)) if place else None
+    # raises an error for an angle outside the cycle
+    results.value(key, position)
     with shown_in(results.machine.units):
-        return Wanted(key, at, level(key, right))
+        return Target(key, position, level(key, right))
 
 
 def _place(text: str, *, is_time: bool) -> float:
@@ -76,42 +76,43 @@ def _place(text: str, *, is_time: bool) -> float:
 
 
 def level(key: str, text: str) -> float:
-    """Return what a value is to be; a bare number is in the unit in which tables show it. [SI]"""
+    """Return a target in SI; a bare number is in the unit of the tables."""
     unit = key_unit(key)
     try:
         value = parse_in(text, unit) if unit else float(text.replace(",", "."))
     except ValueError as error:
-        told = error.args[0] if unit else Refusal("level_plain", text=text[:40])
-        raise CrankworkError(Refusal("option_wrong", option=f"{key} = {text[:40]}", mistake=told)) from None
+        mistake = error.args[0] if unit else Refusal("level_plain", text=text[:40])
+        raise CrankworkError(Refusal("option_wrong", option=f"{key} = {text[:40]}", mistake=mistake)) from None
     if not math.isfinite(value):
         raise CrankworkError(Refusal("option_wrong", option=f"{key} = {text[:40]}",
                                      mistake=Refusal("level_plain", text=text[:40])))  # fmt: skip
     return value
 
 
-def shortest(asked: Wanted, machine: Machine, results: Results) -> Callable[[Machine], float]:
-    """Return the function that gives a value of machines like one, by no more of an analysis than it takes.
+def value_function(target: Target, machine: Machine, results: Results) -> Callable[[Machine], float]:
+    """Return the function that gives a value of variants of a machine by the cheapest analysis.
 
-    What a part of the analysis gives is compared with what all of it gave for this machine.
+    Cheaper analyses are compared with the full one for this machine.
     """
-    ways: list[Callable[[Machine], Results]] = [analyse]
+    key, position, _ = target
+    methods: list[Callable[[Machine], Results]] = [analyse]
     if machine.transient is not None:
-        ways.insert(0, lambda one: analyse(replace(one, transient=None)))
-    if asked.at is None:
-        ways.insert(0, lambda one: value_only(one, asked.key))
+        methods.insert(0, lambda variant: analyse(replace(variant, transient=None)))
+    if position is None:
+        methods.insert(0, lambda variant: value_only(variant, key))
     elif not results.has_positions:
-        ways.insert(0, columns_only)
-    value = results.value(asked.key, asked.at)
-    for way in ways[:-1]:
-        found = way(machine)
-        if asked.key in found.memory and math.isclose(found.value(asked.key, asked.at), value, abs_tol=_SAME):
-            return lambda one: way(one).value(asked.key, asked.at)
-    return lambda one: analyse(one).value(asked.key, asked.at)
+        methods.insert(0, columns_only)
+    value = results.value(key, position)
+    for method in methods[:-1]:
+        partial = method(machine)
+        if key in partial.memory and math.isclose(partial.value(key, position), value, abs_tol=_SAME):
+            return lambda variant: method(variant).value(key, position)
+    return lambda variant: analyse(variant).value(key, position)
 
 
-def is_rounding(asked: Wanted, results: Results) -> bool:
-    """Return whether a value is only what rounding has left of larger ones."""
-    known: Known | None = results.memory.get(asked.key)
+def is_rounding(target: Target, results: Results) -> bool:
+    """Return whether a value is only the rounding error of larger ones."""
+    known: Known | None = results.memory.get(target.key)
     if known is None or results.has_positions:
         return False
-    return results.moment(0.0 if asked.at is None else results.degrees_of(asked.at)).is_noise(known)
+    return results.moment(0.0 if target.position is None else results.degrees_of(target.position)).is_noise(known)
