@@ -286,7 +286,8 @@ class Source:
     def _range(self, one: Value) -> Iterator[str]:
         """Yield how far the integral of a column about its mean goes up and down, or what tangents cut off of it."""
         at, angles, word = one.operands[0].at, self.plan.grid.degrees.size, one.detail
-        place, mean = self.place(one), self._stored(("mean", at))
+        place = word, *(operand.at for operand in one.operands)
+        mean = self._stored(("mean", at))
         high, low, work = (self._stored(other) for other in (place, ("low", *place), ("work", *place)))
         columns = ["c", "inertia", "upper", "lower"][: len(one.operands)]
         above, below = work, work
