@@ -43,7 +43,7 @@ from crankwork.page import alike
 from crankwork.report import comparison_figure, drawing
 from crankwork.report.drawing import moving_drawing
 from crankwork.show.film import gif
-from crankwork.show.moving_svg import _brief, moving_svg
+from crankwork.show.moving_svg import _short_number, moving_svg
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
 from crankwork.show.theme import fill_colours
 from crankwork.studio import answers, sketch
@@ -66,7 +66,7 @@ def test_a_value_in_a_small_unit_is_multiplied_by_a_whole_number() -> None:
 
 
 def test_nothing_is_printed_without_a_sign() -> None:
-    assert [_brief(value) for value in (-0.001, 0.0, -0.5, 2.0, 1.257)] == ["0", "0", "-0.5", "2", "1.26"]
+    assert [_short_number(value) for value in (-0.001, 0.0, -0.5, 2.0, 1.257)] == ["0", "0", "-0.5", "2", "1.26"]
     assert [number(value, "en") for value in (-0.0, -1e-9, 123456.7, 1234567.0)] == [
         "0",
         "−10⁻⁹",

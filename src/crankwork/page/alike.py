@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.show.inline import frame_marks
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.show.scene import Arc, Box, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
 
 # of its size, how far a line may be from another that is the same
@@ -21,7 +21,7 @@ _UNSEEN, _BESIDE = 1e-3, 8.0
 _UNSEEN_MOVE = 0.05
 
 
-def is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
+def is_same_film(film: Animation, other: Animation) -> bool:
     """Return whether nobody sees a difference between two films."""
     own, others = ({one.name: one for one in each.parts} for each in (film, other))
     return own.keys() == others.keys() and all(

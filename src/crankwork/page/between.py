@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.show.scene import Drawing, Plot, Polyline, Text, runs, seen_of_each
+from crankwork.show.scene import Drawing, Plot, Polyline, Text, runs, visible_points_of_each
 
 _NUMBER = re.compile(r"−?\d+(?:[.,]\d+)?")
 # of the scales of a graph: what nobody sees; how far a curve may be from what was calculated between, the width of its
@@ -64,7 +64,7 @@ class Between:
             is_seen = np.all((of > low - size) & (of < high + size), axis=0)
             if np.any(np.abs(one - of)[:, is_seen] > limit * size):
                 return {}
-        kept = np.any(seen_of_each([(one / size).T for one in points], _UNSEEN), axis=0)
+        kept = np.any(visible_points_of_each([(one / size).T for one in points], _UNSEEN), axis=0)
         decimals = [4 - math.floor(math.log10(one)) for one in size[:, 0]]
         across, up = (np.round(points[:, side][:, kept], decimals[side]).tolist() for side in (0, 1))
         angles = plots[0].curves[name][0] if plots[0].over else plots[0].angles.get(name, ())

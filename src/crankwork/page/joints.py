@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.show.moving import MovingDrawing, Part
+from crankwork.show.moving import Animation, Part
 from crankwork.show.paper import GREY
 from crankwork.show.scene import Circle, Drawing, Item, Plot, Polyline, Text, pen_of, placed
 
@@ -21,7 +21,7 @@ _LOOKED = (0, 7, 19, 31)
 _PLANNED, _NEAR, _STRAY = 2.0, 15.0, 0.5
 
 
-def joints_of(films: Sequence[MovingDrawing], results: Sequence[Results]) -> dict[str, Any] | None:
+def joints_of(films: Sequence[Animation], results: Sequence[Results]) -> dict[str, Any] | None:
     """Return scale and origin of a film, columns of its joints, and which of them links and labels stand upon.
 
     None where links are more than lines between joints, or joints do not follow columns in every design.
@@ -55,7 +55,7 @@ def joints_of(films: Sequence[MovingDrawing], results: Sequence[Results]) -> dic
 class _Scale:
     """How places in metres stand on the paper of a film: scale [mm/m], origin [mm], and joints that stand still [m]."""
 
-    def __init__(self, film: MovingDrawing, results: Results) -> None:
+    def __init__(self, film: Animation, results: Results) -> None:
         joints = [one for one in film.parts if one.name.startswith("joint.")]
         names = {one.name: one.name.removeprefix("joint.") for one in joints}
         self.keys = {
@@ -78,12 +78,12 @@ class _Scale:
         self.fixed = {one.name: (_track(one, film)[0] - origin) / self.scale for one in still}
 
 
-def _track(part: Part, film: MovingDrawing) -> Array:
+def _track(part: Part, film: Animation) -> Array:
     """Return where a part is in all frames, shape (n, 2). [mm]"""
     return np.asarray(np.broadcast_to(part.shift, (len(film.angles), 2)))
 
 
-def _upon(part: Part, film: MovingDrawing, joints: Mapping[str, Array]) -> list[str] | None:
+def _upon(part: Part, film: Animation, joints: Mapping[str, Array]) -> list[str] | None:
     """Return the joints that the corners of a link are, if it is a line through joints."""
     if len(part.items) != 1 or not isinstance(part.items[0], Polyline):
         return None

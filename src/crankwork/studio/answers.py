@@ -33,10 +33,10 @@ from crankwork.report.language import displayed, key_unit
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
-from crankwork.show.alt import described
+from crankwork.show.alt import alt_text
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.studio.additions import additions, with_addition
 from crankwork.studio.ahead import ahead
 from crankwork.studio.form import form, stated_text
@@ -248,13 +248,13 @@ class Studio:
         return found if film is None else found | {"film": inline_film(film, "machine")}
 
     def _drawn(
-        self, results: Results, wanted: Collection[str], film: MovingDrawing | None, *, only_read: bool = False
+        self, results: Results, wanted: Collection[str], film: Animation | None, *, only_read: bool = False
     ) -> dict[str, Any]:
         """Return the figures that are wanted, and what a page keeps of results."""
         shown = drawings(results, language=self.language, only=set(wanted))
         data = page_data(results, shown, film, self.language, only_read=only_read)
         for name, one in shown.items():
-            data["figures"][name]["told"] = described(one)
+            data["figures"][name]["told"] = alt_text(one)
             for k, plot in enumerate(one.plots):
                 data["figures"][name]["plots"][k] |= frame_data(plot)
         figures = {name: inline_svg(one, name, one.title, frame_marks(one)) for name, one in shown.items()}

@@ -14,7 +14,7 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import displayed, displayed_column, key_unit, label
 from crankwork.show.chart import CIRCLE, DOT, Graph, Row, round_ticks, sheet, small_text
 from crankwork.show.paper import BLACK, GREY, WIDER, fitted_lines, plain, text_width
-from crankwork.show.place import here
+from crankwork.show.place import current_layout
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 from crankwork.study.chunks import Reduced, is_shown, within
 from crankwork.study.found_text import ranked
@@ -177,7 +177,7 @@ def _parallel(axes: list[_Axis], some: int, best: Index, title: str, language: L
         Row(say("study.some", language), width=0.6, colour=_FAINT),
     ]
     edge = 56.0
-    across = np.linspace(edge, here().width - edge, len(axes))
+    across = np.linspace(edge, current_layout().width - edge, len(axes))
     room = min((across[1] - across[0]) - 6, 2 * edge - 8) / WIDER
     names = [_fitted(one.name, room) for one in axes]
     paper, box = sheet(_LINES_TALL, rows, below=24.0 + 10.0 * max(map(len, names)))
@@ -223,7 +223,7 @@ def _bars(study: Study, key: str, indices: Array, language: Language) -> Drawing
     paper, box = sheet(_BAR * len(order) + 8, rows, below=34.0)
     names = [study.varied[at].key for at in order]
     left = max(WIDER * text_width(one, 8.5) for one in names) + 12
-    box = box._replace(left=left, width=here().width - left - 78)
+    box = box._replace(left=left, width=current_layout().width - left - 78)
     graph = Graph(
         paper,
         box,
