@@ -29,7 +29,7 @@ from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
 from crankwork.errors import DoubtfulError
 from crankwork.formula.known import given
-from crankwork.kernel.grid import closed
+from crankwork.kernel.grid import with_delayed_breakpoints
 from crankwork.loads import dead_centre, monotone
 from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
@@ -263,8 +263,8 @@ def test_a_lever_that_would_only_swing_is_refused_with_its_lengths_in_millimetre
 
 def test_delayed_breaks_are_closed_unless_they_are_more_than_allowed() -> None:
     breaks, delays = np.array([0.0, 360.0]), [360.0 / 11]
-    assert np.allclose(closed(breaks, delays, 11), np.arange(12) * 360.0 / 11)
-    assert np.array_equal(closed(breaks, delays, 10), breaks)
+    assert np.allclose(with_delayed_breakpoints(breaks, delays, 11), np.arange(12) * 360.0 / 11)
+    assert np.array_equal(with_delayed_breakpoints(breaks, delays, 10), breaks)
 
 
 def test_a_bend_that_vanishes_at_the_end_of_the_range_is_found() -> None:

@@ -15,7 +15,7 @@ from crankwork.errors import CrankworkError
 from crankwork.formula.known import Delayed, Found, Given, Known, in_order
 from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.script import Script
-from crankwork.kernel.trace import Designs, Trace
+from crankwork.kernel.trace import DesignTraces, Lowering
 from crankwork.locale import Language, Refusal
 from crankwork.locale.numbers import number
 from crankwork.page.alike import is_beside, is_same_film, is_title, is_within, scaled, signed, staying
@@ -92,7 +92,7 @@ class Live:
         self.memories = [dict(one.memory) for one in self._results]
         stated = self._results[0]
         self._angles_at, self._cycle = type(stated.grid).from_degrees, stated.machine.cycle
-        self._designs = Designs(self.memories, moved.designs, ())
+        self._designs = DesignTraces(self.memories, moved.designs, ())
         self._trace = self._new_trace()
         self._compared = [*moved.results, *(around or {}).values(), *(further or {}).values()]
         # reductions of columns that polynomials follow in every design
@@ -120,9 +120,9 @@ class Live:
         limits = [rounding_of_extremes(one) for one in self._compared]
         self._rounding = {key: max(one.get(key, 0.0) for one in limits) for key in limits[0]}
 
-    def _new_trace(self) -> Trace:
+    def _new_trace(self) -> Lowering:
         looked = np.arange(0.0, self._cycle, _LOOKED)
-        return Trace(self._designs, self._angles_at, looked, is_shifted=True)
+        return Lowering(self._designs, self._angles_at, looked, is_shifted=True)
 
     def _followed(self, keys: Sequence[str]) -> list[str]:
         """Return those of some keys for which polynomials follow all columns that their extremes and means are of.
@@ -138,7 +138,9 @@ class Live:
                 is_for_few=True, enough=_FOLLOWED,
             )  # fmt: skip
             designs = self._moved.designs.T
-            for key, values, left in zip(unsure, kernel(designs).values, kernel.left_out_of(designs), strict=True):
+            for key, values, left in zip(
+                unsure, kernel(designs).values, kernel.truncation_error_of(designs), strict=True
+            ):
                 whole = left <= CONVERGED
                 slack = np.full(whole.sum(), _SAME)
                 is_right = self.memories[0][key].varies or self._is_right(key, values[whole], whole, slack)
@@ -200,7 +202,7 @@ class Live:
         for at, known in enumerate(knowns):
             name = f"#{at}"
             try:
-                twins = self._designs.twins(known.node)
+                twins = self._designs.counterparts(known.node)
             except KeyError:
                 names.append("")
                 continue
@@ -408,7 +410,7 @@ class Live:
     def _check(self, kernel: Kernel) -> None:
         """Find what is something else than in analyses, of designs that are followed; refuse it where curves are it."""
         found = kernel(self._at.T)
-        whole, left_out = found.left_out <= _FOLLOWED, np.maximum(found.left_out, _SAME)
+        whole, left_out = found.truncation_error <= _FOLLOWED, np.maximum(found.truncation_error, _SAME)
         self._wrong = {
             key
             for key, values in zip(self._used, found.values, strict=True)

@@ -14,7 +14,7 @@ from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError, UnknownKeyError
-from crankwork.kernel.compiled import CONVERGED, Bulk, Kernel
+from crankwork.kernel.compiled import CONVERGED, BatchResult, Kernel
 from crankwork.kernel.trace import NotCompiledError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Refusal
@@ -128,7 +128,7 @@ class Machines:
             if limit > _SAME:
                 # of peaks that are level, angles that are passed over may make another the largest
                 apart[["_angle" in key for key in self.keys]] = -np.inf
-            if found.left_out[at] <= CONVERGED and np.any(apart > 0):
+            if found.truncation_error[at] <= CONVERGED and np.any(apart > 0):
                 raise NotCompiledError("differs", self.keys[int(np.argmax(apart))])
 
     def check_at(self, kernel: Kernel, design: Array) -> None:
@@ -145,10 +145,10 @@ class Machines:
         """
         count = designs.shape[1]
         if self._kernel is None:
-            found = Bulk(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
+            found = BatchResult(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
         else:
             found = threaded(self._kernel, designs, workers)
-        inexact = found.left_out > CONVERGED
+        inexact = found.truncation_error > CONVERGED
         absent = ~np.isfinite(found.values).all(axis=0)
         left = np.flatnonzero(inexact)
         left = np.sort(np.concatenate([left, np.flatnonzero(absent & ~inexact)[:looked_into]]))
@@ -180,11 +180,11 @@ def check_single(results: Results, key: str) -> None:
     results.value(key)
 
 
-def threaded(kernel: Kernel, designs: Array, workers: int) -> Bulk:
+def threaded(kernel: Kernel, designs: Array, workers: int) -> BatchResult:
     """Return what a kernel gives for all designs, parts of them at the same time."""
     count = designs.shape[1]
     designs = np.ascontiguousarray(designs)
-    found = Bulk(np.empty((len(kernel.keys), count)), np.zeros(count))
+    found = BatchResult(np.empty((len(kernel.keys), count)), np.zeros(count))
     starts = range(0, count, _TOGETHER)
     run: Callable[[int], None] = lambda start: kernel.run(designs, found, start, min(start + _TOGETHER, count))  # noqa: E731
     if workers == 1 or len(starts) == 1:
