@@ -23,7 +23,7 @@ from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
 from crankwork.analysis.rounding import without_rounding
 from crankwork.analysis.stated import StatedFriction
-from crankwork.cli.asked import count_of
+from crankwork.cli.asked import parse_count
 from crankwork.cli.studio import studio
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
@@ -58,7 +58,7 @@ from each import failing
 
 
 def test_a_count_has_at_most_nine_digits() -> None:
-    assert [count_of(text) for text in ("0", "123456789", "1234567890", "²", "-1", "")] == [0, 123456789, 0, 0, 0, 0]
+    assert [parse_count(text) for text in ("0", "123456789", "1234567890", "²", "-1", "")] == [0, 123456789, 0, 0, 0, 0]
 
 
 def test_a_value_in_a_small_unit_is_multiplied_by_a_whole_number() -> None:
@@ -87,7 +87,7 @@ def test_a_bar_is_shown_once_a_second_has_passed(monkeypatch: pytest.MonkeyPatch
     screen.isatty = lambda: True  # type: ignore[method-assign]
     monkeypatch.setattr(progress.time, "monotonic", lambda: now[0])
     monkeypatch.setattr(progress.sys, "stderr", screen)
-    with progress.bar() as told:
+    with progress.progress_bar() as told:
         now[0] += 0.9
         told(0.2)
         assert screen.getvalue() == ""
@@ -343,7 +343,7 @@ def test_transmission_angles_are_usual_where_pressure_angles_are() -> None:
 
 
 def test_every_end_has_its_exit_status(monkeypatch) -> None:
-    monkeypatch.setattr(cli, "_send_nowhere", lambda _: None)
+    monkeypatch.setattr(cli, "_discard_output", lambda _: None)
     ends = {
         0: None, 1: DoubtfulError("doubtful"), 2: crankwork.CrankworkError("wrong"), 130: KeyboardInterrupt(),
     }  # fmt: skip

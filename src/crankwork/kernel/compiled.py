@@ -298,7 +298,7 @@ def compiled(text: str) -> ModuleType:
     from crankwork.kernel import elementary  # noqa: PLC0415 - Numba is an optional part
 
     name = f"kernel_{hashlib.sha256((inspect.getsource(elementary) + text).encode()).hexdigest()[:24]}"
-    path = files.kept(f"kernels/{name}.py", text)
+    path = files.cached_file(f"kernels/{name}.py", text)
     if path is None:
         # not cached
         module = ModuleType(name)

@@ -17,7 +17,7 @@ from crankwork.show.labels import label_marks
 from crankwork.show.paper import BLACK, WIDER, Canvas, text_width
 from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID
-from crankwork.units import shown_in
+from crankwork.units import use_units
 
 # between values of neighbouring bars [pt]
 _BETWEEN = 5.0
@@ -145,7 +145,7 @@ def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     _swatches(paper, texts, fills)
     for panel in (one for one in sizes if one not in panels):
         key = f"free_{panel}"
-        with shown_in(units_of(engine.results, key, most[panel])):
+        with use_units(units_of(engine.results, key, most[panel])):
             # of forces that cancel rounding is left
             size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
         free = f"{say(f'drawing.{key}', language)} {engine.symbol(key)}"
@@ -155,7 +155,7 @@ def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     graphs: dict[str, Graph] = {}
     for at, panel in enumerate(panels):
         key = f"free_{panel}"
-        with shown_in(units_of(engine.results, key, most[panel])):
+        with use_units(units_of(engine.results, key, most[panel])):
             bars = [
                 _Bars(kind, {order: float(engine.shown(key, value)) for order, value in some.items()})
                 for kind, some in sizes[panel].items()

@@ -28,7 +28,7 @@ from crankwork.show.chart import Graph, Row, round_ticks, sheet, write_method
 from crankwork.show.labels import label_marks, label_points
 from crankwork.show.place import current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
-from crankwork.units import METRIC, shown_in
+from crankwork.units import METRIC, use_units
 
 _TALL, _WIDE = 331.0, 1.08
 # how much taller it may be for a round scale; how far tangents are drawn beyond the curve, of its width
@@ -45,7 +45,7 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
     """
     found, language = tangents(inertia, energy, wanted), style.language
     # slopes and angles are those of J over kg m2
-    with shown_in(METRIC):
+    with use_units(METRIC):
         ends, scales = _ends(inertia, energy, found)
         slopes = (found.slope_max, DASHED, "max"), (found.slope_min, DASH_DOT, "min")
         rows = [Row(_angle(scales.x / scales.y, one, name, language), line, 0.9) for one, line, name in slopes]

@@ -46,7 +46,7 @@ from crankwork.studio.pmks import from_pmks, is_pmks
 from crankwork.studio.reach import reached
 from crankwork.studio.sketch import measured, missing, redrawn, sketched, swapped
 from crankwork.studio.trials import tried
-from crankwork.units import shown_in
+from crankwork.units import use_units
 
 SHARE = "crankwork:"
 _LINE = re.compile(r":(\d+)$")
@@ -116,7 +116,7 @@ class Studio:
             results = self._computed(text)
         except CrankworkError as error:
             return {**found, "additions": self._additions(description, None), "refusals": self._told(error)}
-        with shown_in(results.machine.units):
+        with use_units(results.machine.units):
             if asked.get("held"):
                 return found | self._held(results, asked)
             found |= {
@@ -200,7 +200,7 @@ class Studio:
         def place(path: str, numbers: Iterable[float]) -> str:
             return place_text(origin(path, numbers), self.language)
 
-        with shown_in(results.machine.units):
+        with use_units(results.machine.units):
             columns = page_data(results, {}, None, self.language)["columns"]
             return {"memories": Memories(results, self.language, place, columns).of([key]), "key": key}
 

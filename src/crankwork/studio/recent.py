@@ -30,7 +30,7 @@ def recent(opened: Recent | None = None) -> list[Recent]:
         others = [one for one in before if one.name != opened.name]
         return json.dumps([list(one) for one in [opened, *others][:_MOST]])
 
-    return _read(files.changed(_NAME, change, limit=_LONGEST))
+    return _read(files.update_user_file(_NAME, change, limit=_LONGEST))
 
 
 def named(found: list[Recent]) -> list[list[str]]:

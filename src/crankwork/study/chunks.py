@@ -21,7 +21,7 @@ from crankwork.study.designs import block_of, designs_of
 from crankwork.study.machines import Machines
 from crankwork.study.ranking import Histogram, Index, Moments, Shares, best, feasible, front, thinned
 from crankwork.study.study_file import Study
-from crankwork.units import coherent_unit, shown_in
+from crankwork.units import coherent_unit, use_units
 
 # designs of a chunk: at evenly spaced angles, with exact extremes, and analysed one by one
 _SAMPLED, _EXACT, _ALONE = 2**16, 2**12, 2**6
@@ -288,7 +288,7 @@ def written(study: Study, numbers: Index, fields: Array, values: Array, meta: Ma
         else:
             columns.append(pa.array(of))
             kinds.append(pa.field(one.key, pa.float64(), metadata={"unit": coherent_unit(one.number.unit)}))
-    with shown_in("si"):
+    with use_units("si"):
         for key, of in zip(study.keys, values, strict=True):
             columns.append(pa.array(of))
             kinds.append(pa.field(key, pa.float64(), metadata={"unit": coherent_unit(key_unit(key))}))

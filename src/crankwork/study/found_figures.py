@@ -21,7 +21,7 @@ from crankwork.study.found_text import ranked
 from crankwork.study.ranking import Histogram, Index, thinned
 from crankwork.study.study_file import Study
 from crankwork.study.varied import Varied
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 
 _TALL, _LINES_TALL, _BAR = 190.0, 210.0, 21.0
 _DIGITS, _FEW = 6, 4
@@ -32,7 +32,7 @@ _DARK, _FAINT = "#8c8c8c", "#cfcfcf"
 
 def found_drawings(study: Study, found: Reduced, language: Language) -> dict[str, Drawing]:
     """Return the figures of what is found by name."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return dict([
             *_histograms(study, found, language), *_scatters(study, found, language),
             *_parallels(study, found, language), *_indices(study, found, language),

@@ -18,7 +18,7 @@ from crankwork.study.chunks import NUMBER, Reduced, ranks, within
 from crankwork.study.ranking import Index, Moments
 from crankwork.study.study_file import Study
 from crankwork.study.varied import Varied
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 
 _DIGITS = 6
 # designs that a terminal shows of the best
@@ -30,14 +30,14 @@ _LEAST = 0.005
 def found_files(study: Study, found: Reduced) -> dict[str, bytes]:
     """Return what goes into the folder of a study beside its parts."""
     data = json.dumps(found_data(study, found), ensure_ascii=False, indent=1)
-    with shown_in(study.units):
+    with use_units(study.units):
         tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in _sheets(study, found).items()}
     return {"summary.json": f"{data}\n".encode(), **tables}
 
 
 def found_text(study: Study, found: Reduced, language: Language = "en") -> str:
     """Return what is found in words."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return "\n".join(_lines(study, found, language))
 
 
@@ -159,7 +159,7 @@ def _rows(study: Study, found: Reduced, rows: Index) -> Sheet:
 
 def found_data(study: Study, found: Reduced) -> dict[str, Any]:
     """Return what is found as plain data."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return _data(study, found)
 
 

@@ -14,7 +14,7 @@ from crankwork.show.contour import Field, contours
 from crankwork.show.paper import plain
 from crankwork.show.scene import Drawing
 from crankwork.study.mapped import Map
-from crankwork.units import coherent_unit, from_si, shown_in
+from crankwork.units import coherent_unit, from_si, use_units
 
 _TALL, _WIDE_TALL = 250.0, 190.0
 _LINES = 9
@@ -23,7 +23,7 @@ _DIGITS = 5
 
 def map_drawings(found: Map, language: Language) -> dict[str, Drawing]:
     """Return a figure of every value that depends on a field, over those fields that it depends on."""
-    with shown_in(found.units):
+    with use_units(found.units):
         return {
             f"map.{key}": _drawing(found, key, language)
             for key in found.varying

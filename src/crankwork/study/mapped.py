@@ -28,7 +28,7 @@ from crankwork.study.chunks import by_kind, reason_of
 from crankwork.study.machines import Machines
 from crankwork.study.running import each
 from crankwork.study.sought import Places, Sought, places, sought_number
-from crankwork.units import System, from_si, shown_in
+from crankwork.units import System, from_si, use_units
 
 STEPS = 12
 _FEWEST, _MOST = 1, 200
@@ -213,7 +213,7 @@ def _is_same(values: Array, axis: int) -> bool:
 def map_files(found: Map) -> dict[str, bytes]:
     """Return what goes into the folder of a map."""
     data = json.dumps(map_data(found), ensure_ascii=False, indent=1)
-    with shown_in(found.units):
+    with use_units(found.units):
         return {"summary.json": f"{data}\n".encode(), "tables/map.csv": csv_of_sheet(_sheet(found))}
 
 
@@ -230,7 +230,7 @@ def _sheet(found: Map) -> Sheet:
 
 def map_data(found: Map) -> dict[str, object]:
     """Return a map as plain data, in the units of the file and the tables."""
-    with shown_in(found.units):
+    with use_units(found.units):
         sheet = _sheet(found)
         values = {
             key: [None if np.isnan(one) else rounded(one) for one in column.tolist()]
@@ -248,7 +248,7 @@ def map_data(found: Map) -> dict[str, object]:
 
 def map_text(found: Map, language: Language = "en") -> str:
     """Return in words how far values go and where, and which do not depend on a field."""
-    with shown_in(found.units):
+    with use_units(found.units):
         return "\n".join(_lines(found, language))
 
 

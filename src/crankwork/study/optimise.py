@@ -20,7 +20,7 @@ from crankwork.study.limits import written_limits
 from crankwork.study.search import REACHED, Place, Problem, Way, searched
 from crankwork.study.study_file import Study
 from crankwork.study.sweep import Swept, units_of
-from crankwork.units import coherent_unit, from_si, shown_in
+from crankwork.units import coherent_unit, from_si, use_units
 
 STARTS = 4
 _SAME = 1e-8
@@ -164,7 +164,7 @@ def optimise(  # noqa: PLR0913 - what is wanted of what, where, and how it is se
         found.append(values)
 
     box = Box(description, bounds, keys, start=start or {}, overrides=overrides, seed=seed, seen=seen)
-    with shown_in(box.units):
+    with use_units(box.units):
         asked = [one.in_si() for one in wanted]
     sign = 1.0 if sense == "least" else -1.0
     while True:
@@ -214,7 +214,7 @@ def best_of(study: Study, told: Callable[[float], None] | None = None) -> Optimu
 def _limits_of(study: Study) -> Iterator[str]:
     """Yield the limits of a study as they are written, in SI."""
     for key, (low, high) in study.limits.items():
-        with shown_in("si"):
+        with use_units("si"):
             unit = coherent_unit(key_unit(key))
         every = {"=": low} if low == high else {">=": low, "<=": high}
         yield from (f"{key} {sense} {level!r} {unit}".rstrip() for sense, level in every.items() if np.isfinite(level))

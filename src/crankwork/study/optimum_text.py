@@ -20,7 +20,7 @@ from crankwork.report.tables import Sheet, csv_of_sheet
 from crankwork.study.optimise import Holding, Optimum
 from crankwork.study.study_file import Study
 from crankwork.study.varied import Varied
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 
 _DIGITS = 8
 # of what the machine file states of the best design
@@ -32,7 +32,7 @@ _EXPLAINED = 1e-3
 def optimum_files(study: Study, found: Optimum, folder: str | PurePath) -> dict[str, bytes]:
     """Return what goes into a folder: the machine file of the best design, how it was found, and the summary."""
     data = json.dumps(optimum_data(study, found), ensure_ascii=False, indent=1)
-    with shown_in(study.units):
+    with use_units(study.units):
         tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in _sheets(study, found).items()}
     machine = _machine(study, found, folder).dump()
     return {"machine.toml": machine.encode(), "summary.json": f"{data}\n".encode(), **tables}
@@ -85,7 +85,7 @@ def _sheet(study: Study, columns: dict[str, Array]) -> Sheet:
 
 def optimum_text(study: Study, found: Optimum, language: Language = "en") -> str:
     """Return the best design in words: what it states, what it gives and what holds it."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return "\n".join(_lines(study, found, language))
 
 
@@ -151,7 +151,7 @@ def _in_file(one: Varied, size: float) -> float:
 
 def optimum_data(study: Study, found: Optimum) -> dict[str, Any]:
     """Return the best design as plain data, in the units of the file and the tables."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return _data(study, found)
 
 

@@ -8,7 +8,7 @@ from crankwork.locale import Language, say, told
 from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import displayed, displayed_size, key_unit, label, rounded
 from crankwork.study.spread import Spreads
-from crankwork.units import shown_in
+from crankwork.units import use_units
 
 # causes that bring less of the variance are not told
 _LEAST = 0.005
@@ -16,7 +16,7 @@ _LEAST = 0.005
 
 def spread_text(found: Spreads, language: Language = "en") -> str:
     """Return every value that spreads with its deviation, and where that comes from."""
-    with shown_in(found.results.machine.units):
+    with use_units(found.results.machine.units):
         return _text(found, language)
 
 
@@ -52,7 +52,7 @@ def _text(found: Spreads, language: Language) -> str:
 
 def spread_data(found: Spreads) -> dict[str, Any]:
     """Return the spreads as plain data, in the units of the tables."""
-    with shown_in(found.results.machine.units):
+    with use_units(found.results.machine.units):
         return {
             "title": found.results.machine.title,
             "samples": found.samples,

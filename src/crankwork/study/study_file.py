@@ -23,7 +23,7 @@ from crankwork.study.machines import check_single
 from crankwork.study.search import Way
 from crankwork.study.sought import Sought, kind_of, single_kind, sought_number
 from crankwork.study.varied import Varied
-from crankwork.units import System, parse_in, shown_in
+from crankwork.units import System, parse_in, use_units
 
 # more points there are none of a Sobol sequence of 30 bits
 MOST = 2**30
@@ -410,7 +410,7 @@ def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[f
             known.add(key)
     if not named and not reader.problems:
         reader.complain("values", Refusal("study_nothing"))
-    with shown_in(results.machine.units):
+    with use_units(results.machine.units):
         return {key: _limits(key, one, reader) for key, one in (read["limits"] or {}).items() if one and key in known}
 
 

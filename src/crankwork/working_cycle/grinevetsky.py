@@ -14,12 +14,7 @@ from crankwork.working_cycle import charge, combustion, performance
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners, Notice
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs, with_usual_values
 from crankwork.working_cycle.fuels import FUELS, CycleError, burning
-from crankwork.working_cycle.heat_capacities import (
-    fresh_heat,
-    mixture_heat,
-    product_coefficients,
-    residual_heat,
-)
+from crankwork.working_cycle.heat_capacities import fresh_heat, mixture_heat, product_coefficients, residual_heat
 from crankwork.working_cycle.mixture import mixture
 from crankwork.working_cycle.sizing import heat_balance, sized, work_power
 from crankwork.working_cycle.validity import cycle_notices
