@@ -28,7 +28,7 @@ import numpy as np
 
 import crankwork
 from crankwork.formula.known import Found, Known
-from crankwork.kernel.compiled import Bulk, Kernel
+from crankwork.kernel.compiled import BatchResult, Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.study.machines import threaded
 
@@ -264,7 +264,7 @@ def by_jax() -> Callable[[np.ndarray], np.ndarray]:
     return lambda designs: np.asarray(every(designs))
 
 
-Work = Mapping[str, tuple[Callable[[np.ndarray], np.ndarray | Bulk], int]]
+Work = Mapping[str, tuple[Callable[[np.ndarray], np.ndarray | BatchResult], int]]
 
 
 def measured(functions: Work, designs: np.ndarray, runs: int = 5) -> dict[str, float]:

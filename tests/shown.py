@@ -16,7 +16,7 @@ from crankwork.machine import Machine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import drawings
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.show.scene import Drawing
 from each import for_each
 
@@ -60,7 +60,7 @@ def _figures_of(name: str, language: Language, *, per_area: bool) -> dict[str, D
 
 
 @functools.cache
-def film_of_file(name: str, method: str = "") -> MovingDrawing:
+def film_of_file(name: str, method: str = "") -> Animation:
     """Return the moving drawing of a machine."""
     return moving_drawing(results_of(name, method))
 

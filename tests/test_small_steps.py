@@ -23,13 +23,13 @@ from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
 from crankwork.analysis.rounding import without_rounding
 from crankwork.analysis.stated import StatedFriction
-from crankwork.cli.asked import count_of
+from crankwork.cli.asked import parse_count
 from crankwork.cli.studio import studio
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
 from crankwork.errors import DoubtfulError
 from crankwork.formula.known import given
-from crankwork.kernel.grid import closed
+from crankwork.kernel.grid import with_delayed_breakpoints
 from crankwork.loads import dead_centre, monotone
 from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
@@ -43,7 +43,7 @@ from crankwork.page import alike
 from crankwork.report import comparison_figure, drawing
 from crankwork.report.drawing import moving_drawing
 from crankwork.show.film import gif
-from crankwork.show.moving_svg import _brief, moving_svg
+from crankwork.show.moving_svg import _short_number, moving_svg
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
 from crankwork.show.theme import fill_colours
 from crankwork.studio import answers, sketch
@@ -58,7 +58,7 @@ from each import failing
 
 
 def test_a_count_has_at_most_nine_digits() -> None:
-    assert [count_of(text) for text in ("0", "123456789", "1234567890", "²", "-1", "")] == [0, 123456789, 0, 0, 0, 0]
+    assert [parse_count(text) for text in ("0", "123456789", "1234567890", "²", "-1", "")] == [0, 123456789, 0, 0, 0, 0]
 
 
 def test_a_value_in_a_small_unit_is_multiplied_by_a_whole_number() -> None:
@@ -66,7 +66,7 @@ def test_a_value_in_a_small_unit_is_multiplied_by_a_whole_number() -> None:
 
 
 def test_nothing_is_printed_without_a_sign() -> None:
-    assert [_brief(value) for value in (-0.001, 0.0, -0.5, 2.0, 1.257)] == ["0", "0", "-0.5", "2", "1.26"]
+    assert [_short_number(value) for value in (-0.001, 0.0, -0.5, 2.0, 1.257)] == ["0", "0", "-0.5", "2", "1.26"]
     assert [number(value, "en") for value in (-0.0, -1e-9, 123456.7, 1234567.0)] == [
         "0",
         "−10⁻⁹",
@@ -87,7 +87,7 @@ def test_a_bar_is_shown_once_a_second_has_passed(monkeypatch: pytest.MonkeyPatch
     screen.isatty = lambda: True  # type: ignore[method-assign]
     monkeypatch.setattr(progress.time, "monotonic", lambda: now[0])
     monkeypatch.setattr(progress.sys, "stderr", screen)
-    with progress.bar() as told:
+    with progress.progress_bar() as told:
         now[0] += 0.9
         told(0.2)
         assert screen.getvalue() == ""
@@ -263,8 +263,8 @@ def test_a_lever_that_would_only_swing_is_refused_with_its_lengths_in_millimetre
 
 def test_delayed_breaks_are_closed_unless_they_are_more_than_allowed() -> None:
     breaks, delays = np.array([0.0, 360.0]), [360.0 / 11]
-    assert np.allclose(closed(breaks, delays, 11), np.arange(12) * 360.0 / 11)
-    assert np.array_equal(closed(breaks, delays, 10), breaks)
+    assert np.allclose(with_delayed_breakpoints(breaks, delays, 11), np.arange(12) * 360.0 / 11)
+    assert np.array_equal(with_delayed_breakpoints(breaks, delays, 10), breaks)
 
 
 def test_a_bend_that_vanishes_at_the_end_of_the_range_is_found() -> None:
@@ -343,7 +343,7 @@ def test_transmission_angles_are_usual_where_pressure_angles_are() -> None:
 
 
 def test_every_end_has_its_exit_status(monkeypatch) -> None:
-    monkeypatch.setattr(cli, "_send_nowhere", lambda _: None)
+    monkeypatch.setattr(cli, "_discard_output", lambda _: None)
     ends = {
         0: None, 1: DoubtfulError("doubtful"), 2: crankwork.CrankworkError("wrong"), 130: KeyboardInterrupt(),
     }  # fmt: skip

@@ -14,7 +14,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from crankwork.quantities import QUANTITIES
-from crankwork.units import EXAMPLES, UNITS, System, from_si, parse, shown_in, spellings
+from crankwork.units import EXAMPLES, UNITS, System, from_si, parse, spellings, use_units
 from each import failing, for_each
 
 DIMENSIONS = tuple(EXAMPLES)
@@ -243,7 +243,7 @@ SIZES = {
 def test_every_quantity_is_shown_in_a_unit_of_its_own_kind_and_of_the_right_size(system: System) -> None:
     for quantity in QUANTITIES.values():
         kinds = quantity.metric, quantity.metric_per_area
-        with shown_in(system):
+        with use_units(system):
             shown = quantity.unit, quantity.per_area_unit
         for metric, unit in zip(kinds, shown, strict=True):
             assert from_si(1.0, unit) == pytest.approx(1 / SIZES[unit], rel=1e-15), quantity.key
@@ -261,14 +261,14 @@ def test_a_unit_of_many_meanings_is_asked_about() -> None:
     with pytest.raises(ValueError, match="hp\\(I\\)"):
         parse("80 hp", ("power",))
     old = parse("80 hp", ("power",), metric_hp=True)
-    assert (old.value, old.unit, old.told) == (pytest.approx(80 * 735.49875), "PS", "metric_horsepower")
+    assert (old.value, old.unit, old.notice) == (pytest.approx(80 * 735.49875), "PS", "metric_horsepower")
 
 
 def test_a_weight_is_a_mass_where_one_is_asked_for() -> None:
     weight = parse("19.6133 N", ("mass",))
-    assert (weight.value, weight.unit, weight.told) == (pytest.approx(2.0, rel=1e-15), "kg", "weight")
+    assert (weight.value, weight.unit, weight.notice) == (pytest.approx(2.0, rel=1e-15), "kg", "weight")
     assert parse("5 kgf", ("mass", "mass_per_area")).value == pytest.approx(5.0, rel=1e-15)
-    assert parse("5 N", ("force",)).told == ""
+    assert parse("5 N", ("force",)).notice == ""
     with pytest.raises(ValueError, match="force"):
         parse("5 N", ("length",))
 

@@ -1,4 +1,4 @@
-"""The only place that opens files. Reading is bounded; writing leaves either the whole file or nothing."""
+"""The only module that opens files. Reading is bounded; writing leaves either the whole file or nothing."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ MAX_LINE = 4096
 MAX_DATA_FILE = 64 * 1024 * 1024
 _STAGING = ".crankwork-"
 _STAGED = re.compile(re.escape(_STAGING) + r"[a-z0-9_]{8}")
-# Names the files that runs wrote into a folder, with their hashes: nothing else is ever deleted there.
+# Lists the files that runs wrote into a folder, with their hashes: nothing else is ever deleted there.
 MANIFEST = ".crankwork.json"
-# Stands in a folder while its results are replaced, and stays where that was cut short.
+# Is in a folder while its results are replaced, and remains after an interruption.
 MARK = "UNFINISHED-crankwork.txt"
 _MARKED = """\
 A run of crankwork was replacing the results in this folder and was stopped before it was done:
 old and new results stand side by side. Run it again with --overwrite.
 """
-# Names the study whose parts are in a folder; who works there holds a lock on it.
+# Names the study whose parts are in a folder; a run that works there holds a lock on it.
 STUDY = "study.json"
 _PART = re.compile(r"part-([0-9]{7,})\.parquet")
-# What was read in this process, which no result may replace.
+# Files that were read in this process, which no result may replace.
 _inputs: set[Path] = set()
 
 
@@ -52,7 +52,7 @@ def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = 
 
 
 def read_data(path: str | Path, *, limit: int = MAX_DATA_FILE, advice: str = "") -> bytes:
-    """Return what is in a file; `advice`: what to do if there is no such file, otherwise to check the path."""
+    """Return the content of a file; `advice`: what to do if there is no such file, otherwise to check the path."""
     path, advice = Path(path), advice or Refusal("check_path")
     try:
         mode = path.stat().st_mode
@@ -74,7 +74,7 @@ def read_data(path: str | Path, *, limit: int = MAX_DATA_FILE, advice: str = "")
 
 
 def _decoded(path: Path, data: bytes) -> str:
-    """Return bytes as text, or raise with the line where they are none."""
+    """Return bytes as text, or raise with the line of the first invalid byte."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise CrankworkError(Refusal("path_utf_16", path=path))
     if b"\0" in data:
@@ -90,7 +90,7 @@ def _line(data: bytes, position: int) -> int:
 
 
 def write_new(path: str | Path, text: str, *, overwrite: bool = False) -> None:
-    """Write a text file, whole or not at all, into a folder that is made for it."""
+    """Write a text file, whole or not at all, into a folder that is created for it."""
     _check_new(Path(path), overwrite=overwrite)
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -113,7 +113,7 @@ def check_files(*paths: str | Path, overwrite: bool = False) -> None:
 
 
 def _check_new(path: Path, *, overwrite: bool) -> None:
-    """Raise if something stands where a file is to go, or if it is read."""
+    """Raise if the path exists, or if it has been read."""
     try:
         if path.exists() and not path.is_file():
             raise CrankworkError(Refusal("name_of_folder" if path.is_dir() else "name_of_odd", path=path))
@@ -126,18 +126,17 @@ def _check_new(path: Path, *, overwrite: bool) -> None:
 
 
 def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False, save: bool = False) -> None:
-    """Write files into folders that are there, so that a failure leaves what was there before.
+    """Write files into existing folders, so that a failure leaves the previous state.
 
-    `save`: over whatever stands there, also what was read.
+    `save`: also over existing files and those that were read.
     """
     if not save:
         check_files(*contents, overwrite=overwrite)
     path = Path(next(iter(contents), ""))
     try:
         with contextlib.ExitStack() as stack:
-            staging = {
-                folder: stack.enter_context(_staging(folder)) for folder in {Path(one).parent for one in contents}
-            }
+            folders = {Path(name).parent for name in contents}
+            staging = {folder: stack.enter_context(_staging(folder)) for folder in folders}
             for path, data in ((Path(name), data) for name, data in contents.items()):
                 _write_through(staging[path.parent] / path.name, data)
             for path in map(Path, contents):
@@ -147,22 +146,22 @@ def write_files(contents: Mapping[str | Path, bytes], *, overwrite: bool = False
 
 
 def mark_inputs(*paths: str | Path) -> None:
-    """Name files that will be read, so that a place that is one of them is refused before anything is computed."""
+    """Name files that will be read, so that results cannot replace them; checked before anything is computed."""
     with contextlib.suppress(OSError, ValueError):
         _inputs.update(Path(path).resolve() for path in paths)
 
 
 def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: bool = False) -> None:
-    """Write files into a folder so that a failure leaves what was there before.
+    """Write files into a folder so that a failure leaves the previous state.
 
-    Killed at any moment, the folder holds the old results, the new ones, or the file `MARK`, which says that both are
-    there. `overwrite`: write into a folder that holds something already. What an earlier run wrote there, by the
-    folder's manifest, and is not written anew is deleted if it is still as it was written; all other files stay.
+    If killed at any moment, the folder has the old results, the new ones, or the file `MARK`, which says that both are
+    there. `overwrite`: write into a folder that is not empty. Files of an earlier run, by the manifest of the folder,
+    that are not written again are deleted unless they have changed; all other files stay.
     """
     folder = Path(folder)
     check_folder(folder, overwrite=overwrite)
     try:
-        # next to the folder, or in it where it exists, because that may be another disk
+        # next to the folder, or in it if it exists, because that may be another disk
         nearby = folder if folder.is_dir() else folder.parent
         nearby.mkdir(parents=True, exist_ok=True)
         with _staging(nearby) as staging:
@@ -175,25 +174,25 @@ def write_folder(folder: str | Path, contents: dict[str, bytes], *, overwrite: b
         raise _unwritable(folder, error) from None
 
 
-def kept(name: str, text: str) -> Path | None:
-    """Return where a text is kept between runs of the program, written if it is not there; None if it cannot be.
+def cached_file(name: str, text: str) -> Path | None:
+    """Return the path of a text that is cached between runs, written if it is absent; None if it cannot be.
 
-    `CRANKWORK_CACHE` says in which folder, or the system where the user keeps such things.
+    `CRANKWORK_CACHE` is its folder, by default that of the system.
     """
     try:
         path = _between_runs(name)
         if not path.exists():
             path.parent.mkdir(parents=True, exist_ok=True)
-            _put(path, text)
+            _write_atomically(path, text)
     except (OSError, RuntimeError):
         return None
     return path
 
 
-def changed(name: str, change: Callable[[str], str], *, limit: int) -> str:
-    """Return what is kept under a name between runs of the program as it is changed; nothing where it cannot be kept.
+def update_user_file(name: str, change: Callable[[str], str], *, limit: int) -> str:
+    """Update a file in the user's cache folder under a lock; return its new text, or an empty text on failure.
 
-    `limit`: longer texts are taken as none. [bytes] Programs that change it at once do so one after the other.
+    `limit`: longer texts are replaced as if empty [bytes].
     """
     try:
         path = _between_runs(name)
@@ -206,7 +205,7 @@ def changed(name: str, change: Callable[[str], str], *, limit: int) -> str:
             before = data.decode("utf-8", "replace") if len(data) <= limit else ""
             after = change(before)
             if after != before:
-                _put(path, after)
+                _write_atomically(path, after)
     except (OSError, RuntimeError):
         return ""
     return after
@@ -217,26 +216,26 @@ def _between_runs(name: str) -> Path:
     return (Path(stated) if stated else Path.home() / ".cache") / "crankwork" / name
 
 
-def _put(path: Path, text: str) -> None:
-    """Write a text, whole or not at all, into a folder that is there."""
+def _write_atomically(path: Path, text: str) -> None:
+    """Write a text, whole or not at all, into an existing folder."""
     with tempfile.NamedTemporaryFile("w", dir=path.parent, suffix=".tmp", delete=False, encoding="utf-8") as file:
         file.write(text)
     Path(file.name).replace(path)
 
 
-def send_nowhere(stream: TextIO) -> None:
-    """Let what is still buffered in a stream go nowhere, where nobody reads it any more.
+def discard_output(stream: TextIO) -> None:
+    """Discard the rest of a stream that nobody reads any more.
 
-    `stream`: the output; the interpreter would try to write it once more when it ends, and complain.
+    Otherwise the interpreter would try to write it at exit, and print an error.
     """
     with contextlib.suppress(OSError, ValueError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, stream.fileno())
-        os.close(nowhere)
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, stream.fileno())
+        os.close(null)
 
 
 class StudyFolder:
-    """A folder that one run fills part by part, and another may go on with; the system releases it after either."""
+    """A folder that one run fills part by part, and another may resume; the system releases its lock after either."""
 
     def __init__(self, folder: str | Path, identity: bytes, *, resume: bool) -> None:
         self._folder, self._lock = Path(folder), -1
@@ -263,27 +262,27 @@ class StudyFolder:
             except BlockingIOError:
                 raise CrankworkError(Refusal("study_busy", path=self._folder)) from None
             except OSError:
-                # some network disks know no locks; then runs are on their own
+                # some network disks have no locks; then runs are not protected from each other
                 pass
         if not resume:
             os.write(self._lock, identity)
             os.fsync(self._lock)
-        elif (there := os.pread(self._lock, MAX_MACHINE_FILE, 0)) != identity:
-            raise CrankworkError(Refusal("study_other", path=self._folder, what=_differing(there, identity)))
+        elif (existing := os.pread(self._lock, MAX_MACHINE_FILE, 0)) != identity:
+            raise CrankworkError(Refusal("study_other", path=self._folder, what=_differing(existing, identity)))
         for left in self._parts.glob(f"{_STAGING}*"):
             left.unlink()
 
     def done(self) -> set[int]:
-        """Return the numbers of the parts that are there."""
-        found = (_PART.fullmatch(one.name) for one in self._parts.iterdir())
-        return {int(one[1]) for one in found if one}
+        """Return the numbers of the parts that exist."""
+        matches = (_PART.fullmatch(path.name) for path in self._parts.iterdir())
+        return {int(match[1]) for match in matches if match}
 
     def path(self, number: int) -> Path:
-        """Return where a part is."""
+        """Return the path of a part."""
         return self._parts / f"part-{number:07d}.parquet"
 
     def read(self, number: int) -> bytes:
-        """Return what is in a part."""
+        """Return the content of a part."""
         return read_data(self.path(number))
 
     def write(self, number: int, data: bytes) -> None:
@@ -299,17 +298,17 @@ class StudyFolder:
             raise _unwritable(path, error) from None
 
     def close(self) -> None:
-        """Let others in."""
+        """Release the lock."""
         if self._lock >= 0:
             os.close(self._lock)
             self._lock = -1
 
 
-def _differing(there: bytes, identity: bytes) -> str:
-    """Return what of an identity is another."""
+def _differing(existing: bytes, identity: bytes) -> str:
+    """Return the names of the entries in which two identities differ."""
     try:
-        one, other = json.loads(there), json.loads(identity)
-        return ", ".join(name for name in other if one.get(name) != other[name]) or STUDY
+        first, second = json.loads(existing), json.loads(identity)
+        return ", ".join(name for name in second if first.get(name) != second[name]) or STUDY
     except (ValueError, AttributeError):
         return STUDY
 
@@ -320,13 +319,13 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
     try:
         if folder.exists() and not folder.is_dir():
             raise CrankworkError(Refusal("folder_is_file", path=folder))
-        # what a run replaces or deletes without asking
+        # files that a run replaces or deletes without asking
         for read in (path for path in _inputs if folder.resolve() in path.parents):
             if (own := read.relative_to(folder.resolve()).parts[0]) in (MANIFEST, MARK) or own.startswith(_STAGING):
                 raise CrankworkError(Refusal("place_read", path=read))
         if folder.is_dir() and not overwrite:
             _check_empty(folder)
-        nearest = next(one for one in (folder, *folder.absolute().parents) if one.exists())
+        nearest = next(path for path in (folder, *folder.absolute().parents) if path.exists())
         if not nearest.is_dir() or not os.access(nearest, os.W_OK | os.X_OK):
             raise CrankworkError(Refusal("folder_locked", path=folder, folder=nearest))
     except (OSError, ValueError) as error:
@@ -334,14 +333,14 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
 
 
 def _check_empty(folder: Path) -> None:
-    """Raise if a folder holds anything but what a killed run left behind."""
+    """Raise if a folder has anything but the remains of a killed run."""
     if any(not entry.name.startswith(_STAGING) and entry.name != MANIFEST for entry in folder.iterdir()):
         raise CrankworkError(Refusal("folder_full", path=folder))
 
 
 @contextlib.contextmanager
 def _staging(nearby: Path) -> Iterator[Path]:
-    """Give a folder to write in at first, and sweep those of runs that are dead."""
+    """Yield a temporary folder to write in first, and delete those of killed runs."""
     with _locked(nearby):
         _sweep(nearby)
         staging = Path(tempfile.mkdtemp(prefix=_STAGING, dir=nearby))
@@ -355,13 +354,13 @@ def _staging(nearby: Path) -> Iterator[Path]:
 
 
 def _sweep(nearby: Path) -> None:
-    """Delete what killed runs were writing: a run that lives holds a lock."""
+    """Delete what killed runs were writing: a live run holds a lock."""
     if fcntl is None:
         return
     for left in nearby.glob(f"{_STAGING}*"):
         if not _STAGED.fullmatch(left.name) or left.is_symlink() or not left.is_dir():
             continue
-        # alive, another user's, or on a disk that knows no locks
+        # alive, another user's, or on a disk without locks
         with contextlib.suppress(OSError):
             descriptor = os.open(left, os.O_RDONLY)
             try:
@@ -381,7 +380,7 @@ def _write_through(path: Path, data: bytes) -> None:
 
 
 def _move(staged: Path, folder: Path, contents: dict[str, bytes], *, overwrite: bool) -> None:
-    """Move staged files into place: the whole folder at once if it is new, else file by file under a mark."""
+    """Move staged files into place: the whole folder at once if it is new, otherwise file by file under a mark."""
     try:
         if not folder.exists():
             staged.rename(folder)
@@ -402,7 +401,7 @@ def _move(staged: Path, folder: Path, contents: dict[str, bytes], *, overwrite: 
 
 
 def _replace(staged: Path, folder: Path, contents: dict[str, bytes]) -> None:
-    """Replace the results in a folder, under a mark and with a manifest that always names every file of ours."""
+    """Replace the results in a folder, under a mark and with a manifest that always lists all our files."""
     earlier = _earlier(folder)
     both = {name: [*earlier.get(name, []), _hash(data)] for name, data in contents.items()}
     _write_through(staged.parent / MANIFEST, _manifest(earlier | both))
@@ -419,7 +418,7 @@ def _replace(staged: Path, folder: Path, contents: dict[str, bytes]) -> None:
 
 
 def _check_place(folder: Path, name: str, hashes: list[str]) -> None:
-    """Raise unless a result may go where its name says; `hashes`: of what earlier runs wrote there."""
+    """Raise unless a result may be written under its name; `hashes`: of what earlier runs wrote there."""
     path = folder / name
     if (link := _link(folder, name)) is not None:
         raise CrankworkError(Refusal("place_linked", path=link))
@@ -432,9 +431,9 @@ def _check_place(folder: Path, name: str, hashes: list[str]) -> None:
 
 
 def _link(folder: Path, name: str) -> Path | None:
-    """Return the link on the way from a folder to a file in it, if there is one."""
+    """Return the first link on the path from a folder to a file in it, or None."""
     inside = [folder / parent for parent in PurePosixPath(name).parents if parent.name]
-    return next((one for one in inside if one.is_symlink()), None)
+    return next((parent for parent in inside if parent.is_symlink()), None)
 
 
 def _manifest(written: Mapping[str, list[str]]) -> bytes:
@@ -443,20 +442,20 @@ def _manifest(written: Mapping[str, list[str]]) -> bytes:
 
 
 def _earlier(folder: Path) -> dict[str, list[str]]:
-    """Return what earlier runs wrote into a folder: possible hashes by name."""
+    """Return the files that earlier runs wrote into a folder: possible hashes by name."""
     try:
         with (folder / MANIFEST).open("rb") as stream:
-            read = json.loads(stream.read(MAX_DATA_FILE))["files"]
-        inside = {name: hashes for name, hashes in read.items() if (path := PurePosixPath(name)).name
+            listed = json.loads(stream.read(MAX_DATA_FILE))["files"]
+        inside = {name: hashes for name, hashes in listed.items() if (path := PurePosixPath(name)).name
                   and not path.is_absolute() and ".." not in path.parts}  # fmt: skip
-        return {name: [str(one) for one in hashes] for name, hashes in inside.items()}
+        return {name: [str(value) for value in hashes] for name, hashes in inside.items()}
     except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
-        # there is none, or somebody else's: then nothing is known to be ours
+        # absent, or of another program: then no file is ours
         return {}
 
 
 def _is_as_written(folder: Path, name: str, hashes: list[str]) -> bool:
-    """Say whether a file is still what a run wrote, and nobody's input or link."""
+    """Return whether a file is still as a run wrote it, and is neither an input nor a link."""
     path = folder / name
     if _link(folder, name) is not None or path.is_symlink() or not path.is_file() or path.resolve() in _inputs:
         return False
@@ -476,7 +475,7 @@ def _locked(folder: Path) -> Iterator[None]:
         return
     descriptor = os.open(folder, os.O_RDONLY)
     try:
-        # some network disks know no locks; then runs are on their own
+        # some network disks have no locks; then runs are not protected from each other
         with contextlib.suppress(OSError):
             fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield
@@ -486,15 +485,15 @@ def _locked(folder: Path) -> Iterator[None]:
 
 def _unwritable(path: Path, error: Exception) -> CrankworkError:
     if isinstance(error, PermissionError):
-        # of two names the second is that of what stands there
+        # of two names the second is that of the existing file
         path = Path(error.filename2 or error.filename or path)
         return CrankworkError(Refusal("place_held", path=path, reason=_reason(error)))
     return CrankworkError(Refusal("place_unwritable", path=path, reason=_reason(error)))
 
 
 def _reason(error: Exception) -> str:
-    # a folder that takes no files, as /proc, says that there is no such file
+    # a folder that accepts no files, as /proc, reports a missing file
     if isinstance(error, FileNotFoundError) and Path(error.filename2 or error.filename or "").parent.is_dir():
         return Refusal("place_takes_nothing")
-    said = getattr(error, "strerror", None)
-    return said.lower() if said else Refusal("path_unusable")
+    reason = getattr(error, "strerror", None)
+    return reason.lower() if reason else Refusal("path_unusable")

@@ -1,7 +1,7 @@
-"""Units of measurement as text, at the doors only; inside, everything is SI.
+"""Units of measurement as text, for input and output only; inside, everything is SI.
 
-A table and a strict grammar: a number, a space if you like, a unit of the table. Nothing is evaluated,
-so neither `9**9**9 mm` nor `1 mm + 1 m` means anything, and a comma is never dropped.
+A table and a strict grammar: a number, an optional space, a unit of the table. Nothing is evaluated,
+so neither `9**9**9 mm` nor `1 mm + 1 m` is valid, and a comma is never dropped.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ from crankwork.locale import Refusal
 
 
 class Unit(NamedTuple):
-    """A unit: the dimension it measures, its size in SI and, for a temperature scale, where its zero lies."""
+    """A unit: the dimension it measures, its size in SI and, for a temperature scale, its zero."""
 
     dimension: str
     factor: float
     zero: float = 0.0
 
 
-class Parsed(NamedTuple):
-    """A quantity as read: its value in SI, and a notice of what was taken for what, if anything."""
+class ParsedQuantity(NamedTuple):
+    """A quantity as read: its value in SI, and the code of a notice about its interpretation, if any."""
 
     value: float
     dimension: str
     unit: str
-    told: str = ""
+    notice: str = ""
 
 
 KGF = 9.80665
@@ -41,91 +41,52 @@ _LBF = _LB * KGF
 _SLUG = _LBF / _FT
 _RPM = math.pi / 30
 
-# dimension: {SI size: every spelling}. The first spelling is the one that is suggested.
+# dimension: {SI size: all spellings}. The first spelling is the suggested one.
 _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "angle": [(math.pi / 180, "deg ° градус град độ"), (1.0, "rad рад")],
-    "length": [
-        (1e-3, "mm мм"),
-        (1e-2, "cm см"),
-        (1.0, "m м"),
-        (1e-6, "um µm μm мкм"),
-        (_IN, "in inch"),
-        (_FT, "ft"),
-    ],
+    "length": [(1e-3, "mm мм"), (1e-2, "cm см"), (1.0, "m м"), (1e-6, "um µm μm мкм"), (_IN, "in inch"), (_FT, "ft")],
     "area": [
-        (1e-4, "cm2 cm² см2 см²"),
-        (1e-6, "mm2 mm² мм2 мм²"),
-        (1.0, "m2 m² м2 м²"),
-        (_IN**2, "in2 in²"),
+        (1e-4, "cm2 cm² см2 см²"), (1e-6, "mm2 mm² мм2 мм²"), (1.0, "m2 m² м2 м²"), (_IN**2, "in2 in²"),
         (_FT**2, "ft2 ft²"),
     ],
     "volume": [
-        (1e-6, "cm3 cm³ cc см3 см³"),
-        (1e-3, "l L dm3 dm³ л дм3 дм³"),
-        (1e-9, "mm3 mm³ мм3 мм³"),
-        (1.0, "m3 m³ м3 м³"),
-        (_IN**3, "in3 in³ cu.in"),
-        (_FT**3, "ft3 ft³ cu.ft"),
+        (1e-6, "cm3 cm³ cc см3 см³"), (1e-3, "l L dm3 dm³ л дм3 дм³"), (1e-9, "mm3 mm³ мм3 мм³"), (1.0, "m3 m³ м3 м³"),
+        (_IN**3, "in3 in³ cu.in"), (_FT**3, "ft3 ft³ cu.ft"),
     ],
     "mass": [
-        (1.0, "kg кг"),
-        (1e-3, "g г"),
-        (1e3, "t т"),
-        (_LB, "lb lbm"),
-        (_LB / 16, "oz"),
-        (_SLUG, "slug"),
-        (2000 * _LB, "ton(US)"),
-        (2240 * _LB, "ton(UK)"),
+        (1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (_LB, "lb lbm"), (_LB / 16, "oz"), (_SLUG, "slug"),
+        (2000 * _LB, "ton(US)"), (2240 * _LB, "ton(UK)"),
     ],
     "mass_per_area": [
-        (10.0, "g/cm2 g/cm² г/см2 г/см²"),
-        (1.0, "kg/m2 kg/m² кг/м2 кг/м²"),
-        (1e4, "kg/cm2 kg/cm² кг/см2 кг/см²"),
-        (_LB / _IN**2, "lb/in2 lb/in²"),
-        (_LB / _FT**2, "lb/ft2 lb/ft²"),
+        (10.0, "g/cm2 g/cm² г/см2 г/см²"), (1.0, "kg/m2 kg/m² кг/м2 кг/м²"), (1e4, "kg/cm2 kg/cm² кг/см2 кг/см²"),
+        (_LB / _IN**2, "lb/in2 lb/in²"), (_LB / _FT**2, "lb/ft2 lb/ft²"),
     ],
     "inertia": [
-        (1.0, "kg*m2 kg·m² kg.m2 kgm2 кг·м² кг*м2 кг.м2"),
-        (1e-4, "kg*cm2 kg·cm² кг·см² кг*см2"),
-        (1e-6, "kg*mm2 kg·mm² кг·мм² кг*мм2"),
-        (1e-7, "g*cm2 g·cm² г·см²"),
-        (_LB * _FT**2, "lb*ft2 lb·ft² lb.ft2 lbm*ft2"),
-        (_LB * _IN**2, "lb*in2 lb·in² lb.in2 lbm*in2"),
-        (_SLUG * _FT**2, "slug*ft2 slug·ft² lbf*ft*s2 lbf·ft·s²"),
-        (_LBF * _IN, "lbf*in*s2 lbf·in·s²"),
+        (1.0, "kg*m2 kg·m² kg.m2 kgm2 кг·м² кг*м2 кг.м2"), (1e-4, "kg*cm2 kg·cm² кг·см² кг*см2"),
+        (1e-6, "kg*mm2 kg·mm² кг·мм² кг*мм2"), (1e-7, "g*cm2 g·cm² г·см²"),
+        (_LB * _FT**2, "lb*ft2 lb·ft² lb.ft2 lbm*ft2"), (_LB * _IN**2, "lb*in2 lb·in² lb.in2 lbm*in2"),
+        (_SLUG * _FT**2, "slug*ft2 slug·ft² lbf*ft*s2 lbf·ft·s²"), (_LBF * _IN, "lbf*in*s2 lbf·in·s²"),
     ],
     "speed": [
-        (_RPM, "rpm r/min rev/min 1/min min-1 min⁻¹ об/мин vg/ph vòng/phút v/ph v/p"),
-        (1.0, "rad/s рад/с rad/giây"),
+        (_RPM, "rpm r/min rev/min 1/min min-1 min⁻¹ об/мин vg/ph vòng/phút v/ph v/p"), (1.0, "rad/s рад/с rad/giây"),
         (2 * math.pi, "rev/s 1/s Hz s-1 об/с vg/s"),
     ],
     "angular_acceleration": [(1.0, "rad/s2 rad/s² рад/с2 рад/с²")],
     "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (_FT, "ft/s"), (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
     "acceleration": [
-        (1.0, "m/s2 m/s² м/с2 м/с²"),
-        (1e-3, "mm/s2 mm/s² мм/с2 мм/с²"),
-        (_FT, "ft/s2 ft/s²"),
-        (_IN, "in/s2 in/s²"),
+        (1.0, "m/s2 m/s² м/с2 м/с²"), (1e-3, "mm/s2 mm/s² мм/с2 мм/с²"), (_FT, "ft/s2 ft/s²"), (_IN, "in/s2 in/s²"),
     ],
     "pressure": [
-        (1e6, "MPa МПа MN/m2 MN/m² МН/м2 МН/м² N/mm2 N/mm² Н/мм2 Н/мм²"),
-        (1e3, "kPa кПа kN/m2 kN/m²"),
-        (1.0, "Pa Па N/m2 N/m²"),
-        (1e5, "bar бар"),
-        (1e2, "hPa гПа mbar мбар"),
+        (1e6, "MPa МПа MN/m2 MN/m² МН/м2 МН/м² N/mm2 N/mm² Н/мм2 Н/мм²"), (1e3, "kPa кПа kN/m2 kN/m²"),
+        (1.0, "Pa Па N/m2 N/m²"), (1e5, "bar бар"), (1e2, "hPa гПа mbar мбар"),
         (KGF * 1e4, "kgf/cm2 kgf/cm² кгс/см2 кгс/см² kG/cm2 kG/cm² kp/cm2 kp/cm² at ат"),
-        (133.322387415, "mmHg ммртст"),
-        (101325.0 / 760, "Torr торр"),
-        (101325.0, "atm атм"),
-        (_LBF / _IN**2, "psi lbf/in2 lbf/in²"),
-        (_LBF / _FT**2, "psf lbf/ft2 lbf/ft²"),
+        (133.322387415, "mmHg ммртст"), (101325.0 / 760, "Torr торр"), (101325.0, "atm атм"),
+        (_LBF / _IN**2, "psi lbf/in2 lbf/in²"), (_LBF / _FT**2, "psf lbf/ft2 lbf/ft²"),
     ],
     "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
     "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м"), (_LBF / _IN, "lbf/in"), (_LBF / _FT, "lbf/ft")],
     "damping": [
-        (1.0, "N*s/m N·s/m Н·с/м Н*с/м"),
-        (1e3, "kN*s/m N*s/mm кН·с/м кН*с/м"),
-        (_LBF / _IN, "lbf*s/in lbf·s/in"),
+        (1.0, "N*s/m N·s/m Н·с/м Н*с/м"), (1e3, "kN*s/m N*s/mm кН·с/м кН*с/м"), (_LBF / _IN, "lbf*s/in lbf·s/in"),
         (_LBF / _FT, "lbf*s/ft lbf·s/ft"),
     ],
     "angular_damping": [
@@ -133,63 +94,40 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (_LBF * _FT, "lbf*ft*s/rad lbf·ft·s/rad lbf*ft*s lbf·ft·s"),
     ],
     "force": [
-        (1.0, "N Н"),
-        (1e3, "kN кН"),
-        (1e6, "MN МН"),
-        (KGF, "kgf кгс kG"),
-        (_LBF, "lbf"),
-        (1e3 * _LBF, "kip klbf"),
+        (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (_LBF, "lbf"), (1e3 * _LBF, "kip klbf"),
         (_LBF / 16, "ozf"),
     ],
     "torque": [
-        (1.0, "N*m N·m Nm N.m Н·м Н*м Нм Н.м"),
-        (1e3, "kN*m kN·m kNm кН·м кН*м"),
-        (KGF, "kgf*m kgf·m кгс·м кгс*м"),
-        (_LBF * _FT, "lbf*ft lbf·ft lbf.ft lb-ft"),
-        (_LBF * _IN, "lbf*in lbf·in lbf.in lb-in"),
+        (1.0, "N*m N·m Nm N.m Н·м Н*м Нм Н.м"), (1e3, "kN*m kN·m kNm кН·м кН*м"), (KGF, "kgf*m kgf·m кгс·м кгс*м"),
+        (_LBF * _FT, "lbf*ft lbf·ft lbf.ft lb-ft"), (_LBF * _IN, "lbf*in lbf·in lbf.in lb-in"),
     ],
     "energy": [
-        (1.0, "J Дж"),
-        (1e3, "kJ кДж"),
-        (1e6, "MJ МДж"),
-        (_LBF * _FT, "ft*lbf ft·lbf ft-lb"),
-        (_LBF * _IN, "in*lbf in·lbf"),
-        (1055.05585262, "Btu"),
+        (1.0, "J Дж"), (1e3, "kJ кДж"), (1e6, "MJ МДж"), (_LBF * _FT, "ft*lbf ft·lbf ft-lb"),
+        (_LBF * _IN, "in*lbf in·lbf"), (1055.05585262, "Btu"),
     ],
     "energy_per_area": [
-        (1e6, "J/mm2 J/mm² Дж/мм2 Дж/мм²"),
-        (1e4, "J/cm2 J/cm² Дж/см2 Дж/см²"),
-        (1.0, "J/m2 J/m² Дж/м2 Дж/м²"),
+        (1e6, "J/mm2 J/mm² Дж/мм2 Дж/мм²"), (1e4, "J/cm2 J/cm² Дж/см2 Дж/см²"), (1.0, "J/m2 J/m² Дж/м2 Дж/м²"),
     ],
     "torque_per_length": [(1e3, "N*m/mm N·m/mm Н·м/мм Н*м/мм"), (1e2, "N*m/cm N·m/cm Н·м/см"), (1.0, "N*m/m Н·м/м")],
     "angle_per_length": [
-        (math.pi / 180 * 1e3, "deg/mm °/mm град/мм °/мм"),
-        (math.pi / 180 * 1e2, "deg/cm °/cm град/см"),
+        (math.pi / 180 * 1e3, "deg/mm °/mm град/мм °/мм"), (math.pi / 180 * 1e2, "deg/cm °/cm град/см"),
         (1.0, "rad/m рад/м"),
     ],
     "temperature": [(1.0, "K К")],
     "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb")],
     "mass_moment": [
-        (1.0, "kg*m kg·m кг·м кг*м"),
-        (1e-3, "kg*mm kg·mm кг·мм кг*мм"),
-        (1e-5, "g*cm g·cm г·см г*см"),
-        (_LB * _FT, "lb*ft lb·ft"),
-        (_LB * _IN, "lb*in lb·in"),
-        (_LB / 16 * _IN, "oz*in oz·in"),
+        (1.0, "kg*m kg·m кг·м кг*м"), (1e-3, "kg*mm kg·mm кг·мм кг*мм"), (1e-5, "g*cm g·cm г·см г*см"),
+        (_LB * _FT, "lb*ft lb·ft"), (_LB * _IN, "lb*in lb·in"), (_LB / 16 * _IN, "oz*in oz·in"),
     ],
     "pressure_rise": [
-        (1e6 * 180 / math.pi, "MPa/deg MPa/° МПа/град"),
-        (1e5 * 180 / math.pi, "bar/deg бар/град"),
-        (1.0, "Pa/rad Па/рад"),
-        (_LBF / _IN**2 * 180 / math.pi, "psi/deg"),
+        (1e6 * 180 / math.pi, "MPa/deg MPa/° МПа/град"), (1e5 * 180 / math.pi, "bar/deg бар/град"),
+        (1.0, "Pa/rad Па/рад"), (_LBF / _IN**2 * 180 / math.pi, "psi/deg"),
     ],
     "pressure_by_velocity": [(1e6, "MPa*s/m МПа*с/м"), (1.0, "Pa*s/m Па*с/м")],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
     "specific_heat": [(1.0, "J/(kg*K) Дж/(кг*К)"), (1e3, "kJ/(kg*K) кДж/(кг*К)")],
     "density": [
-        (1.0, "kg/m3 kg/m³ кг/м3 кг/м³"),
-        (1e3, "g/cm3 g/cm³ г/см3 г/см³"),
-        (_LB / _FT**3, "lb/ft3 lb/ft³"),
+        (1.0, "kg/m3 kg/m³ кг/м3 кг/м³"), (1e3, "g/cm3 g/cm³ г/см3 г/см³"), (_LB / _FT**3, "lb/ft3 lb/ft³"),
         (_LB / _IN**3, "lb/in3 lb/in³"),
     ],
     "specific_amount": [(1.0, "kmol/kg кмоль/кг")],
@@ -197,24 +135,16 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "molar_energy": [(1.0, "kJ/kmol кДж/кмоль")],
     "molar_heat": [(1.0, "kJ/(kmol*K) кДж/(кмоль*К)")],
     "fuel_consumption": [
-        (1 / 3.6e9, "g/(kW*h) g/kWh г/(кВт*ч)"),
-        (1.0, "kg/J кг/Дж"),
+        (1 / 3.6e9, "g/(kW*h) g/kWh г/(кВт*ч)"), (1.0, "kg/J кг/Дж"),
         (_LB / (550 * 3600 * _LBF * _FT), "lb/(hp*h) lb/hph"),
     ],
     "mass_rate": [
-        (1 / 3600, "kg/h кг/ч"),
-        (1.0, "kg/s кг/с"),
-        (1 / 60, "kg/min кг/мин"),
-        (_LB / 3600, "lb/h"),
+        (1 / 3600, "kg/h кг/ч"), (1.0, "kg/s кг/с"), (1 / 60, "kg/min кг/мин"), (_LB / 3600, "lb/h"),
         (_LB / 60, "lb/min"),
     ],
     "volume_rate": [
-        (1 / 60, "m3/min m³/min м3/мин м³/мин"),
-        (1.0, "m3/s m³/s м3/с м³/с"),
-        (1 / 3600, "m3/h m³/h м3/ч м³/ч"),
-        (1e-3, "l/s L/s л/с"),
-        (1e-3 / 60, "l/min L/min л/мин"),
-        (_FT**3 / 60, "ft3/min ft³/min cfm"),
+        (1 / 60, "m3/min m³/min м3/мин м³/мин"), (1.0, "m3/s m³/s м3/с м³/с"), (1 / 3600, "m3/h m³/h м3/ч м³/ч"),
+        (1e-3, "l/s L/s л/с"), (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min ft³/min cfm"),
         (_FT**3, "ft3/s ft³/s cfs"),
     ],
     "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 W/m³ Вт/м3 Вт/м³")],
@@ -222,14 +152,10 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "volume_per_temperature": [(1e-6, "cm3/K cm³/K см3/К см³/К"), (1.0, "m3/K m³/K м3/К м³/К")],
     "speed_per_temperature": [(1.0, "m/(s*K) м/(с*К)")],
     "power": [
-        (1e3, "kW кВт"),
-        (1.0, "W Вт"),
-        (1e6, "MW МВт"),
-        (75 * KGF, "PS л.с. лс mã_lực hp(M)"),
-        (550 * _LBF * _FT, "hp(I) bhp"),
-        (_LBF * _FT, "ft*lbf/s ft·lbf/s"),
+        (1e3, "kW кВт"), (1.0, "W Вт"), (1e6, "MW МВт"), (75 * KGF, "PS л.с. лс mã_lực hp(M)"),
+        (550 * _LBF * _FT, "hp(I) bhp"), (_LBF * _FT, "ft*lbf/s ft·lbf/s"),
     ],
-}
+}  # fmt: skip
 
 UNITS: dict[str, Unit] = {
     name: Unit(dimension, factor)
@@ -242,7 +168,7 @@ UNITS: dict[str, Unit] = {
 }
 
 System = Literal["metric", "si", "imperial"]
-# Units of pounds, feet and inches in the place of those that quantities are stated with
+# Imperial units by the metric ones that quantities are stated with
 _IMPERIAL = {
     "mm": "in", "m": "ft", "cm2": "in2", "mm2": "in2", "cm3": "in3", "l": "in3", "m3": "ft3", "kg": "lb", "g": "oz",
     "g/cm2": "lb/ft2", "kg*m2": "lb*ft2", "kg*m": "lb*ft", "m/s": "ft/s", "m/s2": "ft/s2", "MPa": "psi", "N": "lbf",
@@ -253,26 +179,26 @@ _IMPERIAL = {
 }  # fmt: skip
 
 
-class Shown(NamedTuple):
-    """A system of units, and metric units in the place of those that numbers would be too long in."""
+class DisplayUnits(NamedTuple):
+    """A system of units, and larger metric units that replace others to keep numbers short."""
 
     system: System = "metric"
     larger: tuple[tuple[str, str], ...] = ()
 
 
-METRIC = Shown()
-# what tables, figures and notes are written in just now, as the precision of `decimal` is
-_SHOWN: ContextVar[Shown] = ContextVar("shown", default=METRIC)
+METRIC = DisplayUnits()
+# the units of tables, figures and notes in this context, as the precision of `decimal`
+_DISPLAY_UNITS: ContextVar[DisplayUnits] = ContextVar("shown", default=METRIC)
 
 
 @contextlib.contextmanager
-def shown_in(shown: System | Shown) -> Iterator[None]:
-    """Show values in a system of units while this lasts; without units of their own long numbers keep what they had."""
-    token = _SHOWN.set(_SHOWN.get()._replace(system=shown) if isinstance(shown, str) else shown)
+def use_units(shown: System | DisplayUnits) -> Iterator[None]:
+    """Display values in a system of units within this context; a system alone keeps the larger units."""
+    token = _DISPLAY_UNITS.set(_DISPLAY_UNITS.get()._replace(system=shown) if isinstance(shown, str) else shown)
     try:
         yield
     finally:
-        _SHOWN.reset(token)
+        _DISPLAY_UNITS.reset(token)
 
 
 def shown_unit(unit: str) -> str:
@@ -280,28 +206,28 @@ def shown_unit(unit: str) -> str:
 
     Examples
     --------
-    >>> with shown_in("imperial"):
+    >>> with use_units("imperial"):
     ...     shown_unit("MPa")
     'psi'
     """
-    system, larger = _SHOWN.get()
+    system, larger = _DISPLAY_UNITS.get()
     if system == "imperial":
         return _IMPERIAL.get(unit, unit)
     if system == "metric":
-        return next((one for stated, one in larger if stated == unit), unit)
-    return unit if unit in _KEPT else coherent_unit(unit)
+        return next((replacement for stated, replacement in larger if stated == unit), unit)
+    return unit if unit in _UNCHANGED else coherent_unit(unit)
 
 
-# angles and temperatures are told in degrees everywhere
-_KEPT = ("deg", "degC", "rpm")
+# angles and temperatures are displayed in degrees in all systems
+_UNCHANGED = ("deg", "degC", "rpm")
 
-# "ratio" has no unit; the display of a share in per cent stays a choice of the report.
+# "ratio" has no unit; the report chooses whether a fraction is shown in per cent.
 EXAMPLES = {
     dimension: {"speed": "2300 rpm", "temperature": "293 K"}.get(dimension, f"30 {rows[0][1].split()[0]}")
     for dimension, rows in _SPELLINGS.items()
 }
 
-# names that stand for more than one unit, and what asks which of them is meant
+# names of more than one unit, and the messages that ask which is meant
 _DOUBTFUL = {"hp": "horsepower", "ton": "ton", "tons": "ton"}
 _MAX_LENGTH = 100
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
@@ -318,12 +244,14 @@ def spellings(dimension: str) -> list[str]:
     return [names.split()[0] for _, names in _SPELLINGS[dimension]]
 
 
-def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False, metric_hp: bool = False) -> Parsed:
-    """Return the quantity that is written as text.
+def parse(
+    text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False, metric_hp: bool = False
+) -> ParsedQuantity:
+    """Parse a quantity.
 
-    `dimensions`: the dimensions that make sense here; the first is used in the advice; a weight will do where a mass
-    is asked for; `decimal_comma`: read `1,1 kg` as 1.1 kg. Otherwise a comma is an error, because it also separates
-    thousands; `metric_hp`: take hp for that of 735.5 W instead of asking which is meant.
+    `dimensions`: the valid dimensions; the first is used in the advice; a weight is accepted for a mass;
+    `decimal_comma`: read `1,1 kg` as 1.1 kg. Otherwise a comma is an error, because it also separates thousands;
+    `metric_hp`: read hp as 735.5 W instead of asking which one is meant.
 
     Examples
     --------
@@ -337,16 +265,16 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
         raise ValueError(Refusal("no_quantity", text=_short(text), example=example))
     number, name = match["number"].replace(",", "."), match["unit"]
     spelling = _spelling(name or "")
-    told = ""
+    notice = ""
     if spelling.lower() in _DOUBTFUL:
         if spelling.lower() != "hp" or not metric_hp:
             raise ValueError(Refusal(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
-        spelling, told = "PS", "metric_horsepower"
+        spelling, notice = "PS", "metric_horsepower"
     unit = UNITS.get(spelling)
     is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions and "force" not in dimensions
     fits = unit is not None and (unit.dimension in dimensions or is_weight)
-    wanted = tuple(_dimension(one) for one in dimensions)
-    known = ", ".join(one for dimension in dimensions for one in spellings(dimension))
+    wanted = tuple(_dimension(dimension) for dimension in dimensions)
+    known = ", ".join(spelling for dimension in dimensions for spelling in spellings(dimension))
     if "," in match["number"] and not decimal_comma:
         point = f"{number} {name if fits else example.split()[1]}"
         if fits or name is None:
@@ -362,28 +290,33 @@ def parse(text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False
     value = to_si(float(number), spelling)
     if not math.isfinite(value):
         raise ValueError(Refusal("too_large", text=_short(text), example=example))
-    return Parsed(value / KGF, "mass", "kg", "weight") if is_weight else Parsed(value, unit.dimension, spelling, told)
+    return (
+        ParsedQuantity(value / KGF, "mass", "kg", "weight")
+        if is_weight
+        else ParsedQuantity(value, unit.dimension, spelling, notice)
+    )
 
 
-def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **told: object) -> Refusal:
-    every = [one for dimension in dimensions for _, names in _SPELLINGS[dimension] for one in names.split()]
-    # of one or two letters anything is near
-    near = difflib.get_close_matches(name, every, n=1) if len(name) > 2 else []
+def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> Refusal:
+    rows = [names for dimension in dimensions for _, names in _SPELLINGS[dimension]]
+    all_spellings = [spelling for names in rows for spelling in names.split()]
+    # one or two letters are close to anything
+    near = difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else []
     if near:
-        return Refusal("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **told)
-    return Refusal("unit_unknown", unit=_short(name), **told)
+        return Refusal("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **values)
+    return Refusal("unit_unknown", unit=_short(name), **values)
 
 
-def size_of(found: Parsed, deviation: str) -> float:
-    """Return a standard deviation in SI, given in the unit of the value or as a share of it, `2%`."""
+def deviation_in_si(quantity: ParsedQuantity, deviation: str) -> float:
+    """Return a standard deviation in SI, given in the unit of the value or as a percentage of it, `2%`."""
     size = float(deviation.rstrip("%").replace(",", "."))
     if deviation.endswith("%"):
-        return abs(found.value) * size / 100
-    return size * UNITS[found.unit].factor if found.unit else size
+        return abs(quantity.value) * size / 100
+    return size * UNITS[quantity.unit].factor if quantity.unit else size
 
 
 def parse_in(text: str, unit: str) -> float:
-    """Return the SI value of a quantity written by hand: a bare number is in a unit, and a comma is a decimal mark.
+    """Parse a quantity written by hand: a bare number is in `unit`, and a comma is a decimal mark. [SI]
 
     Examples
     --------
@@ -396,15 +329,16 @@ def parse_in(text: str, unit: str) -> float:
 
 
 def _spelling(name: str) -> str:
-    """Return a unit as the table spells it: blanks around an operator mean nothing, others an operator or a word."""
+    """Return a unit as the table spells it: spaces at an operator are dropped, others are a product or a part."""
     name = _OPERATOR.sub(r"\1", name)
-    return next((one for one in (name, name.replace(" ", "*"), name.replace(" ", "_")) if one in UNITS), name)
+    spellings_of_name = (name, name.replace(" ", "*"), name.replace(" ", "_"))
+    return next((spelling for spelling in spellings_of_name if spelling in UNITS), name)
 
 
 def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given
-    """Return a value (or array) given in `unit` as SI.
+    """Convert a value (or array) in `unit` to SI.
 
-    Small units divide by their whole reciprocal, so that 120 cm3 is the double nearest to 0.00012.
+    Small units divide by their integer reciprocal, so that 120 cm3 is the double nearest to 0.00012.
     """
     _, factor, zero = UNITS[unit]
     if zero:
@@ -414,7 +348,7 @@ def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, 
 
 
 def from_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given
-    """Return an SI value (or array) expressed in `unit`; `""` leaves it alone."""
+    """Convert an SI value (or array) to `unit`; `""` leaves it unchanged."""
     if not unit:
         return value
     _, factor, zero = UNITS[unit]
@@ -435,7 +369,7 @@ def coherent_unit(unit: str) -> str:
     if unit not in UNITS:
         return unit
     dimension = UNITS[unit].dimension
-    return next((name for name, one in UNITS.items() if one.dimension == dimension and one.factor == 1.0), unit)
+    return next((name for name, other in UNITS.items() if other.dimension == dimension and other.factor == 1.0), unit)
 
 
 def _dimension(dimension: str) -> Refusal:

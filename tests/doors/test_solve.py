@@ -133,6 +133,6 @@ def test_it_can_be_interrupted(crankwork, machine_file, monkeypatch):
     def interrupt(_share):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("crankwork.cli.bar", lambda: contextlib.nullcontext(interrupt))
+    monkeypatch.setattr("crankwork.cli.progress_bar", lambda: contextlib.nullcontext(interrupt))
     answer = crankwork("solve", machine_file(), *ENGINE, "--steps", "10")
     assert (answer.code, answer.out, answer.err.strip()) == (130, "", "")

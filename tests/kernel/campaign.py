@@ -30,7 +30,7 @@ from crankwork.formula.over_cycle import BEYOND
 from crankwork.formula.replay import replay
 from crankwork.kernel import compiled
 from crankwork.kernel.compiled import CONVERGED, Kernel
-from crankwork.kernel.trace import Designs, NotCompiledError, Trace
+from crankwork.kernel.trace import DesignTraces, Lowering, NotCompiledError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.study.sought import NumericField, numeric_field
 
@@ -132,8 +132,8 @@ def compared(name: str, text: str, seed: int = 1, named: Sequence[str] = ()) -> 
         return Comparison(name, absent="turns back")
     memories, reasons = [one.memory for one in machine.traced], dict[str, str]()
     cycle, looked = machine.stated.machine.cycle, np.arange(0.5, 360, 7.0)
-    designs = Designs(memories, machine.rows, ())
-    trace = Trace(designs, CrankGrid.from_degrees, looked, is_shifted=True)
+    designs = DesignTraces(memories, machine.rows, ())
+    trace = Lowering(designs, CrankGrid.from_degrees, looked, is_shifted=True)
     for key in machine.stated.summary:
         try:
             designs.add(key)
@@ -157,7 +157,7 @@ def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.
     bulk, worst, left_out = kernel(designs.T), dict[str, tuple[float, str]](), 0
     near_dead, counted = 0, collections.Counter[str]()
     for at, design in enumerate(designs):
-        if bulk.left_out[at] > CONVERGED or not np.isfinite(bulk.values[:, at]).all():
+        if bulk.truncation_error[at] > CONVERGED or not np.isfinite(bulk.values[:, at]).all():
             left_out += 1
             continue
         try:

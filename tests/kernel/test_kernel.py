@@ -13,10 +13,10 @@ from crankwork.formula.replay import Program
 from crankwork.kernel import compiled as compiled_kernels
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.derivative import PARTIALS, ByAngle
-from crankwork.kernel.graph import COMPUTE, Graph, number
+from crankwork.kernel.graph import COMPUTE, KernelGraph, number
 from crankwork.kernel.graph import in_order as values_in_order
 from crankwork.kernel.sums import shared
-from crankwork.kernel.trace import Designs, NotCompiledError, Trace
+from crankwork.kernel.trace import DesignTraces, Lowering, NotCompiledError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import polytropic_pressure
 from varied import Varied
@@ -58,8 +58,8 @@ def by_arrays(monkeypatch):
 
 def refusals(study):
     """Return why values do not compile, by their keys."""
-    designs, found = Designs(study.memories, study.rows, ()), {}
-    trace = Trace(designs, CrankGrid.from_degrees, np.arange(0, 360, 7.0), is_shifted=False)
+    designs, found = DesignTraces(study.memories, study.rows, ()), {}
+    trace = Lowering(designs, CrankGrid.from_degrees, np.arange(0, 360, 7.0), is_shifted=False)
     for key, known in study.memories[0].items():
         try:
             designs.add(key)
@@ -87,7 +87,7 @@ def sizes(study, keys):
 def wrong_values(kernel, study, designs):
     """Return values that are not those of analyses, by design and key."""
     found, size, wrong = kernel(designs), sizes(study, kernel.keys), {}
-    assert np.all(found.left_out < 1e-12)
+    assert np.all(found.truncation_error < 1e-12)
     for at, design in enumerate(designs.T):
         summary = study.results(design).summary
         for key, one, of in zip(kernel.keys, found.values[:, at], size, strict=True):
@@ -112,7 +112,7 @@ def test_values_and_columns_are_those_of_analyses_and_others_say_why_not(name, b
     keys = [key for key, known in study.memories[0].items() if known.varies and key not in told]
     degrees, design = np.linspace(1.3, study.cycle - 2.2, 60), study.drawn(1)[:, 0]
     memory = study.results(design).memory
-    trace = Trace(Designs(study.memories, study.rows, keys), CrankGrid.from_degrees, degrees, is_shifted=True)
+    trace = Lowering(DesignTraces(study.memories, study.rows, keys), CrankGrid.from_degrees, degrees, is_shifted=True)
     expected = Program({key: memory[key] for key in keys})(CrankGrid.from_degrees(degrees))
     found = played([trace.value(study.memories[0][key]) for key in keys], design, degrees, study.cycle)
     apart = {key: np.max(np.abs(one - expected[key])) for key, one in zip(keys, found, strict=True)}
@@ -141,29 +141,29 @@ def played(wanted, design, degrees, cycle):
     """Return values of a graph at crank angles, each operation by NumPy."""
     made = {}
     for one in values_in_order(wanted):
-        operands = [made[other.at] for other in one.operands]
+        operands = [made[other.index] for other in one.operands]
         match one.kind:
             case "constant":
-                made[one.at] = number(one) + 0 * degrees
+                made[one.index] = number(one) + 0 * degrees
             case "input":
-                made[one.at] = design[one.detail] + 0 * degrees
+                made[one.index] = design[one.detail] + 0 * degrees
             case "angle" if one.detail[0] == "reading":
-                made[one.at] = one.graph.functions[one.detail[1]]((degrees + one.detail[2]) % cycle)
+                made[one.index] = one.graph.functions[one.detail[1]]((degrees + one.detail[2]) % cycle)
             case "angle":
                 name, multiple, shift = one.detail
-                made[one.at] = getattr(CrankGrid.from_degrees(multiple * degrees + shift), name)
+                made[one.index] = getattr(CrankGrid.from_degrees(multiple * degrees + shift), name)
             case "delayed" if not one.detail:
-                made[one.at] = operands[0]
+                made[one.index] = operands[0]
             case "pieces":
                 ends, shift = [end.stated for end in one.detail[0]], one.detail[1]
                 law = np.minimum(np.searchsorted(ends, (degrees + shift) % cycle), len(ends) - 1)
-                made[one.at] = (
+                made[one.index] = (
                     np.choose(law, operands) if len(operands) < 32 else np.array(operands)[law, range(len(law))]
                 )
             case _:
                 with np.errstate(all="ignore"):
-                    made[one.at] = COMPUTE[one.kind](*operands)
-    return [made[one.at] for one in wanted]
+                    made[one.index] = COMPUTE[one.kind](*operands)
+    return [made[one.index] for one in wanted]
 
 
 @pytest.mark.parametrize("way", [pytest.param("compiled", marks=pytest.mark.compiled), "arrays"])
@@ -213,7 +213,7 @@ def test_laws_that_end_elsewhere_are_refused():
         for end, one in ((90.0, 1.0), (91.0, 1.1), (92.0, 1.2))
     ]
     with pytest.raises(NotCompiledError, match="ways"):
-        Designs(memories, np.array([[1.0], [1.1], [1.2]]), ["y"])
+        DesignTraces(memories, np.array([[1.0], [1.1], [1.2]]), ["y"])
 
 
 def test_of_two_extremes_the_worse_one_is_chosen_for_each_design(by_arrays):
@@ -233,7 +233,7 @@ def test_the_mean_of_what_is_nothing_but_for_rounding_is_nothing():
 
 
 def test_two_equal_ways_of_writing_are_one_operation():
-    graph = Graph()
+    graph = KernelGraph()
     a, b = graph.input(0), graph.input(1)
     assert a * b is b * a
     assert a + b is b + a
@@ -244,7 +244,7 @@ def test_two_equal_ways_of_writing_are_one_operation():
 
 
 def test_sums_of_columns_share_their_parts():
-    graph = Graph()
+    graph = KernelGraph()
     column, radius = graph.angle("sin", 1, 0.0) * graph.input(0), graph.input(1)
     of = [graph.delayed(column, 90.0 * at) for at in range(4)]
     torque = (of[0] * radius + of[1] * radius) + (of[2] * radius + of[3] * radius)
@@ -252,17 +252,21 @@ def test_sums_of_columns_share_their_parts():
     other = -of[2] + (of[1] + of[0]) * 0.25
     roots = [torque, load * load, other]
     by = shared(roots, list(values_in_order(roots, into=lambda one: one.kind != "delayed")))
-    assert set(by) == {torque.at, load.at, other.at}
-    numbers = {one.at: known for one, known in zip((*of, radius), (0.3, 0.7, 1.9, 2.3, 1.1), strict=True)}
+    assert set(by) == {torque.index, load.index, other.index}
+    numbers = {one.index: known for one, known in zip((*of, radius), (0.3, 0.7, 1.9, 2.3, 1.1), strict=True)}
 
     def value(one):
-        if one.at not in numbers:
-            numbers[one.at] = number(one) if one.is_constant else COMPUTE[one.kind](*map(value, one.operands))
-        return numbers[one.at]
+        if one.index not in numbers:
+            numbers[one.index] = number(one) if one.is_constant else COMPUTE[one.kind](*map(value, one.operands))
+        return numbers[one.index]
 
     for one in (torque, load, other):
-        assert value(by[one.at]) == pytest.approx(value(one), rel=1e-15)
-    made = {one.at: one for one in values_in_order(by.values(), into=lambda one: one.kind != "delayed") if one.by_angle}
+        assert value(by[one.index]) == pytest.approx(value(one), rel=1e-15)
+    made = {
+        one.index: one
+        for one in values_in_order(by.values(), into=lambda one: one.kind != "delayed")
+        if one.depends_on_angle
+    }
     # of the first two the sum once, and the radius times one sum
     assert sum(one.kind in ("add", "sub") for one in made.values()) == 6
     assert sum(one.kind == "mul" for one in made.values()) == 3
@@ -270,7 +274,7 @@ def test_sums_of_columns_share_their_parts():
 
 @pytest.mark.elsewhere
 def test_derivatives_by_the_angle_are_those_of_differences_with_forty_digits():
-    graph = Graph()
+    graph = KernelGraph()
     sin, cos = graph.angle("sin", 1, 0.0), graph.angle("cos", 1, 0.0)
     ratio = graph.input(0)
     column = (

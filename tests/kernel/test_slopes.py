@@ -9,7 +9,7 @@ import pytest
 from crankwork.cylinders.load_vectors import bearing_load
 from crankwork.formula.known import Found, Known, OfAngle, Pieces, given
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.slopes import in_part
+from crankwork.kernel.slopes import part_key
 from crankwork.kinematics.crank_grid import CrankGrid
 from varied import Varied
 
@@ -150,9 +150,9 @@ def test_the_largest_of_parts_is_that_of_the_cycle_and_changes_as_it():
     for design in (0.99 * stated, stated):
         values, found = slopes(of, design)
         for key, best in zip(keys, (np.max, np.min), strict=True):
-            parts = np.array([values[in_part(key, at)] for at in range(16)])
+            parts = np.array([values[part_key(key, at)] for at in range(16)])
             assert best(parts) == values[key]
-            assert found[in_part(key, int(np.argmin(np.abs(parts - values[key]))))] == found[key]
+            assert found[part_key(key, int(np.argmin(np.abs(parts - values[key]))))] == found[key]
 
 
 def test_a_peak_at_the_end_of_a_law_goes_with_it():

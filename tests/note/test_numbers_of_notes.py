@@ -24,7 +24,7 @@ from crankwork.note.engine_tables import folded
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.language import key_unit, reader_units
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 from note.built import broken, every_machine, note, remembered, results, schools
 
 NUMBER = re.compile(r"[-−]?\d+([.,]\d+)?(·10\^?\{?[-−]?\d+\}?|[eE][-+−]?\d+)?")
@@ -125,7 +125,7 @@ class Held:
 def not_held_in_tables(case: str) -> list[tuple]:
     """Return the columns of tables that the results do not hold, as two schools have them."""
     found = results(case)
-    with shown_in(reader_units(found)):
+    with use_units(reader_units(found)):
         held, unknown, label = Held(as_engine(found)), set(), ""
     for language in schools(case):
         for table in note(case, language).blocks:

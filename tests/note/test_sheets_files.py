@@ -31,8 +31,8 @@ from crankwork.show.scene import (
     pen_of,
     runs,
     shade_of,
+    simplified,
     text_width,
-    thinned,
 )
 from crankwork.show.svg import svg
 from each import for_each
@@ -68,7 +68,7 @@ def test_svg_has_the_size_the_texts_and_the_curves_of_its_sheet(kind):
         (path,) = (found for found in root.iter(f"{SVG}path") if found.get("class") == "radial_force")
         points = np.array([point.split() for point in path.get("d")[1:].split("L")], dtype=float)
         (expected,) = lines(one, "radial_force")
-        assert np.allclose(points * [1, -1] + [0, 594], thinned(expected), atol=6e-4)
+        assert np.allclose(points * [1, -1] + [0, 594], simplified(expected), atol=6e-4)
 
 
 @for_each(("size", "width", "height"), [("A1", 841, 594), ("A0", 1189, 841)])

@@ -442,7 +442,7 @@ def test_pistons_stay_in_their_bores(name):
 @pytest.mark.slow
 def test_a_gif_tells_how_much_of_it_is_done():
     told = []
-    gif(moving_drawing(MACHINES["lying"], frames=24), told=told.append)
+    gif(moving_drawing(MACHINES["lying"], frames=24), progress=told.append)
     assert told == pytest.approx([10 / 24, 20 / 24, 1.0])
 
 
@@ -451,5 +451,5 @@ def test_a_film_tells_how_much_of_it_is_done():
     if shutil.which("ffmpeg") is None:
         pytest.skip("there is no ffmpeg")
     told = []
-    mp4(moving_drawing(MACHINES["lying"], frames=24), told=told.append)
+    mp4(moving_drawing(MACHINES["lying"], frames=24), progress=told.append)
     assert told == pytest.approx([10 / 24, 20 / 24, 1.0])

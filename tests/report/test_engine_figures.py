@@ -20,7 +20,7 @@ from crankwork.report.engine_figure_data import EngineDrawn, engine_drawn
 from crankwork.report.engine_figure_list import figure_list
 from crankwork.show.chart import round_ticks
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import Paper, fitted_lines, text_width
+from crankwork.show.paper import Canvas, fitted_lines, text_width
 from crankwork.show.svg import svg
 from each import for_each
 from shown import machine_of, results_of
@@ -119,7 +119,7 @@ def test_cylinders_fire_before_their_largest_torque(layout):
 
 
 def test_a_number_that_stands_twice_at_a_point_is_written_once():
-    paper = Paper(100.0, 100.0)
+    paper = Canvas(100.0, 100.0)
     label_marks(paper, [("0", 50.0, 50.0), ("0", 50.0, 50.0), ("6", 50.2, 50.0)])
     assert [text for text, *_ in paper.texts] == ["0, 6"]
 
@@ -317,4 +317,4 @@ def test_text_is_as_wide_as_its_letters_and_breaks_between_words():
 
 
 def test_words_of_titles_are_escaped():
-    assert b"<title>a &lt; b &amp; c</title>" in svg(Paper(10, 10).drawing("a < b & c"))
+    assert b"<title>a &lt; b &amp; c</title>" in svg(Canvas(10, 10).drawing("a < b & c"))

@@ -18,7 +18,7 @@ from crankwork.report.engine_figure_data import engine_drawn
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import drawings, figure_names, figures
 from crankwork.report.tables import sheets
-from crankwork.show.alt import described
+from crankwork.show.alt import alt_text
 from crankwork.show.scene import printable
 from crankwork.show.svg import svg
 from each import for_each
@@ -126,7 +126,7 @@ def test_point_names_that_cannot_be_printed_become_boxes():
 @in_parts("name", FEW, REST)
 def test_a_figure_is_svg_and_says_in_words_what_it_shows(name):
     for figure, one in figures_of(name).items():
-        words, text = described(one), svg(one).decode()
+        words, text = alt_text(one), svg(one).decode()
         assert words.startswith(one.title), figure
         assert re.search(r"\d", words), figure
         # a line between two words is a name of the user's own
@@ -138,7 +138,7 @@ def test_a_figure_is_svg_and_says_in_words_what_it_shows(name):
 
 def test_the_words_of_a_figure_have_its_extremes():
     engine = results_of("template engine")
-    words = described(drawings(engine, language="ru", only=["pressure"])["pressure"])
+    words = alt_text(drawings(engine, language="ru", only=["pressure"])["pressure"])
     values = engine.columns["gas_pressure"] / 1e6
     # between the angles of the table the pressure may go further
     found = re.search(r"от (\S+) \(при (\S+)\) до (\S+) \(при (\S+)\)", words).groups()

@@ -15,9 +15,9 @@ from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
 from crankwork.report.not_drawn import not_drawn
 from crankwork.show.chart import Graph, round_ticks, sheet
-from crankwork.show.labels import mark
+from crankwork.show.labels import mark_point
 from crankwork.show.pdf import png
-from crankwork.show.place import Place, placed
+from crankwork.show.place import ChartLayout, use_layout
 from crankwork.show.scene import Box, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
 from crankwork.show.svg import svg
 from each import for_each
@@ -122,7 +122,7 @@ def test_names_are_printed_as_they_are_written():
 @for_each("is_sheet", [False, True])
 def test_numbers_of_axes_stand_clear_where_an_axis_goes_through_zero(is_sheet):
     """Below and left of the graph, not at the axis in its middle, where curves would run through them."""
-    with placed(Place(is_sheet=is_sheet)):
+    with use_layout(ChartLayout(is_sheet=is_sheet)):
         paper, box = sheet(200.0)
         graph = Graph(paper, box, (-3.0, 3.0), (-2.0, 5.0), "en", to_scale=False)
         graph.frame(round_ticks(*graph.x), graph.up_ticks)
@@ -130,7 +130,7 @@ def test_numbers_of_axes_stand_clear_where_an_axis_goes_through_zero(is_sheet):
         for at in np.linspace(-2.0, 5.0, 40):
             graph.curve(f"c{at}", x, np.full(50, at))
         graph.curve("upright", [0.0, 0.0], [-2.0, 5.0])
-        mark(graph, "zero", 0.0, 0.0, "zero")
+        mark_point(graph, "zero", 0.0, 0.0, "zero")
         drawing = paper.drawing("t")
     assert faults(drawing) == []
     (plot,) = drawing.plots

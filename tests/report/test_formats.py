@@ -17,9 +17,9 @@ from crankwork.errors import CrankworkError
 from crankwork.report.figures import drawings
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf, png
-from crankwork.show.scene import Arc, Circle, Drawing, Hatch, Polyline, Text, literal, pen_of, runs, thinned
+from crankwork.show.scene import Arc, Circle, Drawing, Hatch, Polyline, Text, literal, pen_of, runs, simplified
 from crankwork.show.svg import svg
-from crankwork.show.theme import THEMES, look_of
+from crankwork.show.theme import THEMES, palette_of
 from each import for_each
 from shown import figures_of, in_parts, results_of
 
@@ -54,8 +54,8 @@ def _strokes(data: bytes) -> dict[str, set[str]]:
 @for_each(("name", "theme"), [(name, theme) for name in DRAWN for theme in THEMES])
 def test_curves_and_letters_stand_out_from_the_ground_and_curves_have_colours_of_their_own(name, theme):
     """A sample in a legend has the dashes, and so the colour, of its curve."""
-    ground = look_of(theme).ground
-    assert _contrast(look_of(theme).ink, ground) > 12
+    ground = palette_of(theme).ground
+    assert _contrast(palette_of(theme).ink, ground) > 12
     for one in figures_of(name, "ru").values():
         data = svg(one, theme)
         assert f'height="{ET.fromstring(data).get("viewBox").split()[3]}" fill="{ground}"'.encode() in data  # noqa: S314
@@ -162,7 +162,7 @@ def test_a_picture_is_restyled_and_saved_by_its_ending(tmp_path):
     dark = picture.styled("dark")
     assert (picture.theme, dark.theme) == ("print", "dark")
     assert dark.svg != picture.svg == results.figure("torque").svg
-    assert look_of("dark").ground in dark.svg
+    assert palette_of("dark").ground in dark.svg
     for ending, begin in (("svg", b"<svg"), ("pdf", b"%PDF"), ("png", b"\x89PNG"), ("dxf", b"  0")):
         path = tmp_path / f"torque.{ending}"
         dark.save(path)
@@ -178,7 +178,7 @@ def test_a_thinned_line_leaves_no_point_further_away_than_nobody_sees(seed):
     walk = np.cumsum(np.random.default_rng(seed).normal(size=(400, 2)) * (0.05, 0.01), axis=0)
     # a loop that ends where it begins, and a line drawn twice
     points = np.vstack([walk, walk[::-1]]) if seed % 2 else walk
-    kept = thinned(points)
+    kept = simplified(points)
     assert len(kept) < len(points)
     assert np.array_equal(kept[[0, -1]], points[[0, -1]])
     start, way = kept[:-1], np.diff(kept, axis=0)

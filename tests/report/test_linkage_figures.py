@@ -21,7 +21,7 @@ from crankwork.report.linkage_centrodes import instant_centres
 from crankwork.report.linkage_curves import curves
 from crankwork.report.linkage_look import angle_ticks, axis_title, math_symbol
 from crankwork.show.paper import plain
-from crankwork.show.place import Place, placed
+from crankwork.show.place import ChartLayout, use_layout
 from crankwork.show.scene import Polyline, extent
 from crankwork.show.scene import Text as SceneText
 from crankwork.show.svg import svg
@@ -103,7 +103,7 @@ def test_a_table_of_a_motion_goes_on_to_the_end_of_its_turn():
 def test_the_angles_of_tangents_are_those_of_round_scales_and_give_the_flywheel(is_sheet):
     """What is measured on paper, with the angles and scales that are printed there, is what the file asks for."""
     results = results_of("template press")
-    with placed(Place(1200.0, 70.0, 20.0, 0.8, is_sheet=True) if is_sheet else Place()):
+    with use_layout(ChartLayout(1200.0, 70.0, 20.0, 0.8, is_sheet=True) if is_sheet else ChartLayout()):
         one = drawings(results, only=["wittenbauer"])["wittenbauer"]
     (plot,) = one.plots
     inertia, energy = np.ptp(plot.x) / plot.box.width, np.ptp(plot.y) / plot.box.height

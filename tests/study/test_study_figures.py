@@ -9,7 +9,7 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import template
 from crankwork.locale import LANGUAGES
 from crankwork.quantities import QUANTITIES
-from crankwork.show.chart import Box, Graph, round_ticks, sheet
+from crankwork.show.chart import ChartBox, Graph, round_ticks, sheet
 from crankwork.show.contour import Field, contours
 from crankwork.show.paper import BLACK
 from crankwork.show.place import MM
@@ -83,7 +83,7 @@ def test_a_hole_has_no_lines():
 
 def test_numbers_stand_on_their_lines():
     paper, box = sheet(200.0)
-    graph = Graph(paper, Box(*box), (0.0, 10.0), (0.0, 10.0), "en")
+    graph = Graph(paper, ChartBox(*box), (0.0, 10.0), (0.0, 10.0), "en")
     x = np.linspace(0, 10, 21)
     contours(graph, Field(x, x, np.add.outer(x, 2 * x)), round_ticks(0, 30, 6))
     texts = [one for one in paper.drawing("").items if isinstance(one, Text)]

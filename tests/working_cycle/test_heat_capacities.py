@@ -4,7 +4,7 @@ import pytest
 
 from crankwork.formula.known import Known, given
 from crankwork.formula.worked import Worked
-from crankwork.working_cycle.cycle_data import GrinevetskyData, what_is_given
+from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs
 from crankwork.working_cycle.fuels import FUELS, burning
 from crankwork.working_cycle.heat_capacities import (
     LOW_LIMIT,
@@ -73,7 +73,7 @@ def test_heat_from_600_to_2400_kelvin_is_that_of_the_gases(law: HeatLaw, excess_
     data = GrinevetskyData("petrol", 9.0, 5000.0, fuel=FUELS["petrol"], excess_air=excess_air)
 
     def energy(one: HeatLaw, kelvin: float) -> float:
-        worked = what_is_given(data, data)
+        worked = traced_cycle_inputs(data, data)
         burning(worked, FUELS["petrol"])
         mixture(worked)
         product_coefficients(worked, one)

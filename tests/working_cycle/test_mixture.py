@@ -5,7 +5,7 @@ from hypothesis import given, reject
 from hypothesis import strategies as st
 
 from crankwork.formula.worked import Worked
-from crankwork.working_cycle.cycle_data import GrinevetskyData, what_is_given
+from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel, burning
 from crankwork.working_cycle.mixture import mixture
 
@@ -20,7 +20,7 @@ ATOMS = [(1, 0, 2, 0), (1, 0, 1, 0), (0, 2, 1, 0), (0, 2, 0, 0), (0, 0, 2, 0), (
 
 def _burnt(fuel: Fuel, air: float, share: float = 0.5) -> Worked:
     data = GrinevetskyData("petrol", 9.0, 5000.0, fuel=fuel, excess_air=air, hydrogen_share=share)
-    worked = what_is_given(data, data)
+    worked = traced_cycle_inputs(data, data)
     burning(worked, fuel)
     mixture(worked)
     return worked

@@ -73,7 +73,7 @@ def _filling(solved: SolvedCylinder, space: WorkingSpace, columns: tuple[Known, 
     key, given_gas = "filling_factor.diagram", solved.machine.gas
     if space.calculated is None or key not in space.calculated.memory or given_gas is None:
         return {}
-    filling = getattr(given_gas.calculated, "filling", None)
+    filling = getattr(given_gas.calculated, "filling_factor", None)
     return {} if filling is None else {key: filling(space.calculated.memory[key].value, columns, solved.stroke[1:])}
 
 
@@ -85,8 +85,8 @@ def _retold(
     if given_gas is None or given_gas.measured is not None:
         return None
     if given_gas.calculated is not None:
-        remembered = getattr(given_gas.calculated, "remembered", None)
-        return None if remembered is None else partial(remembered, volume, solved.stroke[1:])
+        traced = getattr(given_gas.calculated, "traced", None)
+        return None if traced is None else partial(traced, volume, solved.stroke[1:])
     size = memory["clearance_volume"], memory["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
     told = StatedDiagram(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))

@@ -13,13 +13,13 @@ from typing import TextIO
 import click
 
 from crankwork.cli.asked import (
-    Asked,
-    analysed,
-    asking,
-    count_of,
-    factor_of,
-    formats_of,
-    place_of,
+    CommonOptions,
+    analyse_with_progress,
+    parse_angle_or_time,
+    parse_count,
+    parse_formats,
+    parse_number,
+    with_common_options,
 )
 from crankwork.cli.documents import draw, page, report
 from crankwork.cli.options import (
@@ -36,74 +36,74 @@ from crankwork.cli.options import (
     SYSTEM,
     THEME,
 )
-from crankwork.cli.spoken import SpokenGroup, language_asked, placeholder
+from crankwork.cli.spoken import LocalizedGroup, placeholder, requested_language
 from crankwork.cli.studies import map_, optimise, sweep
 from crankwork.cli.studio import studio
 from crankwork.errors import CrankworkError, DoubtfulError, InputError
 from crankwork.locale import Language, Refusal, say, told
-from crankwork.progress import bar, with_progress
+from crankwork.progress import progress_bar, with_progress
 
 
 def main() -> None:
-    """Run the command line; a mistake of the user ends with code 2 and a sentence, doubtful results with code 1."""
-    # linear systems are small here, and starting threads for them takes longer than solving them
+    """Run the command line; user errors end with code 2 and a sentence, unverified results with code 1."""
+    # linear systems are small here: threads would take longer to start than the solution
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            # names of files need not be text, and a terminal need not know Unicode
+            # names of files need not be text, and a terminal need not support Unicode
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     sys.exit(_exit_code())
 
 
 def _exit_code() -> int:
-    """Run the commands and tell what went wrong; return 0, 1, 2 or 130."""
+    """Run the commands and print errors; return 0, 1, 2 or 130."""
     try:
         commands(standalone_mode=False)
         if sys.stdout is not None:
             sys.stdout.flush()
     except InputError as error:
-        _tell(*error.lines(_told), _told(Refusal("nothing_computed")))
+        _print_error(*error.lines(_in_language), _in_language(Refusal("nothing_computed")))
     except CrankworkError as error:
-        _tell(_told(error.args[0]))
+        _print_error(_in_language(error.args[0]))
         return 1 if isinstance(error, DoubtfulError) else 2
     except click.exceptions.NoArgsIsHelpError as error:
-        _tell(error.format_message())
+        _print_error(error.format_message())
     except click.ClickException as error:
-        _tell(_told(_usage_sentence(error)))
+        _print_error(_in_language(_usage_sentence(error)))
     except (click.Abort, KeyboardInterrupt):
         return 130
     except BrokenPipeError:
-        _send_nowhere(sys.stdout)
+        _discard_output(sys.stdout)
         return 1
     except OSError as error:
-        # everything else that touches the disk is in `files`, so this is the output itself
-        _send_nowhere(sys.stdout)
-        _tell(_told(Refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
+        # all other disk access is in `files`, so this is the output itself
+        _discard_output(sys.stdout)
+        _print_error(_in_language(Refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
     else:
         return 0
     return 2
 
 
-def _send_nowhere(stream: TextIO) -> None:
-    """Let what is still to be written to a stream go nowhere."""
-    from crankwork.files import send_nowhere
+def _discard_output(stream: TextIO) -> None:
+    """Discard the rest of the output, without loading `files` before."""
+    from crankwork.files import discard_output
 
-    send_nowhere(stream)
+    discard_output(stream)
 
 
-def _tell(*lines: str) -> None:
-    """Write lines to the error stream, if there is one."""
+def _print_error(*lines: str) -> None:
+    """Print lines on the error stream, if there is one."""
     with contextlib.suppress(OSError):
         click.echo("\n".join(lines), err=True)
 
 
-def _told(message: str) -> str:
-    """Return a refusal in the language that the command line asks for, which may be what is wrong with it."""
-    return told(message, language_asked())
+def _in_language(message: str) -> str:
+    """Return a message in the language of the command line, even if its arguments are wrong."""
+    return told(message, requested_language())
 
 
 def _usage_sentence(error: click.ClickException) -> str:
-    """Return one line on how the command line is written."""
+    """Return one line on the error of the command line."""
     match error:
         case click.NoSuchOption() | click.exceptions.NoSuchCommand():
             return _unknown(error)
@@ -117,23 +117,23 @@ def _usage_sentence(error: click.ClickException) -> str:
             name = (error.param.name or "argument").upper() if error.param else "argument"
             return Refusal("argument_missing", argument=placeholder(name))
         case click.BadParameter() if error.param and isinstance(error.param.type, click.Choice):
-            found = re.search(r"'(.*)' is not one of", error.message)
-            given, choices = found[1] if found else Refusal("this"), tuple(error.param.type.choices)
+            match = re.search(r"'(.*)' is not one of", error.message)
+            given, choices = match[1] if match else Refusal("this"), tuple(error.param.type.choices)
             return Refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
-        case _ if found := re.search(r"extra arguments? \((.*)\)$", error.message):
-            return Refusal("argument_extra", argument=found[1])
+        case _ if match := re.search(r"extra arguments? \((.*)\)$", error.message):
+            return Refusal("argument_extra", argument=match[1])
         case _:
             return f"{error.format_message().rstrip('.')}; see crankwork --help"
 
 
 def _unknown(error: click.NoSuchOption | click.exceptions.NoSuchCommand) -> str:
-    """Return a sentence on an option or a command that there is not."""
+    """Return a sentence about an unknown option or command."""
     if isinstance(error, click.NoSuchOption):
         option = error.option_name
         if error.possibilities:
             return Refusal("option_unknown_near", option=option, nearest=error.possibilities[0])
-        every = {name for command in commands.commands.values() for one in command.params for name in one.opts}
-        return Refusal("option_early" if option in every else "option_unknown", option=option)
+        options = {name for command in commands.commands.values() for param in command.params for name in param.opts}
+        return Refusal("option_early" if option in options else "option_unknown", option=option)
     command = error.command_name[:40]
     if command.endswith(".toml"):
         return Refusal("command_first", file=command)
@@ -142,7 +142,7 @@ def _unknown(error: click.NoSuchOption | click.exceptions.NoSuchCommand) -> str:
     return Refusal("no_command", command=command, known=", ".join(commands.commands))
 
 
-@click.group(cls=SpokenGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=LocalizedGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="crankwork", message="crankwork %(version)s")
 def commands() -> None:
     """Kinematics and dynamics of crank-driven machines, from one text file."""
@@ -153,23 +153,23 @@ def commands() -> None:
 @click.option("-o", "--output", metavar="FILE")
 @LANG
 @OVERWRITE
-@asking
-def new(asked: Asked, name: str | None, output: str | None) -> None:
+@with_common_options
+def new(options: CommonOptions, name: str | None, output: str | None) -> None:
     """Write a template, or list those there are."""
     from crankwork import files
     from crankwork.description.machine_file import template, template_names, template_title
 
     if name is None:
-        titles = {one: template_title(one, asked.language) for one in template_names()}
+        titles = {template: template_title(template, options.language) for template in template_names()}
         width = max(map(len, titles))
-        click.echo("\n".join(f"{one:<{width}}  {title}" for one, title in titles.items()))
+        click.echo("\n".join(f"{name:<{width}}  {title}" for name, title in titles.items()))
         return
-    text = template(name, asked.language)
+    text = template(name, options.language)
     if output is None:
         click.echo(text, nl=False)
         return
-    files.write_new(output, text, overwrite=asked.overwrite)
-    click.echo(say("report.written_new", asked.language, file=output))
+    files.write_new(output, text, overwrite=options.overwrite)
+    click.echo(say("report.written_new", options.language, file=output))
 
 
 @commands.command()
@@ -180,39 +180,41 @@ def new(asked: Asked, name: str | None, output: str | None) -> None:
 @click.option("--circuits", is_flag=True)
 @JSON
 @click.option("--expand", is_flag=True)
-@asking
-def check(asked: Asked, *, circuits: bool, expand: bool) -> None:
+@with_common_options
+def check(options: CommonOptions, *, circuits: bool, expand: bool) -> None:
     """Read a machine and say what it is."""
-    if expand and (circuits or asked.as_json):
+    if expand and (circuits or options.as_json):
         raise CrankworkError(Refusal("expand_alone"))
     if expand:
         from crankwork.description.expand import expanded
 
-        click.echo(expanded(asked.file, asked.settings, asked.language), nl=False)
+        click.echo(expanded(options.file, options.settings, options.language), nl=False)
         return
     from crankwork.report.notices import notice_text
     from crankwork.report.summary import description_text
 
-    if asked.as_json and not circuits:
+    if options.as_json and not circuits:
         raise CrankworkError(Refusal("json_of_circuits"))
-    machine = asked.machine
-    if circuits and asked.as_json:
+    machine = options.machine
+    if circuits and options.as_json:
         from crankwork.analysis.ways import ways
         from crankwork.report.ways import ways_data
 
         click.echo(json.dumps(ways_data(machine, ways(machine)), ensure_ascii=False, indent=1))
         return
-    results = analysed(machine)
-    click.echo(f"{asked.file}: {machine.title}" if machine.title else asked.file)
-    click.echo(description_text(results, asked.language))
+    results = analyse_with_progress(machine)
+    click.echo(f"{options.file}: {machine.title}" if machine.title else options.file)
+    click.echo(description_text(results, options.language))
     if circuits:
         from crankwork.analysis.ways import ways
         from crankwork.report.ways import ways_text
 
-        click.echo(ways_text(machine, ways(machine), asked.language))
+        click.echo(ways_text(machine, ways(machine), options.language))
     for notice in results.notices:
-        click.echo(say("check.note", asked.language, notice=notice_text(notice.code, notice.values, asked.language)))
-    asked.doubt(results)
+        click.echo(
+            say("check.note", options.language, notice=notice_text(notice.code, notice.values, options.language))
+        )
+    options.raise_if_unverified(results)
 
 
 @commands.command()
@@ -231,20 +233,20 @@ def check(asked: Asked, *, circuits: bool, expand: bool) -> None:
 @THEME
 @click.option("--excel-csv", is_flag=True)
 @OVERWRITE
-@asking
-def run(asked: Asked, output: str | None, *, excel_csv: bool) -> None:
+@with_common_options
+def run(options: CommonOptions, output: str | None, *, excel_csv: bool) -> None:
     """Compute a machine: print the summary, and write tables and figures with -o."""
     from crankwork import files
     from crankwork.report.summary import summary_data, summary_text
 
-    language, per_area = asked.language, asked.per_area
+    language, per_area = options.language, options.per_area
     if output is not None:
         if not output:
             raise CrankworkError(Refusal("folder_unnamed"))
-        files.check_folder(output, overwrite=asked.overwrite)
-    wanted = () if asked.no_figures or output is None else formats_of(asked.formats)
-    results = asked.results()
-    asked.tell(
+        files.check_folder(output, overwrite=options.overwrite)
+    formats = () if options.no_figures or output is None else parse_formats(options.formats)
+    results = options.results()
+    options.print_result(
         lambda: summary_text(results, language=language, per_area=per_area),
         lambda: summary_data(results, per_area=per_area),
     )
@@ -252,73 +254,77 @@ def run(asked: Asked, output: str | None, *, excel_csv: bool) -> None:
         from crankwork.report.results_folder import left_out, results_folder
 
         steps = results_folder(
-            results, language=language, per_area=per_area, for_excel=excel_csv, formats=wanted, theme=asked.theme
+            results, language=language, per_area=per_area, for_excel=excel_csv, formats=formats, theme=options.theme
         )
-        contents = with_progress(steps, 4 - asked.no_figures)
-        files.write_folder(output, contents, overwrite=asked.overwrite)
-        asked.tell_written(output, "\n")
-        if wanted:
+        contents = with_progress(steps, 4 - options.no_figures)
+        files.write_folder(output, contents, overwrite=options.overwrite)
+        options.print_written(output, "\n")
+        if formats:
             from crankwork.report.not_drawn import not_drawn
 
-            for one in not_drawn(results, language):
-                _tell(say("check.note", language, notice=one))
+            for skipped in not_drawn(results, language):
+                _print_error(say("check.note", language, notice=skipped))
         if (missing := left_out()) is not None:
-            _tell(say("check.note", language, notice=_told(missing.args[0])))
-    asked.doubt(results)
+            _print_error(say("check.note", language, notice=_in_language(missing.args[0])))
+    options.raise_if_unverified(results)
 
 
-for one in (report, page, draw, sweep, optimise, map_, studio):
-    commands.add_command(one)
+for command in (report, page, draw, sweep, optimise, map_, studio):
+    commands.add_command(command)
 
 
 @commands.command()
 @click.argument("file")
 @click.argument("key", required=False)
-@click.option("--at", metavar="DEG")
+@click.option("--at", "place", metavar="DEG")
 @click.option("--list", "with_keys", is_flag=True)
 @METHOD
 @LANG
 @SYSTEM
 @SET
-@asking
-def explain(asked: Asked, key: str | None, at: str | None, *, with_keys: bool) -> None:
+@with_common_options
+def explain(options: CommonOptions, key: str | None, place: str | None, *, with_keys: bool) -> None:
     """Explain one value of a machine: every step in order, down to the lines of the file."""
     from crankwork.note.explain import explanation, key_lines
 
     if key is None and not with_keys:
         raise CrankworkError(Refusal("explain_what"))
-    # what is no crank angle may be a time, which the machine knows
-    where = None if at is None else place_of(at, "time" if asked.machine.mechanism.driver.law else "angle")
-    results = asked.results()
+    # if it is no crank angle, it may be a time of the machine
+    angle_or_time = (
+        None
+        if place is None
+        else parse_angle_or_time(place, "time" if options.machine.mechanism.driver.law else "angle")
+    )
+    results = options.results()
     if key is None or with_keys:
-        click.echo("\n".join(key_lines(results, asked.language)))
+        click.echo("\n".join(key_lines(results, options.language)))
         return
-    click.echo(explanation(results, key, where, asked.language, asked.origin()), nl=False)
+    click.echo(explanation(results, key, angle_or_time, options.language, options.origin()), nl=False)
 
 
 @commands.command()
 @click.argument("file")
 @click.argument("equation")
-@click.option("--for", "sought", required=True, metavar="KEY")
+@click.option("--for", "field", required=True, metavar="KEY")
 @click.option("--from", "start", metavar="VALUE")
 @click.option("--to", "end", metavar="VALUE")
 @click.option("--steps", metavar="N", default="400")
 @LANG
 @SET
 @JSON
-@asking
-def solve(asked: Asked, equation: str, sought: str, start: str | None, end: str | None, steps: str) -> None:
+@with_common_options
+def solve(options: CommonOptions, equation: str, field: str, start: str | None, end: str | None, steps: str) -> None:
     """Find the numbers of a file that make a value what is wanted: "piston_force@33deg = 0" --for crank.speed."""
     from crankwork.description.document import load
     from crankwork.study.solution import solution_data, solution_text
     from crankwork.study.solve import solve as solved
 
-    with bar() as telling:
-        found = solved(
-            load(asked.file), equation, sought, limits=(start, end), steps=count_of(steps), overrides=asked.settings,
-            told=telling,
+    with progress_bar() as progress:
+        solution = solved(
+            load(options.file), equation, field, limits=(start, end), steps=parse_count(steps),
+            overrides=options.settings, told=progress,
         )  # fmt: skip
-    asked.tell(lambda: solution_text(found, asked.language), lambda: solution_data(found))
+    options.print_result(lambda: solution_text(solution, options.language), lambda: solution_data(solution))
 
 
 @commands.command()
@@ -330,19 +336,19 @@ def solve(asked: Asked, equation: str, sought: str, start: str | None, end: str 
 @SYSTEM
 @SET
 @JSON
-@asking
-def spread(asked: Asked, keys: tuple[str, ...], samples: str, within: str) -> None:
+@with_common_options
+def spread(options: CommonOptions, keys: tuple[str, ...], samples: str, within: str) -> None:
     """Tell how far results spread where the file states numbers with a deviation: "75 ± 0.1 mm"."""
     from crankwork.description.document import load
     from crankwork.study.spread import spread as found_spread
     from crankwork.study.spread_text import spread_data, spread_text
 
-    with bar() as telling:
-        found = found_spread(
-            load(asked.file), keys, samples=count_of(samples), within=factor_of(within), overrides=asked.overrides,
-            told=telling,
+    with progress_bar() as progress:
+        spreads = found_spread(
+            load(options.file), keys, samples=parse_count(samples), within=parse_number(within),
+            overrides=options.overrides, told=progress,
         )  # fmt: skip
-    asked.tell(lambda: spread_text(found, asked.language), lambda: spread_data(found))
+    options.print_result(lambda: spread_text(spreads, options.language), lambda: spread_data(spreads))
 
 
 @commands.command()

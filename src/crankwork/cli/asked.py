@@ -1,4 +1,4 @@
-"""What the options of a command ask for: the machine, what is laid over its file, its results."""
+"""Options that commands share: the machine, the overrides of its file, its results."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import click
 
 from crankwork.errors import CrankworkError, DoubtfulError, MissingExtraError, missing_extras
 from crankwork.locale import Language, Refusal, say
-from crankwork.progress import bar
+from crankwork.progress import progress_bar
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 
 @dataclasses.dataclass(frozen=True)
-class Asked:
-    """What the arguments and options that commands share ask for; a command that lacks one has its default."""
+class CommonOptions:
+    """Values of the arguments and options that commands share; a command that lacks an option has its default."""
 
     language: Language
     file: str = ""
@@ -43,19 +43,18 @@ class Asked:
 
     @functools.cached_property
     def overrides(self) -> list[str | Setting]:
-        """What is laid over the file: settings, and what options say instead of it."""
+        """Overrides of the file: settings, and options."""
         from crankwork.description.machine_file import Setting
 
-        # a step may be without its unit
+        # the unit of a step is optional
         step = f"{self.step} deg" if self.step and self.step.strip()[-1:].isdecimal() else self.step
         options = (("table.step", step), ("method.kinematics", self.method), ("units", self.units))
-        names = ("--step", "--method", "--units")
-        said = zip(names, options, strict=True)
-        return [*self.settings, *(Setting(name, key, one) for name, (key, one) in said if one is not None)]
+        named = zip(("--step", "--method", "--units"), options, strict=True)
+        return [*self.settings, *(Setting(name, key, value) for name, (key, value) in named if value is not None)]
 
     @functools.cached_property
     def machine(self) -> Machine:
-        """The machine of the file with the options put into it."""
+        """The machine of the file with its overrides."""
         from crankwork.description.machine_file import read
 
         machine = read(self.file, self.overrides)
@@ -64,70 +63,70 @@ class Asked:
         return machine
 
     def results(self) -> Results:
-        """Return the results of the machine, with those beside them that it is to be compared with."""
+        """Return the results of the machine, with those that it is compared with."""
         if self.compare is None:
-            return analysed(self.machine)
+            return analyse_with_progress(self.machine)
         from crankwork.analysis.compare import compare
         from crankwork.study.beside import comparison_machines
 
         name, machines = comparison_machines(self.machine, self.file, self.compare)
-        results = analysed(self.machine)
-        found = compare(results, {other: analysed(one) for other, one in machines.items()}, name)
-        if self.per_area and found.compared is not None and not found.compared.is_of_methods:
+        results = analyse_with_progress(self.machine)
+        compared = compare(results, {key: analyse_with_progress(other) for key, other in machines.items()}, name)
+        if self.per_area and compared.compared is not None and not compared.compared.is_of_methods:
             raise CrankworkError(Refusal("compare_per_area"))
-        return found
+        return compared
 
     def origin(self) -> Callable[[str, Iterable[float]], str]:
-        """Return what tells where in the file given numbers stand."""
+        """Return a function that gives the place in the file where numbers are stated."""
         from crankwork.description.origins import origins
         from crankwork.note.explain import place_text
 
-        found = origins(self.file, self.overrides)
-        return lambda path, numbers: place_text(found(path, numbers), self.language)
+        places = origins(self.file, self.overrides)
+        return lambda path, numbers: place_text(places(path, numbers), self.language)
 
-    def tell(self, text: Callable[[], str], data: Callable[[], object]) -> None:
-        """Print what was found, as text or as data."""
+    def print_result(self, text: Callable[[], str], data: Callable[[], object]) -> None:
+        """Print a result as text or as JSON."""
         click.echo(json.dumps(data(), ensure_ascii=False, indent=1) if self.as_json else text())
 
-    def tell_written(self, names: str, before: str = "") -> None:
-        """Say which files were written, beside data on the error stream."""
+    def print_written(self, names: str, before: str = "") -> None:
+        """Print the names of written files, on the error stream if the output is JSON."""
         click.echo(f"{before}{say('report.written', self.language)} {names}", err=self.as_json)
 
-    def doubt(self, results: Results) -> None:
-        """Raise if the results do not hold together, or do not cover what was asked; they were told and written."""
+    def raise_if_unverified(self, results: Results) -> None:
+        """Raise if results contradict each other or are incomplete; they have been printed and written."""
         from crankwork.report.summary import warning_text
 
-        every = {self.file: results}
+        by_name = {self.file: results}
         if results.compared is not None:
-            every |= zip(results.compared.names[1:], results.compared.others, strict=True)
-        for name, one in every.items():
-            if warning := warning_text(one, self.language):
+            by_name |= zip(results.compared.names[1:], results.compared.others, strict=True)
+        for name, checked in by_name.items():
+            if warning := warning_text(checked, self.language):
                 raise DoubtfulError(f"{name}: {warning}")
 
 
-def asking(command: Callable[..., None]) -> Callable[..., None]:
-    """Return a command that takes what commands share as one thing, and options of its own beside it."""
-    shared = {one.name for one in dataclasses.fields(Asked)}
+def with_common_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Decorate a command: it takes shared options as one object, and its own options as arguments."""
+    shared = {field.name for field in dataclasses.fields(CommonOptions)}
 
     @functools.wraps(command)
-    def called(**options: Any) -> None:  # noqa: ANN401 - whatever Click has read
+    def called(**arguments: Any) -> None:  # noqa: ANN401 - all that Click has read
         from crankwork.files import mark_inputs
 
-        asked = Asked(**{name: options.pop(name) for name in shared & options.keys()})
-        if asked.file:
-            mark_inputs(asked.file)
-        command(asked, **options)
+        options = CommonOptions(**{name: arguments.pop(name) for name in shared & arguments.keys()})
+        if options.file:
+            mark_inputs(options.file)
+        command(options, **arguments)
 
     return called
 
 
-def count_of(text: str) -> int:
-    """Return a whole number of an option, 0 where it is none."""
+def parse_count(text: str) -> int:
+    """Parse a positive integer; return 0 if the text is none."""
     return int(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0
 
 
-def place_of(text: str, dimension: str) -> float:
-    """Return a crank angle [deg] or a time [s], as a person writes it: without a unit, or with a decimal comma."""
+def parse_angle_or_time(text: str, dimension: str) -> float:
+    """Parse a crank angle [deg] or a time [s], with or without a unit, also with a decimal comma."""
     from crankwork.units import parse_in
 
     try:
@@ -137,41 +136,40 @@ def place_of(text: str, dimension: str) -> float:
     return round(math.degrees(value), 9) if dimension == "angle" else value
 
 
-def factor_of(text: str) -> float:
-    """Return a plain number of an option, 0 where it is none; a decimal comma is understood."""
+def parse_number(text: str) -> float:
+    """Parse a number without a unit, also with a decimal comma; return 0 if the text is none."""
     try:
         return float(text.replace(",", "."))
     except ValueError:
         return 0.0
 
 
-def analysed(machine: Machine) -> Results:
-    """Return the results of a machine, with a bar on the error stream where one let go takes more than a second."""
+def analyse_with_progress(machine: Machine) -> Results:
+    """Analyse a machine, with a progress bar if its transient simulation takes more than a second."""
     from crankwork.analysis import analyse
 
-    with bar() as told:
-        return analyse(machine, progress=told)
+    with progress_bar() as progress:
+        return analyse(machine, progress=progress)
 
 
-def formats_of(text: str) -> tuple[str, ...]:
-    """Return the formats of figures that an option names, `svg,pdf`."""
-    # figures are drawn by few commands
+def parse_formats(text: str) -> tuple[str, ...]:
+    """Parse the formats of figures, `svg,pdf`."""
+    # few commands draw figures
     from crankwork.show.formats import FORMATS, MODULES
 
-    found = tuple(dict.fromkeys(one.strip().lower() for one in text.split(",") if one.strip()))
-    wrong = [one for one in found if one not in FORMATS]
-    if wrong or not found:
-        raise CrankworkError(
-            Refusal("figure_formats", name=", ".join(wrong)[:60] or "--format", known=", ".join(FORMATS))
-        )
-    modules = {module: extra for one in found for module, extra in MODULES[one].items()}
+    formats = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",") if name.strip()))
+    wrong = [name for name in formats if name not in FORMATS]
+    if wrong or not formats:
+        name = ", ".join(wrong)[:60] or "--format"
+        raise CrankworkError(Refusal("figure_formats", name=name, known=", ".join(FORMATS)))
+    modules = {module: extra for name in formats for module, extra in MODULES[name].items()}
     if extras := missing_extras(modules):
-        raise MissingExtraError(Refusal("extra_writing", names=[one.upper() for one in found]), *extras)
-    return found
+        raise MissingExtraError(Refusal("extra_writing", names=[name.upper() for name in formats]), *extras)
+    return formats
 
 
-def film_ending(name: str, *, is_still: bool) -> str:
-    """Return the format that the name of a moving drawing, or of a still of it, asks for."""
+def drawing_ending(name: str, *, is_still: bool) -> str:
+    """Return the format of an animation, or of one frame, from the name of its file."""
     # few commands draw
     from crankwork.show.formats import FILMS, FORMATS, MODULES
 

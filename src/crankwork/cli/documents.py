@@ -1,4 +1,4 @@
-"""Commands that write a machine as a document: the note, the page, and the machine drawn."""
+"""Commands that write a document of a machine: the note, the page, the drawing."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from crankwork.cli.asked import Asked, asking, film_ending, place_of
+from crankwork.cli.asked import CommonOptions, drawing_ending, parse_angle_or_time, with_common_options
 from crankwork.cli.options import COMPARE, LANG, LANGUAGE, METHOD, NO_FIGURES, OVERWRITE, PER_AREA, SET, STEP, SYSTEM
-from crankwork.cli.spoken import SpokenCommand
+from crankwork.cli.spoken import LocalizedCommand
 from crankwork.errors import CrankworkError
 from crankwork.locale import Refusal
-from crankwork.progress import bar
+from crankwork.progress import progress_bar
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 
-@click.command(cls=SpokenCommand)
+@click.command(cls=LocalizedCommand)
 @click.argument("file")
 @click.option("-o", "--output", required=True, metavar="NOTE")
 @STEP
@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 @click.option("--paper", type=click.Choice(["A0", "A1", "A2", "A3"]))
 @click.option("--grid", is_flag=True)
 @OVERWRITE
-@asking
+@with_common_options
 def report(  # noqa: PLR0913 - one argument per option of the command
-    asked: Asked,
+    options: CommonOptions,
     output: str,
     school: str | None,
     title: str,
@@ -58,22 +58,22 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     from crankwork.note.contents import note_of, sheets_of
     from crankwork.note.options import NoteOptions
 
-    files.check_files(output, overwrite=asked.overwrite)
-    options = NoteOptions(
-        language=asked.language, school=school or "", per_area=asked.per_area, title=title.strip(),
-        author=author.strip(), figures=not asked.no_figures, sheets=sheets, paper=paper or "A1", grid=grid,
+    files.check_files(output, overwrite=options.overwrite)
+    note_options = NoteOptions(
+        language=options.language, school=school or "", per_area=options.per_area, title=title.strip(),
+        author=author.strip(), figures=not options.no_figures, sheets=sheets, paper=paper or "A1", grid=grid,
     )  # fmt: skip
-    results = asked.results()
-    written: dict[str | Path, bytes] = {output: written_note(note_of(results, options), output)}
+    results = options.results()
+    written: dict[str | Path, bytes] = {output: written_note(note_of(results, note_options), output)}
     if sheets:
         stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
-        written |= {stem + ending: data for ending, data in sheets_of(results, options).items()}
-    files.write_files(written, overwrite=asked.overwrite)
-    asked.tell_written(", ".join(map(str, written)))
-    asked.doubt(results)
+        written |= {stem + ending: data for ending, data in sheets_of(results, note_options).items()}
+    files.write_files(written, overwrite=options.overwrite)
+    options.print_written(", ".join(map(str, written)))
+    options.raise_if_unverified(results)
 
 
-@click.command(cls=SpokenCommand)
+@click.command(cls=LocalizedCommand)
 @click.argument("file")
 @click.option("-o", "--output", required=True, metavar="FILE")
 @STEP
@@ -84,31 +84,31 @@ def report(  # noqa: PLR0913 - one argument per option of the command
 @COMPARE
 @click.option("--slider", "sliders", multiple=True, metavar="KEY[=FROM..TO]")
 @OVERWRITE
-@asking
-def page(asked: Asked, output: str, sliders: tuple[str, ...]) -> None:
+@with_common_options
+def page(options: CommonOptions, output: str, sliders: tuple[str, ...]) -> None:
     """Write a machine as one web page: moving, diagrams to read, values explained."""
     from crankwork import files
     from crankwork.page.document import page as written
 
     if not output.lower().endswith((".html", ".htm")):
         raise CrankworkError(Refusal("page_ending", name=output))
-    files.check_files(output, overwrite=asked.overwrite)
-    results = asked.results()
+    files.check_files(output, overwrite=options.overwrite)
+    results = options.results()
     live = None
     if sliders:
         from crankwork.description.document import load
         from crankwork.study.sliders import moved
 
-        live = moved(load(asked.file), sliders, asked.overrides, results)
-    files.write_files({output: written(results, asked.language, asked.origin(), live)}, overwrite=asked.overwrite)
-    asked.tell_written(output)
-    asked.doubt(results)
+        live = moved(load(options.file), sliders, options.overrides, results)
+    files.write_files({output: written(results, options.language, options.origin(), live)}, overwrite=options.overwrite)
+    options.print_written(output)
+    options.raise_if_unverified(results)
 
 
-@click.command(cls=SpokenCommand)
+@click.command(cls=LocalizedCommand)
 @click.argument("file")
 @click.option("-o", "--output", required=True, metavar="FILE")
-@click.option("--at", metavar="DEG")
+@click.option("--at", "place", metavar="DEG")
 @click.option("--forces", is_flag=True)
 @METHOD
 @LANG
@@ -116,18 +116,18 @@ def page(asked: Asked, output: str, sliders: tuple[str, ...]) -> None:
 @SET
 @click.option("--theme", type=click.Choice(["print", "colour", "dark"]), default="colour")
 @OVERWRITE
-@asking
-def draw(asked: Asked, output: str, at: str | None, *, forces: bool) -> None:
+@with_common_options
+def draw(options: CommonOptions, output: str, place: str | None, *, forces: bool) -> None:
     """Draw a machine as it moves, or as it stands at a crank angle."""
-    ending = film_ending(output, is_still=at is not None)
+    ending = drawing_ending(output, is_still=place is not None)
     from crankwork import files
     from crankwork.report.drawing import drawn
 
-    files.check_files(output, overwrite=asked.overwrite)
-    results = asked.results()
-    where = None if at is None else place_of(at, "time" if results.period else "angle")
-    with bar() as telling:
-        made = drawn(results, ending, asked.theme, where, asked.language, forces=forces, told=telling)
-    files.write_files({output: made}, overwrite=asked.overwrite)
-    asked.tell_written(output)
-    asked.doubt(results)
+    files.check_files(output, overwrite=options.overwrite)
+    results = options.results()
+    angle_or_time = None if place is None else parse_angle_or_time(place, "time" if results.period else "angle")
+    with progress_bar() as progress:
+        drawing = drawn(results, ending, options.theme, angle_or_time, options.language, forces=forces, told=progress)
+    files.write_files({output: drawing}, overwrite=options.overwrite)
+    options.print_written(output)
+    options.raise_if_unverified(results)

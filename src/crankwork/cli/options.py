@@ -1,4 +1,4 @@
-"""Options that commands share; what each is told by stands in the room `help`."""
+"""Options that commands share; their help texts are in the text file `help`."""
 
 from __future__ import annotations
 

@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING
 
 import click
 
-from crankwork.cli.asked import Asked, asking, count_of, formats_of
+from crankwork.cli.asked import CommonOptions, parse_count, parse_formats, with_common_options
 from crankwork.cli.options import FORMAT, JSON, LANG, NO_FIGURES, OVERWRITE, SET, SYSTEM, THEME
-from crankwork.cli.spoken import SpokenCommand
+from crankwork.cli.spoken import LocalizedCommand
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal, say
-from crankwork.progress import bar, counting
+from crankwork.progress import counting, progress_bar
 
 if TYPE_CHECKING:
     from crankwork.show.scene import Drawing
     from crankwork.show.theme import Theme
 
-_MOST_WORKERS = 1024
+_MAX_WORKERS = 1024
 _MODULES = {"pyarrow": "data", "scipy": "data"}
 
 
-@click.command(cls=SpokenCommand)
+@click.command(cls=LocalizedCommand)
 @click.argument("study")
 @click.option("-o", "--output", metavar="DIR", required=True)
 @click.option("--workers", metavar="N")
@@ -36,8 +36,10 @@ _MODULES = {"pyarrow": "data", "scipy": "data"}
 @NO_FIGURES
 @FORMAT
 @THEME
-@asking
-def sweep(asked: Asked, study: str, output: str, workers: str | None, scheduler: str | None, *, resume: bool) -> None:
+@with_common_options
+def sweep(
+    options: CommonOptions, study: str, output: str, workers: str | None, scheduler: str | None, *, resume: bool
+) -> None:
     """Calculate the designs of a study: the best, the Pareto set, histograms and what matters."""
     from crankwork import files
     from crankwork.study.found_figures import found_drawings
@@ -46,53 +48,53 @@ def sweep(asked: Asked, study: str, output: str, workers: str | None, scheduler:
     from crankwork.study.study_file import load_study
 
     where = ExecutionOptions(_number_of(workers, scheduler), scheduler or "")
-    wanted = () if asked.no_figures else formats_of(asked.formats)
-    wished = load_study(study, asked.settings)
+    formats = () if options.no_figures else parse_formats(options.formats)
+    stated = load_study(study, options.settings)
     if extras := missing_extras(_MODULES):
         raise MissingExtraError(Refusal("extra_study"), *extras)
     started = time.monotonic()
     try:
-        with counting(wished.count) as told:
-            found = run_study(wished, output, where, resume=resume, progress=told)
+        with counting(stated.count) as progress:
+            aggregate = run_study(stated, output, where, resume=resume, progress=progress)
     except KeyboardInterrupt:
-        click.echo(f"\n{say('study.stopped', asked.language)}", err=True)
+        click.echo(f"\n{say('study.stopped', options.language)}", err=True)
         raise
-    drawn = found_drawings(wished, found, asked.language) if wanted else {}
-    contents = found_files(wished, found) | _figures(drawn, wanted, asked.theme)
+    drawings = found_drawings(stated, aggregate, options.language) if formats else {}
+    contents = found_files(stated, aggregate) | _figures(drawings, formats, options.theme)
     files.write_folder(output, contents, overwrite=True)
-    asked.tell(lambda: found_text(wished, found, asked.language), lambda: found_data(wished, found))
+    options.print_result(lambda: found_text(stated, aggregate, options.language), lambda: found_data(stated, aggregate))
     passed = time.monotonic() - started
-    asked.tell_written(output, "\n")
-    rate = {"seconds": f"{passed:.1f}", "rate": f"{found.designs / passed:.0f}"}
-    click.echo(say("study.rate", asked.language, **rate), err=True)
+    options.print_written(output, "\n")
+    rate = {"seconds": f"{passed:.1f}", "rate": f"{aggregate.designs / passed:.0f}"}
+    click.echo(say("study.rate", options.language, **rate), err=True)
 
 
-@click.command(cls=SpokenCommand)
+@click.command(cls=LocalizedCommand)
 @click.argument("study")
 @click.option("-o", "--output", metavar="DIR", required=True)
 @LANG
 @SET
 @JSON
 @OVERWRITE
-@asking
-def optimise(asked: Asked, study: str, output: str) -> None:
-    """Find the best design of a study: the machine file of it, what holds it, and the way there."""
+@with_common_options
+def optimise(options: CommonOptions, study: str, output: str) -> None:
+    """Find the best design of a study: its machine file, its active constraints, and the iterations."""
     from crankwork import files
     from crankwork.study.optimise import best_of
     from crankwork.study.optimum_text import optimum_data, optimum_files, optimum_text
     from crankwork.study.study_file import load_study
 
-    wished = load_study(study, asked.settings, is_search=True)
-    files.check_folder(output, overwrite=asked.overwrite)
-    with bar() as telling:
-        found = best_of(wished, telling)
-    contents = optimum_files(wished, found, output)
-    asked.tell(lambda: optimum_text(wished, found, asked.language), lambda: optimum_data(wished, found))
-    files.write_folder(output, contents, overwrite=asked.overwrite)
-    asked.tell_written(output, "\n")
+    stated = load_study(study, options.settings, is_search=True)
+    files.check_folder(output, overwrite=options.overwrite)
+    with progress_bar() as progress:
+        optimum = best_of(stated, progress)
+    contents = optimum_files(stated, optimum, output)
+    options.print_result(lambda: optimum_text(stated, optimum, options.language), lambda: optimum_data(stated, optimum))
+    files.write_folder(output, contents, overwrite=options.overwrite)
+    options.print_written(output, "\n")
 
 
-@click.command(name="map", cls=SpokenCommand)
+@click.command(name="map", cls=LocalizedCommand)
 @click.argument("file")
 @click.option("--over", multiple=True, required=True, metavar="KEY=FROM..TO")
 @click.option("-o", "--output", metavar="DIR")
@@ -105,41 +107,47 @@ def optimise(asked: Asked, study: str, output: str) -> None:
 @FORMAT
 @THEME
 @OVERWRITE
-@asking
-def map_(asked: Asked, over: tuple[str, ...], output: str | None, workers: str | None) -> None:
+@with_common_options
+def map_(options: CommonOptions, over: tuple[str, ...], output: str | None, workers: str | None) -> None:
     """Compute a machine over ranges of one or two numbers of its file."""
     from crankwork import files
     from crankwork.description.document import load
     from crankwork.study.map_figures import map_drawings
     from crankwork.study.mapped import map_data, map_files, map_text, mapped
 
-    wanted = () if asked.no_figures or output is None else formats_of(asked.formats)
+    formats = () if options.no_figures or output is None else parse_formats(options.formats)
     if output is not None:
-        files.check_folder(output, overwrite=asked.overwrite)
+        files.check_folder(output, overwrite=options.overwrite)
     count = _number_of(workers, None) or os.cpu_count() or 1
-    with bar() as telling:
-        found = mapped(load(asked.file), over, asked.overrides, telling, count)
-    asked.tell(lambda: map_text(found, asked.language), lambda: map_data(found))
+    with progress_bar() as progress:
+        parameter_map = mapped(load(options.file), over, options.overrides, progress, count)
+    options.print_result(lambda: map_text(parameter_map, options.language), lambda: map_data(parameter_map))
     if output is not None:
-        drawn = map_drawings(found, asked.language) if wanted else {}
-        files.write_folder(output, map_files(found) | _figures(drawn, wanted, asked.theme), overwrite=asked.overwrite)
-        asked.tell_written(output, "\n")
+        drawings = map_drawings(parameter_map, options.language) if formats else {}
+        files.write_folder(
+            output, map_files(parameter_map) | _figures(drawings, formats, options.theme), overwrite=options.overwrite
+        )
+        options.print_written(output, "\n")
 
 
-def _figures(drawn: Mapping[str, Drawing], formats: tuple[str, ...], theme: Theme) -> dict[str, bytes]:
+def _figures(drawings: Mapping[str, Drawing], formats: tuple[str, ...], theme: Theme) -> dict[str, bytes]:
     """Return figures as files, by their names in a folder."""
     from crankwork.show.formats import FORMATS
 
-    return {f"figures/{name}.{one}": FORMATS[one](drawing, theme) for one in formats for name, drawing in drawn.items()}
+    return {
+        f"figures/{name}.{ending}": FORMATS[ending](drawing, theme)
+        for ending in formats
+        for name, drawing in drawings.items()
+    }
 
 
 def _number_of(workers: str | None, scheduler: str | None) -> int:
-    """Return how many workers an option asks for, 0 for as many as there are processors."""
+    """Return the number of workers of an option, 0 for the number of processors."""
     if workers is None:
         return 0
     if scheduler is not None:
         raise CrankworkError(Refusal("workers_or"))
-    count = count_of(workers)
-    if not 1 <= count <= _MOST_WORKERS:
-        raise CrankworkError(Refusal("workers_number", most=str(_MOST_WORKERS)))
+    count = parse_count(workers)
+    if not 1 <= count <= _MAX_WORKERS:
+        raise CrankworkError(Refusal("workers_number", most=str(_MAX_WORKERS)))
     return count

@@ -7,20 +7,20 @@ from pathlib import Path
 import click
 
 from crankwork.cli.options import LANG
-from crankwork.cli.spoken import SpokenCommand
+from crankwork.cli.spoken import LocalizedCommand
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Language, Refusal
 
 _MODULES = {"starlette": "studio", "uvicorn": "studio", "websockets": "studio"}
 
 
-@click.command(cls=SpokenCommand)
+@click.command(cls=LocalizedCommand)
 @click.argument("file", required=False)
 @click.option("--port", metavar="N", default="0")
 @click.option("--no-browser", is_flag=True)
 @LANG
 def studio(file: str | None, port: str, language: Language, *, no_browser: bool) -> None:
-    """Open the studio, with a machine file or a text that was shared."""
+    """Open the studio, with a machine file or a shared text."""
     if not (port.isascii() and port.isdecimal() and len(port) < 6 and int(port) < 1 << 16):
         raise CrankworkError(Refusal("option_wrong", option="--port", mistake=Refusal("port_range", port=port[:20])))
     if extras := missing_extras(_MODULES):
@@ -36,7 +36,8 @@ def studio(file: str | None, port: str, language: Language, *, no_browser: bool)
     else:
         path = Path(file)
         text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
-        # what came in another form is not saved in the place of that
-        is_shared = is_share(text)
-        opening = StartupOptions(opened_share(text, language)) if is_shared else StartupOptions(text, path.resolve())
+        # a text of another form is not saved in its place
+        opening = (
+            StartupOptions(opened_share(text, language)) if is_share(text) else StartupOptions(text, path.resolve())
+        )
     serve(opening, language, int(port), opens=not no_browser, says=click.echo)

@@ -135,11 +135,11 @@ class Quantity(NamedTuple):
             return None
         if deviation is not None and not self._deviates(found, deviation, key, reader):
             return None
-        if found.told:
-            reader.notices.append((found.told, {"path": key, "text": value.strip(), "value": found.value}))
+        if found.notice:
+            reader.notices.append((found.notice, {"path": key, "text": value.strip(), "value": found.value}))
         return Measure(found.value if abs(found.value) > _NOTHING else 0.0, found.dimension, found.unit)
 
-    def _deviates(self, found: units.Parsed, deviation: str, key: str, reader: Reader) -> bool:
+    def _deviates(self, found: units.ParsedQuantity, deviation: str, key: str, reader: Reader) -> bool:
         """Remember a standard deviation, in the unit of the value or in its own."""
         size, _, own = deviation.partition(" ")
         try:
@@ -147,7 +147,7 @@ class Quantity(NamedTuple):
         except ValueError as error:
             reader.complain(key, error.args[0])
             return False
-        reader.deviations[key] = units.size_of(of, size)
+        reader.deviations[key] = units.deviation_in_si(of, size)
         return True
 
     def _holds(self, number: float) -> bool:
@@ -240,7 +240,7 @@ class Number(NamedTuple):
             reader.complain(key, self._out_of_range("whole", value))
             return None
         if deviation is not None:
-            reader.deviations[key] = units.size_of(units.Parsed(number, "", ""), deviation)
+            reader.deviations[key] = units.deviation_in_si(units.ParsedQuantity(number, "", ""), deviation)
         return number if abs(number) > _NOTHING else 0.0
 
     def _out_of_range(self, kind: str, value: object) -> Refusal:

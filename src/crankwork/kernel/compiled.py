@@ -1,4 +1,4 @@
-"""A calculation compiled: many designs in, single values of each out."""
+"""Compiled calculations: from many designs to the single values of each."""
 
 from __future__ import annotations
 
@@ -18,52 +18,61 @@ from crankwork import files
 from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, Use, breaks_of, in_order
 from crankwork.kernel.arrays import Arrays
 from crankwork.kernel.gradient import Gradient
-from crankwork.kernel.graph import Value, number
+from crankwork.kernel.graph import KernelValue, number
 from crankwork.kernel.graph import in_order as values_in_order
-from crankwork.kernel.grid import Edges, Grid, between, closed, divided, even, lobatto, nodes_between
-from crankwork.kernel.plan import Plan
-from crankwork.kernel.reduced import Block, Reduced
-from crankwork.kernel.reductions import Even, Exact
+from crankwork.kernel.grid import (
+    Edges,
+    Grid,
+    lobatto,
+    lobatto_grid,
+    nodes_between,
+    subdivide,
+    uniform_grid,
+    with_delayed_breakpoints,
+)
+from crankwork.kernel.plan import Schedule
+from crankwork.kernel.reduced import Block, LevelReductions
+from crankwork.kernel.reductions import PolynomialReductions, SampledReductions
 from crankwork.kernel.script import Script
-from crankwork.kernel.slopes import Taking, apart, in_part
-from crankwork.kernel.source import LANES, RUNNING, Source
-from crankwork.kernel.trace import Designs, NotCompiledError, Trace
+from crankwork.kernel.slopes import ReductionAdjoint, part_key, split_extreme
+from crankwork.kernel.source import ACCUMULATED, LANES, Source
+from crankwork.kernel.trace import DesignTraces, Lowering, NotCompiledError
 
 Array = NDArray[np.float64]
 
 
-# widths of panels that are tried, and what polynomials may leave out of a column to be taken for it
+# widths of panels that are tried, and the truncation error at which a column is accepted
 _WIDTHS = (30.0, 15.0, 7.5, 3.75)
 CONVERGED = 1e-12
-# breaks of laws and of those of other cylinders that a grid may have
-_MOST_BREAKS = 400
+# limit of the breakpoints of a grid, with those of delayed columns
+_MAX_BREAKPOINTS = 400
 _POLYNOMIALS = lobatto(16)
-# designs of which that is done together which does not depend on the crank angle
-_TOGETHER = 2048
+# designs per batch of values that do not depend on the crank angle
+_BATCH_SIZE = 2048
 
 
-class Bulk(NamedTuple):
-    """Single values of designs, shape (keys, n) [SI], and what polynomials left out of columns, shape (n,)."""
+class BatchResult(NamedTuple):
+    """Single values of designs, shape (keys, n) [SI], and truncation errors of their columns, shape (n,)."""
 
     values: Array
-    left_out: Array
+    truncation_error: Array
 
 
 class Kernel:
-    """Single values of many designs, calculated by the operations that one analysis remembers.
+    """Single values of many designs, calculated by the operations that one analysis has traced.
 
-    `memories` are that of the stated design, then two for each field, of a smaller and a larger value of it alone, and
-    others; `fields` what the fields are in each, shape (memories, fields) [SI]. With `steps` so many evenly spaced
-    crank angles are looked at; otherwise extremes and integrals are those of polynomials between the breaks of laws, as
-    in an analysis. With `parts` largest and least values in so many parts of the cycle are found too; `is_for_few`:
-    carried out with arrays, where compiling takes longer than the few designs that are asked for. Columns among the
-    keys are kept, at `rows` too [deg], for what carries the plan out elsewhere. `enough`: what polynomials may
-    leave out. `NotCompiledError` says why a calculation cannot be compiled.
+    `traces`: that of the stated design, then two for each field, with a smaller and a larger value of it alone, and
+    others; `fields`: their values in each, shape (traces, fields) [SI]. `steps`: number of evenly spaced crank angles;
+    without it extremes and integrals are those of polynomials between the breakpoints of laws, as in an analysis.
+    `parts`: the extremes of so many parts of the cycle are calculated too; `is_for_few`: uses arrays, as compiling
+    takes longer than a few designs. Columns among the keys are stored, also at `rows` [deg], for what carries out the
+    schedule elsewhere. `enough`: accepted truncation error. `NotCompiledError` says why a calculation cannot be
+    compiled.
     """
 
     def __init__(  # noqa: PLR0913 - designs, what is wanted of them, and where it is looked at
         self,
-        memories: Sequence[Mapping[str, Known]],
+        traces: Sequence[Mapping[str, Known]],
         fields: Array,
         keys: Sequence[str],
         angles_at: Callable[[Any], Any],
@@ -76,218 +85,227 @@ class Kernel:
         rows: Array | None = None,
         enough: float = CONVERGED,
     ) -> None:
-        designs = Designs(memories, fields, keys)
+        designs = DesignTraces(traces, fields, keys)
         self.fields = fields.shape[1]
-        wanted = {key: memories[0][key] for key in keys}
-        every = list(in_order(wanted.values(), into=_told))
-        if steps and any(isinstance(one.node, Procedure) for one in every):
+        wanted = {key: traces[0][key] for key in keys}
+        traced = list(in_order(wanted.values(), into=_dependencies))
+        if steps and any(isinstance(operand.node, Procedure) for operand in traced):
             raise NotCompiledError("procedure", next(iter(keys)))
-        delays = sorted({one.node.by for one in every if isinstance(one.node, Delayed)})
-        breaks = [breaks_of(_reduced([one[key] for key in keys]), cycle, start) for one in memories]
+        delays = sorted({operand.node.by for operand in traced if isinstance(operand.node, Delayed)})
+        breaks = [breaks_of(_reduced([memory[key] for key in keys]), cycle, start) for memory in traces]
         is_compiled = compiles() and not is_for_few
-        widths = [one for one in _WIDTHS if one * parts <= cycle] or _WIDTHS[-1:]
+        widths = [width for width in _WIDTHS if width * parts <= cycle] or _WIDTHS[-1:]
         for width in (cycle,) if steps else widths:
             grid, edges = _grid(breaks, delays, width, steps)
             grid = grid if rows is None else grid.with_rows(rows)
-            trace = Trace(designs, angles_at, grid.degrees, is_shifted=any(grid.earlier(one) is None for one in delays))
-            outputs = {key: _of_cycle(one, trace.value(one)) for key, one in wanted.items()}
-            if trace.moving and steps:
-                grid = even(trace.zones(breaks[0]), steps)
-            elif trace.moving and edges is not None:
-                edges = edges.following(trace.moving)
+            is_shifted = any(grid.earlier(delay) is None for delay in delays)
+            lowering = Lowering(designs, angles_at, grid.degrees, is_shifted=is_shifted)
+            outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
+            if lowering.moving and steps:
+                grid = uniform_grid(lowering.zones(breaks[0]), steps)
+            elif lowering.moving and edges is not None:
+                edges = edges.following(lowering.moving)
                 if edges is None:
                     raise NotCompiledError("ends", keys[0])
                 grid = grid._replace(moves=edges.moves)
-            self._edges = edges if trace.moving else None
+            self._edges = edges if lowering.moving else None
             if parts:
-                outputs |= {in_part(key, at): of for key in keys for at, of in enumerate(apart(outputs[key], parts))}
-            guard = trace.guard(is_sampled=steps is not None)
-            ends = [one for one, _ in trace.moving]
+                split = {key: split_extreme(outputs[key], parts) for key in keys}
+                outputs |= {part_key(key, part): value for key in keys for part, value in enumerate(split[key])}
+            guard = lowering.guard(is_sampled=steps is not None)
+            ends = [end for end, _ in lowering.moving]
             guarded = outputs | ({} if guard is None else {"": guard})
-            self.plan = Plan(guarded, grid, self.fields, angles_at, () if steps else ends, shares=is_compiled)
-            is_running = all(one.detail in RUNNING for level in self.plan.levels for one in level.reductions)
+            law_ends = () if steps else ends
+            self.plan = Schedule(guarded, grid, self.fields, angles_at, law_ends, shares=is_compiled)
+            is_running = all(value.detail in ACCUMULATED for level in self.plan.levels for value in level.reductions)
             self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
-            earlier = [grid.earlier(by) for by in self.source.delays.of]
+            earlier = [grid.earlier(delay) for delay in self.source.delays.of]
             places = np.array(earlier, dtype=np.intp).reshape(len(earlier), grid.degrees.size)
-            # without signs, so that no place is looked at from the end
-            below = (one.astype(np.uintp) for one in (places, self.source.order))
+            # unsigned, so that no index counts from the end
+            below = (indices.astype(np.uintp) for indices in (places, self.source.order))
             self._given = self.plan.table, *below, grid.weights, grid.degrees
             self._module, self._arrays = None, Arrays(self.source, places)
-            self._exact = None if steps else Exact(grid, _POLYNOMIALS)
-            self._reduced = Reduced(self.source, self._exact or Even(grid), parts)
+            self._exact = None if steps else PolynomialReductions(grid, _POLYNOMIALS)
+            self._reduced = LevelReductions(self.source, self._exact or SampledReductions(grid), parts)
             self.keys = tuple(outputs)
-            # looked at with arrays, so that only what is taken is compiled
-            if steps or float(np.max(self(fields.T).left_out)) <= enough:
+            # evaluated with arrays, so that only the accepted grid is compiled
+            if steps or float(np.max(self(fields.T).truncation_error)) <= enough:
                 break
         self._module = compiled(self.source.text) if is_compiled else None
 
-    def __call__(self, designs: Array) -> Bulk:
+    def __call__(self, designs: Array) -> BatchResult:
         """Return the single values of designs, shape (fields, n). [SI]"""
         designs = np.ascontiguousarray(designs, dtype=float)
-        found = Bulk(np.empty((len(self.keys), designs.shape[1])), np.zeros(designs.shape[1]))
-        self.run(designs, found, 0, designs.shape[1])
-        return found
+        result = BatchResult(np.empty((len(self.keys), designs.shape[1])), np.zeros(designs.shape[1]))
+        self.run(designs, result, 0, designs.shape[1])
+        return result
 
-    def run(self, designs: Array, found: Bulk, first: int, last: int) -> None:
-        """Put the single values of some designs where they belong; threads may do so at the same time."""
-        for start in range(first, last, _TOGETHER):
-            some = designs[:, start : min(start + _TOGETHER, last)]
-            given = np.empty((self.source.given, some.shape[1]))
-            given[: len(some)] = some
+    def run(self, designs: Array, result: BatchResult, first: int, last: int) -> None:
+        """Store the single values of designs `first` to `last` in a result; threads may do so at the same time."""
+        for start in range(first, last, _BATCH_SIZE):
+            batch = designs[:, start : min(start + _BATCH_SIZE, last)]
+            given = np.empty((self.source.given, batch.shape[1]))
+            given[: len(batch)] = batch
             self._arrays.designs(0, given)
             if self.source.is_reduced and self._module is not None:
-                self._module.run(given, found.values, found.left_out, *self._given, start)
+                self._module.run(given, result.values, result.truncation_error, *self._given, start)
             else:
-                self._run(given, found, start)
+                self._run(given, result, start)
 
     def slopes(self, design: Array) -> tuple[Array, Array]:
         """Return single values of a design, shape (keys,), and their derivatives by its fields, (keys, fields). [SI]"""
-        if any(one.detail.startswith("procedure") for level in self.plan.levels for one in level.reductions):
+        if any(value.detail.startswith("procedure") for level in self.plan.levels for value in level.reductions):
             raise NotCompiledError("procedure", self.keys[0])
-        store, kept = self._stores(1)
+        store, columns = self._stores(1)
         store[: self.fields] = design[:, None]
         self._arrays.designs(0, store)
-        blocks = self._levels(store, kept, 1)[1]
+        blocks = self._levels(store, columns, 1)[1]
         edges = np.full(self.plan.grid.edges.size, -1) if self._edges is None else self._edges.ends
-        taking = [None if one is None else Taking(one, self.plan.grid, edges) for one in blocks]
-        values = [self._of_output(one, store[:, 0]) for key, one in self.plan.outputs.items() if key]
-        return np.array(values), self._gradient(store, taking)
+        adjoints = [None if block is None else ReductionAdjoint(block, self.plan.grid, edges) for block in blocks]
+        values = [self._of_output(value, store[:, 0]) for key, value in self.plan.outputs.items() if key]
+        return np.array(values), self._gradient(store, adjoints)
 
-    def left_out_of(self, designs: Array) -> Array:
-        """Return what polynomials leave out of the columns that each single value follows from, shape (keys, n)."""
+    def truncation_error_of(self, designs: Array) -> Array:
+        """Return the truncation error of the columns that each single value depends on, shape (keys, n)."""
         count = designs.shape[1]
-        store, kept = self._stores(count)
+        store, columns = self._stores(count)
         store[: self.fields] = designs
         self._arrays.designs(0, store)
-        blocks = self._levels(store, kept, count)[1]
-        left = dict[int, Array]()
-        for one in values_in_order(self.plan.outputs.values()):
-            own = np.max([np.zeros(count), *(left[of.at] for of in one.operands)], axis=0)
-            if one.kind == "reduction" and one.detail != "column" and (block := blocks[one.level - 1]) is not None:
-                own = np.maximum(own, block.left_out_of(one))
-            left[one.at] = own
-        return np.array([left[one.at] for key, one in self.plan.outputs.items() if key])
+        blocks = self._levels(store, columns, count)[1]
+        errors = dict[int, Array]()
+        for value in values_in_order(self.plan.outputs.values()):
+            error = np.max([np.zeros(count), *(errors[operand.index] for operand in value.operands)], axis=0)
+            if (
+                value.kind == "reduction"
+                and value.detail != "column"
+                and (block := blocks[value.level - 1]) is not None
+            ):
+                error = np.maximum(error, block.truncation_error_of(value))
+            errors[value.index] = error
+        return np.array([errors[value.index] for key, value in self.plan.outputs.items() if key])
 
     @cached_property
     def _gradient(self) -> Gradient:
         return Gradient(self.source)
 
     def _stores(self, lanes: int) -> tuple[Array, Array]:
-        """Return the stores of a block of designs, and of their columns."""
+        """Return empty stores for a block of designs, and for their columns."""
         angles = self.plan.grid.degrees.size
         return np.empty((len(self.source.rows.of), lanes)), np.empty((len(self.source.columns.of), angles, lanes))
 
-    def _run(self, given: Array, found: Bulk, first: int) -> None:
+    def _run(self, given: Array, result: BatchResult, first: int) -> None:
         last = first + given.shape[1]
         lanes = LANES if self._module is not None else min(LANES, last - first)
-        store, kept = self._stores(lanes)
+        store, columns = self._stores(lanes)
         for start in range(first, last, lanes):
             end = min(start + lanes, last)
             store[: len(given)] = given[:, np.minimum(np.arange(start, start + lanes), last - 1) - first]
-            left_out = self._levels(store, kept, end - start)[0]
+            error = self._levels(store, columns, end - start)[0]
             for row, (key, value) in enumerate(self.plan.outputs.items()):
-                of = self._of_output(value, store)
+                output = self._of_output(value, store)
                 if key:
-                    found.values[row, start:end] = of[: end - start] if isinstance(of, np.ndarray) else of
+                    result.values[row, start:end] = output[: end - start] if isinstance(output, np.ndarray) else output
                 else:
-                    left_out = np.maximum(left_out, of)
-            found.left_out[start:end] = left_out[: end - start]
+                    error = np.maximum(error, output)
+            result.truncation_error[start:end] = error[: end - start]
 
-    def _of_output(self, value: Value, store: Array) -> Any:  # noqa: ANN401 - of a design a number, of many an array
+    def _of_output(self, value: KernelValue, store: Array) -> Any:  # noqa: ANN401 - a number, or an array of designs
         return number(value) if value.is_constant else store[self.source.rows(self.source.place(value))]
 
-    def _levels(self, store: Array, kept: Array, count: int) -> tuple[Array, list[Block | None]]:
-        """Calculate the levels of so many designs; return what is left out of them, and their reductions."""
-        left_out, reductions, blocks = np.zeros(store.shape[1]), self._exact, []
+    def _levels(self, store: Array, columns: Array, count: int) -> tuple[Array, list[Block | None]]:
+        """Calculate the levels of so many designs; return their truncation error, and their reductions."""
+        error, reductions, blocks = np.zeros(store.shape[1]), self._exact, []
         module = self._module if store.shape[1] == LANES else None
-        for at, level in enumerate(self.plan.levels):
-            if at and module is not None:
-                getattr(module, f"designs_{at}")(store.reshape(-1), kept, *self._given)
-            elif at:
-                self._arrays.designs(at, store)
+        for index, level in enumerate(self.plan.levels):
+            if index and module is not None:
+                getattr(module, f"designs_{index}")(store.reshape(-1), columns, *self._given)
+            elif index:
+                self._arrays.designs(index, store)
             elif self._edges is not None and self._exact is not None:
-                reductions, left_out = self._moved(self._edges, self._exact, store, kept)
+                reductions, error = self._moved(self._edges, self._exact, store, columns)
             if module is not None:
-                getattr(module, f"level_{at}")(store.reshape(-1), kept, *self._given)
+                getattr(module, f"level_{index}")(store.reshape(-1), columns, *self._given)
             else:
-                self._arrays.level(at, store, kept)
-            block = self._reduced(level, store, kept, reductions, count)
-            left_out = left_out if block is None else np.maximum(left_out, block.left_out)
+                self._arrays.level(index, store, columns)
+            block = self._reduced(level, store, columns, reductions, count)
+            error = error if block is None else np.maximum(error, block.truncation_error)
             blocks.append(block)
-        return left_out, blocks
+        return error, blocks
 
-    def _moved(self, edges: Edges, exact: Exact, store: Array, kept: Array) -> tuple[Exact, Array]:
-        """Put what depends on the crank angle where panels lie in each design; return reductions over them.
+    def _moved(
+        self, edges: Edges, exact: PolynomialReductions, store: Array, columns: Array
+    ) -> tuple[PolynomialReductions, Array]:
+        """Store functions of the crank angle at the panels of each design; return its reductions.
 
-        And what is left out: all of a design in which laws follow one another in another order.
+        And the truncation error, which is infinite for a design whose laws have another order.
         """
         plan, source = self.plan, self.source
-        ends = edges.at(np.stack([store[source.rows(source.place(one))] for one in plan.ends]))
+        ends = edges.at(np.stack([store[source.rows(source.place(end))] for end in plan.ends]))
         moves = plan.grid.moves
         degrees, weights = nodes_between(ends, _POLYNOMIALS)
         middles = np.broadcast_to(plan.grid.middles[moves, None, None], degrees[moves].shape)
         angles = np.flatnonzero(moves[plan.grid.panel])
-        leaves = [one.detail for one in plan.moved.values()]
-        found = plan.at(leaves, degrees[moves].ravel(), middles.ravel())
-        for at, one in zip(plan.moved, leaves, strict=True):
-            kept[source.columns(at), angles] = found[one.at].reshape(angles.size, -1)
+        leaves = [value.detail for value in plan.moved.values()]
+        values = plan.at(leaves, degrees[moves].ravel(), middles.ravel())
+        for column, leaf in zip(plan.moved, leaves, strict=True):
+            columns[source.columns(column), angles] = values[leaf.index].reshape(angles.size, -1)
         is_other = np.any(np.diff(ends, axis=0) < 0, axis=0)
         lanes = store.shape[1]
         moved = exact.moved_to(ends, degrees.reshape(-1, lanes), weights.reshape(-1, lanes))
         return moved, np.where(is_other, np.inf, 0.0)
 
     def script(self) -> Script:
-        """Return the plan in the language of browsers."""
+        """Return the schedule as JavaScript."""
         return Script(self.source, _POLYNOMIALS)
 
 
-def _of_cycle(known: Known, value: Value) -> Value:
-    """Return a value of the whole cycle: of a column that it is kept."""
+def _of_cycle(known: Known, value: KernelValue) -> KernelValue:
+    """Return a single value, or the reduction that stores a column."""
     return value.graph.reduction("column", value) if known.varies else value
 
 
-def _told(node: Node) -> Sequence[Known]:
+def _dependencies(node: Node) -> Sequence[Known]:
     return (node.retold,) if isinstance(node, Found | Use) and node.retold is not None else node.operands
 
 
-def _reduced(knowns: Iterable[Known]) -> list[Known]:
-    """Return the columns that single values are found of, and those that are kept."""
-    knowns = list(knowns)
-    nodes = [one.node for one in in_order(knowns, into=_told)]
-    found = [of for node in nodes if isinstance(node, Found) for of in node.operands if of.varies]
-    return [*found, *(one for one in knowns if one.varies)]
+def _reduced(traced: Iterable[Known]) -> list[Known]:
+    """Return the columns that single values are reduced from, and those that are stored."""
+    traced = list(traced)
+    nodes = [known.node for known in in_order(traced, into=_dependencies)]
+    columns = [operand for node in nodes if isinstance(node, Found) for operand in node.operands if operand.varies]
+    return [*columns, *(known for known in traced if known.varies)]
 
 
 def _grid(
     breaks: Sequence[Array], delays: Sequence[float], width: float, steps: int | None
 ) -> tuple[Grid, Edges | None]:
-    """Return the crank angles of the stated design, and what their panels lie between in all that are compared."""
+    """Return the crank angles of the stated design, and the edges of their panels in all compared designs."""
     if steps:
-        return even(breaks[0], steps), None
-    every = [closed(one, delays, _MOST_BREAKS) for one in breaks]
-    edges, parts = divided(every[0], width)
-    grid = between(edges, np.zeros(edges.size - 1, dtype=bool), _POLYNOMIALS)
-    return grid, Edges(every, parts)
+        return uniform_grid(breaks[0], steps), None
+    all_breaks = [with_delayed_breakpoints(of_design, delays, _MAX_BREAKPOINTS) for of_design in breaks]
+    edges, parts = subdivide(all_breaks[0], width)
+    grid = lobatto_grid(edges, np.zeros(edges.size - 1, dtype=bool), _POLYNOMIALS)
+    return grid, Edges(all_breaks, parts)
 
 
 def compiles() -> bool:
-    """Return whether Numba is there."""
+    """Return whether Numba is installed."""
     return importlib.util.find_spec("numba") is not None
 
 
 def compiled(text: str) -> ModuleType:
-    """Return the module of a kernel's source, compiled once for this machine: Numba keeps what stands in a file."""
+    """Return the module of a kernel's source, compiled once for this machine, because Numba caches modules in files."""
     from crankwork.kernel import elementary  # noqa: PLC0415 - Numba is an optional part
 
     name = f"kernel_{hashlib.sha256((inspect.getsource(elementary) + text).encode()).hexdigest()[:24]}"
-    path = files.kept(f"kernels/{name}.py", text)
+    path = files.cached_file(f"kernels/{name}.py", text)
     if path is None:
-        # from memory, for this run
+        # not cached
         module = ModuleType(name)
         exec(compile(text, name, "exec"), vars(module))  # noqa: S102 - written above
         return module
     spec = importlib.util.spec_from_file_location(f"crankwork_{name}", path)
-    assert spec is not None and spec.loader is not None  # noqa: S101, PT018 - of a file that is there
+    assert spec is not None and spec.loader is not None  # noqa: S101, PT018 - the file exists
     module = importlib.util.module_from_spec(spec)
     sys.modules[module.__name__] = module
     spec.loader.exec_module(module)

@@ -1,8 +1,8 @@
 """Exponential and logarithm that a compiler turns into operations on several designs at once.
 
-They are written for Numba: no table, no branch, exact to about one unit in the last place, with what happens at zero,
-infinity and beyond as in the library of C. `contract` lets sums and products be rounded once and nothing else: what
-is written in an order on purpose would be undone by more.
+Written for Numba: no table, no branch, exact to about one unit in the last place, with the results of the C library at
+zero, infinity and beyond. `contract` allows fused multiply-add and nothing else: other options would undo the order of
+operations, which is deliberate.
 """
 
 from __future__ import annotations
@@ -18,38 +18,38 @@ from numba import njit
 _config: Any = numba.config
 _features = binding.get_host_cpu_features()
 if not _config.CPU_NAME and _features.get("avx512f"):
-    # the widest registers there are: LLVM takes half of them unless it is told
+    # the widest registers: LLVM uses half of them by default
     _config.CPU_NAME, _config.CPU_FEATURES = binding.get_host_cpu_name(), f"{_features.flatten()},-prefer-256-bit"
 
-# what its stubs do not know, it takes: no wrappers that nothing calls, which take a tenth of the time to compile
+# options that its stubs lack; without wrappers, which take a tenth of the time to compile
 _numba: Any = njit
-_asked = {"fastmath": {"contract"}, "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-once = _numba(**_asked)
-# called by nothing but what is compiled, and put there: of two that are called alike, one may round otherwise
-inside = _numba(no_cpython_wrapper=True, forceinline=True, **_asked)
+_OPTIONS = {"fastmath": {"contract"}, "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+once = _numba(**_OPTIONS)
+# inlined and called only by compiled code: of two calls that are merged, one may be rounded differently
+inside = _numba(no_cpython_wrapper=True, forceinline=True, **_OPTIONS)
 
 
 def _kept(**more: bool) -> Any:  # noqa: ANN401
-    """Return what compiles a function and keeps it for this machine, if that has a place for it."""
+    """Return a decorator that compiles a function, with a cache if this machine has a folder for it."""
 
     def compiling(function: Any) -> Any:  # noqa: ANN401
         try:
-            return _numba(cache=True, **more, **_asked)(function)
+            return _numba(cache=True, **more, **_OPTIONS)(function)
         except RuntimeError:
-            return _numba(**more, **_asked)(function)
+            return _numba(**more, **_OPTIONS)(function)
 
     return compiling
 
 
 compiled = _kept()
-# put where it is called
+# inlined
 _within = _kept(forceinline=True)
-# ln 2 in two parts, the first with zeros at its end, so that whole multiples of it are exact
+# ln 2 in two parts, the first with zeros at its end, so that integer multiples of it are exact
 _LN2, _LN2_REST = float.fromhex("0x1.62e42fefa3800p-1"), float.fromhex("0x1.ef35793c76730p-45")
 _PER_LN2 = 1 / math.log(2)
-# added to a number and taken away again, this rounds it to a whole one
+# adding and subtracting this rounds a number to an integer
 _ROUNDS = 1.5 * 2.0**52
-# beyond these the result is infinity, or nothing
+# beyond these the result is infinity, or 0
 _LARGEST, _LEAST = 709.782712893384, -745.1332191019412
 # polynomials through the nodes of Chebyshev, off by less than 2e-17 of the function: (e^r - 1 - r) / r^2 for |r| up to
 # ln 2 / 2, and (2 artanh s - 2 s) / s^3 by s^2 for |s| up to 0.2
@@ -73,17 +73,17 @@ def exp(x):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201 - Numba find
     y = min(max(x, _LEAST - 1.0), _LARGEST + 1.0)
     n = y * _PER_LN2 + _ROUNDS - _ROUNDS
     r = y - n * _LN2 - n * _LN2_REST
-    # in pairs of pairs: what waits for nothing goes on beside the rest
+    # in pairs of pairs, so that independent operations overlap
     r_2 = r * r
     r_4 = r_2 * r_2
     low = (_E[0] + _E[1] * r) + (_E[2] + _E[3] * r) * r_2
     high = (_E[4] + _E[5] * r) + (_E[6] + _E[7] * r) * r_2
     p = 1.0 + (r + r_2 * (low + r_4 * (high + r_4 * (_E[8] + _E[9] * r))))
-    # a power of two in two factors, each of which there is
-    whole = np.int64(n)
-    half = whole >> 1
+    # a power of two as two factors, both of which are representable
+    integer = np.int64(n)
+    half = integer >> 1
     first = np.int64((half + 1023) << 52).view(np.float64)
-    second = np.int64((whole - half + 1023) << 52).view(np.float64)
+    second = np.int64((integer - half + 1023) << 52).view(np.float64)
     return x if math.isnan(x) else p * first * second
 
 
@@ -116,8 +116,8 @@ def log(x):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
 @_within
 def log_ratio(x, y):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
     """Return the natural logarithm of a quotient of normal numbers above zero, without dividing twice."""
-    apart = np.float64(x).view(np.int64) - np.float64(y).view(np.int64)
-    exponent = (apart + _HALF) >> 52
+    difference = np.float64(x).view(np.int64) - np.float64(y).view(np.int64)
+    exponent = (difference + _HALF) >> 52
     near = np.int64(np.float64(x).view(np.int64) - (exponent << 52)).view(np.float64)
     result = _sum(np.float64(exponent), near - y, near + y)
     is_normal = (x >= _TINY) & (y >= _TINY) & (x < math.inf) & (y < math.inf)
@@ -126,5 +126,5 @@ def log_ratio(x, y):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
 
 @_within
 def half_turns(near, angle):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
-    """Return how many half turns an angle is away from another. [rad]"""
+    """Return the number of half turns between an angle and another, rounded. [rad]"""
     return (near - angle) / math.pi + _ROUNDS - _ROUNDS

@@ -1,4 +1,4 @@
-"""The crank angles at which a kernel calculates: evenly spaced, or nodes of polynomials between breaks."""
+"""The crank angles of a kernel: evenly spaced, or nodes of polynomials between breakpoints."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _NODES = 16
-# crank angles nearer than this are one [deg]
-_SAME = 1e-7
+# crank angles nearer than this are equal [deg]
+_ANGLE_TOLERANCE = 1e-7
 
 
 class Polynomials(NamedTuple):
-    """Nodes from -1 to 1 with both ends, their weights, and what takes values there to Legendre coefficients."""
+    """Nodes from -1 to 1 with both ends, their weights, and the matrix from values to Legendre coefficients."""
 
     nodes: Array
     weights: Array
@@ -33,12 +33,11 @@ def lobatto(count: int) -> Polynomials:
 
 
 class Grid(NamedTuple):
-    """Crank angles in panels over one cycle, between the breaks of laws. [deg]
+    """Crank angles in panels over one cycle, between the breakpoints of laws. [deg]
 
-    `edges` are the ends of panels; `degrees` the angles, `panel` which one each is in, `weights` those of an integral
-    over the crank angle [rad]. `each` are the angles in a panel of polynomials, none where they are evenly spaced;
-    `moves` says which panels lie elsewhere in other designs. The last `rows` of the degrees are no nodes: they are
-    those of tables.
+    `edges`: ends of panels; `degrees`: the angles; `panel`: panel of each angle; `weights`: of an integral over the
+    crank angle [rad]; `each`: nodes per panel of polynomials, 0 for evenly spaced angles; `moves`: whether a panel has
+    other edges in other designs. The last `rows` of the angles are those of tables, not nodes.
     """
 
     start: float
@@ -53,7 +52,7 @@ class Grid(NamedTuple):
 
     @property
     def nodes(self) -> int:
-        """How many of the angles are those of integrals and extremes."""
+        """Number of angles of integrals and extremes."""
         return int(self.degrees.size) - self.rows
 
     @property
@@ -61,106 +60,108 @@ class Grid(NamedTuple):
         """An angle inside each panel. [deg]"""
         return (self.edges[1:] + self.edges[:-1]) / 2
 
-    def earlier(self, by: float) -> NDArray[np.intp] | None:
-        """Return where columns stand at each angle earlier by some degrees, or None if the grid has no such ones."""
-        if not by:
+    def earlier(self, delay: float) -> NDArray[np.intp] | None:
+        """Return the index of each angle minus a delay, or None if the grid lacks such angles."""
+        if not delay:
             return np.arange(self.degrees.size)
         if not self.each:
             step = self.cycle / self.degrees.size
-            places = by / step
-            if abs(places - round(places)) > _SAME / step:
+            places = delay / step
+            if abs(places - round(places)) > _ANGLE_TOLERANCE / step:
                 return None
             return (np.arange(self.degrees.size) - round(places)) % self.degrees.size
-        panel, middles = self.panels_earlier(by)
+        panel, middles = self.panels_earlier(delay)
         widths = np.diff(self.edges)
-        fits = (np.abs(self.middles[panel] - middles) < _SAME) & (np.abs(widths[panel] - widths) < _SAME)
+        fits = (np.abs(self.middles[panel] - middles) < _ANGLE_TOLERANCE) & (
+            np.abs(widths[panel] - widths) < _ANGLE_TOLERANCE
+        )
         if not fits.all():
             return None
         nodes = (panel[:, None] * self.each + np.arange(self.each)).ravel()
         rows = self.degrees[self.nodes :]
         if not rows.size:
             return nodes
-        at = np.mod(rows - by - self.start, self.cycle) + self.start
-        found = np.minimum(np.searchsorted(rows, at - _SAME), rows.size - 1)
-        if np.max(np.abs(rows[found] - at)) > _SAME:
+        earlier = np.mod(rows - delay - self.start, self.cycle) + self.start
+        index = np.minimum(np.searchsorted(rows, earlier - _ANGLE_TOLERANCE), rows.size - 1)
+        if np.max(np.abs(rows[index] - earlier)) > _ANGLE_TOLERANCE:
             return None
-        return np.concatenate([nodes, self.nodes + found])
+        return np.concatenate([nodes, self.nodes + index])
 
-    def panels_earlier(self, by: float) -> tuple[NDArray[np.intp], Array]:
-        """Return in which panel the middle of each lies earlier by some degrees, and at which angle. [deg]"""
-        middles = np.mod(self.middles - by - self.start, self.cycle) + self.start
+    def panels_earlier(self, delay: float) -> tuple[NDArray[np.intp], Array]:
+        """Return the panel at the middle of each panel minus a delay, and that angle. [deg]"""
+        middles = np.mod(self.middles - delay - self.start, self.cycle) + self.start
         return np.searchsorted(self.edges, middles, side="right") - 1, middles
 
     def with_rows(self, rows: Array) -> Grid:
-        """Return the grid with rising angles of tables behind its nodes; one at an edge belongs to what ends there."""
-        panel = np.maximum(np.searchsorted(self.edges, rows - _SAME, side="left") - 1, 0)
+        """Return the grid with rising angles of tables after its nodes; at an edge in the panel that ends there."""
+        panel = np.maximum(np.searchsorted(self.edges, rows - _ANGLE_TOLERANCE, side="left") - 1, 0)
         degrees, panels = np.concatenate([self.degrees, rows]), np.concatenate([self.panel, panel])
         return self._replace(degrees=degrees, panel=panels, rows=int(rows.size))
 
 
-def even(breaks: Array, steps: int) -> Grid:
-    """Return evenly spaced crank angles; one at a break belongs to the law that ends there."""
+def uniform_grid(breaks: Array, steps: int) -> Grid:
+    """Return evenly spaced crank angles; an angle at a breakpoint belongs to the law that ends there."""
     start, cycle = float(breaks[0]), float(breaks[-1] - breaks[0])
     degrees = np.asarray(start + np.arange(steps) * (cycle / steps), dtype=float)
-    panel = np.maximum(np.searchsorted(breaks, degrees - _SAME, side="left") - 1, 0)
+    panel = np.maximum(np.searchsorted(breaks, degrees - _ANGLE_TOLERANCE, side="left") - 1, 0)
     weights = np.asarray(np.full(steps, np.radians(cycle) / steps))
     return Grid(start, cycle, breaks, degrees, panel, weights, 0, np.zeros(breaks.size - 1, dtype=bool))
 
 
 class Edges(NamedTuple):
-    """Edges of panels of which some follow from the design. [deg]
+    """Edges of panels, some of which depend on the design. [deg]
 
-    `breaks` of the stated design and of others, the way from each to the next cut in so many `parts`; `of` says which
-    of the ends of laws each follows at a distance that stays, -1 where it stays itself; `stated` are those ends.
+    `breaks`: breakpoints of the stated design and of others; `parts`: panels of each interval; `followed_end`: index of
+    the end of a law that each breakpoint follows, -1 if it is fixed; `stated`: those ends in the stated design.
     """
 
     breaks: Sequence[Array]
     parts: NDArray[np.intp]
-    of: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+    followed_end: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
     stated: Array = np.zeros(0)
 
     def following(self, ends: Sequence[tuple[object, Array]]) -> Edges | None:
-        """Return the same following ends, each with its crank angles in all designs; None if breaks do otherwise."""
-        if len({one.size for one in self.breaks}) > 1:
+        """Return edges that follow ends of laws, whose crank angles are given for all designs; None if they cannot."""
+        if len({of_design.size for of_design in self.breaks}) > 1:
             return None
         breaks = np.array(self.breaks)
-        cycle, of = breaks[0, -1] - breaks[0, 0], np.full(breaks.shape[1], -1)
-        for at in np.flatnonzero(np.ptp(breaks, axis=0) > _SAME):
-            moved = breaks[:, at] - breaks[0, at]
+        cycle, followed = breaks[0, -1] - breaks[0, 0], np.full(breaks.shape[1], -1)
+        for index in np.flatnonzero(np.ptp(breaks, axis=0) > _ANGLE_TOLERANCE):
+            moved = breaks[:, index] - breaks[0, index]
             for end, (_, angles) in enumerate(ends):
-                apart = moved - (angles - angles[0])
-                if np.all(np.abs(apart - cycle * np.rint(apart / cycle)) < _SAME):
-                    of[at] = end
-            if of[at] < 0:
+                difference = moved - (angles - angles[0])
+                if np.all(np.abs(difference - cycle * np.rint(difference / cycle)) < _ANGLE_TOLERANCE):
+                    followed[index] = end
+            if followed[index] < 0:
                 return None
-        return self._replace(of=of, stated=np.array([angles[0] for _, angles in ends]))
+        return self._replace(followed_end=followed, stated=np.array([angles[0] for _, angles in ends]))
 
     @property
     def moves(self) -> NDArray[np.bool_]:
-        """Which panels lie elsewhere in other designs."""
-        moving = self.of >= 0
+        """Whether each panel has other edges in other designs."""
+        moving = self.followed_end >= 0
         return np.repeat(moving[1:] | moving[:-1], self.parts)
 
     @property
     def ends(self) -> NDArray[np.intp]:
-        """Which of the ends each edge of a panel is, -1 where it is none."""
-        found = np.full(int(self.parts.sum()) + 1, -1)
-        found[np.append(0, np.cumsum(self.parts))] = self.of
-        return found
+        """Index of the end of a law at each edge of a panel, -1 if there is none."""
+        ends = np.full(int(self.parts.sum()) + 1, -1)
+        ends[np.append(0, np.cumsum(self.parts))] = self.followed_end
+        return ends
 
     def at(self, ends: Array) -> Array:
-        """Return the edges of designs whose laws end at some crank angles, shape (edges, lanes) of (ends, lanes)."""
+        """Return the edges of designs from the ends of their laws, shape (edges, lanes) of (ends, lanes)."""
         breaks = np.repeat(self.breaks[0][:, None], ends.shape[1], axis=1)
-        moving = np.flatnonzero(self.of >= 0)
-        breaks[moving] += (ends - self.stated[:, None])[self.of[moving]]
+        moving = np.flatnonzero(self.followed_end >= 0)
+        breaks[moving] += (ends - self.stated[:, None])[self.followed_end[moving]]
         interval = np.repeat(np.arange(self.parts.size), self.parts)
         share = np.concatenate([np.arange(count) / count for count in self.parts])[:, None]
         inner = breaks[interval] + (breaks[interval + 1] - breaks[interval]) * share
         return np.concatenate([inner, breaks[-1:]])
 
 
-def between(edges: Array, moves: NDArray[np.bool_], polynomials: Polynomials) -> Grid:
-    """Return the nodes of polynomials between edges; an edge is twice among them, with the law of either side."""
+def lobatto_grid(edges: Array, moves: NDArray[np.bool_], polynomials: Polynomials) -> Grid:
+    """Return the nodes of polynomials between edges; an edge occurs twice, once for the law on either side."""
     degrees, weights = nodes_between(edges, polynomials)
     panel = np.repeat(np.arange(edges.size - 1), polynomials.nodes.size)
     start, cycle = float(edges[0]), float(edges[-1] - edges[0])
@@ -173,33 +174,30 @@ def nodes_between(edges: Array, polynomials: Polynomials) -> tuple[Array, Array]
     shape = (1, -1) + (1,) * (edges.ndim - 1)
     middle, half = (edges[1:] + edges[:-1])[:, None] / 2, np.diff(edges, axis=0)[:, None] / 2
     degrees = middle + half * polynomials.nodes.reshape(shape)
-    # the ends to the last digit, where sines are exact
+    # the ends are exact to the last digit, where sines are exact
     degrees[:, 0], degrees[:, -1] = edges[:-1], edges[1:]
     return degrees, np.radians(half) * polynomials.weights.reshape(shape)
 
 
-def closed(breaks: Array, delays: Sequence[float], most: int) -> Array:
-    """Return breaks, the same around every delayed angle; those of the columns alone where they would be too many."""
+def with_delayed_breakpoints(breaks: Array, delays: Sequence[float], most: int) -> Array:
+    """Return breakpoints with all delayed ones; the original ones if there would be too many."""
     start, cycle = float(breaks[0]), float(breaks[-1] - breaks[0])
-    found = breaks[:-1] - start
+    offsets = breaks[:-1] - start
     while True:
-        every = np.concatenate([found, *(np.mod(found + by, cycle) for by in delays)])
-        every = np.where(cycle - every < _SAME, 0.0, every)
-        every = np.sort(every)
-        every = every[np.append(True, np.diff(every) > _SAME)]
-        if every.size == found.size:
+        extended = np.concatenate([offsets, *(np.mod(offsets + delay, cycle) for delay in delays)])
+        extended = np.sort(np.where(cycle - extended < _ANGLE_TOLERANCE, 0.0, extended))
+        extended = extended[np.append(True, np.diff(extended) > _ANGLE_TOLERANCE)]
+        if extended.size == offsets.size:
             break
-        found = every
-        if found.size > most:
+        offsets = extended
+        if offsets.size > most:
             return breaks
-    return start + np.append(found, cycle)
+    return start + np.append(offsets, cycle)
 
 
-def divided(breaks: Array, width: float) -> tuple[Array, NDArray[np.intp]]:
-    """Return edges of panels no wider than some degrees, and in how many the way between two breaks is cut. [deg]"""
-    parts = np.maximum(1, np.ceil(np.diff(breaks) / width - _SAME)).astype(np.intp)
-    inner = [
-        np.linspace(low, high, count, endpoint=False)
-        for low, high, count in zip(breaks, breaks[1:], parts, strict=False)
-    ]
+def subdivide(breaks: Array, width: float) -> tuple[Array, NDArray[np.intp]]:
+    """Return edges of panels of limited width, and the number of panels between breakpoints. [deg]"""
+    parts = np.maximum(1, np.ceil(np.diff(breaks) / width - _ANGLE_TOLERANCE)).astype(np.intp)
+    intervals = zip(breaks, breaks[1:], parts, strict=False)
+    inner = [np.linspace(low, high, count, endpoint=False) for low, high, count in intervals]
     return np.append(np.concatenate(inner), breaks[-1]), parts

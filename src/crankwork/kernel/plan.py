@@ -1,4 +1,4 @@
-"""What is calculated when: once for a crank angle, once for a design, and for every design at every angle."""
+"""Order of a calculation: once per crank angle, once per design, and for every design at every angle."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.kernel.graph import COMPUTE, Value, in_order, number
+from crankwork.kernel.graph import COMPUTE, KernelValue, in_order, number
 from crankwork.kernel.grid import Grid
 from crankwork.kernel.sums import shared
 
@@ -16,39 +16,39 @@ Array = NDArray[np.float64]
 
 
 class Loop(NamedTuple):
-    """What is done at the angles where the same laws hold: values in order, and where those that are kept go."""
+    """Operations at the angles at which the same laws hold: values in order, and the stored columns."""
 
     angles: NDArray[np.intp]
-    values: tuple[Value, ...]
-    columns: tuple[Value, ...]  # In the order of `Level.columns`
+    values: tuple[KernelValue, ...]
+    columns: tuple[KernelValue, ...]  # In the order of `Level.columns`
 
 
 class Level(NamedTuple):
-    """What can be calculated when the reductions of lower levels are known.
+    """Values that can be calculated when the reductions of lower levels are complete.
 
-    `designs` are values of each design in order, `columns` what of the angles is reduced or read at other angles.
+    `designs`: values of each design in order; `columns`: those that are reduced or read at other angles.
     """
 
-    designs: tuple[Value, ...]
-    columns: tuple[Value, ...]
+    designs: tuple[KernelValue, ...]
+    columns: tuple[KernelValue, ...]
     loops: tuple[Loop, ...]
-    reductions: tuple[Value, ...]
-    delayed: tuple[Value, ...]
+    reductions: tuple[KernelValue, ...]
+    delayed: tuple[KernelValue, ...]
 
 
-class Plan:
-    """The order of a calculation: `outputs` are wanted of each design, `inputs` how many things it states.
+class Schedule:
+    """The order of a calculation: `outputs` of each design, and the number of its `inputs`.
 
-    `ends` are the ends of laws that follow from the design, `moved` what depends on the crank angle where that does.
+    `ends`: ends of laws that depend on the design; `moved`: functions of the crank angle in panels that move with them.
     """
 
     def __init__(
         self,
-        outputs: Mapping[str, Value],
+        outputs: Mapping[str, KernelValue],
         grid: Grid,
         inputs: int,
         angles_at: Callable[[Any], Any],
-        ends: Iterable[Value] = (),
+        ends: Iterable[KernelValue] = (),
         *,
         shares: bool = True,
     ) -> None:
@@ -56,184 +56,190 @@ class Plan:
         self.ends = tuple(ends)
         self._angles_at, self._shares = angles_at, shares
         self.row_of_angle: dict[int, int] = {}
-        self.of_angle: list[Value] = []
-        self.moved: dict[int, Value] = {}
+        self.of_angle: list[KernelValue] = []
+        self.moved: dict[int, KernelValue] = {}
         self._rows: list[Array] = []
         needed = list(in_order([*outputs.values(), *self.ends]))
-        levels = max((one.level for one in needed), default=0)
-        made: set[int] = set()
-        self.levels = tuple(self._level(at, needed, made) for at in range(levels + 1))
+        levels = max((value.level for value in needed), default=0)
+        done: set[int] = set()
+        self.levels = tuple(self._level(index, needed, done) for index in range(levels + 1))
 
     @property
     def table(self) -> Array:
-        """What depends on the crank angle alone, shape (rows, angles)."""
+        """Functions of the crank angle alone, shape (rows, angles)."""
         return np.array(self._rows).reshape(len(self._rows), self.grid.degrees.size)
 
-    def _level(self, level: int, needed: list[Value], made: set[int]) -> Level:
-        above = [one for one in needed if one.kind in ("reduction", "delayed") and one.level == level + 1]
-        columns = tuple({one.at: one for reduced in above for one in reduced.operands}.values())
-        # what was kept for other angles is read at its own too
-        kept = {of.at: of.graph.delayed(of, 0.0) for one in needed if one.kind == "delayed" for of in one.operands}
-        kept = {at: one for at, one in kept.items() if one.level <= level}
-        loops = tuple(self._loops(_replaced(list(columns), kept)))
-        # with its laws chosen a product of a law and an area, say, is one of designs
-        hoisted = [other for loop in loops for one in loop.values for other in one.operands if not other.by_angle]
-        hoisted += [one for loop in loops for one in loop.columns if not one.by_angle]
-        wanted = [one for one in needed if one.level == level and not one.by_angle]
+    def _level(self, level: int, needed: list[KernelValue], done: set[int]) -> Level:
+        above = [value for value in needed if value.kind in ("reduction", "delayed") and value.level == level + 1]
+        columns = tuple({column.index: column for reduced in above for column in reduced.operands}.values())
+        # columns stored for other angles are read at their own angle too
+        delayed_columns = [column for value in needed if value.kind == "delayed" for column in value.operands]
+        stored = {column.index: column.graph.delayed(column, 0.0) for column in delayed_columns}
+        stored = {index: value for index, value in stored.items() if value.level <= level}
+        loops = tuple(self._loops(_replaced(list(columns), stored)))
+        # after laws have been chosen, for example the product of a law and an area no longer depends on the angle
+        operands = [operand for loop in loops for value in loop.values for operand in value.operands]
+        operands += [column for loop in loops for column in loop.columns]
+        hoisted = [operand for operand in operands if not operand.depends_on_angle]
+        own = [value for value in needed if value.level == level and not value.depends_on_angle]
         designs = [
-            one
-            for one in in_order([*wanted, *hoisted], into=lambda one: one.kind != "reduction")
-            if one.kind not in ("constant", "reduction") and one.at not in made
+            value
+            for value in in_order([*own, *hoisted], into=lambda value: value.kind != "reduction")
+            if value.kind not in ("constant", "reduction") and value.index not in done
         ]
-        made.update(one.at for one in designs)
-        reductions = tuple(one for one in above if one.kind == "reduction")
-        delayed = tuple(one for one in above if one.kind == "delayed")
+        done.update(value.index for value in designs)
+        reductions = tuple(value for value in above if value.kind == "reduction")
+        delayed = tuple(value for value in above if value.kind == "delayed")
         return Level(tuple(designs), columns, loops, reductions, delayed)
 
-    def _loops(self, columns: list[Value]) -> Iterable[Loop]:
-        """Yield the loops over angles, one for each choice of laws that these columns follow."""
+    def _loops(self, columns: list[KernelValue]) -> Iterable[Loop]:
+        """Yield loops over angles, one for each combination of laws of these columns."""
         if not columns:
             return
-        used = [one for one in in_order(columns, into=_at_this_angle) if one.kind == "pieces"]
+        used = [value for value in in_order(columns, into=_at_this_angle) if value.kind == "pieces"]
         panels: dict[tuple[Any, ...], list[int]] = {}
         for panel, middle in enumerate(self.grid.middles):
             is_moving = bool(self.grid.moves[panel])
-            panels.setdefault((is_moving, *(self._laws_at(one, middle) for one in used)), []).append(panel)
+            panels.setdefault((is_moving, *(self._laws_at(value, middle) for value in used)), []).append(panel)
         nodes = self.grid.nodes
-        places = {of: np.flatnonzero(np.isin(self.grid.panel[:nodes], some)) for of, some in panels.items()}
-        # a row of tables beside a jump follows the law that an analysis takes there, whichever ends the panel
+        angles_of = {
+            laws: np.flatnonzero(np.isin(self.grid.panel[:nodes], numbers)) for laws, numbers in panels.items()
+        }
+        # a row of tables next to a jump has the law of the analysis there, whichever law ends the panel
         rows: dict[tuple[Any, ...], list[int]] = {}
-        for at in range(nodes, self.grid.degrees.size):
-            is_moving, degrees = bool(self.grid.moves[self.grid.panel[at]]), float(self.grid.degrees[at])
-            rows.setdefault((is_moving, *(self._laws_at(one, degrees) for one in used)), []).append(at)
-        for of in dict.fromkeys([*places, *rows]):
-            is_moving, *laws = of
-            angles = np.array([*places.get(of, ()), *rows.get(of, ())], dtype=np.intp)
-            chosen = {one.at: law for one, law in zip(used, laws, strict=True)}
+        for index in range(nodes, self.grid.degrees.size):
+            is_moving, degrees = bool(self.grid.moves[self.grid.panel[index]]), float(self.grid.degrees[index])
+            rows.setdefault((is_moving, *(self._laws_at(value, degrees) for value in used)), []).append(index)
+        for combination in dict.fromkeys([*angles_of, *rows]):
+            is_moving, *laws = combination
+            angles = np.array([*angles_of.get(combination, ()), *rows.get(combination, ())], dtype=np.intp)
+            chosen = {value.index: law for value, law in zip(used, laws, strict=True)}
             resolved = self._with_laws(columns, chosen, is_moving=is_moving)
-            roots = [resolved[one.at] for one in columns]
+            roots = [resolved[column.index] for column in columns]
             if self._shares:
                 roots = _replaced(roots, shared(roots, in_order(roots, into=_at_this_angle)))
                 roots = _with_few_divisions(roots)
-            every = list(in_order(roots, into=lambda one: one.by_design and _at_this_angle(one)))
-            for one in every:
-                if one.by_angle and not one.by_design and one.kind != "delayed":
-                    self._put_in_table(one, angles)
-            values = [one for one in every if one.by_angle and one.by_design]
+            needed = list(in_order(roots, into=lambda value: value.depends_on_design and _at_this_angle(value)))
+            for value in needed:
+                if value.depends_on_angle and not value.depends_on_design and value.kind != "delayed":
+                    self._put_in_table(value, angles)
+            values = [value for value in needed if value.depends_on_angle and value.depends_on_design]
             yield Loop(angles, tuple(values), tuple(roots))
 
-    def _laws_at(self, value: Value, middle: float) -> tuple[int, int]:
-        """Return the first and the last of the laws that may hold at a crank angle, of which designs choose."""
+    def _laws_at(self, value: KernelValue, middle: float) -> tuple[int, int]:
+        """Return the first and the last of the laws that may hold at a crank angle, depending on the design."""
         ends, shift = value.detail
-        at, last = middle + shift + self._turn(middle, shift), len(ends) - 1
+        own, last = middle + shift + self._turn(middle, shift), len(ends) - 1
         if self.grid.each:
-            law = next((k for k, one in enumerate(ends) if at <= one.stated), last)
+            law = next((k for k, end in enumerate(ends) if own <= end.stated), last)
             return law, law
-        first = max((k + 1 for k, one in enumerate(ends[:last]) if one.high < at), default=0)
-        return first, next((k for k in range(first, last) if ends[k].low >= at), last)
+        first = max((k + 1 for k, end in enumerate(ends[:last]) if end.high < own), default=0)
+        return first, next((k for k in range(first, last) if ends[k].low >= own), last)
 
     def _turn(self, middle: Any, shift: float) -> Any:  # noqa: ANN401 - of one angle or of many
-        """Return what takes crank angles counted from elsewhere into the cycle, those of a panel all alike. [deg]"""
+        """Return the turns that bring shifted crank angles into the cycle, equal for all angles of a panel. [deg]"""
         own = middle + shift
         return np.mod(own - self.grid.start, self.grid.cycle) + self.grid.start - own if shift else 0.0
 
     def _with_laws(
-        self, columns: Iterable[Value], chosen: Mapping[int, tuple[int, int]], *, is_moving: bool
-    ) -> dict[int, Value]:
-        """Return values by what they stand for, with the law of a panel in the place of pieces."""
-        made: dict[int, Value] = {}
-        for one in in_order(columns, into=_at_this_angle):
-            if one.kind == "pieces":
-                (ends, shift), (first, last) = one.detail, chosen[one.at]
-                result = made[one.operands[last].at]
+        self, columns: Iterable[KernelValue], chosen: Mapping[int, tuple[int, int]], *, is_moving: bool
+    ) -> dict[int, KernelValue]:
+        """Return the values by index, with pieces replaced by the law of a panel."""
+        results: dict[int, KernelValue] = {}
+        for value in in_order(columns, into=_at_this_angle):
+            if value.kind == "pieces":
+                (ends, shift), (first, last) = value.detail, chosen[value.index]
+                result = results[value.operands[last].index]
                 for law in reversed(range(first, last)):
-                    own = one.graph.angle("within", 1, shift)
+                    own = value.graph.angle("within", 1, shift)
                     end = ends[law].stated if ends[law].value is None else ends[law].value
-                    result = one.graph.apply("choose", own - end, result, made[one.operands[law].at])
-                made[one.at] = result
-            elif one.kind == "angle" and is_moving:
-                made[one.at] = self.moved.setdefault(one.at, one.graph.moved(one))
-            elif one.by_angle and one.kind not in ("angle", "delayed"):
-                operands = [made[other.at] for other in one.operands]
-                made[one.at] = one.graph.apply(one.kind, *operands)
+                    result = value.graph.apply("choose", own - end, result, results[value.operands[law].index])
+                results[value.index] = result
+            elif value.kind == "angle" and is_moving:
+                results[value.index] = self.moved.setdefault(value.index, value.graph.moved(value))
+            elif value.depends_on_angle and value.kind not in ("angle", "delayed"):
+                operands = [results[operand.index] for operand in value.operands]
+                results[value.index] = value.graph.apply(value.kind, *operands)
             else:
-                made[one.at] = one
-        return made
+                results[value.index] = value
+        return results
 
-    def _put_in_table(self, value: Value, angles: NDArray[np.intp]) -> None:
-        row = self.row_of_angle.get(value.at)
+    def _put_in_table(self, value: KernelValue, angles: NDArray[np.intp]) -> None:
+        row = self.row_of_angle.get(value.index)
         if row is None:
-            row = self.row_of_angle[value.at] = len(self._rows)
+            row = self.row_of_angle[value.index] = len(self._rows)
             self.of_angle.append(value)
             self._rows.append(np.zeros(self.grid.degrees.size))
         self._rows[row][angles] = self.function_of_angle(value, angles)
 
-    def function_of_angle(self, value: Value, angles: NDArray[np.intp] | slice) -> Array:
-        """Return what depends on the crank angle alone at some angles of the grid."""
-        of = self.at([value], self.grid.degrees[angles], self.grid.middles[self.grid.panel[angles]])
-        return np.asarray(of[value.at], dtype=float)
+    def function_of_angle(self, value: KernelValue, angles: NDArray[np.intp] | slice) -> Array:
+        """Return a function of the crank angle alone at some angles of the grid."""
+        values = self.at([value], self.grid.degrees[angles], self.grid.middles[self.grid.panel[angles]])
+        return np.asarray(values[value.index], dtype=float)
 
-    def at(self, values: Iterable[Value], degrees: Array, middles: Array) -> dict[int, Any]:
-        """Return what depends on the crank angle alone at angles, each in a panel with that middle. [deg]"""
-        made: dict[int, Any] = {}
+    def at(self, values: Iterable[KernelValue], degrees: Array, middles: Array) -> dict[int, Any]:
+        """Return functions of the crank angle alone at angles, with the middles of their panels. [deg]"""
+        results: dict[int, Any] = {}
         angles = self._angles_at(degrees)
-        for one in in_order(values):
-            if one.kind == "constant":
-                made[one.at] = number(one)
-            elif one.kind != "angle":
+        for value in in_order(values):
+            if value.kind == "constant":
+                results[value.index] = number(value)
+            elif value.kind != "angle":
                 with np.errstate(all="ignore"):
-                    made[one.at] = COMPUTE[one.kind](*(made[other.at] for other in one.operands))
+                    results[value.index] = COMPUTE[value.kind](*(results[operand.index] for operand in value.operands))
             else:
-                function, multiple, shift = one.detail
+                function, multiple, shift = value.detail
                 own = degrees + shift + self._turn(middles, shift)
                 match function:
                     case "within":
-                        made[one.at] = own
+                        results[value.index] = own
                     case "reading":
-                        made[one.at] = np.asarray(one.graph.functions[multiple](own), dtype=float)
+                        results[value.index] = np.asarray(value.graph.functions[multiple](own), dtype=float)
                     case _:
-                        made[one.at] = getattr(angles.multiple(multiple).shifted(shift), function)
-        return made
+                        results[value.index] = getattr(angles.multiple(multiple).shifted(shift), function)
+        return results
 
 
-def _at_this_angle(value: Value) -> bool:
-    """Return whether what a value is made of is wanted at the same crank angle."""
-    return value.by_angle and value.kind != "delayed"
+def _at_this_angle(value: KernelValue) -> bool:
+    """Return whether the operands of a value are needed at the same crank angle."""
+    return value.depends_on_angle and value.kind != "delayed"
 
 
-def _with_few_divisions(roots: list[Value]) -> list[Value]:
-    """Return values in which reciprocals that do not wait for each other come from one division.
+def _with_few_divisions(roots: list[KernelValue]) -> list[KernelValue]:
+    """Return values in which two independent reciprocals come from one division.
 
     1 / a and 1 / b are b and a times 1 / (a b): a division takes as long as a dozen products.
     """
     while True:
-        every = [one for one in in_order(roots, into=_at_this_angle) if one.by_angle and one.by_design]
-        divided = [one for one in every if one.kind == "div"]
-        pair = next(
-            ((one, other) for at, one in enumerate(divided) for other in divided[at + 1 :] if not _needs(other, one)),
-            None,
-        )
+        divisions = [
+            value
+            for value in in_order(roots, into=_at_this_angle)
+            if value.depends_on_angle and value.depends_on_design and value.kind == "div"
+        ]
+        pairs = ((first, second) for index, first in enumerate(divisions) for second in divisions[index + 1 :])
+        pair = next(((first, second) for first, second in pairs if not _depends_on(second, first)), None)
         if pair is None:
             return roots
-        (one, a), (other, b) = ((each, each.operands[1]) for each in pair)
-        both = one.graph.apply("div", 1.0, a * b)
-        roots = _replaced(roots, {one.at: b * both, other.at: a * both})
+        (first, a), (second, b) = ((division, division.operands[1]) for division in pair)
+        both = first.graph.apply("div", 1.0, a * b)
+        roots = _replaced(roots, {first.index: b * both, second.index: a * both})
 
 
-def _needs(value: Value, other: Value) -> bool:
-    return any(one is other for one in in_order([value], into=_at_this_angle))
+def _depends_on(value: KernelValue, other: KernelValue) -> bool:
+    return any(operand is other for operand in in_order([value], into=_at_this_angle))
 
 
-def _replaced(roots: list[Value], by: dict[int, Value]) -> list[Value]:
-    """Return values with others in the place of some."""
-    made = dict(by)
-    for one in in_order(roots, into=lambda one: one.at not in by and _at_this_angle(one)):
-        if one.at not in made:
-            is_made_anew = _at_this_angle(one) and any(made[other.at] is not other for other in one.operands)
-            operands = tuple(made[other.at] for other in one.operands) if is_made_anew else ()
-            if is_made_anew and one.kind == "pieces":
-                ends, shift = one.detail
-                made[one.at] = one.graph.pieces(ends, operands, shift)
+def _replaced(roots: list[KernelValue], replacements: dict[int, KernelValue]) -> list[KernelValue]:
+    """Return values with some of their operands replaced."""
+    results = dict(replacements)
+    for value in in_order(roots, into=lambda node: node.index not in replacements and _at_this_angle(node)):
+        if value.index not in results:
+            operands = tuple(results[operand.index] for operand in value.operands) if _at_this_angle(value) else ()
+            if all(new is old for new, old in zip(operands, value.operands, strict=False)):
+                results[value.index] = value
+            elif value.kind == "pieces":
+                ends, shift = value.detail
+                results[value.index] = value.graph.pieces(ends, operands, shift)
             else:
-                made[one.at] = one.graph.apply(one.kind, *operands) if is_made_anew else one
-    return [made[one.at] for one in roots]
+                results[value.index] = value.graph.apply(value.kind, *operands)
+    return [results[root.index] for root in roots]

@@ -1,4 +1,4 @@
-"""Reductions of columns: at evenly spaced angles, or of polynomials between the breaks of laws."""
+"""Reductions of columns: at evenly spaced angles, or of polynomials between the breakpoints of laws."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from crankwork.kernel.grid import Grid, Polynomials
 
 Array = NDArray[np.float64]
 
-# of equal values, whatever rounding says, the first counts
+# values closer than this are equal; the first of equal extremes counts
 PLATEAU = 1e-13
 _STEPS = 8
 _EQUAL = 8 * float(np.finfo(float).eps)
-# of the size of a column, what the mean of a root may miss
+# tolerance of the mean of a root, relative to the size of its column
 _ROUNDING = 1e-12
 
 
 class Peaks(NamedTuple):
-    """The largest of columns, the crank angles where they stand [rad], and in which panel where from -1 to 1.
+    """The largest values of columns, their crank angles [rad], panels, and local coordinates from -1 to 1.
 
-    Shape (columns, lanes); over evenly spaced angles each is a panel.
+    Shape (columns, lanes); each evenly spaced angle is a panel.
     """
 
     value: Array
@@ -35,15 +35,15 @@ class Peaks(NamedTuple):
     u: Array
 
     def part(self, part: int) -> Peaks:
-        """Return those of one part, of those of several, shape (columns, parts, lanes)."""
+        """Return the peaks of one part, from those of several, shape (columns, parts, lanes)."""
         return Peaks(self.value[:, part], self.angle[:, part], self.panel[:, part], self.u[:, part])
 
     def of(self, column: int) -> Peaks:
-        """Return those of one column, still in its shape."""
+        """Return the peaks of one column, in the same shape."""
         return Peaks(self.value[[column]], self.angle[[column]], self.panel[[column]], self.u[[column]])
 
 
-class Even:
+class SampledReductions:
     """Reductions over evenly spaced crank angles, of columns of shape (columns, angles, lanes)."""
 
     def __init__(self, grid: Grid) -> None:
@@ -51,11 +51,11 @@ class Even:
 
     @property
     def count(self) -> int:
-        """How many angles there are."""
+        """Number of angles."""
         return int(self._grid.degrees.size)
 
-    def left_out(self, columns: Array) -> Array:
-        """Return nothing: what lies between the angles is not looked at, shape (columns, lanes)."""
+    def truncation_error(self, columns: Array) -> Array:
+        """Return 0, since nothing between the angles counts, shape (columns, lanes)."""
         return np.zeros((columns.shape[0], columns.shape[2]))
 
     def integrals(self, columns: Array) -> Array:
@@ -72,18 +72,19 @@ class Even:
         return np.asarray(np.cumsum(steps, axis=1) - steps)
 
     def largest(self, columns: Array) -> Peaks:
-        """Return the largest of columns at the angles, the first of equal ones."""
+        """Return the largest values of columns at the angles, the first of equal ones."""
         return self.largest_in(columns, (0,)).part(0)
 
     def largest_in(self, columns: Array, starts: Sequence[int]) -> Peaks:
-        """Return the largest of columns at the angles of each part that starts at one of them."""
+        """Return the largest values of columns at the angles of each part, given by its first angle."""
         parts = np.split(columns, starts[1:], axis=1)
-        place = np.stack([one.argmax(axis=1) + start for one, start in zip(parts, starts, strict=True)], axis=1)
+        indices = [part.argmax(axis=1) + start for part, start in zip(parts, starts, strict=True)]
+        place = np.stack(indices, axis=1)
         value = np.take_along_axis(columns, place, axis=1)
         return Peaks(value, np.radians(self._grid.degrees)[place], place, 0.0 * value)
 
 
-class Exact:
+class PolynomialReductions:
     """Reductions over the nodes of polynomials, of columns of shape (columns, angles, lanes)."""
 
     def __init__(self, grid: Grid, polynomials: Polynomials) -> None:
@@ -93,30 +94,26 @@ class Exact:
         self._middle = np.radians(grid.edges[1:] + grid.edges[:-1])[:, None] / 2
         self._degrees, self._weights = grid.degrees[: grid.nodes], grid.weights
         # integral from the left end of a panel to each node, of values at the nodes
-        integrals = [legendre.legint(one, lbnd=-1) for one in np.eye(count)]
+        integrals = [legendre.legint(unit, lbnd=-1) for unit in np.eye(count)]
         self._integrals = np.array(integrals).T @ self._to_coefficients
         self._to_integrals = legendre.legvander(polynomials.nodes, count) @ self._integrals
         derivative = np.pad(legendre.legder(np.eye(count)), ((0, 1), (0, 0)))
         self._slope = derivative
         self._bend = derivative @ derivative
 
-    def moved_to(self, edges: Array, degrees: Array, weights: Array) -> Exact:
-        """Return the same between edges that each design has elsewhere, shape (edges, lanes), (angles, lanes)."""
-        found = copy.copy(self)
-        vars(found).update(
-            _half=np.radians(np.diff(edges, axis=0)) / 2,
-            _middle=np.radians(edges[1:] + edges[:-1]) / 2,
-            _degrees=degrees,
-            _weights=weights,
-        )
-        return found
+    def moved_to(self, edges: Array, degrees: Array, weights: Array) -> PolynomialReductions:
+        """Return the reductions between the edges of each design, shape (edges, lanes), (angles, lanes)."""
+        moved = copy.copy(self)
+        half, middle = np.radians(np.diff(edges, axis=0)) / 2, np.radians(edges[1:] + edges[:-1]) / 2
+        vars(moved).update(_half=half, _middle=middle, _degrees=degrees, _weights=weights)
+        return moved
 
     def panels(self, columns: Array) -> Array:
-        """Return columns with their panels apart, shape (columns, panels, nodes, lanes)."""
+        """Return columns split into panels, shape (columns, panels, nodes, lanes)."""
         return columns.reshape(len(columns), -1, self._nodes.size, columns.shape[-1])
 
-    def left_out(self, columns: Array) -> Array:
-        """Return the last coefficients of columns beside their size, shape (columns, lanes)."""
+    def truncation_error(self, columns: Array) -> Array:
+        """Return the last coefficients of columns relative to their size, shape (columns, lanes)."""
         values = self.panels(columns)
         last = np.abs(np.matmul(self._to_coefficients[-2:], values)).sum(axis=2)
         size = np.maximum(np.abs(columns).max(axis=1), np.finfo(float).tiny)
@@ -130,12 +127,12 @@ class Exact:
     def of_roots(self, squares: Array) -> Array:
         """Return the integrals of the roots of columns, shape (columns, lanes)."""
         coefficients = np.moveaxis(self.series(squares), 2, 3)
-        found = integrals_of_roots(coefficients.reshape(-1, self.each), self._limits(squares, coefficients))
-        return np.asarray(2 * (self._half * found.reshape(coefficients.shape[:3])).sum(axis=1))
+        roots = integrals_of_roots(coefficients.reshape(-1, self.each), self._limits(squares, coefficients))
+        return np.asarray(2 * (self._half * roots.reshape(coefficients.shape[:3])).sum(axis=1))
 
     @staticmethod
     def _limits(squares: Array, coefficients: Array) -> Array:
-        """Return what the mean of each root may miss, in one row."""
+        """Return the tolerance of the mean of each root, in one row."""
         limits = _ROUNDING * np.sqrt(np.abs(squares).max(axis=1))[:, None]
         return np.broadcast_to(limits, coefficients.shape[:3]).reshape(-1)
 
@@ -157,15 +154,15 @@ class Exact:
 
     @property
     def count(self) -> int:
-        """How many panels there are."""
+        """Number of panels."""
         return len(self._half)
 
     def largest(self, columns: Array) -> Peaks:
-        """Return the largest of columns: at an angle, or on the polynomial beside it."""
+        """Return the largest values of columns: at an angle, or on the polynomial next to it."""
         return self.largest_in(columns, (0,)).part(0)
 
     def largest_in(self, columns: Array, starts: Sequence[int]) -> Peaks:
-        """Return the largest of columns in each part that starts at a panel, shape (columns, parts, lanes)."""
+        """Return the largest values of columns in each part that begins at a panel, shape (columns, parts, lanes)."""
         values = self.panels(columns)
         highest = values.max(axis=2)
         top = np.maximum.reduceat(highest, starts, axis=1)
@@ -173,11 +170,11 @@ class Exact:
         part_of = np.repeat(np.arange(len(starts)), np.diff([*starts, self.count]))
         size = np.maximum(np.abs(top), np.abs(least))
         rounding = _EQUAL * size
-        # no polynomial comes further from its mean than its other coefficients together
+        # a polynomial differs from its mean by at most the sum of its other coefficients
         series = np.matmul(self._to_coefficients, values)
         rise = np.abs(series[:, :, 1:]).sum(axis=2)
         is_high = series[:, :, 0] + rise >= (top - rounding)[:, part_of]
-        # where it is level but for rounding its first node is as good as any
+        # if it is level but for rounding, its first node is as good as any
         is_level = rise <= (PLATEAU * size)[:, part_of]
         inner = np.pad(values, ((0, 0), (0, 0), (1, 1), (0, 0)), constant_values=-np.inf)
         is_peak = (values >= inner[:, :, :-2]) & (values >= inner[:, :, 2:]) & (is_high & ~is_level)[:, :, None]
@@ -190,26 +187,26 @@ class Exact:
         coefficients = np.ascontiguousarray(series[column[moving], panel[moving], :, lane[moving]].T)
         u[moving] = self._peaks(coefficients, node[moving])
         at_peak[moving] = legendre.legval(u[moving], coefficients, tensor=False)
-        # at the end of a panel the column itself counts, and where only rounding tells a peak from it
-        of = column, part_of[panel], lane
-        is_node = at_node >= at_peak - rounding[of]
-        found, u = np.where(is_node, at_node, at_peak), np.where(is_node, self._nodes[node], u)
+        # at the end of a panel the column itself counts, and at peaks within rounding
+        key = column, part_of[panel], lane
+        is_node = at_node >= at_peak - rounding[key]
+        value, u = np.where(is_node, at_node, at_peak), np.where(is_node, self._nodes[node], u)
         best = np.full(top.shape, -np.inf)
-        np.maximum.at(best, of, found)
+        np.maximum.at(best, key, value)
         angle = self._of(self._middle, panel, lane) + self._of(self._half, panel, lane) * u
         with np.errstate(invalid="ignore"):
-            is_best = found >= (best - PLATEAU * (np.abs(best) + best - least))[of]
+            is_best = value >= (best - PLATEAU * (np.abs(best) + best - least))[key]
         first = np.full(top.shape, np.inf)
-        np.minimum.at(first, tuple(one[is_best] for one in of), angle[is_best])
-        is_first = is_best & (angle == first[of])
-        place = tuple(one[is_first] for one in of)
-        inside, at = np.zeros(top.shape, dtype=np.intp), np.zeros(top.shape)
-        inside[place], at[place] = panel[is_first], u[is_first]
-        value, angle = (np.where(np.isfinite(top), one, np.nan) for one in (best, first))
-        return Peaks(value, angle, inside, at)
+        np.minimum.at(first, tuple(indices[is_best] for indices in key), angle[is_best])
+        is_first = is_best & (angle == first[key])
+        place = tuple(indices[is_first] for indices in key)
+        panels, coordinates = np.zeros(top.shape, dtype=np.intp), np.zeros(top.shape)
+        panels[place], coordinates[place] = panel[is_first], u[is_first]
+        value, angle = (np.where(np.isfinite(top), array, np.nan) for array in (best, first))
+        return Peaks(value, angle, panels, coordinates)
 
     def _peaks(self, coefficients: Array, node: NDArray[np.intp]) -> Array:
-        """Return where polynomials have a peak between the neighbours of a node: Newton steps, kept between these."""
+        """Return the peaks of polynomials between the neighbours of a node, by Newton's method within these bounds."""
         low, high = self._nodes[np.maximum(node - 1, 0)], self._nodes[np.minimum(node + 1, self._nodes.size - 1)]
         slopes, u = np.stack([self._slope @ coefficients, self._bend @ coefficients], axis=1), self._nodes[node]
         for _ in range(_STEPS):
@@ -226,47 +223,47 @@ class Exact:
     def _of(panels: Array, panel: NDArray[np.intp], lane: NDArray[np.intp]) -> Array:
         return np.asarray(panels[panel, lane if panels.shape[1] > 1 else 0])
 
-    # what follows is of the first lane alone
+    # the rest is for the first lane alone
 
     @property
     def each(self) -> int:
-        """How many nodes a panel has."""
+        """Number of nodes of a panel."""
         return int(self._nodes.size)
 
     @property
     def nodes(self) -> tuple[Array, Array]:
-        """The crank angles of nodes [deg], and what an integral over the crank angle takes of each [rad]."""
-        first = (one if one.ndim == 1 else one[:, 0] for one in (self._degrees, self._weights))
-        return next(first), next(first)
+        """Crank angles of nodes [deg], and weights of an integral over the crank angle [rad]."""
+        degrees, weights = (array if array.ndim == 1 else array[:, 0] for array in (self._degrees, self._weights))
+        return degrees, weights
 
     def of_panel(self, panel: int) -> slice:
-        """Return where the nodes of a panel stand."""
+        """Return the slice of the nodes of a panel."""
         return slice(panel * self.each, (panel + 1) * self.each)
 
     def up_to(self, panel: int, u: float) -> Array:
-        """Return what the integral from the start of the cycle to a place in a panel takes of each node. [rad]"""
-        found, at = self.nodes[1].copy(), self.of_panel(panel)
-        found[at] = self._half[panel, 0] * (_legendre(u, self.each + 1) @ self._integrals)
-        found[at.stop :] = 0.0
-        return found
+        """Return the weights of nodes of the integral from the start of the cycle to a point of a panel. [rad]"""
+        weights, nodes = self.nodes[1].copy(), self.of_panel(panel)
+        weights[nodes] = self._half[panel, 0] * (_legendre(u, self.each + 1) @ self._integrals)
+        weights[nodes.stop :] = 0.0
+        return weights
 
     def at_roots(self, squares: Array) -> Array:
-        """Return what the integral of the root of a column takes of each node of this, shape (1, angles, 1). [rad]"""
+        """Return the weights of nodes of the linearised integral of the root of a column, (1, angles, 1). [rad]"""
         coefficients = np.moveaxis(self.series(squares), 2, 3)
         slopes = np.zeros((coefficients.shape[1], self.each))
         integrals_of_roots(coefficients.reshape(-1, self.each), self._limits(squares, coefficients), slopes)
         return (2 * self._half[:, :1] * (slopes @ self._to_coefficients)).ravel()
 
     def around(self, panel: int, u: float) -> tuple[Array, Array, Array]:
-        """Return what a value in a panel, its first and second derivative take of each of the nodes. [1, 1/rad ...]"""
-        at, half = _legendre(u, self.each), self._half[panel, 0]
-        first, second = (at @ one @ self._to_coefficients for one in (self._slope, self._bend))
-        return at @ self._to_coefficients, first / half, second / half**2
+        """Return the weights of the nodes of a panel for a value in it and its two derivatives. [1, 1/rad, 1/rad2]"""
+        basis, half = _legendre(u, self.each), self._half[panel, 0]
+        first, second = (basis @ matrix @ self._to_coefficients for matrix in (self._slope, self._bend))
+        return basis @ self._to_coefficients, first / half, second / half**2
 
 
 def _legendre(u: float, count: int) -> Array:
-    """Return so many of Legendre's polynomials at a place."""
-    found = [1.0, u]
+    """Return the first Legendre polynomials at a point."""
+    values = [1.0, u]
     for n in range(1, count - 1):
-        found.append(((2 * n + 1) * u * found[n] - n * found[n - 1]) / (n + 1))
-    return np.array(found)
+        values.append(((2 * n + 1) * u * values[n] - n * values[n - 1]) / (n + 1))
+    return np.array(values)

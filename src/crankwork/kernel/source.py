@@ -1,8 +1,8 @@
-"""The source of a kernel: straight lines of operations in loops over crank angles and designs.
+"""The source of a kernel: operations without branches in loops over crank angles and designs.
 
-Everything of a design stands in one store of rows, one lane for each design of a block, so that what a row holds can
-be told from every other row and a loop over lanes becomes operations on several at once. Two lanes are written side by
-side: what one waits for leaves room for the other.
+All values of a block of designs are in one store of rows, one lane for each design, so that the compiler can see that
+rows do not overlap and vectorises loops over lanes. Two lanes are written alternately, so that one fills the waiting
+time of the other.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.kernel.graph import Value, number
-from crankwork.kernel.plan import Level, Loop, Plan
+from crankwork.kernel.graph import KernelValue, number
+from crankwork.kernel.plan import Level, Loop, Schedule
 
-# designs of a block: more where arrays go on with what is kept of them, fewer where that is to stay near
+# designs of a block: more if arrays process the stored columns, fewer if these are to stay in the cache
 LANES, _NEAR_LANES = 64, 32
-# what others wait for
+# operations with a long latency
 _SLOW = ("sqrt", "div", "exp", "log", "log_ratio")
-# rows that a loop may read in the places of others and still be turned into operations on several designs at once
+# largest number of parameters for rows with which the compiler still vectorises a loop
 _FEW_ROWS = 12
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 _CALLED = {
@@ -48,98 +48,98 @@ def run(given, results, left_out, t, p, order, weights, degrees, first):
         for l in range(min({lanes}, count - start)):
 {outputs}"""
 _ARGUMENTS = "s, b, t, p, order, weights, degrees"
-# what a reduction is before the first angle
+# initial value of a reduction
 _START = {"max": "-math.inf", "min": "math.inf"}
 
 
 Thing = TypeVar("Thing", bound=Hashable)
-# reductions that can be done as the angles go by
+# reductions that can be accumulated over the angles
 _WORKS = ("range", "tangents")
-RUNNING = ("max", "min", "max_angle", "min_angle", "mean", "integral", *_WORKS)
-# Under what a value of a design is stored: a reduction of columns, an input, any other by its place in the graph.
+ACCUMULATED = ("max", "min", "max_angle", "min_angle", "mean", "integral", *_WORKS)
+# Key of a stored design value: a reduction of columns, an input, any other by its index in the graph.
 Place = tuple[str, *tuple[int, ...]] | int
 
 
 class Rows(Generic[Thing]):
-    """Which row of a store each thing has."""
+    """Assigns each key a row of a store."""
 
     def __init__(self) -> None:
         self.of: dict[Thing, int] = {}
 
     def __call__(self, key: Thing) -> int:
-        """Return the row of something, a new one where it has none."""
+        """Return the row of a key, a new one if it has none."""
         return self.of.setdefault(key, len(self.of))
 
 
 class Source:
-    """A plan written out: a function for each level, and one that runs them for many designs.
+    """A schedule as Python source: a function for each level, and one that runs them for many designs.
 
-    `rows` are those of the store of a block of designs, `columns` those of what is kept at each angle, `delays` those
-    of the places of earlier angles, `order` the places of angles loop by loop, `used` what of designs is stored.
-    The first `given` rows are what designs state and what follows of that alone, done for many of them by arrays: in
-    a cycle that is calculated these are hundreds of lines, each done once, and compiling them takes longer than that.
-    With `is_reduced` reductions are done as the angles go by; otherwise their columns are kept, and something else
-    reduces them.
+    `rows`: of the store of a block of designs; `columns`: of the columns stored at each angle; `delays`: of the indices
+    of earlier angles; `order`: the indices of angles loop by loop; `used`: the design values that are stored. The first
+    `given` rows are inputs and what follows from them alone, calculated by arrays for many designs: a calculated cycle
+    has hundreds of such lines, whose compilation takes longer than that. With `is_reduced` reductions are accumulated
+    in the loops; otherwise their columns are stored, and reduced elsewhere.
     """
 
-    def __init__(self, plan: Plan, *, is_reduced: bool) -> None:
+    def __init__(self, plan: Schedule, *, is_reduced: bool) -> None:
         self.plan, self.is_reduced = plan, is_reduced
         self.lanes = _NEAR_LANES if is_reduced else LANES
         self.rows, self.columns, self.delays = Rows[Place](), Rows[int](), Rows[float]()
         self.order: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
-        for at in range(plan.inputs):
-            self.rows(("input", at))
+        for index in range(plan.inputs):
+            self.rows(("input", index))
         self.used = self._used_elsewhere()
-        for one in plan.levels[0].designs:
-            if one.at in self.used and one.kind != "input":
-                self.rows(one.at)
+        for value in plan.levels[0].designs:
+            if value.index in self.used and value.kind != "input":
+                self.rows(value.index)
         self.given = len(self.rows.of)
-        for one in (one for level in plan.levels for one in (*level.delayed, *level.reductions)):
-            if one.kind == "reduction":
-                self.rows(self.place(one))
-            if not is_reduced or one.kind == "delayed" or one.detail in _WORKS:
-                for column in one.operands:
-                    self.columns(column.at)
-        for at in plan.moved:
-            self.columns(at)
+        for value in (value for level in plan.levels for value in (*level.delayed, *level.reductions)):
+            if value.kind == "reduction":
+                self.rows(self.place(value))
+            if not is_reduced or value.kind == "delayed" or value.detail in _WORKS:
+                for column in value.operands:
+                    self.columns(column.index)
+        for index in plan.moved:
+            self.columns(index)
         self.text = "\n\n\n".join([_HEAD, *self._functions()]) + "\n"
 
-    def place(self, value: Value) -> Place:
-        """Return under what a value of a design is stored."""
+    def place(self, value: KernelValue) -> Place:
+        """Return the key under which a design value is stored."""
         match value.kind:
             case "reduction":
-                return value.detail, *(one.at for one in value.operands)
+                return value.detail, *(operand.index for operand in value.operands)
             case "input":
                 return "input", value.detail
-        return value.at
+        return value.index
 
     def _used_elsewhere(self) -> set[int]:
-        """Return which values of designs are used outside the lines that make them."""
-        used = {one.at for one in (*self.plan.outputs.values(), *self.plan.ends)}
+        """Return the design values that are used outside the function that calculates them."""
+        used = {value.index for value in (*self.plan.outputs.values(), *self.plan.ends)}
         for level in self.plan.levels:
-            used.update(other.at for other in _taken(level.designs))
-            used.update(other.at for loop in level.loops for other in _taken(loop.values, loop.columns))
+            used.update(operand.index for operand in _external_operands(level.designs))
+            for loop in level.loops:
+                used.update(operand.index for operand in _external_operands(loop.values, loop.columns))
         return used
 
     def _stored(self, key: Place, lane: str = "l") -> str:
         return f"s[{self.rows(key) * self.lanes} + {lane}]"
 
     def _functions(self) -> Iterator[str]:
-        """Yield one function for each loop; and what calls them, one for each step, or one that runs all."""
+        """Yield one function for each loop, and those that call them: one for each step, or one that runs all."""
         steps = dict[str, list[str]]()
-        for at, level in enumerate(self.plan.levels):
+        for index, level in enumerate(self.plan.levels):
             running = self._running(level) if self.is_reduced else []
             calls = []
-            for kind, (lines, of) in enumerate(self._kinds(level, running).items()):
-                # a function of its own: names that had a meaning in each loop would be told apart one by one
-                rows = [f"        row_{row} = parts[part][{row + 2}]" for row in range(len(of[0]) - 2)]
-                head = f"@inside\ndef loop_{at}_{kind}({_ARGUMENTS}, parts):\n    for part in range(len(parts)):"
+            for kind, (lines, parts) in enumerate(self._kinds(level, running).items()):
+                # functions of their own: the compiler would rename the names that all loops share one by one
+                rows = [f"        row_{row} = parts[part][{row + 2}]" for row in range(len(parts[0]) - 2)]
+                head = f"@inside\ndef loop_{index}_{kind}({_ARGUMENTS}, parts):\n    for part in range(len(parts)):"
                 yield "\n".join([head, *rows, lines])
-                calls.append(f"    loop_{at}_{kind}({_ARGUMENTS}, {tuple(map(tuple, of))})")
-            if at:
+                calls.append(f"    loop_{index}_{kind}({_ARGUMENTS}, {tuple(map(tuple, parts))})")
+            if index:
                 # those of the first level are given
-                steps[f"designs_{at}"] = list(self._over_lanes(4, lambda lane: self._designs(level, lane), "l"))  # noqa: B023
-            steps[f"level_{at}"] = [*self._begun(running), *calls, *self._ended(level, running)]
+                steps[f"designs_{index}"] = list(self._over_lanes(4, lambda lane: self._designs(level, lane), "l"))  # noqa: B023
+            steps[f"level_{index}"] = [*self._begun(running), *calls, *self._ended(level, running)]
         if self.is_reduced:
             yield self._run(indent("\n".join(line for step in steps.values() for line in step), "    "))
             return
@@ -148,20 +148,17 @@ class Source:
 
     def _run(self, levels: str) -> str:
         outputs, place = [], "first + start + l"
-        for at, (key, value) in enumerate(self.plan.outputs.items()):
+        for index, (key, value) in enumerate(self.plan.outputs.items()):
             shown = _name(value, "") if value.is_constant else self._stored(self.place(value))
-            outputs.append(f"            {f'results[{at}, {place}]' if key else f'left_out[{place}]'} = {shown}")
+            outputs.append(f"            {f'results[{index}, {place}]' if key else f'left_out[{place}]'} = {shown}")
         angles = self.plan.grid.degrees.size if self.columns.of else 1
-        sizes = {
-            "rows": len(self.rows.of),
-            "columns": max(len(self.columns.of), 1),
-            "angles": angles,
-            "lanes": self.lanes,
-        }
-        return _RUN.format(levels=levels, outputs="\n".join(outputs), **sizes)
+        sizes = {"rows": len(self.rows.of), "columns": max(len(self.columns.of), 1), "angles": angles}
+        return _RUN.format(levels=levels, outputs="\n".join(outputs), lanes=self.lanes, **sizes)
 
-    def _kinds(self, level: Level, running: list[tuple[tuple[str, int], str, Value]]) -> dict[str, list[list[int]]]:
-        """Return what is done in loops, and for each that does it its angles and the rows that it reads."""
+    def _kinds(
+        self, level: Level, running: list[tuple[tuple[str, int], str, KernelValue]]
+    ) -> dict[str, list[list[int]]]:
+        """Return the bodies of loops, and for each body the angles and rows of the loops that have it."""
         parts = dict[str, list[list[int]]]()
         for loop in level.loops:
             lines, rows = self._lines(level, loop, running)
@@ -170,106 +167,108 @@ class Source:
             parts.setdefault(lines, []).append([start, self.order.size, *rows])
         return parts
 
-    def _begun(self, running: list[tuple[tuple[str, int], str, Value]]) -> Iterator[str]:
+    def _begun(self, running: list[tuple[tuple[str, int], str, KernelValue]]) -> Iterator[str]:
         if running:
             first = [f"{self._stored(place)} = {_START.get(word, '0.0')}" for place, word, _ in running]
             yield from self._over_lanes(4, lambda _: first, "l")
 
-    def _ended(self, level: Level, running: list[tuple[tuple[str, int], str, Value]]) -> Iterator[str]:
+    def _ended(self, level: Level, running: list[tuple[tuple[str, int], str, KernelValue]]) -> Iterator[str]:
         for place, word, _ in running:
             yield from self._finished(place, word)
-        for one in level.reductions if self.is_reduced else ():
-            if one.detail in _WORKS:
-                yield from self._range(one)
+        for value in level.reductions if self.is_reduced else ():
+            if value.detail in _WORKS:
+                yield from self._range(value)
 
     def _designs(self, level: Level, lane: str) -> Iterator[str]:
         yield "pass"
-        yield from self._taken_lines(_taken(level.designs), lane)
-        for one in level.designs:
-            made = self._stored(self.place(one), lane) if one.kind == "input" else self._expression(one, lane)
-            yield f"{lane}{one.at} = {made}"
-            if one.at in self.used and one.kind != "input":
-                yield f"{self._stored(one.at, lane)} = {lane}{one.at}"
+        yield from self._reads(_external_operands(level.designs), lane)
+        for value in level.designs:
+            is_input = value.kind == "input"
+            result = self._stored(self.place(value), lane) if is_input else self._expression(value, lane)
+            yield f"{lane}{value.index} = {result}"
+            if value.index in self.used and not is_input:
+                yield f"{self._stored(value.index, lane)} = {lane}{value.index}"
 
-    def _taken_lines(self, values: Iterable[Value], lane: str) -> Iterator[str]:
-        for one in values:
-            if not one.by_angle:
-                yield f"{lane}{one.at} = {self._stored(self.place(one), lane)}"
+    def _reads(self, values: Iterable[KernelValue], lane: str) -> Iterator[str]:
+        for value in values:
+            if not value.depends_on_angle:
+                yield f"{lane}{value.index} = {self._stored(self.place(value), lane)}"
 
-    def _running(self, level: Level) -> list[tuple[tuple[str, int], str, Value]]:
-        """Return what reductions keep while the angles go by: where, what, of which column.
+    def _running(self, level: Level) -> list[tuple[tuple[str, int], str, KernelValue]]:
+        """Return the accumulators of reductions: key, kind, column.
 
-        A place stands before its value: where it is decided whether the place changes the value must be the old one.
+        An angle comes before its value: whether it changes depends on the old value.
         """
-        found: dict[tuple[str, int], tuple[str, Value]] = {}
-        for one in level.reductions:
-            column, word = one.operands[0], one.detail
+        accumulators: dict[tuple[str, int], tuple[str, KernelValue]] = {}
+        for value in level.reductions:
+            column, word = value.operands[0], value.detail
             if word.endswith("_angle"):
-                found[word, column.at] = word, column
+                accumulators[word, column.index] = word, column
                 word = word.removesuffix("_angle")
             elif word in _WORKS:
                 word = "mean"
-            found[word, column.at] = word, column
-        every = ((place, word, column) for place, (word, column) in found.items())
-        return sorted(every, key=lambda one: not one[1].endswith("_angle"))
+            accumulators[word, column.index] = word, column
+        rows = ((place, word, column) for place, (word, column) in accumulators.items())
+        return sorted(rows, key=lambda row: not row[1].endswith("_angle"))
 
     def _lines(
-        self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, Value]]
+        self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, KernelValue]]
     ) -> tuple[str, list[int]]:
-        """Return what is done in a loop, and the rows that it reads if others of its kind read theirs."""
+        """Return the body of a loop, and the rows that it reads if equal bodies differ in them."""
         if not running:
             lines, rows = _shape("\n".join(self._loop(level, loop, running, ("l",))))
             if len(rows) <= _FEW_ROWS:
                 return lines, rows
-        # two lanes side by side where one waits
-        lanes = self._lanes if any(one.kind in _SLOW for one in loop.values) else ("l",)
+        # two lanes alternate if one waits
+        lanes = self._lanes if any(value.kind in _SLOW for value in loop.values) else ("l",)
         return "\n".join(self._loop(level, loop, running, lanes)), []
 
     @property
     def _lanes(self) -> tuple[str, ...]:
-        """Lanes written side by side, two where every moment counts."""
+        """Names of lanes that are written alternately, two if the source is optimised for speed."""
         return ("l", "h") if self.is_reduced else ("l",)
 
     def _loop(
-        self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, Value]], lanes: tuple[str, ...]
+        self, level: Level, loop: Loop, running: list[tuple[tuple[str, int], str, KernelValue]], lanes: tuple[str, ...]
     ) -> Iterator[str]:
         yield "        for i in range(parts[part][0], parts[part][1]):"
         yield "            j = order[i]"
         if any(word in ("mean", "integral") for _, word, _ in running):
             yield "            weight = weights[j]"
-        taken = _taken(loop.values, loop.columns)
-        for one in taken:
-            if one.by_angle and not one.by_design:
-                yield f"            t{one.at} = t[{self.plan.row_of_angle[one.at]}, j]"
+        external = _external_operands(loop.values, loop.columns)
+        for value in external:
+            if value.depends_on_angle and not value.depends_on_design:
+                yield f"            t{value.index} = t[{self.plan.row_of_angle[value.index]}, j]"
         yield from self._read(loop)
-        value_of = dict(zip((one.at for one in level.columns), loop.columns, strict=True))
-        kept = [at for at in value_of if at in self.columns.of]
-        for at in kept:
-            yield f"            c{at} = b[{self.columns(at)}, j]"
+        value_of = dict(zip((column.index for column in level.columns), loop.columns, strict=True))
+        stored = [index for index in value_of if index in self.columns.of]
+        for index in stored:
+            yield f"            c{index} = b[{self.columns(index)}, j]"
 
         def lines(lane: str) -> Iterator[str]:
-            yield from self._taken_lines(taken, lane)
-            for one in loop.values:
-                is_read = one.kind in ("delayed", "moved")
-                made = f"b{one.at}[{lane}]" if is_read else self._expression(one, lane)
-                yield f"{lane}{one.at} = {made}"
-            for at in kept:
-                yield f"c{at}[{lane}] = {_name(value_of[at], lane)}"
+            yield from self._reads(external, lane)
+            for value in loop.values:
+                is_read = value.kind in ("delayed", "moved")
+                result = f"b{value.index}[{lane}]" if is_read else self._expression(value, lane)
+                yield f"{lane}{value.index} = {result}"
+            for index in stored:
+                yield f"c{index}[{lane}] = {_name(value_of[index], lane)}"
             for place, word, column in running:
-                yield self._step(place, word, _name(value_of[column.at], lane), lane)
+                yield self._step(place, word, _name(value_of[column.index], lane), lane)
 
         yield from self._over_lanes(12, lines, lanes)
 
     def _read(self, loop: Loop) -> Iterator[str]:
-        """Yield where columns stand that were kept before."""
-        for one in loop.values:
-            if one.kind == "delayed":
-                yield f"            b{one.at} = b[{self.columns(one.operands[0].at)}, p[{self.delays(one.detail)}, j]]"
-            elif one.kind == "moved":
-                yield f"            b{one.at} = b[{self.columns(one.detail.at)}, j]"
+        """Yield references to stored columns."""
+        for value in loop.values:
+            if value.kind == "delayed":
+                column, delay = self.columns(value.operands[0].index), self.delays(value.detail)
+                yield f"            b{value.index} = b[{column}, p[{delay}, j]]"
+            elif value.kind == "moved":
+                yield f"            b{value.index} = b[{self.columns(value.detail.index)}, j]"
 
     def _step(self, place: tuple[str, int], word: str, value: str, lane: str) -> str:
-        """Return how a reduction goes on with the value at an angle."""
+        """Return the update of an accumulator with the value at an angle."""
         stored = self._stored(place, lane)
         if word in ("mean", "integral"):
             return f"{stored} += {value} * weight"
@@ -283,18 +282,17 @@ class Source:
         elif word.endswith("_angle"):
             yield f"    for l in range({self.lanes}):\n        {stored} = math.radians(degrees[int({stored})])"
 
-    def _range(self, one: Value) -> Iterator[str]:
-        """Yield how far the integral of a column about its mean goes up and down, or what tangents cut off of it."""
-        at, angles, word = one.operands[0].at, self.plan.grid.degrees.size, one.detail
-        place = word, *(operand.at for operand in one.operands)
-        mean = self._stored(("mean", at))
-        high, low, work = (self._stored(other) for other in (place, ("low", *place), ("work", *place)))
-        columns = ["c", "inertia", "upper", "lower"][: len(one.operands)]
+    def _range(self, value: KernelValue) -> Iterator[str]:
+        """Yield the range of the integral of a column about its mean, or what tangents cut off of it."""
+        angles, word = self.plan.grid.degrees.size, value.detail
+        at = tuple(operand.index for operand in value.operands)
+        high, low, work = (self._stored((name, *at)) for name in (word, f"{word}_low", f"{word}_work"))
+        mean = self._stored(("mean", at[0]))
         above, below = work, work
         if word == "tangents":
             above, below = (f"-{work} - {slope}[j][l] * inertia[j][l]" for slope in ("upper", "lower"))
-        for name, column in zip(columns, one.operands, strict=True):
-            yield f"    {name} = b[{self.columns(column.at)}]"
+        for name, index in zip(("c", "inertia", "upper", "lower"), at, strict=False):
+            yield f"    {name} = b[{self.columns(index)}]"
         yield f"    for l in range({self.lanes}):"
         yield f"        {low}, {high}, {work} = math.inf, -math.inf, 0.0"
         yield f"    for j in range({angles}):"
@@ -316,37 +314,37 @@ class Source:
         for together in zip(*map(lines, lanes), strict=True):
             yield from (f"{space}    {line}" for line in together)
 
-    def _expression(self, one: Value, lane: str) -> str:
-        operands = [_name(other, lane) for other in one.operands]
-        if one.kind in _INFIX:
-            return f"{operands[0]} {_INFIX[one.kind]} {operands[1]}"
-        if one.kind == "choose":
+    def _expression(self, value: KernelValue, lane: str) -> str:
+        operands = [_name(operand, lane) for operand in value.operands]
+        if value.kind in _INFIX:
+            return f"{operands[0]} {_INFIX[value.kind]} {operands[1]}"
+        if value.kind == "choose":
             return f"{operands[1]} if {operands[0]} > 0.0 else {operands[2]}"
-        return f"-{operands[0]}" if one.kind == "neg" else f"{_CALLED[one.kind]}({', '.join(operands)})"
+        return f"-{operands[0]}" if value.kind == "neg" else f"{_CALLED[value.kind]}({', '.join(operands)})"
 
 
 def _shape(lines: str) -> tuple[str, list[int]]:
-    """Return lines with names by the order in which they are met, and the rows of designs and of angles they read.
+    """Return lines with names numbered in order of appearance, and the rows of designs and angles that they read.
 
-    What is done with each law of a kind is one function then. A loop that reduces keeps its rows, because what it
-    writes must be told from what it reads, and so does one that reads many.
+    Laws of one kind share a function this way. A loop that reduces keeps its rows, because the compiler must see that
+    it reads and writes different rows, and so does one that reads many.
     """
     names, rows = dict[str, str](), dict[str, str]()
-    lines = re.sub(r"\b([lhtbc])(\d+)\b", lambda one: one[1] + names.setdefault(one[2], str(len(names))), lines)
+    lines = re.sub(r"\b([lhtbc])(\d+)\b", lambda match: match[1] + names.setdefault(match[2], str(len(names))), lines)
     for place in (r"(?<=\bs\[)\d+(?= \+ l\])", r"(?<=\bt\[)\d+(?=, j\])"):
-        lines = re.sub(place, lambda one: rows.setdefault(one[0], f"row_{len(rows)}"), lines)
-    return lines, [int(one) for one in rows]
+        lines = re.sub(place, lambda match: rows.setdefault(match[0], f"row_{len(rows)}"), lines)
+    return lines, [int(row) for row in rows]
 
 
-def _taken(values: Iterable[Value], others: Iterable[Value] = ()) -> list[Value]:
-    """Return what values, and others beside them, are made of that is made elsewhere."""
-    made = {one.at for one in values}
-    operands = [other for one in values if one.kind not in ("delayed", "input") for other in one.operands]
-    taken = {one.at: one for one in (*operands, *others) if one.at not in made and not one.is_constant}
-    return list(taken.values())
+def _external_operands(values: Iterable[KernelValue], columns: Iterable[KernelValue] = ()) -> list[KernelValue]:
+    """Return columns and the operands of values that are calculated outside this function."""
+    done = {value.index for value in values}
+    operands = [operand for value in values if value.kind not in ("delayed", "input") for operand in value.operands]
+    external = (value for value in (*operands, *columns) if value.index not in done and not value.is_constant)
+    return list({value.index: value for value in external}.values())
 
 
-def _name(value: Value, lane: str) -> str:
+def _name(value: KernelValue, lane: str) -> str:
     if value.is_constant:
         return repr(number(value)).replace("inf", "math.inf").replace("nan", "math.nan")
-    return f"t{value.at}" if value.by_angle and not value.by_design else f"{lane}{value.at}"
+    return f"t{value.index}" if value.depends_on_angle and not value.depends_on_design else f"{lane}{value.index}"

@@ -1,7 +1,7 @@
-"""From memories to a graph: formulas opened, and of what is given that which designs differ in made an input.
+"""Lower the traces of several designs to one kernel graph; inputs in which the designs differ become arguments.
 
-The memories of some designs are walked side by side. They must be made the same way; numbers given that differ are
-followed to the fields that are varied, and whatever else differs cannot be compiled.
+The traces are walked side by side. They must have the same structure; inputs that differ are linear functions of the
+varied fields, and other differences cannot be compiled.
 """
 
 from __future__ import annotations
@@ -40,44 +40,35 @@ from crankwork.formula.known import (
 )
 from crankwork.formula.replay import Angles
 from crankwork.kernel.derivative import ByAngle
-from crankwork.kernel.graph import End, Graph, Value
+from crankwork.kernel.graph import KernelGraph, KernelValue, LawEnd
 from crankwork.kernel.graph import in_order as values_in_order
 
 Array = NDArray[np.float64]
 
-# How far a number given may be from what follows of a field, of its size.
-_SAME = 1e-12
-# How far the ends of a law may be from each other in two designs where they stay. [deg]
-_SAME_END = 1e-9
-# How far a direction may be from that of the stated design for its half turns to be the same. [rad]
+# Tolerance of an input as a linear function of a field, relative to its size.
+_TOLERANCE = 1e-12
+# Tolerance of the ends of a law that are equal in all designs. [deg]
+_END_TOLERANCE = 1e-9
+# Largest change of a direction from the stated design for which its half turns are the same. [rad]
 _NEAR_DIRECTION = 1.0
 
 
-# how many laws are loops of all that follows of them
+# largest number of laws for which all dependent columns are in the same loops
 _FEW_LAWS = 4
-# how far beyond those that are compared an end is looked for: of what they span, and at least [deg]
-_BEYOND, _LEAST_BEYOND = 0.5, 0.01
-# steps to an angle, and how short the last one must be [deg]
-_STEPS, _SETTLED = 6, 1e-7
+# margin around the ends of a law in the compared designs: relative to their range, and at least [deg]
+_BEYOND, _MIN_BEYOND = 0.5, 0.01
+# Newton steps to an angle, and the largest last step [deg]
+_STEPS, _CONVERGED = 6, 1e-7
 
 # Why a calculation is not compiled.
 Reason = Literal[
-    "absent",
-    "ways",
-    "several_fields",
-    "curved_field",
-    "table",
-    "direction",
-    "ends",
-    "solved",
-    "procedure",
-    "partial",
+    "absent", "ways", "several_fields", "curved_field", "table", "direction", "ends", "solved", "procedure", "partial",
     "differs",
-]
+]  # fmt: skip
 
 
 class NotCompiledError(CrankworkError):
-    """A calculation that cannot be compiled: why, and the key at which that shows."""
+    """A calculation that cannot be compiled: the reason, and the key of a value that shows it."""
 
     def __init__(self, reason: Reason, key: str) -> None:
         super().__init__(f"{reason}: {key}")
@@ -86,91 +77,91 @@ class NotCompiledError(CrankworkError):
 
 @dataclass(frozen=True)
 class _Wave:
-    """A sine or cosine of so many waves over an angle. [deg]"""
+    """A sine or cosine of some order over an angle. [deg]"""
 
     function: np.ufunc
     order: float
 
     def __call__(self, degrees: Array) -> Array:
-        """Return it at crank angles."""
+        """Return its values at crank angles."""
         return np.asarray(self.function(self.order * degrees))
 
 
-class Designs:
-    """The memories of some designs side by side: which numbers differ, and how they follow from the varied fields.
+class DesignTraces:
+    """Traces of some designs side by side: which numbers differ, and how they depend on the varied fields.
 
-    `memories` and `fields` as a `Kernel` takes them.
+    `traces` and `fields` as of a `Kernel`.
     """
 
-    def __init__(self, memories: Sequence[Mapping[str, Known]], fields: Array, keys: Iterable[str]) -> None:
-        self.memories, self.fields = memories, fields
-        self._alike: dict[int, tuple[Node, ...]] = {}
-        self._told: dict[int, Known] = {}
+    def __init__(self, traces: Sequence[Mapping[str, Known]], fields: Array, keys: Iterable[str]) -> None:
+        self.traces, self.fields = traces, fields
+        self._matched: dict[int, tuple[Node, ...]] = {}
+        self._general_forms: dict[int, Known] = {}
         self.differs: dict[int, bool] = {}
         for key in keys:
             self.add(key)
 
     def add(self, key: str) -> None:
-        """Look through what a key is made of; what is made in several ways is refused each time it is come upon."""
-        if any(key not in one for one in self.memories):
+        """Compare the dependencies of a key; a difference of structure raises an error on each call."""
+        if any(key not in memory for memory in self.traces):
             raise NotCompiledError("absent", key)
-        knowns = tuple(one[key] for one in self.memories)
-        fresh: list[int] = []
+        traced = tuple(memory[key] for memory in self.traces)
+        new: list[int] = []
         try:
-            self._walk(key, knowns, fresh)
+            self._walk(key, traced, new)
         except NotCompiledError:
-            for one in fresh:
-                del self._alike[one]
+            for node in new:
+                del self._matched[node]
             raise
 
-    def _walk(self, key: str, knowns: tuple[Known, ...], fresh: list[int]) -> None:
-        stack = [(tuple(one.node for one in knowns), key)]
+    def _walk(self, key: str, traced: tuple[Known, ...], new: list[int]) -> None:
+        stack = [(tuple(known.node for known in traced), key)]
         while stack:
             nodes, name = stack.pop()
             first = nodes[0]
-            if id(first) in self._alike:
+            if id(first) in self._matched:
                 continue
             for other in nodes[1:]:
-                if not _are_alike(first, other):
+                if not _have_same_structure(first, other):
                     raise NotCompiledError("ways", name)
-            self._alike[id(first)] = nodes
-            fresh.append(id(first))
+            self._matched[id(first)] = nodes
+            new.append(id(first))
             stack += [
-                (tuple(one.node for one in operands), operands[0].key or name)
-                for operands in zip(*(self.made_of(one) for one in nodes), strict=True)
+                (tuple(operand.node for operand in operands), operands[0].key or name)
+                for operands in zip(*(self.dependencies(node) for node in nodes), strict=True)
             ]
-        for known in in_order(knowns[:1], into=self.made_of):
+        for known in in_order(traced[:1], into=self.dependencies):
             node = known.node
             if id(node) not in self.differs:
-                below = any(self.differs[id(one.node)] for one in self.made_of(node))
-                self.differs[id(node)] = below or len({one.value for one in self._alike[id(node)]}) > 1
+                below = any(self.differs[id(operand.node)] for operand in self.dependencies(node))
+                self.differs[id(node)] = below or len({other.value for other in self._matched[id(node)]}) > 1
 
-    def made_of(self, node: Node) -> Sequence[Known]:
-        """Return all that a node follows from, also where it is told in knowns for nothing but this."""
+    def dependencies(self, node: Node) -> Sequence[Known]:
+        """Return the dependencies of a node, those of its general form if it has one."""
         match node:
             case Pieces(retold=retold) if retold is not None:
-                return (self.told(node),)
+                return (self.general_form(node),)
             case Pieces(places=places):
-                return (*node.operands, *(one for one in places if isinstance(one, Known)))
-            case Found(by=by, retold=retold) if by is not None:
-                return (*node.operands, by) if retold is None else (retold,)
+                return (*node.operands, *(place for place in places if isinstance(place, Known)))
+            case Found(by=argument, retold=retold) if argument is not None:
+                return (*node.operands, argument) if retold is None else (retold,)
             case Use(retold=retold) if retold is not None:
                 return (retold,)
         return node.operands
 
-    def told(self, node: Pieces) -> Known:
-        """Return pieces as they are told in knowns."""
-        if id(node) not in self._told and node.retold is not None:
-            self._told[id(node)] = node.retold()
-        return self._told[id(node)]
+    def general_form(self, node: Pieces) -> Known:
+        """Return the general form of pieces."""
+        if id(node) not in self._general_forms and node.retold is not None:
+            self._general_forms[id(node)] = node.retold()
+        return self._general_forms[id(node)]
 
-    def twins(self, node: Node) -> tuple[Node, ...]:
-        """Return a node of the stated design and what stands in its place in the others."""
-        return self._alike[id(node)]
+    def counterparts(self, node: Node) -> tuple[Node, ...]:
+        """Return a node of the stated design and the corresponding nodes of the others."""
+        return self._matched[id(node)]
 
-    def followed(self, node: Given, graph: Graph) -> Value:
-        """Return how a number that is given follows from the one field that moves it, which must be a straight line."""
-        values = np.array([one.value for one in self.twins(node)], dtype=float)
+    def linear_dependence(self, node: Given, graph: KernelGraph) -> KernelValue:
+        """Return an input as a linear function of the one field that changes it."""
+        values = np.array([counterpart.value for counterpart in self.counterparts(node)], dtype=float)
         moved = [
             field
             for field in range(self.fields.shape[1])
@@ -183,19 +174,19 @@ class Designs:
         slope = (values[high] - values[low]) / (x[high] - x[low])
         offset = values[0] - slope * x[0]
         size = float(np.max(np.abs(values)))
-        if np.max(np.abs(slope * x + offset - values)) > _SAME * size:
+        if np.max(np.abs(slope * x + offset - values)) > _TOLERANCE * size:
             raise NotCompiledError("curved_field", node.path)
-        if abs(offset) <= _SAME * size:
-            # the slope of a factor of units, found again to the last digit
+        if abs(offset) <= _TOLERANCE * size:
+            # exact to the last digit, if the field only has another unit
             slope, offset = values[0] / x[0] if x[0] else slope, 0.0
         return graph.input(moved[0]) * float(slope) + float(offset)
 
 
-def _are_alike(one: Node, other: Node) -> bool:
-    """Return whether two nodes are made the same way of what may differ."""
-    if type(one) is not type(other) or len(one.operands) != len(other.operands):
+def _have_same_structure(first: Node, second: Node) -> bool:
+    """Return whether two nodes have the same structure, so that only their numbers may differ."""
+    if type(first) is not type(second) or len(first.operands) != len(second.operands):
         return False
-    match one, other:
+    match first, second:
         case Given(is_absent=a), Given(is_absent=b):
             return a == b
         case (Use(formula=f, inputs=i), Use(formula=g, inputs=j)) | (
@@ -204,11 +195,11 @@ def _are_alike(one: Node, other: Node) -> bool:
         ):
             return f is g and _plain(i) == _plain(j)
         case OfAngle(), OfAngle():
-            return (one.function, one.multiple, one.shift) == (other.function, other.multiple, other.shift)
+            return (first.function, first.multiple, first.shift) == (second.function, second.multiple, second.shift)
         case Delayed(by=a, cycle=c), Delayed(by=b, cycle=d):
             return (a, c) == (b, d)
         case Pieces(), Pieces():
-            return one.retold is not None or _end_alike(_plain(one.places), _plain(other.places))
+            return first.retold is not None or _end_at_same_angles(_plain(first.places), _plain(second.places))
         case Procedure(function=f, part=a), Procedure(function=g, part=b):
             return f == g and a == b
         case Harmonic(order=a, part=b), Harmonic(order=c, part=d):
@@ -219,110 +210,110 @@ def _are_alike(one: Node, other: Node) -> bool:
 
 
 def _plain(inputs: Iterable[Known | float]) -> list[float | None]:
-    return [None if isinstance(one, Known) else float(one) for one in inputs]
+    return [None if isinstance(value, Known) else float(value) for value in inputs]
 
 
-def _end_alike(ends: list[float | None], others: list[float | None]) -> bool:
-    """Return whether laws end at the same crank angles, but for rounding, or where the design puts them. [deg]"""
-    return len(ends) == len(others) and all(
-        a is b is None or (a is not None and b is not None and abs(a - b) <= _SAME_END)
-        for a, b in zip(ends, others, strict=True)
+def _end_at_same_angles(ends: list[float | None], other_ends: list[float | None]) -> bool:
+    """Return whether laws end at the same crank angles but for rounding, or at ones that depend on the design. [deg]"""
+    return len(ends) == len(other_ends) and all(
+        a is b is None or (a is not None and b is not None and abs(a - b) <= _END_TOLERANCE)
+        for a, b in zip(ends, other_ends, strict=True)
     )
 
 
-def _needs_more(value: Value) -> bool:
+def _needs_more(value: KernelValue) -> bool:
     if value.kind == "pieces":
         return any(end.value is not None for end in value.detail[0])
     return value.kind == "reduction" and value.detail.startswith("procedure")
 
 
-class Trace:
-    """Values of a graph for what is remembered.
+class Lowering:
+    """Converts traced values to values of a graph.
 
-    `looked`: crank angles at which tables of designs are compared [deg]; `is_shifted`: whether columns of other
-    cylinders are calculated again at their own angle, not read from where they stand.
+    `sample_angles`: crank angles at which tables of designs are compared [deg]; `is_shifted`: whether columns of other
+    cylinders are calculated again at their own angle instead of being read from the stored column.
     """
 
     def __init__(
-        self, designs: Designs, angles_at: Callable[[Any], Angles], looked: Array, *, is_shifted: bool
+        self, designs: DesignTraces, angles_at: Callable[[Any], Angles], sample_angles: Array, *, is_shifted: bool
     ) -> None:
-        self.graph, self._looked = Graph(), looked
+        self.graph, self._sample_angles = KernelGraph(), sample_angles
         self._designs, self._angles_at, self._is_shifted = designs, angles_at, is_shifted
-        # what must be above zero for a design to be as those that are compared
-        self._guards: list[Value] = []
-        self._ends: dict[int, tuple[End, Array]] = {}
-        self._made: dict[tuple[int, float | None, float], Value] = {}
+        # positive for designs that are within the range of the compared ones
+        self._guards: list[KernelValue] = []
+        self._ends: dict[int, tuple[LawEnd, Array]] = {}
+        self._values: dict[tuple[int, float | None, float], KernelValue] = {}
         self._by_angle = ByAngle(self.graph)
         self._waves: dict[tuple[str, float], _Wave] = {}
-        # keys that were looked at and are the same in every design
+        # keys with the same value in every design
         self.steady: set[str] = set()
 
     def compiling(self, keys: Iterable[str]) -> list[str]:
-        """Return those of some keys that compile, that designs differ in, and that need loops and extremes alone.
+        """Return the keys that compile, differ between designs, and need only loops and extremes.
 
-        Neither laws that end where the design puts them, nor procedures.
+        That is, neither laws whose ends depend on the design nor procedures.
         """
-        found = []
+        compiled = []
         for key in keys:
             try:
                 self._designs.add(key)
-                value = self.value(self._designs.memories[0][key])
+                value = self.value(self._designs.traces[0][key])
             except NotCompiledError:
                 continue
-            every = list(values_in_order([value]))
-            if not value.by_design:
+            nodes = list(values_in_order([value]))
+            if not value.depends_on_design:
                 self.steady.add(key)
-            # a column that is kept is one of each design, whether or not it follows from what designs state
-            elif any(one.kind == "input" for one in every) and not any(map(_needs_more, every)):
-                found.append(key)
-        return found
+            # a stored column depends on the design formally, even without inputs
+            elif any(node.kind == "input" for node in nodes) and not any(map(_needs_more, nodes)):
+                compiled.append(key)
+        return compiled
 
     def reductions(self, known: Known) -> frozenset[int]:
-        """Return the places in the graph of what a value has of whole columns."""
-        return frozenset(one.at for one in values_in_order([self.value(known)]) if one.kind == "reduction")
+        """Return the indices in the graph of the reductions that a value depends on."""
+        return frozenset(node.index for node in values_in_order([self.value(known)]) if node.kind == "reduction")
 
-    def value(self, known: Known, *, shift: float = 0.0, fixed: float | None = None) -> Value:
-        """Return the value of what is remembered, at angles larger by some degrees or at one angle. [deg]"""
-        for one in in_order([known], into=self._into):
-            self._once(one, shift, fixed)
-        return self._made[id(known.node), fixed, shift]
+    def value(self, known: Known, *, shift: float = 0.0, fixed: float | None = None) -> KernelValue:
+        """Return a traced value in the graph, at angles larger by a shift or at a fixed angle. [deg]"""
+        for operand in in_order([known], into=self._into):
+            self._add(operand, shift, fixed)
+        return self._values[id(known.node), fixed, shift]
 
     def _into(self, node: Node) -> Sequence[Known]:
-        """Return what is to be made at the same angle before a node is."""
+        """Return the operands that are needed at the same angle before a node."""
         if node.value is not None and not self._designs.differs[id(node)]:
             return ()
         if isinstance(node, Pieces | Use) and node.retold is not None:
-            return self._designs.made_of(node)
+            return self._designs.dependencies(node)
         return () if isinstance(node, Delayed | Found) else node.operands
 
-    def _once(self, known: Known, shift: float, fixed: float | None) -> None:
+    def _add(self, known: Known, shift: float, fixed: float | None) -> None:
         node = known.node
         key = id(node), fixed, shift
-        if key in self._made:
+        if key in self._values:
             return
         if node.value is not None and not self._designs.differs[id(node)]:
-            self._made[key] = self.graph.constant(node.value)
+            self._values[key] = self.graph.constant(node.value)
             return
 
-        def of(one: Known | float) -> Value | float:
-            return self._made[id(one.node), fixed, shift] if isinstance(one, Known) else float(one)
+        def value_of(operand: Known | float) -> KernelValue | float:
+            return self._values[id(operand.node), fixed, shift] if isinstance(operand, Known) else float(operand)
 
-        self._made[key] = self._value(known, of, shift, fixed)
+        self._values[key] = self._value(known, value_of, shift, fixed)
 
-    def _value(self, known: Known, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
+    def _value(self, known: Known, value_of: Any, shift: float, fixed: float | None) -> KernelValue:  # noqa: ANN401
         node = known.node
         match node:
             case Given():
-                return self._designs.followed(node, self.graph)
+                return self._designs.linear_dependence(node, self.graph)
             case Use(retold=retold) if retold is not None:
-                return self._as_value(of(retold))
+                return self._as_value(value_of(retold))
             case Use() | Arithmetic():
                 function = node.formula.function if isinstance(node, Use) else node.function
-                return self._as_value(function(*map(of, node.inputs)))
+                return self._as_value(function(*map(value_of, node.inputs)))
             case Total():
-                return self._as_value(functools.reduce(operator.add, map(of, node.operands)))
+                return self._as_value(functools.reduce(operator.add, map(value_of, node.operands)))
             case Chosen():
-                return self.graph.apply("choose", *map(of, node.operands))
+                return self.graph.apply("choose", *map(value_of, node.operands))
             case Procedure():
                 return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
             case Harmonic():
@@ -331,10 +322,10 @@ class Trace:
                 return self._found(known, node) if node.retold is None else self.value(node.retold)
             case Root() | Component():
                 raise NotCompiledError("solved", known.key)
-        return self._of_angles(known, of, shift, fixed)
+        return self._of_angles(known, value_of, shift, fixed)
 
-    def _of_angles(self, known: Known, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
-        """Return what is another at every crank angle."""
+    def _of_angles(self, known: Known, value_of: Any, shift: float, fixed: float | None) -> KernelValue:  # noqa: ANN401
+        """Lower a node whose value depends on the crank angle."""
         node = known.node
         match node:
             case OfAngle():
@@ -342,107 +333,109 @@ class Trace:
             case Delayed():
                 return self._delayed(node, shift, fixed)
             case Pieces(retold=retold) if retold is not None:
-                return self._as_value(of(self._designs.told(node)))
+                return self._as_value(value_of(self._designs.general_form(node)))
             case Pieces():
-                return self._pieces(known, node, of, shift, fixed)
+                return self._pieces(known, node, value_of, shift, fixed)
             case Table() if fixed is None:
                 return self._table(node, shift)
             case HalfTurns() if fixed is None:
-                return self._half_turns(node, of, shift)
+                return self._half_turns(node, value_of, shift)
         raise NotCompiledError("table", known.key)
 
-    def _as_value(self, result: Any) -> Value:  # noqa: ANN401
-        return result if isinstance(result, Value) else self.graph.constant(float(result))
+    def _as_value(self, result: Any) -> KernelValue:  # noqa: ANN401
+        return result if isinstance(result, KernelValue) else self.graph.constant(float(result))
 
-    def _of_angle(self, node: OfAngle, shift: float, fixed: float | None) -> Value:
+    def _of_angle(self, node: OfAngle, shift: float, fixed: float | None) -> KernelValue:
         if fixed is None:
-            # counted from the start of the cycle, which a multiple is not
+            # within the cycle, which a multiple is not
             function = "within" if node.function == "degrees" else node.function
             return self.graph.angle(function, node.multiple, node.shift + node.multiple * shift)
         angles: Angles = self._angles_at([fixed])
         column = getattr(angles.multiple(node.multiple).shifted(node.shift), node.function)
         return self.graph.constant(float(column[0]))
 
-    def _delayed(self, node: Delayed, shift: float, fixed: float | None) -> Value:
+    def _delayed(self, node: Delayed, shift: float, fixed: float | None) -> KernelValue:
         if fixed is not None:
             return self.value(node.of, fixed=(fixed - node.by) % node.cycle)
         if self._is_shifted:
             return self.value(node.of, shift=shift - node.by)
-        # the end of a cycle is its start for other cylinders, also for one that is no later
+        # the end of a cycle is its start for other cylinders, also for one without a delay
         return self.graph.delayed(self.value(node.of, shift=shift), node.by or node.cycle)
 
-    def _pieces(self, known: Known, node: Pieces, of: Any, shift: float, fixed: float | None) -> Value:  # noqa: ANN401
-        laws = tuple(self._as_value(of(one)) for one in node.operands)
-        ends = tuple(self._end(one) for one in node.places)
+    def _pieces(self, known: Known, node: Pieces, value_of: Any, shift: float, fixed: float | None) -> KernelValue:  # noqa: ANN401
+        laws = tuple(self._as_value(value_of(operand)) for operand in node.operands)
+        ends = tuple(self._end(place) for place in node.places)
         if fixed is not None:
-            if any(one.low <= fixed <= one.high for one in ends if one.value is not None):
+            if any(end.low <= fixed <= end.high for end in ends if end.value is not None):
                 raise NotCompiledError("ends", known.key)
             return laws[min(int(np.searchsorted(node.ends, fixed, side="left")), len(laws) - 1)]
         pieces = self.graph.pieces(ends, laws, shift)
-        # many laws are short loops of their own, and what follows of them one for all
+        # many laws have short loops of their own, and the columns that depend on them one common loop
         return self.graph.delayed(pieces, 0.0) if len(laws) > _FEW_LAWS else pieces
 
-    def _end(self, place: Known | float) -> End:
-        """Return where a law ends, in the designs that are compared and a little beyond."""
+    def _end(self, place: Known | float) -> LawEnd:
+        """Return the end of a law, with the interval of the compared designs and a margin."""
         if not isinstance(place, Known) or not self._designs.differs[id(place.node)]:
             angle = place.value if isinstance(place, Known) else place
-            return End(angle, angle, angle)
-        of_twins = [one.value or 0.0 for one in self._designs.twins(place.node)]
-        low, high = min(of_twins), max(of_twins)
-        if self._designs.fields.shape[1] == 1 and high - low <= _SAME * high:
-            # made of the one number that differs, and there all the same
-            return End(low, low, low)
-        spare = _BEYOND * (high - low) + _LEAST_BEYOND
-        end = End(place.value, low - spare, high + spare, self.value(place))
-        self._ends[end.value.at if end.value else -1] = end, np.array(of_twins)
+            return LawEnd(angle, angle, angle)
+        angles = [node.value or 0.0 for node in self._designs.counterparts(place.node)]
+        low, high = min(angles), max(angles)
+        if self._designs.fields.shape[1] == 1 and high - low <= _TOLERANCE * high:
+            # depends on the one number that differs, but is constant
+            return LawEnd(low, low, low)
+        margin = _BEYOND * (high - low) + _MIN_BEYOND
+        end = LawEnd(place.value, low - margin, high + margin, self.value(place))
+        self._ends[end.value.index if end.value else -1] = end, np.array(angles)
         return end
 
     @property
-    def moving(self) -> list[tuple[Value, Array]]:
-        """The ends of laws that follow from the design, and their crank angles in those that are compared. [deg]"""
+    def moving(self) -> list[tuple[KernelValue, Array]]:
+        """Ends of laws that depend on the design, and their crank angles in the compared designs. [deg]"""
         return [(end.value, angles) for end, angles in self._ends.values() if end.value is not None]
 
     def zones(self, breaks: Array) -> Array:
-        """Return breaks with those between which designs choose their law. [deg]"""
+        """Return breakpoints, with those between which designs choose their law. [deg]"""
         start, cycle = breaks[0], breaks[-1] - breaks[0]
-        pieces = [one for one in self.graph.values if one.kind == "pieces"]
-        moving = [(end, one.detail[1]) for one in pieces for end in one.detail[0] if end.value is not None]
-        found = [(at - shift - start) % cycle + start for end, shift in moving for at in (end.low, end.high)]
-        return distinct(np.concatenate([breaks, found]))
+        pieces = [value for value in self.graph.values if value.kind == "pieces"]
+        moving = [(end, value.detail[1]) for value in pieces for end in value.detail[0] if end.value is not None]
+        added = [(angle - shift - start) % cycle + start for end, shift in moving for angle in (end.low, end.high)]
+        return distinct(np.concatenate([breaks, added]))
 
-    def guard(self, *, is_sampled: bool) -> Value | None:
-        """Return what is infinite for designs that are not as those that are compared, if there may be any."""
+    def guard(self, *, is_sampled: bool) -> KernelValue | None:
+        """Return a value that is infinite for designs outside the range of the compared ones; None if none can be."""
         ends = [(end, end.value) for end, _ in self._ends.values() if is_sampled and end.value is not None]
         guards = [*self._guards, *((value - end.low) * (end.high - value) for end, value in ends)]
         result = self.graph.constant(0.0)
-        for one in guards:
-            result = self.graph.apply("choose", one, result, math.inf)
+        for guard in guards:
+            result = self.graph.apply("choose", guard, result, math.inf)
         return result if guards else None
 
-    def _table(self, node: Table, shift: float) -> Value:
-        """Return what is read at the crank angle from a table that is the same for all designs."""
-        if node.by is not None or not self._are_near(node, lambda one: one.function, 0.0):
+    def _table(self, node: Table, shift: float) -> KernelValue:
+        """Return a table over the crank angle that is the same for all designs."""
+        if node.by is not None or not self._are_near(node, lambda table: table.function, 0.0):
             raise NotCompiledError("table", node.word)
         return self.graph.reading(node.function, shift)
 
-    def _half_turns(self, node: HalfTurns, of: Any, shift: float) -> Value:  # noqa: ANN401
-        """Return the half turns of a direction, which is roughly that of the stated design."""
-        if not self._are_near(node, lambda one: one.near, _NEAR_DIRECTION):
+    def _half_turns(self, node: HalfTurns, value_of: Any, shift: float) -> KernelValue:  # noqa: ANN401
+        """Return the half turns of a direction that is close to that of the stated design."""
+        if not self._are_near(node, lambda turns: turns.near, _NEAR_DIRECTION):
             raise NotCompiledError("direction", node.operands[0].key)
-        sin, cos = map(of, node.operands)
+        sin, cos = map(value_of, node.operands)
         near = self.graph.reading(node.near, shift)
         return self.graph.apply("half_turns", near, self.graph.apply("arctan", sin / cos))
 
     def _are_near(self, node: Node, function: Callable[[Any], Callable[[Array], Array]], limit: float) -> bool:
-        """Return whether functions of the crank angle of all designs are as good as that of the stated one."""
-        stated, *others = (np.asarray(function(one)(self._looked)) for one in self._designs.twins(node))
-        return all(bool(np.all(np.abs(one - stated) <= limit)) for one in others)
+        """Return whether functions of the crank angle are close to that of the stated design in all designs."""
+        stated, *compared = (
+            np.asarray(function(counterpart)(self._sample_angles)) for counterpart in self._designs.counterparts(node)
+        )
+        return all(bool(np.all(np.abs(values - stated) <= limit)) for values in compared)
 
-    def _found(self, known: Known, node: Found) -> Value:
+    def _found(self, known: Known, node: Found) -> KernelValue:
         match node.word:
             case "at" if node.by is not None and self._designs.differs[id(node.by.node)]:
                 return self._at(node.operands[0], self.value(node.by))
-            case "at" if len({getattr(one, "at", None) for one in self._designs.twins(node)}) == 1:
+            case "at" if len({getattr(other, "at", None) for other in self._designs.counterparts(node)}) == 1:
                 return self.value(node.operands[0], fixed=node.at)
             case "reached" if node.by is not None:
                 return self._reached(node, self.value(node.by))
@@ -461,7 +454,7 @@ class Trace:
                 return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
         raise NotCompiledError("procedure", known.key or node.word)
 
-    def _harmonic(self, column: Value, node: Harmonic) -> Value:
+    def _harmonic(self, column: KernelValue, node: Harmonic) -> KernelValue:
         """Return twice the mean of a column times a wave."""
         function = {"cosine": "cos", "sine": "sin"}[node.part]
         if node.order == int(node.order):
@@ -471,30 +464,30 @@ class Trace:
             wave = self.graph.reading(self._waves[function, node.order], 0.0)
         return self.graph.reduction("mean", column * wave) * 2.0
 
-    def _at(self, column: Known, degrees: Value) -> Value:
+    def _at(self, column: Known, degrees: KernelValue) -> KernelValue:
         try:
             return self.graph.at_angle(self.value(column), degrees)
         except TypeError:
             raise NotCompiledError("ends", column.key) from None
 
-    def _reached(self, node: Found, wanted: Value) -> Value:
-        """Return the crank angle where a column reaches a value, by Newton's steps. [deg]"""
+    def _reached(self, node: Found, target: KernelValue) -> KernelValue:
+        """Return the crank angle at which a column reaches a value, by Newton's method. [deg]"""
         column = node.operands[0]
         try:
             slope = self._by_angle.of(self.value(column))
         except (KeyError, TypeError):
             raise NotCompiledError("ends", column.key) from None
-        # a volume grows ever faster after a dead centre: from the far side steps do not go past it
-        angle = self.graph.constant(max(one.value or 0.0 for one in self._designs.twins(node)))
+        # a volume grows ever faster after a dead centre: from the far side steps do not overshoot
+        angle = self.graph.constant(max(counterpart.value or 0.0 for counterpart in self._designs.counterparts(node)))
         step = angle
         for _ in range(_STEPS):
-            step = (self._at(column, angle) - wanted) / self.graph.at_angle(slope, angle) * (180 / math.pi)
+            step = (self._at(column, angle) - target) / self.graph.at_angle(slope, angle) * (180 / math.pi)
             angle = angle - step
-        self._guards.append(_SETTLED**2 - step * step)
+        self._guards.append(_CONVERGED**2 - step * step)
         return angle
 
-    def _time_ratio(self, high: Value, low: Value) -> Value:
-        """Return the slower way between two crank angles over the faster one, whichever turns they stand in."""
+    def _time_ratio(self, high: KernelValue, low: KernelValue) -> KernelValue:
+        """Return the longer way between two crank angles over the shorter one, regardless of full turns."""
         half = self.graph.apply("tan", (high - low) / 2.0)
         fast = self.graph.apply("arctan", self.graph.apply("sqrt", half * half)) * 2.0
         return (2 * math.pi - fast) / fast

@@ -18,7 +18,7 @@ from crankwork.report.summary import provenance
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf as page
 from crankwork.show.svg import svg
-from crankwork.units import shown_in
+from crankwork.units import use_units
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
@@ -79,5 +79,5 @@ def check_format(name: str, *, with_sheets: bool = False) -> None:
 def written_note(note: Note, name: str) -> bytes:
     """Return a note in the format that the ending of a file name asks for."""
     check_format(name)
-    with shown_in(note.units):
+    with use_units(note.units):
         return WRITERS[PurePath(name).suffix.lower()](note)

@@ -16,7 +16,7 @@ from crankwork.formula.expression import Expression, Formula
 from crankwork.formula.lines import FormulaLine, Line
 from crankwork.quantities import Language
 from crankwork.show.scene import Drawing
-from crankwork.units import METRIC, Shown
+from crankwork.units import METRIC, DisplayUnits
 
 if TYPE_CHECKING:
     from crankwork.analysis import Results
@@ -218,7 +218,7 @@ class Note:
     authors: tuple[str, ...] = ()
     date: dt.date | None = None
     sources: tuple[str, ...] = ()
-    units: Shown = METRIC
+    units: DisplayUnits = METRIC
     provenance: str = ""  # program, method and hash of the machine file
     results: Results | None = None  # What it tells of, for a page that is read with a cursor
 

@@ -19,7 +19,7 @@ from crankwork.note.equations import value_symbol
 from crankwork.quantities import Language
 from crankwork.report.language import displayed_column, in_own_units, key_unit, label
 from crankwork.show.inline import STYLE, colours, figure_data, html_symbol
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.show.moving import data as moving_data
 from crankwork.show.scene import Box, Drawing
 
@@ -92,7 +92,7 @@ def unpacked(column: Mapping[str, Any]) -> Array:
 def page_data(
     results: Results,
     drawn: Mapping[str, Drawing],
-    film: MovingDrawing | None,
+    film: Animation | None,
     language: Language,
     *,
     only_read: bool = False,
@@ -124,7 +124,7 @@ def _column(key: str, values: Array, language: Language) -> dict[str, Any]:
     return {"s": symbol, "n": html.escape(label(key, language)), "u": unit, **packed(values)}
 
 
-def _film_data(film: MovingDrawing, period: float) -> dict[str, Any]:
+def _film_data(film: Animation, period: float) -> dict[str, Any]:
     """Return a film for a page; `period` of the law that drives, where tables go by time. [s]"""
     told, tracks = moving_data(film), dict[str, int]()
     parts = {
@@ -144,7 +144,7 @@ def _steps(track: list[float]) -> str:
     return " ".join(map(str, np.diff(np.diff(counts, prepend=0), prepend=0).tolist()))
 
 
-def controls(film: MovingDrawing, language: Language) -> list[str]:
+def controls(film: Animation, language: Language) -> list[str]:
     """Return the elements that choose what of a film is seen, and how fast it runs."""
     rates = "".join(
         f'<option value="{rate}"{" selected" if rate == "1" else ""}>{shown}×' for rate, shown in _RATES.items()

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.show.inline import frame_marks
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.show.scene import Arc, Box, Circle, Drawing, Hatch, Item, Plot, Polyline, Text
 
 # relative distance of equal lines
@@ -21,7 +21,7 @@ _UNSEEN, _MARGIN = 1e-3, 8.0
 _UNSEEN_MOVE = 0.05
 
 
-def is_same_film(film: MovingDrawing, other: MovingDrawing) -> bool:
+def is_same_film(film: Animation, other: Animation) -> bool:
     """Return whether two animations have no visible difference."""
     own, other_parts = ({part.name: part for part in each.parts} for each in (film, other))
     return own.keys() == other_parts.keys() and all(

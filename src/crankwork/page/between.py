@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.show.scene import Drawing, Plot, Polyline, Text, runs, seen_of_each
+from crankwork.show.scene import Drawing, Plot, Polyline, Text, runs, visible_points_of_each
 
 _NUMBER = re.compile(r"−?\d+(?:[.,]\d+)?")
 # relative to the scales of a graph: an invisible distance, the tolerance of an interpolated curve, about the width of
@@ -67,7 +67,7 @@ class FigureInterpolation:
             is_seen = np.all((actual > low - size) & (actual < high + size), axis=0)
             if np.any(np.abs(expected - actual)[:, is_seen] > limit * size):
                 return {}
-        kept = np.any(seen_of_each([(curve / size).T for curve in points], _UNSEEN), axis=0)
+        kept = np.any(visible_points_of_each([(curve / size).T for curve in points], _UNSEEN), axis=0)
         decimals = [4 - math.floor(math.log10(extent)) for extent in size[:, 0]]
         across, up = (np.round(points[:, side][:, kept], decimals[side]).tolist() for side in (0, 1))
         angles = plots[0].curves[name][0] if plots[0].over else plots[0].angles.get(name, ())

@@ -22,9 +22,9 @@ from crankwork.report.figures import drawings
 from crankwork.report.language import displayed, in_own_units, key_unit, label, told_as
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import by_subject, met, provenance, results_method
-from crankwork.show.alt import described
+from crankwork.show.alt import alt_text
 from crankwork.show.inline import inline_film, inline_svg
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.show.scene import Drawing
 
 
@@ -42,7 +42,7 @@ def page(
     data = page_data(results, drawn, film, language)
     for name, drawing in drawn.items():
         # without script the alternative text is the title
-        data["figures"][name]["told"] = described(drawing)
+        data["figures"][name]["told"] = alt_text(drawing)
     data["tables"] = tables(results, data, language)
     keys = dict.fromkeys([*(key for table in data["tables"] for key in table["k"]), *results.summary])
     trace = TraceExport(results, language, place or (lambda path, _: path), data["columns"])
@@ -142,7 +142,7 @@ def _cause(error: CrankworkError, language: Language) -> str:
     return told(error.problems[0].message if isinstance(error, InputError) else error.args[0], language)
 
 
-def _machine(film: MovingDrawing, language: Language, *, is_filed: bool) -> list[str]:
+def _machine(film: Animation, language: Language, *, is_filed: bool) -> list[str]:
     drawn = f"<figure>{inline_film(film, 'machine')}{''.join(controls(film, language))}</figure>"
     kind = ' class="filed"' if is_filed else ""
     return [f'<section id="machine"{kind} aria-label="{words("machine", language)}">{drawn}</section>']

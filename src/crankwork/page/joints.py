@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.show.moving import MovingDrawing, Part
+from crankwork.show.moving import Animation, Part
 from crankwork.show.paper import GREY
 from crankwork.show.scene import Circle, Drawing, Item, Plot, Polyline, Text, pen_of, placed
 
@@ -21,7 +21,7 @@ _PROBE_FRAMES = (0, 7, 19, 31)
 _PLANNED, _NEAR, _STRAY = 2.0, 15.0, 0.5
 
 
-def joints_of(films: Sequence[MovingDrawing], results: Sequence[Results]) -> dict[str, Any] | None:
+def joints_of(films: Sequence[Animation], results: Sequence[Results]) -> dict[str, Any] | None:
     """Return scale and origin of an animation, columns of its joints, and the joints of links and labels.
 
     None if links are more than lines between joints, or joints do not follow columns in every design.
@@ -55,7 +55,7 @@ def joints_of(films: Sequence[MovingDrawing], results: Sequence[Results]) -> dic
 class _Scale:
     """Transformation from metres to the paper of an animation: scale [mm/m], origin [mm], and fixed joints [m]."""
 
-    def __init__(self, film: MovingDrawing, results: Results) -> None:
+    def __init__(self, film: Animation, results: Results) -> None:
         joints = [part for part in film.parts if part.name.startswith("joint.")]
         names = {part.name: part.name.removeprefix("joint.") for part in joints}
         self.keys = {
@@ -78,12 +78,12 @@ class _Scale:
         self.fixed = {part.name: (_track(part, film)[0] - origin) / self.scale for part in still}
 
 
-def _track(part: Part, film: MovingDrawing) -> Array:
+def _track(part: Part, film: Animation) -> Array:
     """Return the position of a part in all frames, shape (n, 2). [mm]"""
     return np.asarray(np.broadcast_to(part.shift, (len(film.angles), 2)))
 
 
-def _corner_joints(part: Part, film: MovingDrawing, joints: Mapping[str, Array]) -> list[str] | None:
+def _corner_joints(part: Part, film: Animation, joints: Mapping[str, Array]) -> list[str] | None:
     """Return the joints at the corners of a link, None unless each corner is at one."""
     if len(part.items) != 1 or not isinstance(part.items[0], Polyline):
         return None

@@ -15,7 +15,7 @@ from crankwork.errors import CrankworkError
 from crankwork.formula.known import Delayed, Found, Given, Known, in_order
 from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.script import Script
-from crankwork.kernel.trace import Designs, Trace
+from crankwork.kernel.trace import DesignTraces, Lowering
 from crankwork.locale import Language, Refusal
 from crankwork.locale.numbers import number
 from crankwork.page.alike import is_near, is_same_film, is_title, is_within, scaled, signature, unchanged_curves
@@ -93,9 +93,9 @@ class LivePage:
         self.traces = [dict(result.memory) for result in self._results]
         stated = self._results[0]
         self._angles_at, self._cycle = type(stated.grid).from_degrees, stated.machine.cycle
-        self._designs = Designs(self.traces, moved.designs, ())
+        self._designs = DesignTraces(self.traces, moved.designs, ())
         degrees = np.arange(0.0, self._cycle, _SAMPLE_STEP)
-        self._trace = Trace(self._designs, self._angles_at, degrees, is_shifted=True)
+        self._trace = Lowering(self._designs, self._angles_at, degrees, is_shifted=True)
         self._compared = [*moved.results, *(around or {}).values(), *(further or {}).values()]
         # reductions whose columns are interpolated accurately in every design
         self._converged: set[int] = set()
@@ -136,7 +136,9 @@ class LivePage:
                 is_for_few=True, enough=_FOLLOWED,
             )  # fmt: skip
             designs = self._moved.designs.T
-            for key, values, left in zip(unconverged, kernel(designs).values, kernel.left_out_of(designs), strict=True):
+            for key, values, left in zip(
+                unconverged, kernel(designs).values, kernel.truncation_error_of(designs), strict=True
+            ):
                 is_exact = left <= CONVERGED
                 slack = np.full(is_exact.sum(), _SAME)
                 is_right = self.traces[0][key].varies or self._is_right(key, values[is_exact], is_exact, slack)
@@ -198,7 +200,7 @@ class LivePage:
         for index, known in enumerate(traced):
             name = f"#{index}"
             try:
-                counterparts = self._designs.twins(known.node)
+                counterparts = self._designs.counterparts(known.node)
             except KeyError:
                 names.append("")
                 continue
@@ -409,7 +411,7 @@ class LivePage:
     def _check(self, kernel: Kernel) -> None:
         """Compare compiled values with analyses; exclude single values that differ, raise if a figure uses one."""
         batch = kernel(self._at.T)
-        is_exact, left_out = batch.left_out <= _FOLLOWED, np.maximum(batch.left_out, _SAME)
+        is_exact, left_out = batch.truncation_error <= _FOLLOWED, np.maximum(batch.truncation_error, _SAME)
         self._wrong = {
             key
             for key, values in zip(self._used, batch.values, strict=True)

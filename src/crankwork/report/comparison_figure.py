@@ -13,8 +13,8 @@ from crankwork.locale.numbers import unit_name
 from crankwork.quantities import QUANTITIES
 from crankwork.report.comparison import shown_names
 from crankwork.report.language import displayed, in_own_units, key_unit, symbol
-from crankwork.show.chart import LEGEND_ROW, Box, Graph, Row, limits, over_cycle, round_ticks, sheet
-from crankwork.show.paper import Paper
+from crankwork.show.chart import LEGEND_ROW, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet
+from crankwork.show.paper import Canvas
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
 
 _STEP, _MOST = 1.0, 2000
@@ -66,7 +66,9 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
         ):
             is_last = key == keys[-1] and place > top
             curves = {name: found[column] * scale for column, name in names}
-            graph = _graph(paper, Box(box.left, place, box.width, tall), at, curves, results, language, numbers=is_last)
+            graph = _graph(
+                paper, ChartBox(box.left, place, box.width, tall), at, curves, results, language, numbers=is_last
+            )
             for name, style, colour in _looks(compared.names):
                 if name in curves:
                     graph.curve(name, at, curves[name], style, colour=colour)
@@ -104,8 +106,8 @@ def _x_title(results: Results, language: Language) -> str:
 
 
 def _graph(  # noqa: PLR0913 - place, curves and how they are told
-    paper: Paper,
-    box: Box,
+    paper: Canvas,
+    box: ChartBox,
     at: Array,
     curves: Mapping[str, Array],
     results: Results,

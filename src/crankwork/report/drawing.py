@@ -27,11 +27,11 @@ from crankwork.report.language import called, displayed, for_readers, key_unit, 
 from crankwork.report.linkage_drawing import linkage_sketch
 from crankwork.report.linkage_look import scale_text
 from crankwork.report.sketch import Sketch
-from crankwork.show.film import Told
+from crankwork.show.film import Progress
 from crankwork.show.formats import FILMS, FORMATS
-from crankwork.show.moving import MovingDrawing, Part, part
+from crankwork.show.moving import Animation, Part, part
 from crankwork.show.paper import WIDER, marked
-from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, flowed, line, text_width
+from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, flow_rows, line, text_width
 from crankwork.show.theme import Theme
 
 _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 8.0, 4.5, 80.0
@@ -53,7 +53,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     way: Course | None = None,
     forces: bool = False,
     still: int | None = None,
-) -> MovingDrawing:
+) -> Animation:
     """Return the mechanism of a machine as a drawing that moves, one cycle after the other, or to and fro.
 
     Lengths are to scale and the motion is exact at each frame. Gas, firing and forces are shown of results. Links have
@@ -86,9 +86,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     return _film(sketch, way, seconds, whole, "; ".join(about), keys, language)
 
 
-def film_of(
-    results: Results, *, language: Language = "en", frames: int = 0, forces: bool = False
-) -> MovingDrawing | None:
+def film_of(results: Results, *, language: Language = "en", frames: int = 0, forces: bool = False) -> Animation | None:
     """Return the machine of results as it moves, if it has a mechanism, and one that is driven by what it can turn."""
     if results.machine.transfer is not None or results.machine.turning is not None:
         return None
@@ -108,7 +106,7 @@ def drawn(  # noqa: PLR0913 - what is drawn, and how
     language: Language = "en",
     *,
     forces: bool,
-    told: Told = lambda _: None,
+    told: Progress = lambda _: None,
 ) -> bytes:
     """Return a machine in a format as it moves, or as it stands.
 
@@ -179,7 +177,7 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     about: str,
     keys: Sequence[str],
     language: Language,
-) -> MovingDrawing:
+) -> Animation:
     """Return a sketch on its paper, with a scale and the crank angle beneath it; `keys`: what its forces are."""
     (wide, tall), middle = sketch.high - sketch.low, (sketch.low + sketch.high) / 2
     width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(way, language)
@@ -191,7 +189,7 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
         row = _ROW if taken > width - 2 * _MARGIN else 0.0
         foot += row
         texts = [Text((width / 2, _MARGIN + row), text, TEXT, "middle")]
-        rows = flowed(keys, "; ", (width - 2 * _MARGIN) / WIDER, partial(text_width, height=SMALL))
+        rows = flow_rows(keys, "; ", (width - 2 * _MARGIN) / WIDER, partial(text_width, height=SMALL))
         texts += [Text((_MARGIN, foot + 1.5 + _KEY * at), one, SMALL) for at, one in enumerate(reversed(rows))]
         foot += _KEY * len(rows) + 1.5
         # left out with the forces
@@ -200,7 +198,7 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     placed = sketch.moved(np.array([width / 2, (height + foot) / 2]) - middle)
     frames, items = len(way.degrees) - 1, (*placed.items, *bar)
     ground = Drawing(_title(whole.title if whole else "", language), language, width, height, items)
-    return MovingDrawing(
+    return Animation(
         ground, (*placed.parts, *below), way.degrees, _passage(way, seconds), readouts,
         (width - _MARGIN, _MARGIN), round(frames * _STILL / (way.degrees[-1] or _TURN)) % frames if way.turns else 0,
         way.turns, about, _views(placed, height, language), _choices(placed, language),

@@ -19,7 +19,7 @@ from crankwork.show.chart import (
     BOTTOM,
     CIRCLE,
     TOP,
-    Box,
+    ChartBox,
     Graph,
     Row,
     limits,
@@ -28,9 +28,9 @@ from crankwork.show.chart import (
     sheet,
     small_text,
 )
-from crankwork.show.labels import label_marks, mark
-from crankwork.show.paper import GREY, WIDER, Paper, fitted_lines
-from crankwork.show.place import here, tall
+from crankwork.show.labels import label_marks, mark_point
+from crankwork.show.paper import GREY, WIDER, Canvas, fitted_lines
+from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
 _HEIGHT, _MARGIN, _LOWEST = 340.0, 1.12, 0.55
@@ -63,12 +63,12 @@ class _OverCycle(NamedTuple):
         return cls(mean, *(value for pair in zip(ends, angles, strict=True) for value in pair))
 
 
-def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Paper, Mapping[str, Graph]]:
+def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of all rods on a crankpin: tangential to the right, radial downward, seen from its pole."""
     return _pin_polar(engine, engine.diagrams.crankpin(pin), f"crankpin.{pin}")
 
 
-def _pin_polar(engine: EngineDrawn, load: CrankpinLoad, pin: str = "crankpin") -> tuple[Paper, Mapping[str, Graph]]:
+def _pin_polar(engine: EngineDrawn, load: CrankpinLoad, pin: str = "crankpin") -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw the polar diagram of a crankpin with the inertia force of its rods from its pole."""
     rods, inertia = load.rods, load.inertia
     count = f"{rods} " if rods > 1 else ""
@@ -84,22 +84,22 @@ def _pin_polar(engine: EngineDrawn, load: CrankpinLoad, pin: str = "crankpin") -
     return _polar(engine, "crankpin_load", load.polar, rows if inertia else [], titles, pin)
 
 
-def crankpin_polar_of_one(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def crankpin_polar_of_one(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of the one rod of a crank gear on its crankpin, from the columns of the results."""
     return _pin_polar(engine, crankpin_of_one(engine.results, engine.degrees, engine.columns))
 
 
-def big_end_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def big_end_polar(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of the crankpin on the big-end bearing, in the frame of the rod."""
     return _rod_polar(engine, "big_end_load")
 
 
-def small_end_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def small_end_polar(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of the piston pin on the small-end bearing, in the frame of the rod."""
     return _rod_polar(engine, "small_end_load")
 
 
-def _rod_polar(engine: EngineDrawn, key: str) -> tuple[Paper, Mapping[str, Graph]]:
+def _rod_polar(engine: EngineDrawn, key: str) -> tuple[Canvas, Mapping[str, Graph]]:
     unit = engine.unit(key)
     titles = (
         f"{engine.symbol(key)} {say('drawing.across_rod', engine.language)}, {unit}",
@@ -115,7 +115,7 @@ def _polar(
     rows: list[Row],
     titles: tuple[str, str],
     pin: str = "",
-) -> tuple[Paper, Mapping[str, Graph]]:
+) -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw a polar diagram with its pole, the rays from it, and a circle of the mean load.
 
     `pin`: the row of a crankpin among the loads of bearings. Scales are equal, but for a diagram that would be a stick.
@@ -136,7 +136,7 @@ def _polar(
     if wide > 1:
         rows = [*rows, Row(say("drawing.wider_across", engine.language, factor=wide), width=0.0)]
     # lower than that nobody tells its marks apart
-    paper, box = sheet(_HEIGHT * max(1.0, _LOWEST / here().tall), rows)
+    paper, box = sheet(_HEIGHT * max(1.0, _LOWEST / current_layout().tall), rows)
     # a circle where scales are equal, which would be an ellipse elsewhere
     radius = float(engine.shown(key, mean)) if wide == 1 else 0.0
     ends = np.array([0.0, *(one + side * radius for one in pole for side in (-1.0, 1.0))])
@@ -199,16 +199,16 @@ def _wider(across: float, along: float) -> int:
     """Return how many times wider a diagram is drawn than it is, 1 unless it would be a stick."""
     share = across / along if along else 1.0
     # on a sheet both scales are round only where one is ten times the other
-    factors = (10,) if here().is_sheet else (50, 20, 10, 5)
+    factors = (10,) if current_layout().is_sheet else (50, 20, 10, 5)
     return 1 if share > _STICK else next((one for one in factors if one * share <= 0.8), factors[-1])
 
 
-def _equal_scales(box: Box, x: Array, y: Array) -> tuple[Box, tuple[float, float], tuple[float, float]]:
+def _equal_scales(box: ChartBox, x: Array, y: Array) -> tuple[ChartBox, tuple[float, float], tuple[float, float]]:
     """Return a box, and ends of the scales that hold the points in it, equal both ways, the vertical one downward."""
     middle = (float(x.min()) + float(x.max())) / 2, (float(y.min()) + float(y.max())) / 2
     wide, high = float(np.ptp(x)) / box.width, float(np.ptp(y)) / box.height
     scale = _MARGIN * max(wide, high) or 1.0
-    if here().is_sheet:
+    if current_layout().is_sheet:
         # of paper beside it other figures have the use
         most = max(wide, high, 1e-30)
         width, height = box.width * wide / most, box.height * high / most
@@ -218,7 +218,7 @@ def _equal_scales(box: Box, x: Array, y: Array) -> tuple[Box, tuple[float, float
     return box, (middle[0] - half[0], middle[0] + half[0]), (middle[1] + half[1], middle[1] - half[1])
 
 
-def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def crankpin_load(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the size of the load on every unlike crankpin over the crank angle, mean and extremes of the first."""
     degrees, loads = engine.diagrams.loads
     sizes = {pin: engine.shown("crankpin_load", one.resultant) for pin, one in loads.crankpins.items()}
@@ -255,7 +255,7 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     level = float(engine.shown("crankpin_load", found.mean))
     graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.8)
     for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min)):
-        mark(graph, name, angle, float(engine.shown("crankpin_load", value)), name)
+        mark_point(graph, name, angle, float(engine.shown("crankpin_load", value)), name)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(
         engine.title("crankpin_load")
@@ -265,19 +265,19 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     return paper, {"crankpin_load": graph}
 
 
-def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def main_journal_polar(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the loads of all main journals in the frame of the shaft, side by side on equal scales."""
     diagrams = engine.diagrams.mains
     most = max(float(np.hypot(one.across, one.down).max()) for one in diagrams)
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
     columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
     lines = -(-len(diagrams) // columns)
-    side, gap = (here().width - _BESIDE - here().right + 22) / columns - 22, (22.0, 26.0)
-    paper = Paper(here().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
+    side, gap = (current_layout().width - _BESIDE - current_layout().right + 22) / columns - 22, (22.0, 26.0)
+    paper = Canvas(current_layout().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
     for at, diagram in enumerate(diagrams):
         column, line = at % columns, at // columns
-        box = Box(_BESIDE + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
+        box = ChartBox(_BESIDE + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
         has_below = at + columns >= len(diagrams)
         small_text(paper, box.left + side / 2, box.top - 5, row_name(f"main_journal.{at + 1}", engine.language))
         graphs[str(at + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
@@ -290,7 +290,7 @@ def main_journal_polar(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
 
 
 def _small_polar(
-    engine: EngineDrawn, paper: Paper, box: Box, diagram: PolarDiagram, reach: float, *, labels: tuple[bool, bool]
+    engine: EngineDrawn, paper: Canvas, box: ChartBox, diagram: PolarDiagram, reach: float, *, labels: tuple[bool, bool]
 ) -> Graph:
     """Draw one of several polar diagrams, crank 1 upward, marked every 90 degrees."""
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
@@ -319,35 +319,37 @@ _HATCH = 4.0
 _LARGEST = 270.0
 
 
-def crankpin_wear(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def crankpin_wear(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the wear rings of all unlike crankpins."""
     return _rings(engine, "crankpin_wear", "crankpin")
 
 
-def main_wear(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def main_wear(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the wear rings of all main journals."""
     return _rings(engine, "main_wear", "main_journal")
 
 
-def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mapping[str, Graph]]:
+def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw the rings of a listing side by side, depths on one scale."""
     angles, rings = wear_rings(engine.results, listing)
     rings = {name: one._replace(sums=engine.shown("wear_sum", one.sums)) for name, one in rings.items()}
     across = len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3
     lines = -(-len(rings) // across)
     side = min(
-        (here().width - 24 - (across - 1) * _GAP) / across, tall(290.0), _LARGEST if here().is_sheet else math.inf
+        (current_layout().width - 24 - (across - 1) * _GAP) / across,
+        scaled_height(290.0),
+        _LARGEST if current_layout().is_sheet else math.inf,
     )
-    start = (here().width - across * side - (across - 1) * _GAP) / 2
+    start = (current_layout().width - across * side - (across - 1) * _GAP) / 2
     # across a ring its angle would stand on the worn surface
     below = 10.0 * any(one.hole.arc < 360 for one in rings.values())
     head = (_HEAD if len(rings) > 1 else 0.0) + below
-    paper = Paper(here().width, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
+    paper = Canvas(current_layout().width, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
     deepest = max(float(one.sums.max()) for one in rings.values()) or 1.0
     graphs = {}
     for at, (name, one) in enumerate(rings.items()):
         top = TOP + (at // across) * (side + head + _GAP) + head
-        box = Box(start + (at % across) * (side + _GAP), top, side, side)
+        box = ChartBox(start + (at % across) * (side + _GAP), top, side, side)
         graphs[name] = _ring(engine, paper, box, angles, one, deepest)
         if len(rings) > 1:
             small_text(paper, box.left + side / 2, top - 4 - below, row_name(f"{thing}.{name}", engine.language))
@@ -359,13 +361,13 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Paper, Mappin
     largest = say("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
     text = f"{engine.symbol('wear_sum')} – {largest}; {say('drawing.worn', engine.language)}"
     frame = say("drawing.crank_up" if thing == "crankpin" else "drawing.crank_one", engine.language)
-    rows = [row for one in (text, frame) for row in fitted_lines(one, 8, here().width / WIDER)]
+    rows = [row for one in (text, frame) for row in fitted_lines(one, 8, current_layout().width / WIDER)]
     for at, row in enumerate(rows):
-        paper.text(here().width / 2, paper.height - 35 + 12 * at, row, size=8, anchor="middle")
+        paper.text(current_layout().width / 2, paper.height - 35 + 12 * at, row, size=8, anchor="middle")
     return paper, graphs
 
 
-def _ring(engine: EngineDrawn, paper: Paper, box: Box, angles: Array, ring: WearRing, deepest: float) -> Graph:
+def _ring(engine: EngineDrawn, paper: Canvas, box: ChartBox, angles: Array, ring: WearRing, deepest: float) -> Graph:
     """Draw a journal of radius 1, what is worn off it, its numbered rays and its oil hole."""
     reach = 1 + _ROOM / (box.width / 2 - _ROOM)
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)

@@ -10,10 +10,10 @@ from crankwork.analysis import Array
 from crankwork.analysis.diagrams import BrixPoints, brix_points, tangent_ends, tolle_parabola, tolle_points
 from crankwork.locale import say
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.show.chart import Box, Graph, Row, limits, round_ticks, sheet
+from crankwork.show.chart import ChartBox, Graph, Row, limits, round_ticks, sheet
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import GREY, Paper
-from crankwork.show.place import here, tall
+from crankwork.show.paper import GREY, Canvas
+from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
 
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
@@ -21,7 +21,7 @@ _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
 
 
-def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def brix(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return Brix's circle beside the displacement over the crank angle, on one vertical scale."""
     lengths = engine.results.solved.lengths
     degrees, radius = engine.degrees, float(engine.shown("piston_displacement", lengths.crank_radius))
@@ -39,14 +39,14 @@ def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
             width=0.0,
         ),
     ]
-    side = min(tall(_CIRCLE), 0.45 * here().width)
+    side = min(scaled_height(_CIRCLE), 0.45 * current_layout().width)
     height = side * max(1.0, float(exact.max()) / (2 * radius))
-    paper, box = sheet((height + _MARGIN - 10) / here().tall, rows)
+    paper, box = sheet((height + _MARGIN - 10) / current_layout().tall, rows)
     top = box.top + _MARGIN - 14
     left = _MARGIN + side + _MARGIN - 6 + _TITLES
-    graph_box = Box(left, top, here().width - left - here().right, height)
+    graph_box = ChartBox(left, top, current_layout().width - left - current_layout().right, height)
     graph = Graph(paper, graph_box, (0.0, 360.0), (float(exact.max()), 0.0), engine.language, "crank_angle")
-    ring = Graph(paper, Box(_MARGIN, top, side, side), (-radius, radius), (-radius, radius), engine.language)
+    ring = Graph(paper, ChartBox(_MARGIN, top, side, side), (-radius, radius), (-radius, radius), engine.language)
     marks = np.arange(0.0, 360.0, _STEP)
     points = brix_points(lengths, marks)
     _projections(ring, graph, points, radius, marks)
@@ -60,8 +60,8 @@ def brix(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     graph.curves["construction"] = degrees, radius * (1 - circle.up)
     graph.x_title(engine.title("crank_angle"))
     title = engine.title("piston_displacement")
-    graph.shows(title)
-    paper.text(here().width - here().right, top - 10, title, anchor="end")
+    graph.set_quantity(title)
+    paper.text(current_layout().width - current_layout().right, top - 10, title, anchor="end")
     return paper, {"circle": ring, "displacement": graph}
 
 
@@ -82,7 +82,7 @@ def _rays(engine: EngineDrawn, ring: Graph, points: BrixPoints, radius: float, m
         ring.paper.dot(float(a), float(b), 1.4)
         out = np.array([a, b]) - centre
         place = np.array(centre) + out * (1 + 12 / float(np.hypot(*out)))
-        ring.boxed(float(place[0]), float(place[1]) + 2.8, engine.number(float(mark)), "middle", 7.5)
+        ring.text_on_white(float(place[0]), float(place[1]) + 2.8, engine.number(float(mark)), "middle", 7.5)
     label_marks(ring.paper, [("O′", *start), ("O", *centre)], dot=0.0, frame=ring.box)
     for at in (start, centre):
         ring.paper.dot(*at, 2.0, fill="#ffffff", width=0.9)
@@ -98,7 +98,7 @@ def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, m
             graph.paper.dot(end, y, 1.4)
 
 
-def tolle(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def tolle(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the acceleration over the displacement, and the tangents that envelop it by Tolle's construction."""
     lengths = engine.results.solved.lengths
     ratio, radius = float(lengths.rod_ratio), float(engine.shown("piston_displacement", lengths.crank_radius))

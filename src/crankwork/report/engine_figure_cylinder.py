@@ -14,10 +14,10 @@ from crankwork.analysis import Array
 from crankwork.locale import say
 from crankwork.quantities import QUANTITIES
 from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import Paper
-from crankwork.show.place import here, tall
+from crankwork.show.paper import Canvas
+from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Style
 
 _STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
@@ -35,14 +35,14 @@ class _Line(NamedTuple):
     style: Style = SOLID
 
 
-def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def kinematics(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return three panels over one revolution; an approximate method shows the two orders it is made of."""
     turn = engine.degrees <= 360
     has_orders = "piston_velocity_first_order" in engine.columns
     gap = _PANEL_GAP if has_orders else 20.0
     head = 16.0 if has_orders else 4.0
-    panel = tall(_PANEL)
-    paper = Paper(here().width, TOP + head + 3 * panel + 2 * gap + BOTTOM)
+    panel = scaled_height(_PANEL)
+    paper = Canvas(current_layout().width, TOP + head + 3 * panel + 2 * gap + BOTTOM)
     graphs: dict[str, Graph] = {}
     top = TOP + head
     for row, noun in enumerate(("displacement", "velocity", "acceleration")):
@@ -50,7 +50,7 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         if has_orders:
             keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
         curves = [_Line(key, engine.values(key)[turn], style) for key, style in keys.items()]
-        box = Box(here().left, top, here().inner, panel)
+        box = ChartBox(current_layout().left, top, current_layout().inner, panel)
         ends = limits(*(one.values for one in curves))
         graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
         for at, one in enumerate(curves):
@@ -66,7 +66,7 @@ def kinematics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     return paper, graphs
 
 
-def pressure(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def pressure(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
     degrees, values = engine.degrees, engine.values("gas_pressure")
     others = engine.other_pressures
@@ -112,7 +112,7 @@ def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]]) -> Non
         label_marks(graph.paper, [(name, *graph.point(x, y)) for name, x, y in points], frame=graph.box)
 
 
-def piston_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def piston_forces(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it."""
     styles = {"gas_force": DASHED, "inertia_force": DASH_DOT, "weight_force": DOTTED}
     parts = {key: style for key, style in styles.items() if key in engine.columns}
@@ -121,17 +121,17 @@ def piston_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     return _forces(engine, "piston_forces", {**parts, "piston_force": SOLID})
 
 
-def rod_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def rod_forces(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the force along the rod and the side force."""
     return _forces(engine, "rod_forces", {"rod_force": SOLID, "side_force": DASHED})
 
 
-def crankpin_forces(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def crankpin_forces(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the tangential and the radial force on the crankpin."""
     return _forces(engine, "crankpin_forces", {"tangential_force": SOLID, "radial_force": DASHED})
 
 
-def _forces(engine: EngineDrawn, name: str, keys: Mapping[str, Style]) -> tuple[Paper, Mapping[str, Graph]]:
+def _forces(engine: EngineDrawn, name: str, keys: Mapping[str, Style]) -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw columns of forces over the cycle."""
     curves = [_Line(key, engine.values(key), style) for key, style in keys.items()]
     title = f"{', '.join(engine.symbol(key) for key in keys)}, {engine.unit('piston_force')}"
@@ -140,7 +140,7 @@ def _forces(engine: EngineDrawn, name: str, keys: Mapping[str, Style]) -> tuple[
 
 def _over_cycle(
     engine: EngineDrawn, name: str, curves: Sequence[_Line], rows: Sequence[Row], title: str
-) -> tuple[Paper, Mapping[str, Graph]]:
+) -> tuple[Canvas, Mapping[str, Graph]]:
     paper, box = banded_sheet(engine, _HEIGHT, rows)
     graph = over_cycle(paper, box, limits(*(one.values for one in curves)), engine.cycle, engine.language)
     for one in curves:
@@ -151,7 +151,7 @@ def _over_cycle(
     return paper, {name: graph}
 
 
-def torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the crank torque of one cylinder and its mean."""
     values, mean = engine.values("crank_torque"), engine.results.summary["mean_torque"]
     if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
@@ -171,7 +171,7 @@ _TWO_STROKES, _COMPRESSOR = ("expansion", "compression"), ("suction", "delivery"
 _FOUR_STROKE = 720.0
 
 
-def banded_sheet(engine: EngineDrawn, height: float, rows: Sequence[Row] = ()) -> tuple[Paper, Box]:
+def banded_sheet(engine: EngineDrawn, height: float, rows: Sequence[Row] = ()) -> tuple[Canvas, ChartBox]:
     """Return paper with a legend and the place for a graph with a band above it. [pt]"""
     if not _names(engine):
         return sheet(height, rows)
@@ -226,7 +226,7 @@ _STARTS, _NUMBERS = (0.36, 0.44, 0.52), 36.0
 _LOWEST = 60.0
 
 
-def indicator(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def indicator(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known."""
     space = engine.results.solved.space
     volume, values = engine.values("cylinder_volume"), engine.values("gas_pressure")
@@ -265,7 +265,7 @@ def _inset(engine: EngineDrawn, graph: Graph, volume: Array, values: Array) -> G
     centre = float(np.max(x))
     for start in _STARTS:
         begin = left + start * width
-        box = Box(begin, top + 0.05 * height, centre - 8 - begin, 0.36 * height)
+        box = ChartBox(begin, top + 0.05 * height, centre - 8 - begin, 0.36 * height)
         room = (x > box.left - _NUMBERS) & (y < box.top + box.height + 10) & (x < box.left + box.width)
         if not np.any(room):
             break

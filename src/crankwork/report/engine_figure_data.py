@@ -18,8 +18,8 @@ from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.figure_data import figure_title
 from crankwork.report.language import displayed, key_unit
 from crankwork.report.summary import results_method
-from crankwork.show.chart import Graph, sign
-from crankwork.show.paper import Paper
+from crankwork.show.chart import Graph, write_method
+from crankwork.show.paper import Canvas
 from crankwork.show.scene import Drawing
 
 
@@ -97,11 +97,11 @@ class EngineDrawn:
         """Return a number as the language prints it."""
         return number(float(f"{value:.{digits}g}"), self.language, digits=max(digits, 9))
 
-    def finished(self, name: str, paper: Paper, remark: str = "", *, forces: bool = False) -> Drawing:
+    def finished(self, name: str, paper: Canvas, remark: str = "", *, forces: bool = False) -> Drawing:
         """Return a figure, with the method that made it."""
         if forces and self.per_area:
             remark = "; ".join(one for one in (remark, say("report.per_area", self.language)) if one)
-        sign(paper, results_method(self.results, self.language), remark)
+        write_method(paper, results_method(self.results, self.language), remark)
         return paper.drawing(figure_title(name, self.language), self.language)
 
 

@@ -37,10 +37,10 @@ from crankwork.report.engine_figure_orders import (
 from crankwork.report.engine_figure_torque import accumulated_torque, crank_speed, excess_work, total_torque
 from crankwork.report.figure_data import kind_of
 from crankwork.show.chart import Graph
-from crankwork.show.paper import Paper
+from crankwork.show.paper import Canvas
 from crankwork.show.scene import Drawing
 
-Draw = Callable[[EngineDrawn], tuple[Paper, Mapping[str, Graph]]]
+Draw = Callable[[EngineDrawn], tuple[Canvas, Mapping[str, Graph]]]
 # what draws it, and the column it needs
 _ONE_CYLINDER: dict[str, tuple[Draw, str]] = {
     "kinematics": (kinematics, "piston_displacement"),

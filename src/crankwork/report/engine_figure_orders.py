@@ -12,12 +12,12 @@ from crankwork.analysis.engine_diagrams import Locus
 from crankwork.locale import say
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.language import units_of
-from crankwork.show.chart import BOTTOM, TOP, Box, Graph, round_ticks, small_text
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, round_ticks, small_text
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import BLACK, WIDER, Paper, text_width
-from crankwork.show.place import here, tall
+from crankwork.show.paper import BLACK, WIDER, Canvas, text_width
+from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID
-from crankwork.units import shown_in
+from crankwork.units import use_units
 
 # between values of neighbouring bars [pt]
 _BETWEEN = 5.0
@@ -34,7 +34,7 @@ class _Bars(NamedTuple):
     heights: Mapping[float, float]
 
 
-def _fill(paper: Paper, corners: tuple[float, float, float, float], kind: int) -> None:
+def _fill(paper: Canvas, corners: tuple[float, float, float, float], kind: int) -> None:
     """Draw a bar from left, top, right, bottom [pt]: white, hatched, grey, hatched back, black or hatched across."""
     left, top, right, bottom = corners
     fill = ("#ffffff", "#ffffff", "#b0b0b0", "#ffffff", BLACK, "#ffffff")[kind]
@@ -50,7 +50,12 @@ def _fill(paper: Paper, corners: tuple[float, float, float, float], kind: int) -
 
 
 def _bar_graph(
-    engine: EngineDrawn, paper: Paper, box: Box, bars: Sequence[_Bars], orders: Sequence[float], fills: Sequence[int]
+    engine: EngineDrawn,
+    paper: Canvas,
+    box: ChartBox,
+    bars: Sequence[_Bars],
+    orders: Sequence[float],
+    fills: Sequence[int],
 ) -> Graph:
     """Draw groups of bars over the orders."""
     most = max((max(one.heights.values(), default=0.0) for one in bars), default=0.0) or 1.0
@@ -83,7 +88,7 @@ def _bar_graph(
     return graph
 
 
-def _value(paper: Paper, middle: float, bottom: float, text: str, *, is_upright: bool) -> None:
+def _value(paper: Canvas, middle: float, bottom: float, text: str, *, is_upright: bool) -> None:
     """Write a value over its bar, upward where bars are narrower than their values."""
     if is_upright:
         paper.upward_text(middle + 2.5, bottom - WIDER * text_width(text, 7.0) / 2, text, size=7.0)
@@ -91,29 +96,29 @@ def _value(paper: Paper, middle: float, bottom: float, text: str, *, is_upright:
         paper.text(middle, bottom, text, size=7.0, anchor="middle")
 
 
-def _swatches(paper: Paper, texts: Sequence[str], fills: Sequence[int]) -> None:
+def _swatches(paper: Canvas, texts: Sequence[str], fills: Sequence[int]) -> None:
     """Write the legend of bars above the graph, on as many lines as they need."""
-    left, top = here().left, TOP - 4
+    left, top = current_layout().left, TOP - 4
     for text, fill in zip(texts, fills, strict=True):
         width = WIDER * text_width(text, 8.5) + 26
-        if left > here().left and left + width > here().width - 4:
-            left, top = here().left, top + 13.4
+        if left > current_layout().left and left + width > current_layout().width - 4:
+            left, top = current_layout().left, top + 13.4
         _fill(paper, (left, top + 1.5, left + 13, top + 9.5), fill)
         paper.text(left + 18, top + 9, text, size=8.5)
         left += width
 
 
 def _swatch_lines(texts: Sequence[str]) -> int:
-    left, lines = here().left, 1
+    left, lines = current_layout().left, 1
     for text in texts:
         width = WIDER * text_width(text, 8.5) + 26
-        if left > here().left and left + width > here().width - 4:
-            left, lines = here().left, lines + 1
+        if left > current_layout().left and left + width > current_layout().width - 4:
+            left, lines = current_layout().left, lines + 1
         left += width
     return lines
 
 
-def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return free forces and moments per order: of each kind of mass, and what is left of all together."""
     balance, language = engine.diagrams.balance, engine.language
     kinds = {
@@ -135,27 +140,27 @@ def balance_orders(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     panels = [one for one in sizes if most[one] > _free(engine, one)] or ["force"]
     texts = [say(f"report.{kind}", language) for kind in kinds]
     head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
-    height = tall(150.0)
-    paper = Paper(here().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
+    height = scaled_height(150.0)
+    paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
     _swatches(paper, texts, fills)
     for panel in (one for one in sizes if one not in panels):
         key = f"free_{panel}"
-        with shown_in(units_of(engine.results, key, most[panel])):
+        with use_units(units_of(engine.results, key, most[panel])):
             # of forces that cancel rounding is left
             size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
         free = f"{say(f'drawing.{key}', language)} {engine.symbol(key)}"
         text = say("drawing.hardly_free", language, free=free, size=size)
-        paper.text(here().left, TOP + head - 9.4, text, size=8.5)
+        paper.text(current_layout().left, TOP + head - 9.4, text, size=8.5)
     orders = [float(one.order) for one in balance.reciprocating]
     graphs: dict[str, Graph] = {}
     for at, panel in enumerate(panels):
         key = f"free_{panel}"
-        with shown_in(units_of(engine.results, key, most[panel])):
+        with use_units(units_of(engine.results, key, most[panel])):
             bars = [
                 _Bars(kind, {order: float(engine.shown(key, value)) for order, value in some.items()})
                 for kind, some in sizes[panel].items()
             ]
-            box = Box(here().left, TOP + head + at * (height + 28), here().inner, height)
+            box = ChartBox(current_layout().left, TOP + head + at * (height + 28), current_layout().inner, height)
             graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
             graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
     graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
@@ -177,24 +182,24 @@ def has_free_forces(engine: EngineDrawn) -> bool:
     return bool(engine.diagrams.loci)
 
 
-def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def balance_ellipses(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the closed curves in which the free forces of each order run, before and after balancing."""
     loci, language = engine.diagrams.loci, engine.language
     is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
     rows = [say("drawing.before", language), say("drawing.after", language)] if is_balanced else []
     columns = 2 if len(loci) > 1 else 1
     lines = -(-len(loci) // columns)
-    side, gap = (tall(170.0), 56.0) if columns == 2 else (tall(240.0), 0.0)
+    side, gap = (scaled_height(170.0), 56.0) if columns == 2 else (scaled_height(240.0), 0.0)
     head = 13.4 * len(rows) + (5 if rows else 0) + 12
-    start = (here().width - columns * side - (columns - 1) * gap) / 2 + 16
-    paper = Paper(here().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
+    start = (current_layout().width - columns * side - (columns - 1) * gap) / 2 + 16
+    paper = Canvas(current_layout().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
     for at, text in enumerate(rows):
-        left, style = here().left, DASHED if at == 0 else SOLID
+        left, style = current_layout().left, DASHED if at == 0 else SOLID
         paper.line([left, left + 20], [TOP + 2 + 13.4 * at] * 2, style=style, width=1.2, name="legend")
         paper.text(left + 27, TOP + 5 + 13.4 * at, text, size=8.5)
     graphs: dict[str, Graph] = {}
     for at, (order, (before, after)) in enumerate(loci.items()):
-        box = Box(start + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + 52), side, side)
+        box = ChartBox(start + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + 52), side, side)
         graphs[str(order)] = _locus(engine, paper, box, before, after, is_balanced=is_balanced)
         small_text(paper, box.left + side / 2, box.top - 5, say("report.order", language, order=order))
         title = f"{engine.symbol('free_force')}, {engine.unit('free_force')}"
@@ -204,7 +209,9 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     return paper, graphs
 
 
-def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Locus, after: Locus, *, is_balanced: bool) -> Graph:
+def _locus(
+    engine: EngineDrawn, paper: Canvas, box: ChartBox, before: Locus, after: Locus, *, is_balanced: bool
+) -> Graph:
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
     aside = max(float(np.max(np.abs(one.across))) for one in (before, after))
@@ -228,7 +235,7 @@ def _locus(engine: EngineDrawn, paper: Paper, box: Box, before: Locus, after: Lo
     return graph
 
 
-def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def torque_harmonics(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the amplitudes of the harmonics of the torque of one cylinder and of all as bars over the orders."""
     columns = engine.results.listings["torque_harmonics"].columns
     orders = columns["harmonic_order"].tolist()
@@ -240,13 +247,13 @@ def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
         for name, key in kinds.items()
     ]
     texts = [f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" for name, key in kinds.items()]
-    height = tall(200.0)
-    paper = Paper(here().width, TOP + 19 + height + BOTTOM)
+    height = scaled_height(200.0)
+    paper = Canvas(current_layout().width, TOP + 19 + height + BOTTOM)
     _swatches(paper, texts, [0, 4][: len(texts)])
     graph = _bar_graph(
         engine,
         paper,
-        Box(here().left, TOP + 19, here().inner, height),
+        ChartBox(current_layout().left, TOP + 19, current_layout().inner, height),
         bars,
         orders,
         [0, 4],
@@ -257,25 +264,27 @@ def torque_harmonics(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     return paper, {"torque_harmonics": graph}
 
 
-def phase_stars(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def phase_stars(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the phase stars of the orders up to 6, equal directions end to end, with the sum of each."""
     stars = engine.diagrams.phase_stars
     columns = 4 if len(stars) > 6 else 3
     lines = -(-len(stars) // columns)
-    side, gap, head = (here().width - 24) / columns - 8, 8.0, 14.0
-    paper = Paper(here().width, TOP + lines * (side + head) + 30)
+    side, gap, head = (current_layout().width - 24) / columns - 8, 8.0, 14.0
+    paper = Canvas(current_layout().width, TOP + lines * (side + head) + 30)
     graphs: dict[str, Graph] = {}
     for at, star in enumerate(stars):
-        box = Box(12 + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + head), side, side)
+        box = ChartBox(12 + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + head), side, side)
         order = engine.number(star.order)
         graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
         text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
         small_text(paper, box.left + side / 2, box.top - 3, text)
-    paper.text(here().width / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle")
+    paper.text(
+        current_layout().width / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle"
+    )
     return paper, graphs
 
 
-def _star(paper: Paper, box: Box, vectors: Sequence[complex], total: complex, engine: EngineDrawn) -> Graph:
+def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: complex, engine: EngineDrawn) -> Graph:
     """Draw one phase star, its reference direction upward and angles with the rotation, clockwise."""
     directions: dict[tuple[float, float], list[int]] = {}
     for number, vector in enumerate(vectors, start=1):

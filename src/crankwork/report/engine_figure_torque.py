@@ -11,10 +11,10 @@ from crankwork.locale import say
 from crankwork.report.engine_figure_cylinder import firings
 from crankwork.report.engine_figure_data import EngineDrawn
 from crankwork.report.language import row_name
-from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, limits, over_cycle, sheet, small_text
-from crankwork.show.labels import label_marks, mark
-from crankwork.show.paper import BLACK, GREY, Paper
-from crankwork.show.place import here, tall
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, sheet, small_text
+from crankwork.show.labels import label_marks, mark_point
+from crankwork.show.paper import BLACK, GREY, Canvas
+from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Style
 
 _MANY, _FIRING = 8, 15.0
@@ -25,7 +25,7 @@ _DASHES: tuple[Style, ...] = (DOTTED, DASH_DOT, (3.0, 2.0), (12.0, 2.0, 1.5, 2.0
 _LIGHTER = "#808080"
 
 
-def total_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def total_torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the torque of each cylinder, thin, and their sum with its mean."""
     language, torque = engine.language, engine.diagrams.torque
     each = engine.shown("crank_torque", engine.diagrams.torques)
@@ -75,15 +75,15 @@ def _of_cylinders(engine: EngineDrawn, count: int) -> list[Row]:
     return rows
 
 
-def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def accumulated_torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the torque on every main journal that carries some, in panels of one scale."""
     journals = engine.shown("journal_torque", engine.diagrams.journal_torques)
-    height = tall(max(52.0, min(110.0, 560.0 / len(journals))))
-    paper = Paper(here().width, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
+    height = scaled_height(max(52.0, min(110.0, 560.0 / len(journals))))
+    paper = Canvas(current_layout().width, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
     graphs, ends, top = {}, limits(journals), TOP
     for at, values in enumerate(journals):
         is_last = at == len(journals) - 1
-        box = Box(here().left, top, here().inner, height)
+        box = ChartBox(current_layout().left, top, current_layout().inner, height)
         graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=is_last)
         graph.curve(f"journal_{at + 2}", engine.diagrams.degrees, values)
         graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{at + 2}$, {engine.unit('journal_torque')}")
@@ -95,16 +95,16 @@ def accumulated_torque(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]
     return paper, graphs
 
 
-def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def excess_work(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the torque less its mean, hatched where it gives energy, and below it the energy with its extremes."""
     language, excess = engine.language, engine.diagrams.torque.excess
     angle = np.radians(engine.diagrams.degrees)
     surplus = engine.shown("total_torque", engine.diagrams.torque.total(angle) - excess.mean_torque)
     surplus[-1] = surplus[0]
     energy = engine.shown("kinetic_energy_change", excess.curve(angle))
-    upper, lower = tall(120.0), tall(150.0)
-    paper = Paper(here().width, TOP + upper + _PANEL_GAP + lower + BOTTOM)
-    box = Box(here().left, TOP, here().inner, upper)
+    upper, lower = scaled_height(120.0), scaled_height(150.0)
+    paper = Canvas(current_layout().width, TOP + upper + _PANEL_GAP + lower + BOTTOM)
+    box = ChartBox(current_layout().left, TOP, current_layout().inner, upper)
     torque = over_cycle(paper, box, limits(surplus), engine.cycle, language, numbers=False)
     _hatch(torque, engine.diagrams.degrees, surplus)
     torque.curve("surplus", engine.diagrams.degrees, surplus)
@@ -121,7 +121,7 @@ def excess_work(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     for name, value, at in zip(("max", "min"), unit_less, (found.at_largest, found.at_least), strict=True):
         graph.level(value, DASH_DOT, f"level_{name}")
         sign = f"{engine.symbol('kinetic_energy_change')[:-1]}_{name}$"
-        mark(graph, name, float(np.degrees(at)), value, sign)
+        mark_point(graph, name, float(np.degrees(at)), value, sign)
     at = 0.5 * engine.cycle * (0.02 if np.degrees(found.at_largest) > 0.1 * engine.cycle else 1.9)
     _span(graph, at, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
     engine.name_axes(graph, "crank_angle", "kinetic_energy_change")
@@ -146,7 +146,7 @@ def _span(graph: Graph, at: float, ends: list[float], text: str) -> None:
     graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if at < graph.x[1] / 2 else "end")
 
 
-def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
+def crank_speed(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the angular speed over the cycle with its mean and its extremes."""
     language, speed = engine.language, engine.diagrams.torque.speed
     if speed is None:
@@ -170,6 +170,6 @@ def crank_speed(engine: EngineDrawn) -> tuple[Paper, Mapping[str, Graph]]:
     ends = speed.extremes
     for name, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
         text = f"{engine.symbol('speed')[:-1]}_{name}$ = {engine.value('crank_speed', value, 5)}"
-        mark(graph, name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text)
+        mark_point(graph, name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text)
     engine.name_axes(graph, "crank_angle", "crank_speed")
     return paper, {"crank_speed": graph}

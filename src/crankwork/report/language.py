@@ -13,7 +13,7 @@ import numpy as np
 from crankwork.locale import decimal, has_text, say
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
-from crankwork.units import Shown, from_si, shown_in
+from crankwork.units import DisplayUnits, from_si, use_units
 
 if TYPE_CHECKING:
     from crankwork.analysis import Array, Results
@@ -53,7 +53,7 @@ def in_own_units(function: Callable[Concatenate[Results, P], R]) -> Callable[Con
 
     @functools.wraps(function)
     def shown(results: Results, /, *args: P.args, **options: P.kwargs) -> R:
-        with shown_in(results.machine.units):
+        with use_units(results.machine.units):
             return function(results, *args, **options)
 
     return shown
@@ -67,7 +67,7 @@ _LONG = 5e3
 _SUMS = ("crankpin_wear", "main_wear")
 
 
-def reader_units(results: Results) -> Shown:
+def reader_units(results: Results) -> DisplayUnits:
     """Return the units that a reader is shown: no force of 10000 N where all of them are told in kN."""
     listed = (one.columns for name, one in results.listings.items() if name not in _SUMS)
     largest = dict.fromkeys(_LARGER, 0.0)
@@ -77,13 +77,13 @@ def reader_units(results: Results) -> Shown:
             known = values[np.isfinite(values)]
             largest[unit] = max(largest[unit], float(np.max(np.abs(known), initial=0.0)))
     shown = tuple((unit, larger) for unit, (larger, many) in _LARGER.items() if largest[unit] >= many)
-    return Shown(results.machine.units, shown)
+    return DisplayUnits(results.machine.units, shown)
 
 
-def units_of(results: Results, key: str, largest: float) -> Shown:
+def units_of(results: Results, key: str, largest: float) -> DisplayUnits:
     """Return the units of a drawing of one quantity by its largest value: neither 0.0015 kN nor 30000 N m. [SI]"""
     metric = QUANTITIES[key].metric
-    return Shown(results.machine.units, ((metric, _LARGER[metric][0]),) if largest >= _LONG else ())
+    return DisplayUnits(results.machine.units, ((metric, _LARGER[metric][0]),) if largest >= _LONG else ())
 
 
 def for_readers(function: Callable[Concatenate[Results, P], R]) -> Callable[Concatenate[Results, P], R]:
@@ -91,7 +91,7 @@ def for_readers(function: Callable[Concatenate[Results, P], R]) -> Callable[Conc
 
     @functools.wraps(function)
     def shown(results: Results, /, *args: P.args, **options: P.kwargs) -> R:
-        with shown_in(reader_units(results)):
+        with use_units(reader_units(results)):
             return function(results, *args, **options)
 
     return shown

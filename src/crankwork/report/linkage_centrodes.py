@@ -17,10 +17,10 @@ from crankwork.quantities import QUANTITIES
 from crankwork.report.figure_data import figure_title
 from crankwork.report.language import symbol
 from crankwork.report.linkage_look import Style, displayed_values, position_text
-from crankwork.show.chart import DOT, Box, Graph, Row, round_ticks, sheet, sign
+from crankwork.show.chart import DOT, ChartBox, Graph, Row, round_ticks, sheet, write_method
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import Paper, plain
-from crankwork.show.place import tall
+from crankwork.show.paper import Canvas, plain
+from crankwork.show.place import scaled_height
 from crankwork.show.scene import SOLID, Drawing
 
 _HIGH, _AROUND, _LINK = 300.0, 0.6, "#8c8c8c"
@@ -63,7 +63,7 @@ def centrodes(
             ),
             Row(f"${centre}$ – {say('drawing.instant_centre', style.language)}", DOT),
         ]
-        paper, box = sheet(tall(_HIGH), rows)
+        paper, box = sheet(scaled_height(_HIGH), rows)
         graph = _graph(paper, box, np.vstack([one.place * scale for one in moved.points.values()]), style)
         _linkage(graph, skeleton(mechanism, style.links).members, places)
         for key, path, dashes in (("fixed_centrode", fixed, SOLID), ("moving_centrode", rolling, _ROLLING)):
@@ -76,7 +76,7 @@ def centrodes(
         unit = unit_name(QUANTITIES["point_x"].unit, style.language)
         graph.x_title(f"$x$, {unit}")
         graph.y_title(f"$y$, {unit}")
-        sign(paper, style.method)
+        write_method(paper, style.method)
         return paper.drawing(figure_title("centrodes", style.language), style.language)
 
     return {"centrodes": draw}
@@ -106,7 +106,7 @@ def _reach(places: Array) -> tuple[Array, Array]:
     return (low + high) / 2, np.full(2, float(np.max(high - low)) * (1 + _AROUND) / 2)
 
 
-def _graph(paper: Paper, box: Box, places: Array, style: Style) -> Graph:
+def _graph(paper: Canvas, box: ChartBox, places: Array, style: Style) -> Graph:
     """Return a graph of equal scales around a linkage, its frame drawn."""
     middle, size = _reach(places)
     unit = 2 * max(float(size[0]) / box.width, float(size[1]) / box.height) or 1.0

@@ -20,10 +20,10 @@ from crankwork.report.linkage_look import (
     math_symbol,
     quantity_of,
 )
-from crankwork.show.chart import BOTTOM, TOP, Box, Graph, Row, legend, legend_height, limits, sign
-from crankwork.show.labels import mark
-from crankwork.show.paper import Paper, plain
-from crankwork.show.place import here, tall
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, legend, legend_height, limits, write_method
+from crankwork.show.labels import mark_point
+from crankwork.show.paper import Canvas, plain
+from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 
 STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
@@ -62,13 +62,13 @@ def curves(
     legends = [_rows(*one, style) if has_legends else [] for one in zip(sets, shown, strict=True)]
     above = [legend_height(rows) for rows in legends]
     room = (_TALLEST - BOTTOM - sum(above)) / len(sets) - _GAP
-    high = tall(_ALONE if len(sets) == 1 else min(_PANEL, room))
-    paper = Paper(here().width, TOP + sum(above) + len(sets) * (high + _GAP) - _GAP + BOTTOM)
+    high = scaled_height(_ALONE if len(sets) == 1 else min(_PANEL, room))
+    paper = Canvas(current_layout().width, TOP + sum(above) + len(sets) * (high + _GAP) - _GAP + BOTTOM)
     at = degrees * style.period / 360.0 if style.period else degrees
     top = TOP
     for quantities, values, rows, height in zip(sets, shown, legends, above, strict=True):
         legend(paper, rows, top - 4)
-        box = Box(here().left, top + height, here().inner, high)
+        box = ChartBox(current_layout().left, top + height, current_layout().inner, high)
         is_place = quantities[0].key.partition(".")[0] in _PLACES
         ends = limits(*values, is_place=is_place)
         graph = drive_graph(paper, box, at, ends, style, is_last=quantities is sets[-1])
@@ -82,7 +82,7 @@ def curves(
         f"{' = '.join(zero)} = 0" if zero else "",
         remark,
     ]
-    sign(paper, style.method, "; ".join(one for one in remarks if one))
+    write_method(paper, style.method, "; ".join(one for one in remarks if one))
     return paper.drawing(title, style.language)
 
 
@@ -116,7 +116,7 @@ def _draw(graph: Graph, at: Array, quantities: Sequence[Quantity], values: Seque
     for name, where in (("max", int(np.argmax(known))), ("min", int(np.argmin(known)))):
         # what is nothing beside the largest is rounding
         value = float(known[where]) if abs(known[where]) > _ROUNDING * np.max(np.abs(known)) else 0.0
-        mark(graph, name, float(at[where]), value, graph.told(value))
+        mark_point(graph, name, float(at[where]), value, graph.tick_text(value))
 
 
 def _together(values: Sequence[Array]) -> list[list[int]]:

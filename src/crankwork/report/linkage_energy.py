@@ -24,11 +24,11 @@ from crankwork.report.linkage_look import (
     quantity_of,
     scale_text,
 )
-from crankwork.show.chart import Graph, Row, round_ticks, sheet, sign
+from crankwork.show.chart import Graph, Row, round_ticks, sheet, write_method
 from crankwork.show.labels import label_marks, label_points
-from crankwork.show.place import here, points_per_mm, round_scale, tall
+from crankwork.show.place import current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
-from crankwork.units import METRIC, shown_in
+from crankwork.units import METRIC, use_units
 
 _TALL, _WIDE = 331.0, 1.08
 # how much taller it may be for a round scale; how far tangents are drawn beyond the curve, of its width
@@ -45,14 +45,14 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
     """
     found, language = tangents(inertia, energy, wanted), style.language
     # slopes and angles are those of J over kg m2
-    with shown_in(METRIC):
+    with use_units(METRIC):
         ends, scales = _ends(inertia, energy, found)
         slopes = (found.slope_max, DASHED, "max"), (found.slope_min, DASH_DOT, "min")
         rows = [Row(_angle(scales.x / scales.y, one, name, language), line, 0.9) for one, line, name in slopes]
-        if not here().is_sheet:
+        if not current_layout().is_sheet:
             # a sheet has them over every graph
             rows.append(Row(_scales(scales, language), width=0.0))
-        paper, box = sheet((ends[1][1] - ends[1][0]) / scales.y * points_per_mm() / tall(1.0), rows)
+        paper, box = sheet((ends[1][1] - ends[1][0]) / scales.y * points_per_mm() / scaled_height(1.0), rows)
         graph = Graph(paper, box, *ends, language)
         graph.frame(round_ticks(*graph.x), graph.up_ticks)
         _lines(graph, inertia, energy, found, degrees)
@@ -63,7 +63,7 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
         tan = "tg" if language == "ru" else "tan"
         formula = f"$μ_J$ $kl$/({tan} $ψ_max$ − {tan} $ψ_min$) = {shown}"
         foot = f"$kl$ = {cut} {unit_name('mm', language)}; {say('drawing.flywheel', language)}: {formula}"
-        sign(paper, style.method, foot)
+        write_method(paper, style.method, foot)
         return paper.drawing(figure_title("wittenbauer", language), language)
 
 
@@ -154,5 +154,5 @@ def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> Drawing:
     for value, name, line in levels:
         graph.level(float(displayed_values(row, np.asarray(value))), line, name)
     graph.y_title(axis_title(row, language))
-    sign(paper, style.method)
+    write_method(paper, style.method)
     return paper.drawing(figure_title("speed", language), language)

@@ -32,7 +32,7 @@ from crankwork.report.linkage_plan_figures import acceleration_plan, velocity_pl
 from crankwork.report.linkage_positions import position_plans
 from crankwork.report.summary import results_method
 from crankwork.report.tables import any_nonzero
-from crankwork.show.chart import Graph, Row, limits, round_ticks, sheet, sign
+from crankwork.show.chart import Graph, Row, limits, round_ticks, sheet, write_method
 from crankwork.show.paper import plain
 from crankwork.show.scene import Drawing
 
@@ -252,7 +252,7 @@ def indicator(results: Results, style: Style = PLAIN) -> Drawing:
         graph.curve(name, across, up, STYLES[number % 4], angles=angles)
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
-    sign(paper, style.method)
+    write_method(paper, style.method)
     return paper.drawing(say("figures.indicator", style.language), style.language)
 
 

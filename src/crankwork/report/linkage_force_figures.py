@@ -24,10 +24,10 @@ from crankwork.report.linkage_look import (
     position_text,
     scale_text,
 )
-from crankwork.show.chart import TOP, Box, Graph, sign
+from crankwork.show.chart import TOP, ChartBox, Graph, write_method
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import GREY, Paper, plain
-from crankwork.show.place import FINE, here, points_per_mm, round_scale, tall
+from crankwork.show.paper import GREY, Canvas, plain
+from crankwork.show.place import FINE, current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import SOLID, Drawing
 
 _HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 34.0
@@ -55,23 +55,23 @@ def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, sty
     title, spans = figure_title("force_plans", style.language), [np.ptp(_ends(one), axis=0) for one in plans]
     # upright ones side by side where there is room
     upright = sum(bool(high > wide) for wide, high in spans)
-    columns = 2 if here().width > _TWO and upright > max(1, len(plans) / 2) else 1
+    columns = 2 if current_layout().width > _TWO and upright > max(1, len(plans) / 2) else 1
     rows = [plans[start : start + columns] for start in range(0, len(plans), columns)]
-    most = tall(min(_HIGHEST, _WHOLE / len(rows)))
+    most = scaled_height(min(_HIGHEST, _WHOLE / len(rows)))
     heights = []
     for row in rows:
         listed = max(len(one.forces) + len(one.links) for one in row)
         heights.append(max(_ROW * listed + _HEAD, *(_needed(one, most, columns) for one in row)))
-    paper = Paper(here().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
-    top, wide, scales = TOP, here().width / columns, set[float]()
+    paper = Canvas(current_layout().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
+    top, wide, scales = TOP, current_layout().width / columns, set[float]()
     for row, height in zip(rows, heights, strict=True):
         for at, plan in enumerate(row):
-            scales.add(_plan(paper, plan, Box(at * wide, top, wide, height), numbers, style.language))
+            scales.add(_plan(paper, plan, ChartBox(at * wide, top, wide, height), numbers, style.language))
         top += height + _HEAD
     shown = f"{position_sign(style)} = {position_text(degrees, style)}"
-    paper.text(here().width - 14, paper.height - 20, shown, anchor="end")
+    paper.text(current_layout().width - 14, paper.height - 20, shown, anchor="end")
     remarks = ["force_plan", *(["own_scales"] if len(scales) > 1 else [])]
-    sign(paper, style.method, "; ".join(say(f"drawing.{one}", style.language) for one in remarks))
+    write_method(paper, style.method, "; ".join(say(f"drawing.{one}", style.language) for one in remarks))
     return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
 
 
@@ -84,11 +84,11 @@ def _scale(plan: ForcePlan, width: float, height: float) -> float:
 
 def _needed(plan: ForcePlan, most: float, columns: int) -> float:
     """Return how tall a plan is, which is no taller than `most`. [pt]"""
-    scale = _scale(plan, here().width / columns, most)
+    scale = _scale(plan, current_layout().width / columns, most)
     return float(np.ptp(_ends(plan), axis=0)[1]) * points_per_mm() / scale + 2 * _MARGIN
 
 
-def _plan(paper: Paper, plan: ForcePlan, place: Box, numbers: dict[str, int], language: Language) -> float:
+def _plan(paper: Canvas, plan: ForcePlan, place: ChartBox, numbers: dict[str, int], language: Language) -> float:
     """Draw the polygon of a group to its own scale, which is returned, and its forces beside it."""
     left, top, width, height = place
     row, ends, scale = QUANTITIES["joint_force"], _ends(plan), _scale(plan, width, height)
@@ -96,7 +96,7 @@ def _plan(paper: Paper, plan: ForcePlan, place: Box, numbers: dict[str, int], la
     unit = points_per_mm() / scale
     middle = (ends.min(axis=0) + ends.max(axis=0)) / 2 * unit
     x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)
-    graph = Graph(paper, Box(left, top + _HEAD, width, height), x, y, language, to_scale=False)
+    graph = Graph(paper, ChartBox(left, top + _HEAD, width, height), x, y, language, to_scale=False)
     marks = []
     corners = np.array([graph.point(*(one * unit)) for one in ends])
     sides = _beside_each_other(corners)

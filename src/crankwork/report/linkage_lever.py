@@ -19,10 +19,10 @@ from crankwork.report.figure_data import figure_title
 from crankwork.report.language import displayed, key_unit, symbol
 from crankwork.report.linkage_look import Style, math_symbol, position_text, scale_text
 from crankwork.report.linkage_plan_figures import draw_vectors, node_name
-from crankwork.show.chart import Box, Graph, sign
+from crankwork.show.chart import ChartBox, Graph, write_method
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import GREY, WIDER, Paper, fitted_lines, plain, text_width
-from crankwork.show.place import FINE, here, points_per_mm, round_scale, tall
+from crankwork.show.paper import GREY, WIDER, Canvas, fitted_lines, plain, text_width
+from crankwork.show.place import FINE, current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 
 _TALL, _MARGIN, _ROW, _FOOT = 400.0, 30.0, 14.0, 14.0
@@ -57,15 +57,15 @@ def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style)
     forces = _named(lever, numbers, language)
     places = np.vstack([np.zeros(2), *lever.plan.nodes.values(), *(one.force.foot for one in forces)])
     (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)
-    room = np.maximum(np.array([here().width, tall(_TALL)]) - 2 * (_MARGIN + _FORCE), _LOWEST)
+    room = np.maximum(np.array([current_layout().width, scaled_height(_TALL)]) - 2 * (_MARGIN + _FORCE), _LOWEST)
     scale = round_scale(float(points_per_mm() * max((right - left) / room[0], (top - bottom) / room[1])), FINE)
     unit = points_per_mm() / scale
     high = (top - bottom) * unit + 2 * (_MARGIN + _FORCE)
     rows = _rows(lever, forces, numbers, scale, language)
-    paper = Paper(here().width, high + _ROW * (len(rows) + 1) + _FOOT)
-    low, wide = bottom - (_MARGIN + _FORCE) / unit, here().width / unit
+    paper = Canvas(current_layout().width, high + _ROW * (len(rows) + 1) + _FOOT)
+    low, wide = bottom - (_MARGIN + _FORCE) / unit, current_layout().width / unit
     x, y = ((left + right - wide) / 2, (left + right + wide) / 2), (low, low + high / unit)
-    graph = Graph(paper, Box(0.0, 0.0, here().width, high), x, y, language, to_scale=False)
+    graph = Graph(paper, ChartBox(0.0, 0.0, current_layout().width, high), x, y, language, to_scale=False)
     _arms(graph, forces)
     draw_vectors(graph, lever.plan.vectors, unit, _THIN)
     _forces(graph, forces, unit)
@@ -73,7 +73,7 @@ def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style)
     paper.text(14, high + 4, scale_text("μ_v", scale, "m/s", language))
     for at, row in enumerate(rows):
         paper.text(14, high + 4 + _ROW * (at + 1), row)
-    sign(paper, style.method, say("drawing.lever", language))
+    write_method(paper, style.method, say("drawing.lever", language))
     title = f"{figure_title('zhukovsky_lever', language)}, {position_text(degrees, style)}"
     return paper.drawing(title, language)
 
@@ -160,7 +160,7 @@ def _rows(
     )
     torque = _told("balancing_torque", lever.torque, language)
     found = f"${last}$ = {'−' if lever.torque < 0 else ''}{force} $r$ = {torque};   $r$ = {radius}"
-    width = (here().width - 28) / WIDER
+    width = (current_layout().width - 28) / WIDER
     columns = max(1, int((width + _BETWEEN) / (max(text_width(one, 9.0) for one in entries) + _BETWEEN)))
     rows = [";   ".join(entries[start : start + columns]) for start in range(0, len(entries), columns)]
     return [*rows, *fitted_lines(equation, 9.0, width), found]

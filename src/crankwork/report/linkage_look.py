@@ -14,8 +14,8 @@ from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.report.language import symbol
-from crankwork.show.chart import Box, Graph, round_ticks
-from crankwork.show.paper import GREY, Paper, plain
+from crankwork.show.chart import ChartBox, Graph, round_ticks
+from crankwork.show.paper import GREY, Canvas, plain
 from crankwork.show.scene import DASH_DOT, printable
 from crankwork.units import from_si
 
@@ -107,7 +107,7 @@ def angle_ticks(start: float, end: float) -> Array:
 
 
 def drive_graph(
-    paper: Paper, box: Box, at: Array, y: tuple[float, float], style: Style, *, is_last: bool = True
+    paper: Canvas, box: ChartBox, at: Array, y: tuple[float, float], style: Style, *, is_last: bool = True
 ) -> Graph:
     """Return a graph over the angle of the crank between the ends of its motion, or over the time, frame drawn.
 

@@ -25,10 +25,10 @@ from crankwork.report.linkage_look import (
     position_text,
     scale_text,
 )
-from crankwork.show.chart import Box, Graph, sign
+from crankwork.show.chart import ChartBox, Graph, write_method
 from crankwork.show.labels import label_points
-from crankwork.show.paper import WIDER, Paper, plain, text_width
-from crankwork.show.place import FINE, here, points_per_mm, round_scale, tall
+from crankwork.show.paper import WIDER, Canvas, plain, text_width
+from crankwork.show.place import FINE, current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -132,7 +132,7 @@ def _figure(
     """Draw a plan, and beside it what its vectors and the turning of the links are."""
     language, seen, size = style.language, _seen(plan), size_of(plan)
     # only beside one plan there is room for a list
-    side = here().width - (_BESIDE if position is None else 0.0)
+    side = current_layout().width - (_BESIDE if position is None else 0.0)
     rows = (
         []
         if position is not None
@@ -144,30 +144,30 @@ def _figure(
         place = tuple(np.round(at / max(_longest(plan), 1e-12), 3).tolist())
         ends[place] = f"{ends[place]}, {node_name(name)}" if place in ends else node_name(name)
     beside = max([_MARGIN, *(WIDER * text_width(plain(one), 8.0) + 12 for one in ends.values())])
-    high = max(tall(_TALL), _ROW * len(rows))
+    high = max(scaled_height(_TALL), _ROW * len(rows))
     room = side - 2 * min(beside, side / 8), max(high - 2 * _MARGIN, _LOWEST)
     scale = _scale(size, among, room)
     unit = points_per_mm() / scale
     high = max(max(size[1], 1e-12) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
-    paper = Paper(here().width, high)
+    paper = Canvas(current_layout().width, high)
     places = _places(seen)
     middle = (places.min(axis=0) + places.max(axis=0)) / 2
     left, bottom = middle[0] - side / 2 / unit, middle[1] - (high + 34) / 2 / unit
-    x, y = (left, left + here().width / unit), (bottom, bottom + high / unit)
-    graph = Graph(paper, Box(0.0, 0.0, here().width, high), x, y, language, to_scale=False)
+    x, y = (left, left + current_layout().width / unit), (bottom, bottom + high / unit)
+    graph = Graph(paper, ChartBox(0.0, 0.0, current_layout().width, high), x, y, language, to_scale=False)
     draw_vectors(graph, seen, unit)
     for count, row in enumerate(rows):
-        paper.text(here().width - _LIST, 23 + _ROW * count, row, size=8.5)
+        paper.text(current_layout().width - _LIST, 23 + _ROW * count, row, size=8.5)
     scale_shown = scale_text(f"μ_{kind.sign}", scale, kind.unit, language)
     if position is not None:
         scale_shown = scale_shown if seen else f"${kind.sign}$ = 0"
         shown = f"{say('sheets.position', language)} {position}: {scale_shown}"
-        paper.text(here().width / 2, high - 20, shown, anchor="middle")
+        paper.text(current_layout().width / 2, high - 20, shown, anchor="middle")
     else:
         paper.text(14, high - 20, scale_shown)
         shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
-        paper.text(here().width - 14, high - 20, shown, anchor="end")
-        sign(paper, style.method, _remark(plan, kind, language))
+        paper.text(current_layout().width - 14, high - 20, shown, anchor="end")
+        write_method(paper, style.method, _remark(plan, kind, language))
     _nodes(graph, plan, kind.pole, unit)
     return paper.drawing(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
 

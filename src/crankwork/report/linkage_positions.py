@@ -23,10 +23,10 @@ from crankwork.report.linkage_look import (
     scale_text,
 )
 from crankwork.report.linkage_scene import SLOT, Rail, Scene, scene
-from crankwork.show.chart import Box, Graph, sign
+from crankwork.show.chart import ChartBox, Graph, write_method
 from crankwork.show.labels import label_marks, label_points
-from crankwork.show.paper import BLACK, Paper, plain, text_width
-from crankwork.show.place import FINE, here, letters, points_per_mm, round_scale, tall
+from crankwork.show.paper import BLACK, Canvas, plain, text_width
+from crankwork.show.place import FINE, current_layout, font_size, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -85,7 +85,7 @@ def position_plans(
     hand.text(0.03 * hand.width, foot, scale_text("μ_l", paper, "mm", style.language))
     shown = f"{position_sign(style, f'_{main}')} = {position_text(float(degrees[main]), style)}"
     hand.text(0.97 * hand.width, foot, shown, anchor="end")
-    sign(hand, style.method)
+    write_method(hand, style.method)
     made = hand.drawing(figure_title("position_plans", style.language), style.language)
     return made._replace(plots=tuple(one._replace(metre=1e3 / paper) for one in made.plots))
 
@@ -94,23 +94,26 @@ def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:
     """Return an empty sheet that holds the linkage at all angles, with a foot for the scale."""
     places = _seen(drawn)
     (left, bottom), (right, top) = places.min(axis=0) - _MARGIN, places.max(axis=0) + _MARGIN
-    spare = max(0.0, _UNITS * here().width - (right - left)) / 2
+    spare = max(0.0, _UNITS * current_layout().width - (right - left)) / 2
     left, right, bottom = left - spare, right + spare, bottom - _FOOT
-    box = Box(0.0, 0.0, (right - left) / _UNITS, (top - bottom) / _UNITS)
-    paper = Paper(box.width, box.height)
+    box = ChartBox(0.0, 0.0, (right - left) / _UNITS, (top - bottom) / _UNITS)
+    paper = Canvas(box.width, box.height)
     graph = Graph(paper, box, (left, right), (bottom, top), style.language, to_scale=False)
     return _Sheet(graph, drawn, plans, main)
 
 
 def _scaled(shape: Skeleton, moved: Moving) -> tuple[Scene, float]:
     """Return a linkage as large as its paper takes it, and how many of its millimetres are one of paper."""
-    room = _UNITS * (here().width - 2 * _MARGIN)
+    room = _UNITS * (current_layout().width - 2 * _MARGIN)
     drawn, scale = scene(shape, moved, room)
     # walls, supports and pieces are as large at any scale, so that what joins their middles is less than all
     paper = round_scale(_UNITS * points_per_mm() * 1e3 / scale, FINE)
     while True:
         drawn, _ = scene(shape, moved, room * _UNITS * points_per_mm() * 1e3 / paper / scale)
-        if np.all(np.ptp(_seen(drawn), axis=0) <= _UNITS * np.array([here().width - _MARGIN, tall(_TALLEST)])):
+        if np.all(
+            np.ptp(_seen(drawn), axis=0)
+            <= _UNITS * np.array([current_layout().width - _MARGIN, scaled_height(_TALLEST)])
+        ):
             return drawn, paper
         paper = round_scale(1.01 * paper, FINE)
 
@@ -217,14 +220,14 @@ def _write_beside(sheet: _Sheet, rail: Rail, side: int, numbers: Sequence[tuple[
     """Write numbers in a row along a guide, each with a line from the wall at its place on the guide."""
     x, y = rail.line.along[0]
     wide = max((text_width(one, _NUMBER) for one, _ in numbers), default=0.0) + 3.0
-    apart = min(wide / max(abs(x), 1e-9), 1.15 * letters(_NUMBER) / max(abs(y), 1e-9)) * _UNITS
+    apart = min(wide / max(abs(x), 1e-9), 1.15 * font_size(_NUMBER) / max(abs(y), 1e-9)) * _UNITS
     wall = rail.half + HATCH
-    out = wall + _UNITS * (8.0 + abs(y) * wide / 2 + abs(x) * 0.5 * letters(_NUMBER))
+    out = wall + _UNITS * (8.0 + abs(y) * wide / 2 + abs(x) * 0.5 * font_size(_NUMBER))
     for (text, at), place in zip(numbers, _spread([one for _, one in numbers], apart), strict=True):
         ends = [rail.line.place(*one)[0] for one in ((at, side * wall), (place, side * (0.6 * wall + 0.4 * out)))]
         sheet.graph.paper.line(*np.array([sheet.graph.point(*one) for one in ends]).T, width=0.4, colour=_THIN)
         middle = sheet.graph.point(*rail.line.place(place, side * out)[0])
-        sheet.graph.boxed(middle[0], middle[1] + 0.35 * letters(_NUMBER), text, "middle", _NUMBER)
+        sheet.graph.text_on_white(middle[0], middle[1] + 0.35 * font_size(_NUMBER), text, "middle", _NUMBER)
 
 
 def _spread(places: Sequence[float], apart: float) -> list[float]:
@@ -273,12 +276,12 @@ def _texts(sheet: _Sheet, numbered_guides: Container[str]) -> None:
     ]
     label_points(sheet.graph, points)
     for letter, (x, y) in supports.items():
-        sheet.graph.boxed(x, y + 0.35 * letters(_LETTER), _slanted(letter), "middle", _LETTER)
+        sheet.graph.text_on_white(x, y + 0.35 * font_size(_LETTER), _slanted(letter), "middle", _LETTER)
 
 
 def _half(letter: str) -> Array:
     """Return half the width and height of the name of a point. [units of the picture]"""
-    return _UNITS * np.array([text_width(_slanted(letter), _LETTER) / 2 + 2, 0.6 * letters(_LETTER)])
+    return _UNITS * np.array([text_width(_slanted(letter), _LETTER) / 2 + 2, 0.6 * font_size(_LETTER)])
 
 
 def _beneath(sheet: _Sheet, letter: str, place: Array) -> tuple[float, float] | None:

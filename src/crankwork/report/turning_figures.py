@@ -17,9 +17,19 @@ from crankwork.report.figure_data import figure_title
 from crankwork.report.linkage_energy import speed_curve
 from crankwork.report.linkage_look import Style, angle_ticks, axis_title, displayed_values, math_symbol
 from crankwork.report.summary import results_method
-from crankwork.show.chart import WIDE_FIGURES, Box, Graph, Row, limits, round_ticks, sheet, sign, stretches
+from crankwork.show.chart import (
+    WIDE_FIGURES,
+    ChartBox,
+    Graph,
+    Row,
+    limits,
+    round_ticks,
+    sheet,
+    true_slices,
+    write_method,
+)
 from crankwork.show.labels import label_points
-from crankwork.show.paper import Paper, plain, text_width
+from crankwork.show.paper import Canvas, plain, text_width
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 from crankwork.units import from_si
 
@@ -62,12 +72,14 @@ def _diagram(results: Results, drawn: TurningDiagram, style: Style) -> Drawing:
     language = style.language
     rows = _rows(results, language)
     paper, box = sheet(_UPPER + _GAP + _LOWER, rows)
-    upper = Box(box.left, box.top, box.width, _UPPER)
-    lower = Box(box.left, box.top + _UPPER + _GAP, box.width, _LOWER)
+    upper = ChartBox(box.left, box.top, box.width, _UPPER)
+    lower = ChartBox(box.left, box.top + _UPPER + _GAP, box.width, _LOWER)
     _torques(paper, upper, drawn, language)
     _energy(paper, lower, results, drawn, language)
     excess = results.summary["excess_work"]
-    sign(paper, style.method, f"{math_symbol(QUANTITIES['excess_work'].symbol(language))} = {_work(excess, language)}")
+    write_method(
+        paper, style.method, f"{math_symbol(QUANTITIES['excess_work'].symbol(language))} = {_work(excess, language)}"
+    )
     return paper.drawing(figure_title("turning_moment", language), language)
 
 
@@ -85,14 +97,14 @@ def _rows(results: Results, language: Language) -> list[Row]:
     return rows
 
 
-def _torques(paper: Paper, box: Box, drawn: TurningDiagram, language: Language) -> None:
+def _torques(paper: Canvas, box: ChartBox, drawn: TurningDiagram, language: Language) -> None:
     graph = Graph(
         paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.torque, drawn.load), language, "crank_angle"
     )
     over = drawn.torque > drawn.load
     # what is more than the load is shaded, what is less is hatched
     for where, fill in ((over, graph.shade), (~over, graph.hatch)):
-        for found in stretches(where):
+        for found in true_slices(where):
             part = slice(max(found.start - 1, 0), found.stop + 1)
             at, load = drawn.degrees[part], drawn.load[part]
             # where they cross they are one
@@ -111,7 +123,7 @@ def _torques(paper: Paper, box: Box, drawn: TurningDiagram, language: Language) 
 def _name_loop(graph: Graph, drawn: TurningDiagram, place: tuple[float, float], text: str) -> None:
     """Write the work of a loop where the loop is tallest for it, upward if it is nowhere as wide as the text."""
     over, x = drawn.torque > drawn.load, graph.across(drawn.degrees)
-    inside = next((one for one in stretches(over) + stretches(~over)
+    inside = next((one for one in true_slices(over) + true_slices(~over)
                    if drawn.degrees[one][0] <= place[0] <= drawn.degrees[one][-1]), slice(0))  # fmt: skip
     ends = graph.down(np.array([drawn.torque, drawn.load]))
     upper, lower = ends.min(axis=0), ends.max(axis=0)
@@ -133,7 +145,7 @@ def _name_loop(graph: Graph, drawn: TurningDiagram, place: tuple[float, float], 
     else:
         wide = length
     if wide == length:
-        graph.boxed(found[0], found[1] + 0.35 * _NAME, text, "middle", _NAME)
+        graph.text_on_white(found[0], found[1] + 0.35 * _NAME, text, "middle", _NAME)
         return
     sides = np.array([-0.5, 0.5, 0.5, -0.5]) * wide, np.array([-0.5, -0.5, 0.5, 0.5]) * tall
     graph.paper.area(found[0] + sides[0], found[1] + sides[1])
@@ -146,7 +158,7 @@ def _work(work: float, language: Language, *, signed: bool = False) -> str:
     return f"{'+' if signed and work > 0 else ''}{shown} {unit_name(unit, language)}"
 
 
-def _energy(paper: Paper, box: Box, results: Results, drawn: TurningDiagram, language: Language) -> None:
+def _energy(paper: Canvas, box: ChartBox, results: Results, drawn: TurningDiagram, language: Language) -> None:
     row = QUANTITIES["kinetic_energy_change"]
     graph = Graph(paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.energy), language, "crank_angle")
     _frame(graph, is_last=True)
@@ -182,5 +194,5 @@ def _loops(energy: Array, style: Style) -> Drawing:
     label_points(graph, names)
     graph.x_title(axis_title(QUANTITIES["loop_number"], language))
     graph.y_title(axis_title(row, language))
-    sign(paper, style.method)
+    write_method(paper, style.method)
     return paper.drawing(figure_title("loops", language), language)

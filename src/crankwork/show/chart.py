@@ -1,4 +1,4 @@
-"""A graph on paper: scales, ticks, titles, curves, marks and the legend above it, in the look of all figures."""
+"""Graphs: scales, ticks, titles, curves, marks and the legend above, in the style of all figures."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale.numbers import number
 from crankwork.quantities import Language
 from crankwork.show import scene
-from crankwork.show.paper import BLACK, GREY, LIGHT, WIDER, Paper, fitted_lines, marked, text_width
-from crankwork.show.place import here, points_per_mm, round_scale, tall
+from crankwork.show.paper import BLACK, GREY, LIGHT, WIDER, Canvas, fitted_lines, marked, text_width
+from crankwork.show.place import current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, SOLID, Anchor, Style
 
 BOTTOM, TOP = 45.0, 10.0
 LEGEND_ROW = 13.4
 _TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
 _FOOT_ROW = 9.0
-# from an axis to its numbers, with what is free between them and the title [pt]; figures of readers' fonts are wider
+# from an axis to its numbers, with the gap between them and the title [pt]; readers' fonts may have wider figures
 _CLEAR, WIDE_FIGURES = 15.0, 1.3
-# largest numbers of axes that need no power of ten
+# range of the largest number of an axis without a power of ten
 _SHORT = 0.01, 1e5
-# The styles of rows of a legend that explain an open circle, a dot, and an arrow.
+# Styles of legend rows that explain an open circle, a dot, and an arrow.
 CIRCLE: Style = (0.0,)
 DOT: Style = (-2.0,)
 ARROW: Style = (-1.0,)
 
 
-class Box(NamedTuple):
-    """Where a graph stands on its paper: left and upper edge, width, height. [pt]"""
+class ChartBox(NamedTuple):
+    """Position of a graph on its canvas: left and upper edge, width, height. [pt]"""
 
     left: float
     top: float
@@ -43,7 +43,7 @@ class Box(NamedTuple):
 class Row(NamedTuple):
     """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour.
 
-    `other`: colour of a second line that is dashed alike.
+    `other`: colour of a second line with the same dashes.
     """
 
     text: str
@@ -60,40 +60,40 @@ def round_ticks(low: float, high: float, most: int = 8) -> Array:
     """
     span = (high - low) or 1.0
     power = 10.0 ** math.floor(math.log10(span / most))
-    step = next(one * power for one in (1, 2, 2.5, 5, 10, 20) if span / (one * power) <= most)
+    step = next(factor * power for factor in (1, 2, 2.5, 5, 10, 20) if span / (factor * power) <= most)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-    return np.array([float(f"{at * step:.10g}") for at in range(first, last + 1)])
+    return np.array([float(f"{index * step:.10g}") for index in range(first, last + 1)])
 
 
-def stretches(where: NDArray[np.bool_]) -> list[slice]:
-    """Return the stretches in which something is so."""
+def true_slices(where: NDArray[np.bool_]) -> list[slice]:
+    """Return the slices in which a condition holds."""
     ends = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]])))
     return [slice(int(start), int(end)) for start, end in ends.reshape(-1, 2)]
 
 
 def _rounded(length: float, ends: tuple[float, float]) -> float:
-    """Return the greatest length no longer than this at which a millimetre is a round number. [pt]"""
+    """Return the greatest length, no longer than this one, at which a millimetre is a round number. [pt]"""
     span = abs(ends[1] - ends[0])
     return span / round_scale(span * points_per_mm() / length) * points_per_mm()
 
 
 def _power(ends: tuple[float, float]) -> int:
-    """Return the power of ten, of three, that numbers of an axis are short without; none for those that are short."""
-    most = max(abs(one) for one in ends)
+    """Return the power of ten, a multiple of 3, that keeps the numbers of an axis short; 0 if they are short anyway."""
+    most = max(abs(end) for end in ends)
     return 0 if _SHORT[0] <= most < _SHORT[1] else 3 * math.floor(math.log10(2 * most) / 3)
 
 
 class Graph:
-    """Axes on paper with scales that are set once: x from left to right, y from the lower to the upper edge.
+    """Axes on a canvas with fixed scales: x from left to right, y from the lower to the upper edge.
 
-    `over`: key of the quantity across, where that is what tables go by; `to_scale`: on a sheet the graph is made
-    smaller until a millimetre is a round number of its units.
+    `over`: key of the quantity on the x axis, if tables use it; `to_scale`: on a sheet the graph shrinks until a
+    millimetre is a round number of its units.
     """
 
     def __init__(  # noqa: PLR0913 - where, both scales, and what they are of
         self,
-        paper: Paper,
-        box: Box,
+        paper: Canvas,
+        box: ChartBox,
         x: tuple[float, float],
         y: tuple[float, float],
         language: Language,
@@ -101,43 +101,43 @@ class Graph:
         *,
         to_scale: bool = True,
     ) -> None:
-        if here().is_sheet and to_scale:
+        if current_layout().is_sheet and to_scale:
             box = box._replace(width=_rounded(box.width, x), height=_rounded(box.height, y))
         self.paper, self.box, self.x, self.y, self.language = paper, box, x, y, language
         self.curves: dict[str, tuple[Array, Array]] = {}
         self._angles: dict[str, Array] = {}
         self._titles: dict[str, str] = {}
         self._frame: dict[str, Any] = {}
-        # how wide the numbers of the vertical axis are [pt]
+        # width of the numbers of the vertical axis [pt]
         self._numbers = 0.0
-        titles = self._titles if to_scale or not here().is_sheet else {}
+        titles = self._titles if to_scale or not current_layout().is_sheet else {}
         paper.plot(scene.Plot(scene.Box(*box), x, y, over, self._angles, self.curves, titles, self._frame))
 
     @property
     def powers(self) -> tuple[int, int]:
-        """Powers of ten that the numbers of its axes are told without, and their titles with."""
-        if here().is_sheet:
+        """Powers of ten that are taken out of the numbers of both axes and written in their titles."""
+        if current_layout().is_sheet:
             return 0, 0
         return _power(self.x), _power(self.y)
 
     @property
     def up_ticks(self) -> Array:
-        """Round numbers on the vertical axis, as many as have room for their letters. [its unit]"""
+        """Round numbers on the vertical axis, as many as have room. [its unit]"""
         most = max(4, round(self.box.height / 24))
-        return round_ticks(*self.y, max(1, min(most, int(self.box.height / 13))) if here().is_sheet else most)
+        return round_ticks(*self.y, max(1, min(most, int(self.box.height / 13))) if current_layout().is_sheet else most)
 
     def across(self, x: float | Array) -> Array:
-        """Return where values of x stand on the paper. [pt]"""
+        """Return the positions of values of x on the canvas. [pt]"""
         start, end = self.x
         return self.box.left + self.box.width * (np.asarray(x, dtype=float) - start) / (end - start)
 
     def down(self, y: float | Array) -> Array:
-        """Return where values of y stand on the paper. [pt]"""
+        """Return the positions of values of y on the canvas. [pt]"""
         start, end = self.y
         return self.box.top + self.box.height * (1 - (np.asarray(y, dtype=float) - start) / (end - start))
 
     def point(self, x: float, y: float) -> tuple[float, float]:
-        """Return where a point stands on the paper. [pt]"""
+        """Return the position of a point on the canvas. [pt]"""
         return float(self.across(x)), float(self.down(y))
 
     def curve(  # noqa: PLR0913 - values, how they are drawn, and where they stand
@@ -151,64 +151,57 @@ class Graph:
         colour: str = BLACK,
         angles: Array | None = None,
     ) -> None:
-        """Draw a curve that can be found again by its name; `angles`: those of its points over something else. [deg]"""
+        """Draw a named curve; `angles`: crank angles of its points over another quantity. [deg]"""
         x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         self.curves[name] = (x, y)
         if angles is not None:
             self._angles[name] = angles
-        # gaps where there is no value
-        for part in stretches(np.isfinite(x + y)):
+        # gaps at missing values
+        for part in true_slices(np.isfinite(x + y)):
             self.paper.line(
                 self.across(x[part]), self.down(y[part]), style=style, width=width, colour=colour, name=name
             )
 
     def shade(self, x: Array, y: Array, fill: str = "#d9d9d9") -> None:
-        """Shade the area that points surround."""
+        """Shade a polygon."""
         self.paper.area(self.across(x), self.down(y), fill=fill)
 
     def hatch(self, x: Array, y: Array) -> None:
-        """Hatch the area that points surround."""
+        """Hatch a polygon."""
         self.paper.hatch(self.across(x), self.down(y))
 
     def frame(self, x_ticks: Array, y_ticks: Array, *, labels: tuple[bool, bool] = (True, True)) -> None:
-        """Draw grid, ticks and numbers; the horizontal axis goes through zero where it is in reach."""
+        """Draw grid, ticks and numbers; the horizontal axis goes through zero if that is within the scale."""
         left, top, width, height = self.box
         right, bottom = left + width, top + height
         first = len(self.paper.items)
         across, down = self.across(x_ticks), self.down(y_ticks)
-        grid = [(one, top, one, bottom) for one in across] + [(left, one, right, one) for one in down]
+        grid = [(x, top, x, bottom) for x in across] + [(left, y, right, y) for y in down]
         self.paper.segments(np.array(grid), colour=LIGHT)
         is_inside = min(self.y) < 0 < max(self.y)
         level = float(self.down(0.0)) if is_inside else bottom
-        marks = [(one, level - 2.5, one, level + 2.5) for one in across] + [
-            (left - 3.5, one, left, one) for one in down
-        ]
+        marks = [(x, level - 2.5, x, level + 2.5) for x in across] + [(left - 3.5, y, left, y) for y in down]
         self.paper.segments(np.array([(left, top, left, bottom), (left, level, right, level), *marks]), width=0.8)
         if labels[0]:
-            for value, at in zip(x_ticks, across, strict=True):
-                self.paper.text(at, bottom + 12.5, self._number(value, 0), size=_TICK, anchor="middle")
+            for value, x in zip(x_ticks, across, strict=True):
+                self.paper.text(x, bottom + 12.5, self._number(value, 0), size=_TICK, anchor="middle")
         if labels[1]:
-            for value, at in zip(y_ticks, down, strict=True):
+            for value, y in zip(y_ticks, down, strict=True):
                 text = self._number(value, 1)
-                self.paper.text(left - 6, at + 3, text, size=_TICK, anchor="end")
+                self.paper.text(left - 6, y + 3, text, size=_TICK, anchor="end")
                 self._numbers = max(self._numbers, WIDE_FIGURES * text_width(text, _TICK))
-        ticks = [x_ticks.tolist(), y_ticks.tolist()]
-        self._frame |= {
-            "ticks": ticks,
-            "labels": labels,
-            "powers": self.powers,
-            "items": (first, len(self.paper.items)),
-        }
+        ticks, items = [x_ticks.tolist(), y_ticks.tolist()], (first, len(self.paper.items))
+        self._frame |= {"ticks": ticks, "labels": labels, "powers": self.powers, "items": items}
 
-    def told(self, value: float) -> str:
-        """Return a value as the numbers of the vertical axis are told, to four digits."""
+    def tick_text(self, value: float) -> str:
+        """Format a value as the numbers of the vertical axis, to four digits."""
         return self._number(float(f"{value:.4g}"), 1)
 
     def _number(self, value: float, axis: int) -> str:
         return number(float(f"{value / 10.0 ** self.powers[axis]:.10g}"), self.language)
 
     def _titled(self, text: str, axis: int) -> str:
-        """Return the title of an axis with the power of ten that its numbers lack before its unit."""
+        """Return the title of an axis with the power of ten that is taken out of its numbers before its unit."""
         power = self.powers[axis]
         if not power:
             return text
@@ -216,8 +209,8 @@ class Graph:
         factor = f"10^{{{power}}}".replace("-", "−")
         return f"{name}{comma}{factor} {unit}" if comma else f"{text}, {factor}"
 
-    def shows(self, y: str) -> None:
-        """Say what stands over the vertical axis where its title is written elsewhere."""
+    def set_quantity(self, y: str) -> None:
+        """Set the quantity of the vertical axis if its title is written elsewhere."""
         self._titles["y"] = marked(y)
 
     def x_title(self, text: str) -> None:
@@ -226,22 +219,22 @@ class Graph:
         self.paper.text(self.box.left + self.box.width / 2, self.box.top + self.box.height + 26, text, anchor="middle")
 
     def y_title(self, text: str, offset: float = 44.0) -> None:
-        """Write the title of the vertical axis, on two lines if it is long; `offset` is its least distance. [pt]"""
+        """Write the title of the vertical axis, on two lines if it is long; `offset`: its least distance. [pt]"""
         self._titles["y"], offset = marked(text), max(offset, self._numbers + _CLEAR)
         size, text = 9.0, self._titled(text, 1)
         lines = fitted_lines(text, size, self.box.height + 10)
-        if len(lines) > 2 and here().is_sheet and "$" in text:
-            # a sheet has no smaller letters for it; the symbol is explained above
+        if len(lines) > 2 and current_layout().is_sheet and "$" in text:
+            # a sheet has no smaller letters; the symbol is explained above it
             lines = fitted_lines(text[text.index("$") :], size, self.box.height + 10)
         elif len(lines) > 2:
             size = 7.5
             lines = fitted_lines(text, size, self.box.height + 16)
-        for at, one in enumerate(reversed(lines)):
-            x = self.box.left - offset - 11 * at
-            self.paper.upward_text(x, self.box.top + self.box.height / 2, one, size=size)
+        for index, line in enumerate(reversed(lines)):
+            x = self.box.left - offset - 11 * index
+            self.paper.upward_text(x, self.box.top + self.box.height / 2, line, size=size)
 
-    def boxed(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.5) -> None:
-        """Write a text on white, so that no line of the graph runs through it. [pt]"""
+    def text_on_white(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.5) -> None:
+        """Write a text on white ground, so that no line of the graph runs through it. [pt]"""
         width = text_width(text, size)
         left = {"start": x, "middle": x - width / 2, "end": x - width}[anchor] - 2
         right, top, bottom = left + width + 4, y - size, y + 0.4 * size
@@ -255,23 +248,25 @@ class Graph:
 
 
 def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
-    """Return the lines of a legend; a text too long goes on without a sample of its line."""
+    """Return the lines of a legend; continued lines of a long text have no row."""
     lines: list[tuple[Row | None, str]] = []
     for row in rows:
-        first, *others = fitted_lines(row.text, _LEGEND, (here().width - here().left - 38) / WIDER)
-        lines += [(row, first), *((None, one) for one in others)]
+        first, *continued = fitted_lines(
+            row.text, _LEGEND, (current_layout().width - current_layout().left - 38) / WIDER
+        )
+        lines += [(row, first), *((None, line) for line in continued)]
     return lines
 
 
 def legend_height(rows: Sequence[Row]) -> float:
-    """Return what a legend takes above its graph. [pt]"""
+    """Return the height of a legend above its graph. [pt]"""
     return LEGEND_ROW * len(_legend_lines(rows)) + 5.0 if rows else 0.0
 
 
-def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
+def legend(paper: Canvas, rows: Sequence[Row], top: float) -> None:
     """Draw a legend at the left edge of a graph, from `top` downward. [pt]"""
-    for at, (row, text) in enumerate(_legend_lines(rows)):
-        left, level = here().left + 8, top + LEGEND_ROW * at
+    for index, (row, text) in enumerate(_legend_lines(rows)):
+        left, level = current_layout().left + 8, top + LEGEND_ROW * index
         if row is not None and row.style == CIRCLE:
             paper.dot(left + 10, level + 6, 2.6, fill="#ffffff", width=1.0)
         elif row is not None and row.style == DOT:
@@ -287,12 +282,12 @@ def legend(paper: Paper, rows: Sequence[Row], top: float) -> None:
 
 
 def limits(*values: Array, margin: float = 0.06, is_place: bool = False) -> tuple[float, float]:
-    """Return ends of a scale that holds zero and all values. [its unit]
+    """Return the ends of a scale that includes zero and all values. [its unit]
 
-    `margin`: room beyond the largest and the least, as a share of the range; `is_place`: what tells where something is
-    does not hold zero if that is further away than the range is wide.
+    `margin`: beyond the extremes, as a fraction of the range; `is_place`: the scale of a coordinate does not include
+    zero if zero is further away than the range is wide.
     """
-    known = np.concatenate([np.ravel(one)[np.isfinite(np.ravel(one))] for one in values])
+    known = np.concatenate([np.ravel(column)[np.isfinite(np.ravel(column))] for column in values])
     if is_place and known.size and 0 < np.ptp(known) < np.min(np.abs(known)):
         room = margin * float(np.ptp(known))
         return float(np.min(known)) - room, float(np.max(known)) + room
@@ -303,7 +298,7 @@ def limits(*values: Array, margin: float = 0.06, is_place: bool = False) -> tupl
 
 
 def over_cycle(
-    paper: Paper, box: Box, y: tuple[float, float], cycle: float, language: Language, *, numbers: bool = True
+    paper: Canvas, box: ChartBox, y: tuple[float, float], cycle: float, language: Language, *, numbers: bool = True
 ) -> Graph:
     """Return a graph over the crank angle with its frame drawn.
 
@@ -315,23 +310,23 @@ def over_cycle(
     return graph
 
 
-def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> tuple[Paper, Box]:
-    """Return paper with a legend on it, and the place for a graph below the legend. [pt]"""
+def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> tuple[Canvas, ChartBox]:
+    """Return a canvas with a legend, and the box of a graph below the legend. [pt]"""
     above = legend_height(rows)
-    at, height = here(), tall(height)
-    paper = Paper(at.width, TOP + above + height + below)
+    layout, height = current_layout(), scaled_height(height)
+    paper = Canvas(layout.width, TOP + above + height + below)
     legend(paper, rows, TOP - 4)
-    return paper, Box(at.left, TOP + above, at.inner, height)
+    return paper, ChartBox(layout.left, TOP + above, layout.inner, height)
 
 
-def sign(paper: Paper, method: str, remark: str = "") -> None:
-    """Write how the numbers were made at the lower right, and a remark at the lower left, or above it."""
-    if here().is_sheet:
-        # a sheet says once how its numbers were made
+def write_method(paper: Canvas, method: str, remark: str = "") -> None:
+    """Write the method of calculation at the lower right, and a remark at the lower left, or above it."""
+    if current_layout().is_sheet:
+        # a sheet states the method once
         if remark:
-            middle, foot = here().left + here().inner / 2, max(one[4] for one in paper.texts) + 13
-            for at, row in enumerate(fitted_lines(remark, 8, here().width / WIDER)):
-                paper.text(middle, foot + 12 * at, row, size=8, anchor="middle")
+            layout, foot = current_layout(), max(box[4] for box in paper.texts) + 13
+            for index, row in enumerate(fitted_lines(remark, 8, layout.width / WIDER)):
+                paper.text(layout.left + layout.inner / 2, foot + 12 * index, row, size=8, anchor="middle")
         return
     size = 7.0
     foot = paper.height - 6
@@ -342,6 +337,6 @@ def sign(paper: Paper, method: str, remark: str = "") -> None:
         paper.text(paper.width * 0.02, foot, remark, size=size, colour=GREY)
 
 
-def small_text(paper: Paper, x: float, y: float, text: str, anchor: Anchor = "middle") -> None:
+def small_text(paper: Canvas, x: float, y: float, text: str, anchor: Anchor = "middle") -> None:
     """Write a text in small letters. [pt]"""
     paper.text(x, y, text, size=_SMALL, anchor=anchor)

@@ -33,20 +33,20 @@ from crankwork.show.scene import (
 from crankwork.show.theme import Theme
 
 _STYLE, _FONT = "SHEET", "times.ttf"
-# in hundredths of a millimetre, only those that the format knows
+# in hundredths of a millimetre, those that the format has
 _WEIGHTS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100)
 _BLACK, _GREY, _PALE = 7, 252, 254
 _MILLIMETRES = 4
 _HALIGN = {"start": 0, "middle": 1, "end": 2}
 _MTEXT_MIDDLE = {"start": 4, "middle": 5, "end": 6}
 _THROUGH_CORNERS = 128
-# how much wider letters of another font may be
-_SPARE = 1.5
-# lines lighter than this are not black, and lighter than that the palest; dashes shorter than this are dots
+# how much wider text may be in another font
+_WIDENING = 1.5
+# lighter lines than this are not black, and than this are the palest; shorter dashes than this are dots
 _LIGHT, _PALER, _DOT = 0.3, 0.8, 2.0
 # of slanted letters [deg]
 _SLANT = 15.0
-# what would be read as a code in a text with codes
+# characters that begin a code in a text with codes
 _CODES = re.compile(r"[\\{}]")
 
 
@@ -56,7 +56,7 @@ def dxf(drawing: Drawing, _: Theme = "print") -> bytes:
         import ezdxf  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError(Refusal("extra_writing", names="DXF"), "report") from None
-    # it gives away more than it declares
+    # ezdxf does not declare all that it exports
     library: Any = ezdxf
     was_fixed = library.options.write_fixed_meta_data_for_testing
     try:
@@ -81,7 +81,7 @@ def _written(document: Any, drawing: Drawing) -> bytes:  # noqa: ANN401 - a docu
 
 
 def _prepare(document: Any, drawing: Drawing) -> None:  # noqa: ANN401 - a document of ezdxf
-    """Set units and limits, and add line types, layers and the style of texts."""
+    """Set units and limits, and add line types, layers and the text style."""
     document.header["$MEASUREMENT"], document.header["$LTSCALE"] = 1, 1.0
     document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (drawing.width, drawing.height)
     document.styles.add(_STYLE, font=_FONT)
@@ -90,7 +90,7 @@ def _prepare(document: Any, drawing: Drawing) -> None:  # noqa: ANN401 - a docum
         kind_of_line = "CONTINUOUS"
         if pen.dashes:
             kind_of_line = _layer(kind)
-            signed = [one if count % 2 == 0 else -one for count, one in enumerate(pen.dashes)]
+            signed = [length if index % 2 == 0 else -length for index, length in enumerate(pen.dashes)]
             document.linetypes.add(kind_of_line, [sum(pen.dashes), *signed], description=kind.replace("_", " "))
         document.layers.add(_layer(kind), color=color, lineweight=_weight(pen.width), linetype=kind_of_line)
     document.layers.add("TEXT", color=_BLACK, lineweight=25)
@@ -100,26 +100,27 @@ def _prepare(document: Any, drawing: Drawing) -> None:  # noqa: ANN401 - a docum
 
 
 def _layer(kind: LineKind | Pen) -> str:
-    """Return the layer of a kind of line, and of a pen that of the kind that looks most like it."""
+    """Return the layer of a kind of line; for a pen that of the most similar kind."""
     if not isinstance(kind, Pen):
         return kind.upper()
     if (shade := shade_of(kind)) > _LIGHT:
         return "GRID_BOLD" if shade > _PALER else "NET"
     if len(kind.dashes) == 2:
         return "DOTTED" if kind.dashes[0] < _DOT * kind.width else "DASHED"
-    alike = min(PENS.items(), key=lambda one: (len(one[1].dashes) != len(kind.dashes), abs(one[1].width - kind.width)))
-    return alike[0].upper()
+    dashes, width = len(kind.dashes), kind.width
+    name, _ = min(PENS.items(), key=lambda item: (len(item[1].dashes) != dashes, abs(item[1].width - width)))
+    return name.upper()
 
 
 def _weight(width: float) -> int:
-    """Return the weight of a line that the format knows. [mm/100]"""
+    """Return the nearest line weight that the format has. [mm/100]"""
     return _WEIGHTS[int(np.argmin(np.abs(np.array(_WEIGHTS) - 100 * width)))]
 
 
 def _as_drawn(kind: LineKind | Pen) -> dict[str, Any]:
     """Return layer and weight of a line."""
-    found: dict[str, Any] = {"layer": _layer(kind)}
-    return found | {"lineweight": _weight(kind.width)} if isinstance(kind, Pen) else found
+    attributes: dict[str, Any] = {"layer": _layer(kind)}
+    return attributes | {"lineweight": _weight(kind.width)} if isinstance(kind, Pen) else attributes
 
 
 def _add(space: Any, item: Item, edge: float) -> None:  # noqa: ANN401 - a layout of ezdxf
@@ -134,8 +135,8 @@ def _add(space: Any, item: Item, edge: float) -> None:  # noqa: ANN401 - a layou
         case Arc():
             space.add_arc(item.centre, item.radius, item.start, item.end, dxfattribs={"layer": _layer(item.kind)})
         case Hatch():
-            for one in hatch_lines(item):
-                space.add_line(tuple(one[0]), tuple(one[1]), dxfattribs={"layer": "HATCH"})
+            for start, end in hatch_lines(item):
+                space.add_line(tuple(start), tuple(end), dxfattribs={"layer": "HATCH"})
         case Polyline():
             _add_fill(space, item.fill, item.points)
             points = [(float(x), float(y)) for x, y in item.points]
@@ -145,7 +146,7 @@ def _add(space: Any, item: Item, edge: float) -> None:  # noqa: ANN401 - a layou
 
 
 def _add_fill(space: Any, fill: float | None, around: Array) -> None:  # noqa: ANN401 - a layout of ezdxf
-    """Fill an area: what is white hides what is beneath it."""
+    """Fill an area; white hides the items below it."""
     points = [(float(x), float(y)) for x, y in around]
     if fill is not None and fill < 1:
         filled = space.add_hatch(color=_shade(fill), dxfattribs={"layer": "HATCH"})
@@ -157,33 +158,33 @@ def _add_fill(space: Any, fill: float | None, around: Array) -> None:  # noqa: A
 def _add_text(space: Any, item: Text, edge: float) -> None:  # noqa: ANN401 - a layout of ezdxf
     """Add a text: plain text as TEXT on its baseline, text with an index as MTEXT around its middle.
 
-    `edge`: of the paper, which letters of another font are not given room beyond [mm].
+    `edge`: right edge of the paper, up to which other fonts get room [mm].
     """
     parts = runs(item.text)
     attributes = {"layer": "TEXT", "style": _STYLE, "rotation": item.angle}
-    if not any(one.shift or one.is_slanted for one in parts):
+    if not any(part.shift or part.is_slanted for part in parts):
         attributes |= {"insert": item.place, "align_point": item.place, "halign": _HALIGN[item.anchor]}
         attributes["width"] = item.wide
-        # two per cent signs begin a code, and so does a caret that no space follows
+        # two per cent signs begin a code, and so does a caret without a space after it
         space.add_text(
-            "".join(one.text for one in parts).replace("%%", "% %").replace("^", "^ "),
+            "".join(part.text for part in parts).replace("%%", "% %").replace("^", "^ "),
             height=item.height,
             dxfattribs=attributes,
         )
         return
-    coded = "".join(_coded(one) for one in parts)
+    coded = "".join(_coded(part) for part in parts)
     place = (item.place[0], item.place[1] + item.height / 2)
-    # readers break lines at the width, and those without one at every space
+    # readers break lines at the width, and without a width at every space
     width = text_width(item.text, item.height)
     beyond = {"start": edge - item.place[0], "middle": 2 * (edge - item.place[0]), "end": edge}[item.anchor]
-    width = max(width, min(_SPARE * width + 2.0 * item.height, beyond))
+    width = max(width, min(_WIDENING * width + 2.0 * item.height, beyond))
     attributes |= {"char_height": item.height, "attachment_point": _MTEXT_MIDDLE[item.anchor], "insert": place}
     attributes["width"] = width
     space.add_mtext(coded, dxfattribs=attributes)
 
 
 def _coded(run: Run) -> str:
-    r"""Return a part of a text as MTEXT writes it, an index as a fraction `\S^ index;` without numerator."""
+    r"""Return a run of text as MTEXT, an index as a fraction `\S^ index;` without numerator."""
     text = _CODES.sub(r"\\\g<0>", run.text).replace("%%", "% %")
     if not run.shift:
         text = text.replace("^", "^ ")

@@ -1,4 +1,4 @@
-"""A film as GIF, or as MP4 by the program ffmpeg, out of stills."""
+"""Animations as GIF, or as MP4 by the program ffmpeg, from frames."""
 
 from __future__ import annotations
 
@@ -11,37 +11,37 @@ from typing import Any
 
 from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.locale import Refusal
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.show.pdf import pngs
 from crankwork.show.theme import Theme
 
-# what is told the part that is done, from 0 to 1
-Told = Callable[[float], None]
-# how many frames are drawn at once, which is sooner than one by one
-_AT_ONCE = 10
-# pixels of a film across at most, and in an inch; colours of a GIF
+# takes the fraction that is done, from 0 to 1
+Progress = Callable[[float], None]
+# number of frames that are drawn together, which is faster than one by one
+_BATCH_SIZE = 10
+# largest width in pixels, largest density in pixels per inch; colours of a GIF
 _WIDEST, _DENSEST, _COLOURS = 760.0, 120.0, 28
 _INCH = 25.4
 
 
-def gif(film: MovingDrawing, theme: Theme = "colour", told: Told = lambda _: None) -> bytes:
-    """Return a film as GIF that plays again and again."""
+def gif(film: Animation, theme: Theme = "colour", progress: Progress = lambda _: None) -> bytes:
+    """Return an animation as GIF that repeats."""
     try:
         from PIL import Image  # noqa: PLC0415 - an optional part
         from PIL.PngImagePlugin import PngImageFile  # noqa: PLC0415
     except ImportError:
         raise MissingExtraError(Refusal("extra_writing", names="GIF"), "report") from None
-    frames = [PngImageFile(io.BytesIO(one)).convert("RGB") for one in _pictures(film, theme, told)]
-    # colours of all frames: gas and flashes are not seen on each
+    frames = [PngImageFile(io.BytesIO(picture)).convert("RGB") for picture in _pictures(film, theme, progress)]
+    # colours of all frames: gas and flashes are not visible on each
     wide, tall = frames[0].size
-    some = frames[:: max(len(frames) // 12, 1)]
-    seen = Image.new("RGB", (wide, tall * len(some)))
-    for at, one in enumerate(some):
-        seen.paste(one, (0, at * tall))
-    palette = seen.quantize(_COLOURS, dither=Image.Dither.NONE)
-    shown: list[Any] = [one.quantize(palette=palette, dither=Image.Dither.NONE) for one in frames]
-    # hundredths of a second, as the format counts, without a drift
-    ends = [round(100 * film.seconds * at / len(shown)) for at in range(len(shown) + 1)]
+    samples = frames[:: max(len(frames) // 12, 1)]
+    combined = Image.new("RGB", (wide, tall * len(samples)))
+    for index, frame in enumerate(samples):
+        combined.paste(frame, (0, index * tall))
+    palette = combined.quantize(_COLOURS, dither=Image.Dither.NONE)
+    shown: list[Any] = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
+    # in hundredths of a second, as in the format, without drift
+    ends = [round(100 * film.seconds * index / len(shown)) for index in range(len(shown) + 1)]
     times = [10 * (end - start) for start, end in pairwise(ends)]
     stream = io.BytesIO()
     shown[0].save(
@@ -50,42 +50,33 @@ def gif(film: MovingDrawing, theme: Theme = "colour", told: Told = lambda _: Non
     return stream.getvalue()
 
 
-def mp4(film: MovingDrawing, theme: Theme = "colour", told: Told = lambda _: None) -> bytes:
-    """Return a film as MP4, one passage long."""
+def mp4(film: Animation, theme: Theme = "colour", progress: Progress = lambda _: None) -> bytes:
+    """Return one cycle of an animation as MP4."""
     program = shutil.which("ffmpeg")
     if program is None:
         raise CrankworkError(Refusal("ffmpeg_missing"))
     rate, even = f"{film.frames / film.seconds:.6g}", "pad=ceil(iw/2)*2:ceil(ih/2)*2"
     read = ["-f", "image2pipe", "-c:v", "png", "-framerate", rate, "-i", "-"]
-    # what is written to a pipe cannot go back to its head
+    # output to a pipe cannot be rewound to write the header
     write = [
-        "-c:v",
-        "libx264",
-        "-pix_fmt",
-        "yuv420p",
-        "-vf",
-        even,
-        "-movflags",
-        "frag_keyframe+empty_moov",
-        "-f",
-        "mp4",
-    ]
+        "-c:v", "libx264", "-pix_fmt", "yuv420p", "-vf", even, "-movflags", "frag_keyframe+empty_moov", "-f", "mp4",
+    ]  # fmt: skip
     ran = subprocess.run(  # noqa: S603 - the program that the owner has on the path
         [program, "-loglevel", "error", *read, *write, "-"],
-        input=b"".join(_pictures(film, theme, told)),
+        input=b"".join(_pictures(film, theme, progress)),
         capture_output=True,
         check=False,
     )
     if ran.returncode or not ran.stdout:
-        said = ran.stderr.decode("utf-8", "replace").strip().splitlines()
-        raise CrankworkError(Refusal("ffmpeg_failed", reason=(said or [str(ran.returncode)])[-1][:200]))
+        messages = ran.stderr.decode("utf-8", "replace").strip().splitlines()
+        raise CrankworkError(Refusal("ffmpeg_failed", reason=(messages or [str(ran.returncode)])[-1][:200]))
     return ran.stdout
 
 
-def _pictures(film: MovingDrawing, theme: Theme, told: Told) -> list[bytes]:
-    density, made = min(_DENSEST, _WIDEST / film.ground.width * _INCH), list[bytes]()
-    for start in range(0, film.frames, _AT_ONCE):
-        frames = range(start, min(start + _AT_ONCE, film.frames))
-        made += pngs([film.still(at) for at in frames], theme, density)
-        told(len(made) / film.frames)
-    return made
+def _pictures(film: Animation, theme: Theme, progress: Progress) -> list[bytes]:
+    density, pictures = min(_DENSEST, _WIDEST / film.ground.width * _INCH), list[bytes]()
+    for start in range(0, film.frames, _BATCH_SIZE):
+        frames = range(start, min(start + _BATCH_SIZE, film.frames))
+        pictures += pngs([film.still(frame) for frame in frames], theme, density)
+        progress(len(pictures) / film.frames)
+    return pictures

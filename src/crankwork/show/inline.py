@@ -1,4 +1,4 @@
-"""A drawing as an SVG element within a web page, in the ink and on the ground of the page."""
+"""Drawings as SVG elements within a web page, in the colours of the page."""
 
 from __future__ import annotations
 
@@ -14,53 +14,54 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.show.alt import described
-from crankwork.show.chart import stretches
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.alt import alt_text
+from crankwork.show.chart import true_slices
+from crankwork.show.moving import Animation
 from crankwork.show.moving_svg import film_body
 from crankwork.show.paper import marked
 from crankwork.show.scene import CAP_HEIGHT, Drawing, Item, LineKind, Pen, Plot, Polyline, Run, Text, pen_of, runs
 from crankwork.show.svg import SvgWriter
-from crankwork.show.theme import KINDS, Theme, curve_kind, fill_colours, look_of
+from crankwork.show.theme import KINDS, Theme, curve_kind, fill_colours, palette_of
 
-# of a curve, what nobody sees on a screen [mm]
-_UNSEEN = 0.05
-# of a place told by its crank angle, between points of the curve [mm]
+# deviation of a curve that is invisible on a screen [mm]
+_INVISIBLE_DEVIATION = 0.05
+# the same at a position that is given by its crank angle, between points of the curve [mm]
 _MISPLACED = 0.3
-_LETTERS = {10 * (at + 1): letter for at, letter in enumerate(string.ascii_lowercase)}
+_LETTERS = {10 * (index + 1): letter for index, letter in enumerate(string.ascii_lowercase)}
 _QUOTED = re.compile(r"""="([^"\s=<>`'/&]+)"(?=[ >])""")
 _FILLED = fill_colours("print")
-# a number with a point ends where another point begins
+# a number with a decimal point ends where the next point begins
 _PARTED_BY_POINTS = re.compile(r"(?<=\.\d) (?=\.)|(?<=\.\d\d) (?=\.)")
 
 
 def inline_svg(drawing: Drawing, name: str, about: str = "", marks: Sequence[str] = ()) -> str:
-    """Return a drawing as an SVG element with the class `drawing`; `name`: by which the page knows it.
+    """Return a drawing as an SVG element with the class `drawing`; `name`: by which the page finds it.
 
-    `marks`: a class for each item, empty for most, by which the page finds what becomes of it.
+    `about`: alternative text; `marks`: a class for each item, mostly empty, by which the page finds it.
     """
-    # graphs side by side have curves of one name, drawn in the order of these
+    # panels have curves of the same name; their angles follow in the order of the panels
     angles = dict[str, list[Array]]()
     for plot in drawing.plots:
-        for curve, one in plot.angles.items():
-            parts = stretches(np.isfinite(sum(plot.curves[curve])))
-            angles.setdefault(curve, []).extend(one[part] for part in parts)
-    sizes = Counter(_hundredths(round(100 * one.height / CAP_HEIGHT)) for one in drawing.items if isinstance(one, Text))
+        for curve, column in plot.angles.items():
+            parts = true_slices(np.isfinite(sum(plot.curves[curve])))
+            angles.setdefault(curve, []).extend(column[part] for part in parts)
+    heights = [round(100 * item.height / CAP_HEIGHT) for item in drawing.items if isinstance(item, Text)]
+    sizes = Counter(map(_hundredths, heights))
     usual = max(sizes, key=lambda size: sizes[size], default="3")
     writer = _InlineWriter(drawing.height, angles, usual)
     written = _grouped(writer, drawing.items, marks) if marks else writer.written(drawing.items)
-    return _element(drawing, name, about or described(drawing), written, usual)
+    return _element(drawing, name, about or alt_text(drawing), written, usual)
 
 
 def _grouped(writer: SvgWriter, items: Sequence[Item], marks: Sequence[str]) -> Iterator[str]:
-    """Yield items in their order, those of one mark that follow one another in a group."""
-    for mark, some in groupby(zip(marks, items, strict=True), key=lambda one: one[0]):
-        written = writer.written(tuple(item for _, item in some))
+    """Yield items in order, consecutive items of one mark in a group."""
+    for mark, group in groupby(zip(marks, items, strict=True), key=lambda pair: pair[0]):
+        written = writer.written(tuple(item for _, item in group))
         yield "".join([f'<g class="{mark}">', *written, "</g>"]) if mark else "".join(written)
 
 
-def inline_film(film: MovingDrawing, name: str) -> str:
-    """Return a film as an SVG element that stands still until the page moves its parts."""
+def inline_film(film: Animation, name: str) -> str:
+    """Return an animation as an SVG element that is at rest until the page moves its parts."""
     return _element(film.ground, name, film.about, film_body(film, _written))
 
 
@@ -69,42 +70,42 @@ def _written(items: tuple[Item, ...], height: float) -> Iterator[str]:
 
 
 def _element(drawing: Drawing, name: str, about: str, written: Iterable[str], size: str = "3") -> str:
-    width, height = (_hundredths(round(100 * one)) for one in (drawing.width, drawing.height))
-    told, place = html.escape(about), f'viewBox="0 0 {width} {height}" style="max-width:{width}mm"'
-    head = f'<svg class="drawing" data-figure="{html.escape(name)}" {place} font-size="{size}" role="img"'
-    # HTML asks for quotation marks only where a value has blanks or signs of its own
-    return _QUOTED.sub(r"=\1", "".join([head, f' aria-label="{told}">', *written, "</svg>"]))
+    width, height = (_hundredths(round(100 * size_mm)) for size_mm in (drawing.width, drawing.height))
+    label, view = html.escape(about), f'viewBox="0 0 {width} {height}" style="max-width:{width}mm"'
+    head = f'<svg class="drawing" data-figure="{html.escape(name)}" {view} font-size="{size}" role="img"'
+    # HTML needs quotation marks only for values with blanks or special characters
+    return _QUOTED.sub(r"=\1", "".join([head, f' aria-label="{label}">', *written, "</svg>"]))
 
 
 class _InlineWriter(SvgWriter):
-    """Items in colours of the page, curves by what they are, points apart by hundredths of a millimetre."""
+    """Writes items in the colours of the page, curves by their kind, points as steps in hundredths of a millimetre."""
 
     _SPACES = _JOIN = ""
     _SLANTED = ' class="di"'
 
     def __init__(self, height: float, angles: Mapping[str, list[Array]], usual: str = "") -> None:
-        super().__init__(height, look_of("print"))
+        super().__init__(height, palette_of("print"))
         self._angles, self._kind, self._usual = angles, "", usual
 
-    def _unseen(self, item: Polyline) -> float:
-        return _UNSEEN if item.name else super()._unseen(item)
+    def _invisible_deviation(self, item: Polyline) -> float:
+        return _INVISIBLE_DEVIATION if item.name else super()._invisible_deviation(item)
 
     def _line(self, item: Polyline) -> str:
         if not item.name:
             return super()._line(item)
         if item.fill is not None and item.name in _FILLED:
             return super()._line(item._replace(name="", kind=pen_of(item.kind)._replace(colour=f"var(--{item.name})")))
-        kept = self._kept.get(id(item.points), np.ones(len(item.points), dtype=bool))
-        # of a curve with gaps, those of its next part
-        every, at = self._angles.get(item.name), ""
-        angles = every.pop(0) if every else None
-        if angles is not None and len(angles) == len(kept):
-            kept = _with_places(kept, item.points, angles)
-            at = f' data-at="{_apart(angles[kept])}"'
-        d = self._steps(item.points[kept], closed=item.closed)
+        mask = self._masks.get(id(item.points), np.ones(len(item.points), dtype=bool))
+        # the next part of a curve with gaps
+        remaining, places = self._angles.get(item.name), ""
+        angles = remaining.pop(0) if remaining else None
+        if angles is not None and len(angles) == len(mask):
+            mask = _with_places(mask, item.points, angles)
+            places = f' data-at="{_angle_steps(angles[mask])}"'
+        d = self._steps(item.points[mask], closed=item.closed)
         self._kind = curve_kind(item)
         look, self._kind = self._drawn_as(item.kind, item.fill), ""
-        return f'<path data-curve="{html.escape(item.name)}"{at} d="{d}"{look}/>'
+        return f'<path data-curve="{html.escape(item.name)}"{places} d="{d}"{look}/>'
 
     def _drawn_as(self, kind: LineKind | Pen, fill: float | None = None) -> str:
         pen = pen_of(kind)
@@ -115,18 +116,18 @@ class _InlineWriter(SvgWriter):
     def _drawn(self, colour: str) -> str:
         if self._kind:
             return f' stroke="var(--{self._kind})"'
-        # what has no colour of its own is drawn with ink
+        # the colour of ink is inherited
         return "" if colour == "var(--ink)" else f' stroke="{colour}"'
 
     def _text(self, item: Text) -> str:
-        # letters stand well enough by tenths
+        # tenths of a millimetre are fine enough for text
         x, down = item.place[0], self._height - item.place[1]
         return super()._text(item._replace(place=(round(x, 1), self._height - round(down, 1))))
 
     def _lettered(self, item: Text) -> str:
         kinds = [*([f"d{item.anchor[0]}"] if item.anchor != "start" else []), *(["dh"] if item.halo else [])]
         look = f' class="{" ".join(kinds)}"' if kinds else ""
-        # a rule of the style sheet says the colour of texts
+        # the style sheet has the colour of texts
         return look + (f' style="fill:{self._shade(item.grey)}"' if item.grey else "")
 
     def _sized(self, size: float) -> str:
@@ -182,75 +183,77 @@ def _html(run: Run) -> str:
 
 
 def frame_data(plot: Plot) -> dict[str, Any]:
-    """Return what a page draws the frame of a graph anew by, in other scales."""
+    """Return the data from which a page redraws the frame of a graph in other scales."""
     return {key: plot.frame[key] for key in ("ticks", "labels", "powers")} if plot.frame else {}
 
 
 def frame_marks(drawing: Drawing) -> list[str]:
     """Return marks by which a page finds the frames of graphs."""
     marks = [""] * len(drawing.items)
-    for at, plot in enumerate(drawing.plots):
+    for index, plot in enumerate(drawing.plots):
         if plot.frame:
             first, last = plot.frame["items"]
-            marks[first:last] = [f"frame {at}"] * (last - first)
+            marks[first:last] = [f"frame {index}"] * (last - first)
     return marks
 
 
 def figure_data(drawing: Drawing) -> dict[str, Any]:
-    """Return where the graphs of a drawing stand, downward as SVG counts [mm], and the curves of its legend by row."""
-    lines = [one for one in drawing.items if isinstance(one, Polyline) and one.name]
-    rows = [_look(one) for one in lines if one.name == "legend"]
-    named = {one: dict.fromkeys(line.name for line in lines if _look(line) == one) for one in rows}
-    legend = [[name for name in named[one] if name != "legend"] for one in rows]
-    return {"plots": [_plot(one, drawing.height) for one in drawing.plots], "legend": legend}
+    """Return the positions of the graphs of a drawing, downward as in SVG [mm], and the curves of each legend row."""
+    lines = [item for item in drawing.items if isinstance(item, Polyline) and item.name]
+    rows = [_look(line) for line in lines if line.name == "legend"]
+    named = {row: dict.fromkeys(line.name for line in lines if _look(line) == row) for row in rows}
+    legend = [[name for name in named[row] if name != "legend"] for row in rows]
+    return {"plots": [_plot(plot, drawing.height) for plot in drawing.plots], "legend": legend}
 
 
 def _look(line: Polyline) -> tuple[object, ...]:
     pen = pen_of(line.kind)
-    return (*(round(one / pen.width, 2) for one in pen.dashes if pen.width), round(pen.width, 3), pen.colour)
+    return (*(round(dash / pen.width, 2) for dash in pen.dashes if pen.width), round(pen.width, 3), pen.colour)
 
 
 def _plot(plot: Plot, height: float) -> dict[str, Any]:
     box = plot.box
-    place = [round(one, 3) for one in (box.left, height - box.top, box.width, box.height)]
-    titles = [html_text(plot.titles.get(one, "")) for one in ("x", "y")]
+    place = [round(length, 3) for length in (box.left, height - box.top, box.width, box.height)]
+    titles = [html_text(plot.titles.get(axis, "")) for axis in ("x", "y")]
     return {"box": place, "x": list(map(float, plot.x)), "y": list(map(float, plot.y)), "over": plot.over, "t": titles}
 
 
 def _hundredths(count: int) -> str:
-    """Return hundredths as a short number."""
-    whole, part = divmod(abs(count), 100)
-    return f"{'-' if count < 0 else ''}{whole or ''}{f'.{part:02d}'.rstrip('0') if part else '' if whole else '0'}"
+    """Format hundredths as a short number."""
+    units, part = divmod(abs(count), 100)
+    return f"{'-' if count < 0 else ''}{units or ''}{f'.{part:02d}'.rstrip('0') if part else '' if units else '0'}"
 
 
 def _parted(count: int) -> str:
-    """Return hundredths parted from the number before by their sign or a space."""
+    """Format hundredths with a sign or a space that separates them from the number before."""
     return _hundredths(count) if count < 0 else f" {_hundredths(count)}"
 
 
-def _with_places(kept: NDArray[np.bool_], points: Array, angles: Array) -> NDArray[np.bool_]:
-    """Return which points are kept that those between stand at their angles too, for a dot that goes along."""
+def _with_places(mask: NDArray[np.bool_], points: Array, angles: Array) -> NDArray[np.bool_]:
+    """Extend a mask of points until interpolation by the angle is close to all points, for a dot that moves along."""
     while True:
-        between = np.column_stack([np.interp(angles, angles[kept], one) for one in points[kept].T])
-        apart = np.where(kept, 0.0, np.hypot(*(points - between).T))
-        stretch = np.cumsum(kept) - 1
-        farthest = np.maximum.reduceat(apart, np.flatnonzero(kept))[stretch]
-        wanted = (apart == farthest) & (farthest > _MISPLACED)
-        if not wanted.any():
-            return kept
-        kept = kept | wanted
+        interpolated = np.column_stack([np.interp(angles, angles[mask], column) for column in points[mask].T])
+        distance = np.where(mask, 0.0, np.hypot(*(points - interpolated).T))
+        interval = np.cumsum(mask) - 1
+        farthest = np.maximum.reduceat(distance, np.flatnonzero(mask))[interval]
+        added = (distance == farthest) & (farthest > _MISPLACED)
+        if not added.any():
+            return mask
+        mask = mask | added
 
 
-def _apart(angles: Array) -> str:
-    """Return angles as what each adds to the one before, to tenths of a degree; a to z are whole degrees up to 26."""
+def _angle_steps(angles: Array) -> str:
+    """Return angles as steps from the previous one, in tenths of a degree; a to z are whole degrees up to 26."""
     steps = np.diff(np.rint(angles * 10).astype(int), prepend=0).tolist()
-    told = (_LETTERS.get(one) or f" {one // 10 if one % 10 == 0 else str(one / 10).removeprefix('0')}" for one in steps)
-    # only numbers stand apart from each other
-    return re.sub("(?<=[a-z]) ", "", "".join(told)).strip()
+    texts = (
+        _LETTERS.get(step) or f" {step // 10 if step % 10 == 0 else str(step / 10).removeprefix('0')}" for step in steps
+    )
+    # only numbers need a separator
+    return re.sub("(?<=[a-z]) ", "", "".join(texts)).strip()
 
 
-_GREYS = "".join(f"--g{one}:color-mix(in srgb,var(--ground) {5 * one}%,var(--ink));" for one in range(1, 20))
-# what is drawn once and used again knows no ancestors, so classes stand alone
+_GREYS = "".join(f"--g{grey}:color-mix(in srgb,var(--ground) {5 * grey}%,var(--ink));" for grey in range(1, 20))
+# elements that are reused with `use` have no ancestors, so classes have no context
 STYLE = (
     f":root{{{_GREYS}}}.drawing{{fill:none;stroke:var(--ink);stroke-linejoin:round}}"
     ".drawing text{fill:var(--ink);stroke:none;white-space:pre}"
@@ -261,8 +264,8 @@ STYLE = (
 
 
 def colours(theme: Theme) -> str:
-    """Return what the style sheet of a page says of a theme: ground, ink and the colours of curves."""
-    look = look_of(theme)
-    curves = "".join(f"--{kind}:{look.curves.get(kind, look.ink)};" for kind in KINDS)
+    """Return the variables of a theme for a style sheet: ground, ink and the colours of curves."""
+    palette = palette_of(theme)
+    curves = "".join(f"--{kind}:{palette.curves.get(kind, palette.ink)};" for kind in KINDS)
     fills = "".join(f"--{name}:{colour};" for name, colour in fill_colours(theme).items())
-    return f"--ground:{look.ground};--ink:{look.ink};{curves}{fills}"
+    return f"--ground:{palette.ground};--ink:{palette.ink};{curves}{fills}"

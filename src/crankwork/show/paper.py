@@ -1,4 +1,4 @@
-"""A hand that draws charts on a paper in points, counted downward from its upper left corner, and leaves a scene."""
+"""Canvas for charts in points, downward from its upper left corner, which becomes a scene."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language
 from crankwork.show import scene
-from crankwork.show.place import LARGER, MM, here, letters
+from crankwork.show.place import LARGER, MM, current_layout, font_size
 from crankwork.show.scene import (
     CAP_HEIGHT,
     SOLID,
@@ -26,14 +26,14 @@ from crankwork.show.scene import (
     Polyline,
     Style,
     Text,
-    flowed,
+    flow_rows,
 )
 
 BLACK, GREY, LIGHT = "#000000", "#737373", "#e0e0e0"
-# letters of a reader may be wider than our table has them
+# factor for text in a reader's font over our table of widths
 WIDER = 1.1
 _SYMBOL = re.compile(r"(?<!\\)\$((?:[^$\\]|\\.)*)\$")
-# what stands upright in a symbol
+# symbols or parts of symbols that are upright
 _UPRIGHT = ("sin", "cos", "tan", "tg")
 
 
@@ -56,7 +56,7 @@ def marked(text: str) -> str:
     >>> marked("$v_п.ср$ – mean speed"), marked("$sin φ$"), marked("$a_B^n$")
     ('/{v}_{п.ср} – mean speed', 'sin φ', '/{a}_{B}^{n}')
     """
-    return _SYMBOL.sub(lambda found: _symbol(found[1]), text).replace(r"\$", "$")
+    return _SYMBOL.sub(lambda match: _symbol(match[1]), text).replace(r"\$", "$")
 
 
 def _symbol(symbol: str) -> str:
@@ -64,38 +64,38 @@ def _symbol(symbol: str) -> str:
     base, _, index = symbol.partition("_")
     slanted = not base.startswith(_UPRIGHT) and "/" not in base
     parts = re.findall(r"[^\W\d_ΣΔ]+|[\W\d_ΣΔ]+", base) if slanted else [base]
-    shown = "".join(f"/{{{one}}}" if slanted and one[0].isalpha() and one[0] not in "ΣΔ" else one for one in parts)
+    shown = "".join(f"/{{{part}}}" if slanted and part[0].isalpha() and part[0] not in "ΣΔ" else part for part in parts)
     return shown + (f"_{{{index}}}" if index else "") + (f"^{{{power}}}" if power else "")
 
 
 def text_width(text: str, size: float) -> float:
-    """Return about how wide a text is, rather too much. [pt]"""
-    return scene.text_width(marked(text), letters(size) * CAP_HEIGHT)
+    """Return an upper estimate of the width of a text. [pt]"""
+    return scene.text_width(marked(text), font_size(size) * CAP_HEIGHT)
 
 
 def fitted_lines(text: str, size: float, width: float) -> tuple[str, ...]:
     """Return a text on as many lines as it needs."""
-    return tuple(flowed(text.split(" "), " ", width, partial(text_width, size=size)))
+    return tuple(flow_rows(text.split(" "), " ", width, partial(text_width, size=size)))
 
 
 def _grey(colour: str) -> float:
     return int(colour[1:3], 16) / 255
 
 
-class Paper:
-    """A paper that collects what is drawn; coordinates to the right and downward from its upper left corner. [pt]"""
+class Canvas:
+    """Collects items; coordinates to the right and downward from its upper left corner. [pt]"""
 
     def __init__(self, width: float, height: float) -> None:
         self.width, self.height = width, height
         self.texts: list[tuple[str, float, float, float, float]] = []
         self.items: list[Item] = []
         self._plots: list[Plot] = []
-        # where lines go, of as many items as were looked at when names were placed
+        # cells that lines pass, and the number of items sampled, for the placement of names
         self.sampled: NDArray[np.int64] = np.zeros((0, 3), dtype=np.int64)
-        self.looked_at = 0
+        self.sampled_items = 0
 
     def plot(self, plot: Plot) -> None:
-        """Say where a graph stands, left, upper edge, width and height in points, and what its scales are."""
+        """Add a graph: left, upper edge, width and height in points, and its scales."""
         box = plot.box
         place = scene.Box(box.left * MM, -(box.bottom + box.height) * MM, box.width * MM, box.height * MM)
         self._plots.append(plot._replace(box=place))
@@ -112,9 +112,9 @@ class Paper:
     ) -> None:
         """Draw a line through points.
 
-        `name`: by which the line is found again in the file.
+        `name`: by which the line is found in the file.
         """
-        dashes = tuple(one * width * MM for one in style)
+        dashes = tuple(length * width * MM for length in style)
         self.items.append(Polyline(_places(x, y), Pen(width * MM, dashes, colour=colour), name=name))
 
     def area(
@@ -166,17 +166,16 @@ class Paper:
     ) -> None:
         """Write a text.
 
-        `x` and `y`: where its base line begins, ends or has its middle [pt]; `anchor`: start, middle or end: which
-        point of the text stands at x, y.
+        `x` and `y`: where its baseline begins, ends or has its middle [pt], as `anchor` says: start, end or middle.
         """
-        width, size = text_width(text, size), letters(size)
+        width, size = text_width(text, size), font_size(size)
         left = x - {"start": 0.0, "middle": width / 2, "end": width}[anchor]
         self.texts.append((text, left, y - 0.75 * size, left + width, y + 0.25 * size))
         self._write((x, y), text, size, anchor, grey=_grey(colour))
 
     def upward_text(self, x: float, y: float, text: str, *, size: float = 9.0) -> None:
         """Write a text that runs upward."""
-        half, size = text_width(text, size) / 2, letters(size)
+        half, size = text_width(text, size) / 2, font_size(size)
         self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))
         self._write((x, y), text, size, "middle", angle=90.0)
 
@@ -190,15 +189,15 @@ class Paper:
         angle: float = 0.0,
         grey: float = 0.0,
     ) -> None:
-        at = place[0] * MM, -place[1] * MM
-        self.items.append(Text(at, marked(text), letters(size) * MM * CAP_HEIGHT, anchor, angle, grey))
+        position = place[0] * MM, -place[1] * MM
+        self.items.append(Text(position, marked(text), font_size(size) * MM * CAP_HEIGHT, anchor, angle, grey))
 
     def drawing(self, title: str, language: Language = "en") -> Drawing:
-        """Return what was drawn, on a paper whose origin is its lower left corner."""
-        larger = LARGER if here().is_sheet else 1.0
+        """Return the drawing, on a paper whose origin is its lower left corner."""
+        larger = LARGER if current_layout().is_sheet else 1.0
         width, height = self.width * MM * larger, self.height * MM * larger
-        items = tuple(scene.moved(one, 0.0, height, larger) for one in self.items)
-        plots = tuple(scene.moved_plot(one, 0.0, height, larger) for one in self._plots)
+        items = tuple(scene.moved(item, 0.0, height, larger) for item in self.items)
+        plots = tuple(scene.moved_plot(plot, 0.0, height, larger) for plot in self._plots)
         return Drawing(title, language, width, height, items, plots)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal
-from crankwork.show.alt import described
+from crankwork.show.alt import alt_text
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
@@ -33,7 +33,7 @@ def png(drawing: Drawing, theme: Theme = "print", pixels_per_inch: float = 200.0
 
 
 def pngs(drawings: Sequence[Drawing], theme: Theme, pixels_per_inch: float, drawn: Sequence[bytes] = ()) -> list[bytes]:
-    """Return drawings of one size as pictures of pixels, sooner than one by one; `drawn`: they as SVG, if made."""
+    """Return drawings of one size as pictures of pixels, faster than one by one; `drawn`: their SVG, if at hand."""
     return _placed(drawings, theme, "PNG", drawn, format="png", ppi=pixels_per_inch)
 
 
@@ -42,7 +42,7 @@ def _placed(
     theme: Theme,
     name: str,
     drawn: Sequence[bytes] = (),
-    **how: Any,  # noqa: ANN401 - what typst takes
+    **options: Any,  # noqa: ANN401 - what typst takes
 ) -> list[bytes]:
     try:
         import typst  # noqa: PLC0415 - an optional part
@@ -51,11 +51,13 @@ def _placed(
     first = drawings[0]
     inputs = {
         "title": first.title,
-        "described": described(first),
+        "described": alt_text(first),
         "language": first.language,
         "width": f"{first.width:g}",
         "height": f"{first.height:g}",
         "count": str(len(drawings)),
-    } | {str(at): one.decode() for at, one in enumerate(drawn or [svg(one, theme) for one in drawings])}
-    made = typst.compile(_PAGE.encode(), sys_inputs=inputs, ignore_system_fonts=True, **how)
-    return [bytes(one) for one in made] if isinstance(made, list) else [bytes(made)]
+    }
+    pictures = drawn or [svg(drawing, theme) for drawing in drawings]
+    inputs |= {str(index): picture.decode() for index, picture in enumerate(pictures)}
+    pages = typst.compile(_PAGE.encode(), sys_inputs=inputs, ignore_system_fonts=True, **options)
+    return [bytes(page) for page in pages] if isinstance(pages, list) else [bytes(pages)]

@@ -1,4 +1,4 @@
-"""Where a chart is drawn: in a text, or larger on a sheet, with letters of the standard series and round scales."""
+"""Layout of charts: in a text, or larger on a sheet, with letters of the standard series and round scales."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from typing import NamedTuple
 from crankwork.show.scene import CAP_HEIGHT, TEXT
 
 MM = 25.4 / 72
-# letters of a chart, as large as a sheet has them, and what is no smaller than that [pt]
+# font size of a chart that a sheet enlarges to the standard size; smaller text on a chart gets the small one [pt]
 _LETTERS, _READ = 8.5, 8.0
 # millimetres of a sheet in a millimetre of the same chart in a text
 LARGER = TEXT / (_LETTERS * MM * CAP_HEIGHT)
 
 
-class Place(NamedTuple):
-    """Width of a paper, what is left free beside graphs on it [pt], and how much taller graphs are than in a text.
+class ChartLayout(NamedTuple):
+    """Width of a canvas, margins of graphs on it [pt], and factor of their height over that in a text.
 
-    Where only the size is asked for, a drawing is `rough`: names of points, which take long to place, are left out.
+    `is_rough`: only the size of the drawing is needed, so names of points, whose placement takes long, are left out.
     """
 
     width: float = 460.8
@@ -36,48 +36,48 @@ class Place(NamedTuple):
         return self.width - self.left - self.right
 
 
-_TEXT = Place()
+_TEXT_LAYOUT = ChartLayout()
 
-# of a drawing that is to be as large as its paper takes it
+# scales for drawings as large as their paper allows
 FINE = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 
-_PLACE: ContextVar[Place] = ContextVar("place", default=_TEXT)
+_LAYOUT: ContextVar[ChartLayout] = ContextVar("place", default=_TEXT_LAYOUT)
 
 
-def here() -> Place:
-    """Return where charts are drawn now."""
-    return _PLACE.get()
+def current_layout() -> ChartLayout:
+    """Return the layout of charts in this context."""
+    return _LAYOUT.get()
 
 
 @contextmanager
-def placed(place: Place) -> Iterator[None]:
-    """Draw charts at a place while this lasts."""
-    before = _PLACE.set(place)
+def use_layout(place: ChartLayout) -> Iterator[None]:
+    """Draw charts with a layout within this context."""
+    before = _LAYOUT.set(place)
     try:
         yield
     finally:
-        _PLACE.reset(before)
+        _LAYOUT.reset(before)
 
 
-def letters(size: float) -> float:
-    """Return how large letters are set here: on a sheet 3.5 mm, or 2.5 mm those that are small in a text. [pt]"""
-    if not here().is_sheet:
+def font_size(size: float) -> float:
+    """Return the font size in the current layout: on a sheet 3.5 mm, or 2.5 mm for small text. [pt]"""
+    if not current_layout().is_sheet:
         return size
     return _LETTERS if size >= _READ else _LETTERS * 2.5 / TEXT
 
 
-def tall(height: float) -> float:
-    """Return how tall a graph is here that is this tall in a text. [pt]"""
-    return here().tall * height
+def scaled_height(height: float) -> float:
+    """Return the height of a graph in the current layout. [pt]"""
+    return current_layout().tall * height
 
 
 def points_per_mm() -> float:
-    """Return how many points of a chart a millimetre of the paper is that it ends on."""
-    return 1.0 / (MM * (LARGER if here().is_sheet else 1.0))
+    """Return the points of a chart per millimetre of the finished paper."""
+    return 1.0 / (MM * (LARGER if current_layout().is_sheet else 1.0))
 
 
 def round_scale(least: float, among: Sequence[float] = (1, 2, 2.5, 4, 5)) -> float:
-    """Return the smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not less; `among`: of others, as `FINE`.
+    """Return the smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not less; `among`: other factors, as `FINE`.
 
     Examples
     --------
@@ -85,8 +85,8 @@ def round_scale(least: float, among: Sequence[float] = (1, 2, 2.5, 4, 5)) -> flo
     (0.02, 0.4, 0.5)
     """
     power = math.floor(math.log10(least))
-    for one in (*among, 10):
-        scale = float(f"{one}e{power}")
+    for factor in (*among, 10):
+        scale = float(f"{factor}e{power}")
         if scale >= least * (1 - 1e-9):
             return scale
     return 10.0 ** (power + 1)

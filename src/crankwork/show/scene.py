@@ -1,4 +1,4 @@
-"""What is drawn: lines, circles, arcs, texts and hatches on a paper. All lengths in millimetres, y upward."""
+"""Scenes: lines, circles, arcs, texts and hatches on a paper. All lengths in millimetres, y upward."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from crankwork.locale import Language
 LineKind = Literal["thick", "medium", "thin", "dashed", "dash_dot", "dotted", "axis", "net", "grid", "grid_bold"]
 Anchor = Literal["start", "middle", "end"]
 
-# letters as tall as GOST 2.304 has them
+# heights of letters by GOST 2.304
 TITLE, TEXT, SMALL = 5.0, 3.5, 2.5
 
 
 class Pen(NamedTuple):
-    """How a line is drawn: width, lengths of dashes and gaps, shade from black 0 to white 1, or a colour `#rrggbb`.
+    """Style of a line: width, lengths of dashes and gaps, shade from black 0 to white 1, or a colour `#rrggbb`.
 
     Lengths in mm.
     """
@@ -59,12 +59,12 @@ DOTTED: Style = (1.2, 1.6)
 
 
 def pen_of(kind: LineKind | Pen) -> Pen:
-    """Return how a line is drawn that has a kind or a pen of its own."""
+    """Return the pen of a kind of line, or the pen itself."""
     return kind if isinstance(kind, Pen) else PENS[kind]
 
 
 def shade_of(pen: Pen) -> float:
-    """Return how light a line is, from ink 0 to paper 1; a colour by its red."""
+    """Return the lightness of a line, from ink 0 to paper 1; of a colour that of its red."""
     return int(pen.colour[1:3], 16) / 255 if pen.colour else pen.grey
 
 
@@ -87,14 +87,14 @@ class Box(NamedTuple):
         return self.bottom + self.height
 
     def inset(self, left: float, bottom: float, right: float, top: float) -> Box:
-        """Return what is left of it within margins."""
+        """Return the box within margins."""
         return Box(self.left + left, self.bottom + bottom, self.width - left - right, self.height - bottom - top)
 
 
 class Polyline(NamedTuple):
-    """A broken line through points, array of shape (n, 2); `fill` shades what a closed one surrounds, 1 is white.
+    """A polyline through points, array of shape (n, 2); `fill` shades a closed one, 1 is white.
 
-    `name` is the key of the quantity that it shows, empty for all else.
+    `name`: key of the quantity that it shows, or empty.
     """
 
     points: Array
@@ -124,10 +124,10 @@ class Arc(NamedTuple):
 
 
 class Text(NamedTuple):
-    """A line of text upon its baseline, capitals `height` tall, turned by an angle [deg].
+    """A line of text on its baseline, capitals `height` tall, rotated by an angle [deg].
 
-    `M_{i}` sets an index, `10^{3}` an exponent, `/{M}` slanted letters; `grey` as of a `Pen`, `halo` clears what is
-    beneath its edges; letters are as `wide` as the font has them, or narrower.
+    `M_{i}` sets an index, `10^{3}` an exponent, `/{M}` slanted letters; `grey` as of a `Pen`; `halo` clears the ground
+    around its edges; `wide`: width over that of the font, at most 1.
     """
 
     place: tuple[float, float]
@@ -151,13 +151,12 @@ Item = Polyline | Circle | Arc | Text | Hatch
 
 
 class Plot(NamedTuple):
-    """Where a graph stands on its drawing, and what its scales say.
+    """Position and scales of a graph on its drawing.
 
-    `over`: key of the quantity across, if that is what tables go by; `angles`: crank angles [deg] of the points of
-    curves that stand over something else, by the names of their lines; `curves`: what they show, in the units of the
-    scales, by the same names; `titles`: of the axes, by `x` and `y`; `frame`: its `ticks` across and upward, which of
-    them have numbers, powers of ten that these lack, and its `items` from one to another; `metre`: how long it is where
-    joints of a linkage stand to scale. [mm]
+    `over`: key of the quantity on the x axis, if tables use it; `angles`: crank angles [deg] of the points of curves
+    over other quantities, by the names of their lines; `curves`: their values in the units of the scales, by the same
+    names; `titles`: of the axes, by `x` and `y`; `frame`: its `ticks` across and upward, which of them have `labels`,
+    `powers` of ten, and the range of its `items`; `metre`: its length if joints of a linkage are drawn to scale. [mm]
     """
 
     box: Box
@@ -172,7 +171,7 @@ class Plot(NamedTuple):
 
 
 class Drawing(NamedTuple):
-    """A scene on its paper, which is white, and the graphs that are on it."""
+    """A scene on white paper, with its graphs."""
 
     title: str
     language: Language
@@ -194,7 +193,7 @@ def rectangle(box: Box, kind: LineKind = "thin", fill: float | None = None) -> P
 
 
 class Run(NamedTuple):
-    """A part of a text: what it says, whether it is an index (-1), an exponent (1) or neither, and slanted."""
+    """Part of a text: index (-1), exponent (1) or neither (0), and whether it is slanted."""
 
     text: str
     shift: int
@@ -202,43 +201,43 @@ class Run(NamedTuple):
 
 
 _MARKED = re.compile(r"([_^/])\{([^{}]*)\}")
-# braces of names of users, which mark nothing, on their way through texts with marks: characters that nothing prints
+# braces in users' names, replaced by unprintable characters until the marks have been read
 _BRACES = str.maketrans("{}", "\uf07b\uf07d")
 _AS_WRITTEN = str.maketrans("\uf07b\uf07d", "{}")
 _SHIFTS = {"_": -1, "^": 1, "/": 0}
 
 
 def runs(text: str) -> list[Run]:
-    """Return the parts of a text, indices, exponents and slanted letters apart.
+    """Split a text into plain parts, indices, exponents and slanted letters.
 
     Examples
     --------
-    >>> [tuple(one) for one in runs("/{M}_{кр} = 5")]
+    >>> [tuple(run) for run in runs("/{M}_{кр} = 5")]
     [('M', 0, True), ('кр', -1, False), (' = 5', 0, False)]
     """
-    found, last = [], 0
-    for one in _MARKED.finditer(text):
-        found += [Run(text[last : one.start()], 0), Run(one[2], _SHIFTS[one[1]], one[1] == "/")]
-        last = one.end()
-    found.append(Run(text[last:], 0))
-    return [one._replace(text=one.text.translate(_AS_WRITTEN)) for one in found if one.text]
+    parts, last = [], 0
+    for match in _MARKED.finditer(text):
+        parts += [Run(text[last : match.start()], 0), Run(match[2], _SHIFTS[match[1]], match[1] == "/")]
+        last = match.end()
+    parts.append(Run(text[last:], 0))
+    return [part._replace(text=part.text.translate(_AS_WRITTEN)) for part in parts if part.text]
 
 
 def literal(name: str) -> str:
-    """Return a name of the user's own in which no mark is read.
+    """Escape a user's name, so that no mark is read in it.
 
     Examples
     --------
-    >>> [one.text for one in runs(f"point {literal('P_{1}')}")]
+    >>> [run.text for run in runs(f"point {literal('P_{1}')}")]
     ['point P_{1}']
     """
     return name.translate(_BRACES)
 
 
 def printable(name: str, longest: int = 24) -> str:
-    """Return a name from outside with a box for what cannot be printed, and shortened."""
+    """Return a name, shortened, with a box for each unprintable character."""
     name = name if len(name) <= longest else f"{name[: longest - 1]}…"
-    return "".join(one if one.isprintable() else "□" for one in name)
+    return "".join(letter if letter.isprintable() else "□" for letter in name)
 
 
 _NARROW, _WIDE = frozenset(" .,:;|!'′ijltfrI()[]/°·"), frozenset("mwMWШЩЖЮФМшщжюфыЫЪм@—…%ωφψΣΦΩ")
@@ -248,38 +247,40 @@ INDEX = 0.7
 
 
 def text_width(text: str, height: float = TEXT) -> float:
-    """Return about how wide a text is, rather too much. [mm]"""
+    """Return an upper estimate of the width of a text. [mm]"""
     return _ems(text) * height / CAP_HEIGHT
 
 
-# sheets are laid out by trial, with the same words each time
+# the layout of sheets is tried with the same words again and again
 @functools.lru_cache(maxsize=4096)
 def _ems(text: str) -> float:
     width = 0.0
     for run in runs(text):
-        for one in run.text:
-            ems = 0.33 if one in _NARROW else 0.86 if one in _WIDE else 0.69 if one.isupper() else _EMS.get(one, 0.53)
+        for sign in run.text:
+            ems = (
+                0.33 if sign in _NARROW else 0.86 if sign in _WIDE else 0.69 if sign.isupper() else _EMS.get(sign, 0.53)
+            )
             # Cyrillic letters are wider than Latin ones
-            ems += 0.05 if "Ѐ" <= one <= "ӿ" else 0.0
+            ems += 0.05 if "Ѐ" <= sign <= "ӿ" else 0.0
             width += ems * (INDEX if run.shift else 1.0)
     return width
 
 
-def flowed(texts: Sequence[str], between: str, room: float, width: Callable[[str], float] = text_width) -> list[str]:
-    """Return texts joined to rows that fit into a room."""
+def flow_rows(texts: Sequence[str], between: str, room: float, width: Callable[[str], float] = text_width) -> list[str]:
+    """Join texts to rows of a limited width."""
     rows: list[str] = []
-    for one in texts:
-        joined = f"{rows[-1]}{between}{one}" if rows else one
+    for text in texts:
+        joined = f"{rows[-1]}{between}{text}" if rows else text
         if rows and width(joined) <= room:
             rows[-1] = joined
         else:
-            rows.append(one)
+            rows.append(text)
     return rows
 
 
 def moved(item: Item, right: float, up: float, larger: float = 1.0) -> Item:
-    """Return an item elsewhere, enlarged before about the origin. [mm]"""
-    by = np.array([right, up])
+    """Return an item enlarged about the origin, then shifted. [mm]"""
+    shift = np.array([right, up])
     match item:
         case Text():
             x, y = item.place
@@ -291,43 +292,43 @@ def moved(item: Item, right: float, up: float, larger: float = 1.0) -> Item:
                 return item._replace(centre=centre, radius=radius)
             return item._replace(centre=centre, radius=radius, kind=_broader(item.kind, larger))
         case Hatch():
-            return Hatch(larger * item.points + by, larger * item.spacing)
-    return item._replace(points=larger * item.points + by, kind=_broader(item.kind, larger))
+            return Hatch(larger * item.points + shift, larger * item.spacing)
+    return item._replace(points=larger * item.points + shift, kind=_broader(item.kind, larger))
 
 
 def placed(item: Item, shift: ArrayLike, turn: float = 0.0, stretch: float = 1.0) -> Item:
-    """Return an item stretched along x, turned anticlockwise about the origin and shifted; circles stay round. [deg]"""
+    """Return an item stretched along x, rotated anticlockwise about the origin, shifted; circles stay round. [deg]"""
     cos, sin = np.cos(np.radians(turn)), np.sin(np.radians(turn))
-    way = np.array([[stretch * cos, stretch * sin], [-sin, cos]])
+    matrix = np.array([[stretch * cos, stretch * sin], [-sin, cos]])
     match item:
         case Text():
-            x, y = np.array(item.place) @ way
+            x, y = np.array(item.place) @ matrix
             item = item._replace(place=(float(x), float(y)), angle=item.angle + turn)
         case Circle() | Arc():
-            x, y = np.array(item.centre) @ way
+            x, y = np.array(item.centre) @ matrix
             item = item._replace(centre=(float(x), float(y)))
             item = item._replace(start=item.start + turn, end=item.end + turn) if isinstance(item, Arc) else item
         case _:
-            item = item._replace(points=item.points @ way)
+            item = item._replace(points=item.points @ matrix)
     return moved(item, *np.asarray(shift, dtype=float).tolist())
 
 
 def moved_plot(plot: Plot, right: float, up: float, larger: float = 1.0) -> Plot:
-    """Return a graph elsewhere, enlarged before about the origin. [mm]"""
-    left, bottom, width, height = (larger * one for one in plot.box)
+    """Return a graph enlarged about the origin, then shifted. [mm]"""
+    left, bottom, width, height = (larger * length for length in plot.box)
     return plot._replace(box=Box(left + right, bottom + up, width, height))
 
 
 def _broader(kind: LineKind | Pen, larger: float) -> LineKind | Pen:
-    """Return the pen of an enlarged line, of a width that pens have."""
+    """Return the pen of an enlarged line, with a standard width."""
     if larger == 1.0 or not isinstance(kind, Pen) or not kind.width:
         return kind
-    width = min(_WIDTHS, key=lambda one: abs(math.log(one / (larger * kind.width))))
-    return kind._replace(width=width, dashes=tuple(larger * one for one in kind.dashes))
+    width = min(_WIDTHS, key=lambda width: abs(math.log(width / (larger * kind.width))))
+    return kind._replace(width=width, dashes=tuple(larger * dash for dash in kind.dashes))
 
 
 def extent(item: Item) -> Box:
-    """Return what an item covers, letters about. [mm]"""
+    """Return the bounding box of an item, of letters an estimate. [mm]"""
     match item:
         case Text():
             width = item.wide * text_width(item.text, item.height)
@@ -347,50 +348,51 @@ def extent(item: Item) -> Box:
     return Box(float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
 
 
-# of a line, what nobody sees [mm]
-UNSEEN = 0.01
+# invisible deviation of a line [mm]
+INVISIBLE_DEVIATION = 0.01
 
 
-def thinned(points: Array, within: float = UNSEEN) -> Array:
-    """Return the points of a line without those that lie as near as that to the line that is left. [mm]"""
-    return points[seen(points, within)] if len(points) > 2 else points
+def simplified(points: Array, within: float = INVISIBLE_DEVIATION) -> Array:
+    """Return a line without the points that are within a distance of the remaining line. [mm]"""
+    return points[visible_points(points, within)] if len(points) > 2 else points
 
 
-def seen(points: Array, within: float) -> NDArray[np.bool_]:
-    """Return which points of a line do not lie as near as that to the line through the others. [mm]"""
-    return seen_of_each([points], within)[0]
+def visible_points(points: Array, within: float) -> NDArray[np.bool_]:
+    """Return a mask of the points of a line that are not within a distance of the line through the others. [mm]"""
+    return visible_points_of_each([points], within)[0]
 
 
-def seen_of_each(lines: Sequence[Array], within: float) -> list[NDArray[np.bool_]]:
-    """Return which points of each line are seen, of all lines at once. [mm]
+def visible_points_of_each(lines: Sequence[Array], within: float) -> list[NDArray[np.bool_]]:
+    """Return the masks of visible points of all lines at once. [mm]
 
     By Douglas and Peucker.
     """
-    ends = np.cumsum([len(one) for one in lines])
-    kept = np.zeros(ends[-1] if len(lines) else 0, dtype=bool)
-    kept[ends - 1] = kept[ends[:-1]] = True
-    kept[:1] = True
+    ends = np.cumsum([len(line) for line in lines])
+    mask = np.zeros(ends[-1] if len(lines) else 0, dtype=bool)
+    mask[ends - 1] = mask[ends[:-1]] = True
+    mask[:1] = True
     across, up = np.vstack([*lines, np.zeros((0, 2))]).T.copy()
-    unknown = np.flatnonzero(~kept)
+    unknown = np.flatnonzero(~mask)
     while unknown.size:
-        # all parts between points that are kept at once
-        known = np.flatnonzero(kept)
-        part = np.cumsum(kept)[unknown] - 1
+        # all intervals between visible points at once
+        known = np.flatnonzero(mask)
+        part = np.cumsum(mask)[unknown] - 1
         start, end = known[part], known[part + 1]
-        way_x, way_y = across[end] - across[start], up[end] - up[start]
+        span_x, span_y = across[end] - across[start], up[end] - up[start]
         off_x, off_y = across[unknown] - across[start], up[unknown] - up[start]
         # nearest point between the ends, because a line may turn back
-        along = (off_x * way_x + off_y * way_y) / np.maximum(way_x * way_x + way_y * way_y, 1e-30)
+        along = (off_x * span_x + off_y * span_y) / np.maximum(span_x * span_x + span_y * span_y, 1e-30)
         shares = np.clip(along, 0.0, 1.0)
-        apart = np.hypot(off_x - shares * way_x, off_y - shares * way_y)
+        distance = np.hypot(off_x - shares * span_x, off_y - shares * span_y)
         begins = np.append(True, part[1:] != part[:-1])
-        farthest = np.maximum.reduceat(apart, np.flatnonzero(begins))[np.cumsum(begins) - 1]
+        farthest = np.maximum.reduceat(distance, np.flatnonzero(begins))[np.cumsum(begins) - 1]
         is_seen = farthest > within
-        ways = np.flatnonzero(is_seen & (apart == farthest))
-        # of those as far away the first
-        kept[unknown[ways[np.append(True, part[ways[1:]] != part[ways[:-1]])[: ways.size]]]] = True
-        unknown = unknown[is_seen & ~kept[unknown]]
-    return np.split(kept, ends[:-1])
+        candidates = np.flatnonzero(is_seen & (distance == farthest))
+        # the first of equally distant points
+        is_first = np.append(True, part[candidates[1:]] != part[candidates[:-1]])[: candidates.size]
+        mask[unknown[candidates[is_first]]] = True
+        unknown = unknown[is_seen & ~mask[unknown]]
+    return np.split(mask, ends[:-1])
 
 
 def arc_points(item: Arc) -> Array:
@@ -402,7 +404,7 @@ def arc_points(item: Arc) -> Array:
 def hatch_lines(item: Hatch) -> list[Array]:
     """Return the strokes of a hatch at 45 degrees within its polygon, arrays of shape (2, 2). [mm]"""
     turn = np.array([[1.0, -1.0], [1.0, 1.0]]) / np.sqrt(2)
-    # rows of `turned` are measured across and along the strokes
+    # columns of `turned`: across and along the strokes
     turned = item.points @ turn
     start, end = turned, np.roll(turned, -1, axis=0)
     first = np.ceil(turned[:, 1].min() / item.spacing) * item.spacing

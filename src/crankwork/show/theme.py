@@ -1,4 +1,4 @@
-"""What a drawing looks like where it is shown: in print, in colour, or on dark ground."""
+"""Themes of drawings: in print, in colour, or on dark ground."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ Theme = Literal["print", "colour", "dark"]
 THEMES: tuple[Theme, ...] = get_args(Theme)
 
 
-class Look(NamedTuple):
-    """Colours of ground and letters, and of curves by how their lines are dashed; others have that of letters."""
+class Palette(NamedTuple):
+    """Colours of ground and ink, and of curves by their dashes; other lines have the colour of ink."""
 
     ground: str
     ink: str
     curves: dict[str, str]
 
 
-# colours that those who confuse red and green tell apart (Okabe and Ito); curves keep their dashes
-_LOOKS: dict[Theme, Look] = {
-    "print": Look("#ffffff", "#000000", {}),
-    "colour": Look(
+# colours that people with red-green blindness can distinguish (Okabe and Ito); curves keep their dashes
+_PALETTES: dict[Theme, Palette] = {
+    "print": Palette("#ffffff", "#000000", {}),
+    "colour": Palette(
         "#ffffff", "#000000", {"solid": "#0072b2", "dashed": "#d55e00", "dash-dot": "#009e73", "dotted": "#a6548a"}
     ),
-    "dark": Look(
+    "dark": Palette(
         "#14171c", "#e8e8e8", {"solid": "#56b4e9", "dashed": "#e69f00", "dash-dot": "#2fc79a", "dotted": "#dd9fc4"}
     ),
 }
 _DASHED = {0: "solid", 2: "dashed", 4: "dash-dot"}
 KINDS = (*_DASHED.values(), "dotted")
-# what is filled with a colour
+# colours of filled parts
 _FILLS: dict[str, dict[Theme, str]] = {
     "gas": {"colour": "#0072b2", "dark": "#56b4e9"},
     "flash": {"colour": "#e69f00", "dark": "#f0e442"},
@@ -41,25 +41,25 @@ _DOT = 1.5
 _BLACK = "#000000"
 
 
-def look_of(theme: Theme) -> Look:
+def palette_of(theme: Theme) -> Palette:
     """Return ground and ink of a theme."""
-    return _LOOKS[theme]
+    return _PALETTES[theme]
 
 
 def themed(drawing: Drawing, theme: Theme) -> Drawing:
-    """Return a drawing in the colours of a theme: curves by their dashes, all else between ground and ink."""
+    """Return a drawing in the colours of a theme: curves by their dashes, other items between ground and ink."""
     if theme == "print":
         return drawing
-    return drawing._replace(items=tuple(themed_item(one, theme) for one in drawing.items))
+    return drawing._replace(items=tuple(themed_item(item, theme) for item in drawing.items))
 
 
 def fill_colours(theme: Theme) -> dict[str, str]:
-    """Return the colours of what is filled with one, by what it is."""
+    """Return the fill colours of a theme by the name of the filled part."""
     return {name: colours.get(theme, _BLACK) for name, colours in _FILLS.items()}
 
 
 def curve_kind(item: Polyline) -> str:
-    """Return how the line of a curve is dashed, which is what its colour goes by; empty for what has no such colour."""
+    """Return the dashes of a curve, which define its colour; empty for items without such a colour."""
     pen = pen_of(item.kind)
     if not item.name or item.fill is not None or not pen.width or pen.colour not in ("", _BLACK):
         return ""
@@ -76,4 +76,4 @@ def themed_item(item: Item, theme: Theme) -> Item:
         filled = _FILLS.get(item.name) if pen.colour in ("", _BLACK) else None
         return item if filled is None else item._replace(kind=pen._replace(colour=filled[theme]))
     kind = curve_kind(item)
-    return item._replace(kind=pen._replace(colour=_LOOKS[theme].curves[kind])) if kind else item
+    return item._replace(kind=pen._replace(colour=_PALETTES[theme].curves[kind])) if kind else item

@@ -15,7 +15,7 @@ from crankwork.page.document import follow
 from crankwork.page.sliders import FAINT, LivePage, Slider
 from crankwork.report.drawing import film_of
 from crankwork.report.language import in_own_units
-from crankwork.show.alt import described
+from crankwork.show.alt import alt_text
 from crankwork.show.inline import inline_film, inline_svg
 from crankwork.study.sliders import around, ends, moved
 
@@ -56,7 +56,7 @@ def live_preview(
     marks, steps, stays = follow(live, results, data)
     behind = [name for name, figure in data["figures"].items() if figure.pop("filed", False) or FAINT in marks[name]]
     for name, drawing in live.drawn.items():
-        data["figures"][name]["told"] = described(drawing)
+        data["figures"][name]["told"] = alt_text(drawing)
     figures = {
         name: inline_svg(figure, name, figure.title, marks[name])
         for name, figure in live.drawn.items()

@@ -34,10 +34,10 @@ from crankwork.report.language import key_unit
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
-from crankwork.show.alt import described
+from crankwork.show.alt import alt_text
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
-from crankwork.show.moving import MovingDrawing
+from crankwork.show.moving import Animation
 from crankwork.studio.additions import additions, with_addition
 from crankwork.studio.ahead import live_preview
 from crankwork.studio.form import form, stated_text
@@ -47,7 +47,7 @@ from crankwork.studio.pmks import from_pmks, is_pmks
 from crankwork.studio.reach import dependent_results
 from crankwork.studio.sketch import measured, missing, redrawn, sketched, swapped
 from crankwork.studio.trials import run_experiment
-from crankwork.units import shown_in
+from crankwork.units import use_units
 
 SHARE = "crankwork:"
 _LINE = re.compile(r":(\d+)$")
@@ -117,7 +117,7 @@ class Session:
             results = self._computed(text)
         except CrankworkError as error:
             return {**answer, "additions": self._additions(description, None), "refusals": self._error_lines(error)}
-        with shown_in(results.machine.units):
+        with use_units(results.machine.units):
             if request.get("held"):
                 return answer | self._live_update(results, request)
             answer |= {
@@ -203,7 +203,7 @@ class Session:
         def place(path: str, numbers: Iterable[float]) -> str:
             return place_text(origin(path, numbers), self.language)
 
-        with shown_in(results.machine.units):
+        with use_units(results.machine.units):
             columns = page_data(results, {}, None, self.language)["columns"]
             return {"memories": TraceExport(results, self.language, place, columns).of([key]), "key": key}
 
@@ -251,13 +251,13 @@ class Session:
         return update if film is None else update | {"film": inline_film(film, "machine")}
 
     def _drawn(
-        self, results: Results, wanted: Collection[str], film: MovingDrawing | None, *, only_read: bool = False
+        self, results: Results, wanted: Collection[str], film: Animation | None, *, only_read: bool = False
     ) -> dict[str, Any]:
         """Return the selected figures and the page data."""
         shown = drawings(results, language=self.language, only=set(wanted))
         data = page_data(results, shown, film, self.language, only_read=only_read)
         for name, drawing in shown.items():
-            data["figures"][name]["told"] = described(drawing)
+            data["figures"][name]["told"] = alt_text(drawing)
             for k, plot in enumerate(drawing.plots):
                 data["figures"][name]["plots"][k] |= frame_data(plot)
         figures = {name: inline_svg(figure, name, figure.title, frame_marks(figure)) for name, figure in shown.items()}

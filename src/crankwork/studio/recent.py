@@ -30,7 +30,7 @@ def recent(opened: Recent | None = None) -> list[Recent]:
         remaining = [entry for entry in before if entry.name != opened.name]
         return json.dumps([list(entry) for entry in [opened, *remaining][:_MAX_ENTRIES]])
 
-    return _read(files.changed(_NAME, change, limit=_MAX_LENGTH))
+    return _read(files.update_user_file(_NAME, change, limit=_MAX_LENGTH))
 
 
 def named(machines: list[Recent]) -> list[list[str]]:

@@ -13,7 +13,7 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.slopes import in_part
+from crankwork.kernel.slopes import part_key
 from crankwork.kernel.trace import NotCompiledError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
@@ -231,8 +231,8 @@ class DesignSpace:
         parts = np.full(shape, np.nan), np.zeros((*shape, place.size))
         row_of = {key: row for row, key in enumerate(kernel.keys)}
         for row, key in enumerate(self.keys):
-            if in_part(key, 0) in row_of:
-                rows = slice(row_of[in_part(key, 0)], row_of[in_part(key, 0)] + PARTS)
+            if part_key(key, 0) in row_of:
+                rows = slice(row_of[part_key(key, 0)], row_of[part_key(key, 0)] + PARTS)
                 parts[0][row], parts[1][row] = values[rows], slopes[rows]
         return LocalModel(values[:count], slopes[:count], parts)
 

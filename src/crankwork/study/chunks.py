@@ -21,7 +21,7 @@ from crankwork.study.machines import MachineVariants
 from crankwork.study.ranking import Histogram, Index, Moments, Shares, best_designs, feasible, pareto_front, thin_front
 from crankwork.study.roots import reason_of
 from crankwork.study.study_file import Study
-from crankwork.units import coherent_unit, shown_in
+from crankwork.units import coherent_unit, use_units
 
 # designs of a chunk: with sampled angles, with exact extremes, and analysed one by one
 _SAMPLED, _EXACT, _ALONE = 2**16, 2**12, 2**6
@@ -283,7 +283,7 @@ def parquet_bytes(study: Study, numbers: Index, fields: Array, values: Array, me
         else:
             columns.append(pa.array(column))
             kinds.append(pa.field(variable.key, pa.float64(), metadata={"unit": coherent_unit(variable.number.unit)}))
-    with shown_in("si"):
+    with use_units("si"):
         for key, column in zip(study.keys, values, strict=True):
             columns.append(pa.array(column))
             kinds.append(pa.field(key, pa.float64(), metadata={"unit": coherent_unit(key_unit(key))}))

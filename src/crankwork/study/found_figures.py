@@ -14,14 +14,14 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import displayed, displayed_column, key_unit, label
 from crankwork.show.chart import CIRCLE, DOT, Graph, Row, round_ticks, sheet, small_text
 from crankwork.show.paper import BLACK, GREY, WIDER, fitted_lines, plain, text_width
-from crankwork.show.place import here
+from crankwork.show.place import current_layout
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 from crankwork.study.chunks import StudyAggregate, feasible_designs, is_shown
 from crankwork.study.found_text import axis_title, ranked, value_text
 from crankwork.study.ranking import Histogram, Index, thin_front
 from crankwork.study.study_file import Study
 from crankwork.study.varied import VariedField
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 
 _TALL, _LINES_TALL, _BAR = 190.0, 210.0, 21.0
 _DIGITS, _FEW = 6, 4
@@ -32,7 +32,7 @@ _DARK, _FAINT = "#8c8c8c", "#cfcfcf"
 
 def found_drawings(study: Study, aggregate: StudyAggregate, language: Language) -> dict[str, Drawing]:
     """Return the figures of a study by name."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return dict([
             *_histograms(study, aggregate, language), *_scatters(study, aggregate, language),
             *_parallels(study, aggregate, language), *_indices(study, aggregate, language),
@@ -168,7 +168,7 @@ def _parallel(axes: list[_Axis], background: int, best: Index, title: str, langu
         Row(say("study.some", language), width=0.6, colour=_FAINT),
     ]
     edge = 56.0
-    across = np.linspace(edge, here().width - edge, len(axes))
+    across = np.linspace(edge, current_layout().width - edge, len(axes))
     room = min((across[1] - across[0]) - 6, 2 * edge - 8) / WIDER
     names = [_fitted(axis.name, room) for axis in axes]
     paper, box = sheet(_LINES_TALL, rows, below=24.0 + 10.0 * max(map(len, names)))
@@ -214,7 +214,7 @@ def _bars(study: Study, key: str, indices: Array, language: Language) -> Drawing
     paper, box = sheet(_BAR * len(order) + 8, rows, below=34.0)
     names = [study.varied[index].key for index in order]
     left = max(WIDER * text_width(name, 8.5) for name in names) + 12
-    box = box._replace(left=left, width=here().width - left - 78)
+    box = box._replace(left=left, width=current_layout().width - left - 78)
     graph = Graph(
         paper,
         box,

@@ -19,7 +19,7 @@ from crankwork.study.chunks import NUMBER, StudyAggregate, feasible_designs, ran
 from crankwork.study.ranking import Index, Moments
 from crankwork.study.study_file import Study
 from crankwork.study.varied import VariedField
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 
 _DIGITS = 6
 # best designs printed in a terminal
@@ -31,14 +31,14 @@ _MIN_SHARE = 0.005
 def found_files(study: Study, aggregate: StudyAggregate) -> dict[str, bytes]:
     """Return the files of a study's folder besides its parts."""
     data = json.dumps(found_data(study, aggregate), ensure_ascii=False, indent=1)
-    with shown_in(study.units):
+    with use_units(study.units):
         tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in _sheets(study, aggregate).items()}
     return {"summary.json": f"{data}\n".encode(), **tables}
 
 
 def found_text(study: Study, aggregate: StudyAggregate, language: Language = "en") -> str:
     """Return the results of a study as text."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return "\n".join(_lines(study, aggregate, language))
 
 
@@ -173,7 +173,7 @@ def _rows(study: Study, aggregate: StudyAggregate, rows: Index) -> Sheet:
 
 def found_data(study: Study, aggregate: StudyAggregate) -> dict[str, Any]:
     """Return the results of a study as plain data."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return _data(study, aggregate)
 
 

@@ -14,7 +14,7 @@ from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError, UnknownKeyError
-from crankwork.kernel.compiled import CONVERGED, Bulk, Kernel
+from crankwork.kernel.compiled import CONVERGED, BatchResult, Kernel
 from crankwork.kernel.trace import NotCompiledError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Refusal
@@ -128,7 +128,7 @@ class MachineVariants:
             if limit > _SAME:
                 # with sampled angles another of equal peaks may be the largest
                 excess[["_angle" in key for key in self.keys]] = -np.inf
-            if batch.left_out[index] <= CONVERGED and np.any(excess > 0):
+            if batch.truncation_error[index] <= CONVERGED and np.any(excess > 0):
                 raise NotCompiledError("differs", self.keys[int(np.argmax(excess))])
 
     def check_at(self, kernel: Kernel, design: Array) -> None:
@@ -145,10 +145,10 @@ class MachineVariants:
         """
         count = designs.shape[1]
         if self._kernel is None:
-            batch = Bulk(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
+            batch = BatchResult(np.full((len(self.keys), count), np.nan), np.full(count, np.inf))
         else:
             batch = threaded(self._kernel, designs, workers)
-        inexact = batch.left_out > CONVERGED
+        inexact = batch.truncation_error > CONVERGED
         absent = ~np.isfinite(batch.values).all(axis=0)
         left = np.flatnonzero(inexact)
         left = np.sort(np.concatenate([left, np.flatnonzero(absent & ~inexact)[:explained]]))
@@ -180,11 +180,11 @@ def check_single(results: Results, key: str) -> None:
     results.value(key)
 
 
-def threaded(kernel: Kernel, designs: Array, workers: int) -> Bulk:
+def threaded(kernel: Kernel, designs: Array, workers: int) -> BatchResult:
     """Return the compiled values of all designs, calculated in threads."""
     count = designs.shape[1]
     designs = np.ascontiguousarray(designs)
-    batch = Bulk(np.empty((len(kernel.keys), count)), np.zeros(count))
+    batch = BatchResult(np.empty((len(kernel.keys), count)), np.zeros(count))
     starts = range(0, count, _BATCH_SIZE)
     run: Callable[[int], None] = lambda start: kernel.run(designs, batch, start, min(start + _BATCH_SIZE, count))  # noqa: E731
     if workers == 1 or len(starts) == 1:

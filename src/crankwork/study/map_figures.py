@@ -15,7 +15,7 @@ from crankwork.show.paper import plain
 from crankwork.show.scene import Drawing
 from crankwork.study.found_text import axis_title
 from crankwork.study.mapped import Map
-from crankwork.units import coherent_unit, from_si, shown_in
+from crankwork.units import coherent_unit, from_si, use_units
 
 _TALL, _WIDE_TALL = 250.0, 190.0
 _LINES = 9
@@ -24,7 +24,7 @@ _DIGITS = 5
 
 def map_drawings(parameter_map: Map, language: Language) -> dict[str, Drawing]:
     """Return a figure of every value that depends on a field, over the fields that it depends on."""
-    with shown_in(parameter_map.units):
+    with use_units(parameter_map.units):
         return {
             f"map.{key}": _drawing(parameter_map, key, language)
             for key in parameter_map.varying

@@ -29,7 +29,7 @@ from crankwork.study.machines import MachineVariants
 from crankwork.study.roots import reason_of
 from crankwork.study.running import each
 from crankwork.study.sought import NumericField, SearchPoints, numeric_field, search_points
-from crankwork.units import System, from_si, shown_in
+from crankwork.units import System, from_si, use_units
 
 STEPS = 12
 _MIN_STEPS, _MAX_STEPS = 1, 200
@@ -217,7 +217,7 @@ def _is_same(values: Array, axis: int) -> bool:
 def map_files(parameter_map: Map) -> dict[str, bytes]:
     """Return the files of a map's folder."""
     data = json.dumps(map_data(parameter_map), ensure_ascii=False, indent=1)
-    with shown_in(parameter_map.units):
+    with use_units(parameter_map.units):
         return {"summary.json": f"{data}\n".encode(), "tables/map.csv": csv_of_sheet(_sheet(parameter_map))}
 
 
@@ -234,7 +234,7 @@ def _sheet(parameter_map: Map) -> Sheet:
 
 def map_data(parameter_map: Map) -> dict[str, object]:
     """Return a map as plain data, in the units of the file and the tables."""
-    with shown_in(parameter_map.units):
+    with use_units(parameter_map.units):
         sheet = _sheet(parameter_map)
         values = {
             key: [None if np.isnan(value) else rounded(value) for value in column.tolist()]
@@ -252,7 +252,7 @@ def map_data(parameter_map: Map) -> dict[str, object]:
 
 def map_text(parameter_map: Map, language: Language = "en") -> str:
     """Return as text the extremes of values with their positions, and the values independent of a field."""
-    with shown_in(parameter_map.units):
+    with use_units(parameter_map.units):
         return "\n".join(_lines(parameter_map, language))
 
 

@@ -20,7 +20,7 @@ from crankwork.study.limits import written_limits
 from crankwork.study.search import REACHED, Candidate, Problem, SearchMethod, searched
 from crankwork.study.study_file import Study
 from crankwork.study.sweep import Swept, units_of
-from crankwork.units import coherent_unit, from_si, shown_in
+from crankwork.units import coherent_unit, from_si, use_units
 
 STARTS = 4
 _SAME = 1e-8
@@ -164,7 +164,7 @@ def optimise(  # noqa: PLR0913 - problem and options of the search
         value_rows.append(values)
 
     box = DesignSpace(description, bounds, keys, start=start or {}, overrides=overrides, seed=seed, seen=seen)
-    with shown_in(box.units):
+    with use_units(box.units):
         limits_in_si = [limit.in_si() for limit in stated_limits]
     sign = 1.0 if sense == "least" else -1.0
     while True:
@@ -214,7 +214,7 @@ def best_of(study: Study, progress: Callable[[float], None] | None = None) -> Op
 def _limits_of(study: Study) -> Iterator[str]:
     """Yield the limits of a study as text, in SI."""
     for key, (low, high) in study.limits.items():
-        with shown_in("si"):
+        with use_units("si"):
             unit = coherent_unit(key_unit(key))
         levels = {"=": low} if low == high else {">=": low, "<=": high}
         yield from (f"{key} {sense} {level!r} {unit}".rstrip() for sense, level in levels.items() if np.isfinite(level))

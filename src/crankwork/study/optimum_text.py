@@ -21,7 +21,7 @@ from crankwork.study.found_text import value_text, with_unit
 from crankwork.study.optimise import ActiveConstraint, Optimum
 from crankwork.study.study_file import Study
 from crankwork.study.varied import VariedField
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 
 _DIGITS = 8
 # digits of numbers in the machine file of the best design
@@ -33,7 +33,7 @@ _EXPLAINED = 1e-3
 def optimum_files(study: Study, optimum: Optimum, folder: str | PurePath) -> dict[str, bytes]:
     """Return the files of a search's folder: machine file of the best design, history and summary."""
     data = json.dumps(optimum_data(study, optimum), ensure_ascii=False, indent=1)
-    with shown_in(study.units):
+    with use_units(study.units):
         tables = {f"tables/{name}.csv": csv_of_sheet(sheet) for name, sheet in _sheets(study, optimum).items()}
     machine = _machine(study, optimum, folder).dump()
     return {"machine.toml": machine.encode(), "summary.json": f"{data}\n".encode(), **tables}
@@ -86,7 +86,7 @@ def _sheet(study: Study, columns: dict[str, Array]) -> Sheet:
 
 def optimum_text(study: Study, optimum: Optimum, language: Language = "en") -> str:
     """Return the best design as text: fields, values and active constraints."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return "\n".join(_lines(study, optimum, language))
 
 
@@ -145,7 +145,7 @@ def _in_file(field: VariedField, size: float) -> float:
 
 def optimum_data(study: Study, optimum: Optimum) -> dict[str, Any]:
     """Return the best design as plain data, in the units of the file and the tables."""
-    with shown_in(study.units):
+    with use_units(study.units):
         return _data(study, optimum)
 
 

@@ -9,14 +9,14 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import displayed, key_unit, label, rounded
 from crankwork.study.roots import Interval
 from crankwork.study.solve import Solution
-from crankwork.units import from_si, shown_in
+from crankwork.units import from_si, use_units
 
 _DIGITS = 12
 
 
 def solution_text(solution: Solution, language: Language = "en") -> str:
     """Return the equation, the range and everything found there as text."""
-    with shown_in(solution.units):
+    with use_units(solution.units):
         return _text(solution, language)
 
 
@@ -112,7 +112,7 @@ def _aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 
 def solution_data(solution: Solution) -> dict[str, Any]:
     """Return equation and solutions as plain data, in the units of tables and of the file."""
-    with shown_in(solution.units):
+    with use_units(solution.units):
         return _data(solution)
 
 

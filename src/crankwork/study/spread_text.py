@@ -8,7 +8,7 @@ from crankwork.locale import Language, say, told
 from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import displayed, displayed_size, key_unit, label, rounded
 from crankwork.study.spread import Spreads
-from crankwork.units import shown_in
+from crankwork.units import use_units
 
 # least share of the variance that is printed
 _MIN_SHARE = 0.005
@@ -16,7 +16,7 @@ _MIN_SHARE = 0.005
 
 def spread_text(spreads: Spreads, language: Language = "en") -> str:
     """Return every uncertain value with its deviation and contributions, as text."""
-    with shown_in(spreads.results.machine.units):
+    with use_units(spreads.results.machine.units):
         return _text(spreads, language)
 
 
@@ -52,7 +52,7 @@ def _text(spreads: Spreads, language: Language) -> str:
 
 def spread_data(spreads: Spreads) -> dict[str, Any]:
     """Return the spreads as plain data, in the units of the tables."""
-    with shown_in(spreads.results.machine.units):
+    with use_units(spreads.results.machine.units):
         return {
             "title": spreads.results.machine.title,
             "samples": spreads.samples,

@@ -23,7 +23,7 @@ from crankwork.study.machines import check_single
 from crankwork.study.search import SearchMethod
 from crankwork.study.sought import NumericField, kind_of, numeric_field, single_kind
 from crankwork.study.varied import VariedField
-from crankwork.units import System, parse_in, shown_in
+from crankwork.units import System, parse_in, use_units
 
 # number of points of a Sobol sequence of 30 bits
 MAX_DESIGNS = 2**30
@@ -410,7 +410,7 @@ def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[f
             known.add(key)
     if not named and not reader.problems:
         reader.complain("values", Refusal("study_nothing"))
-    with shown_in(results.machine.units):
+    with use_units(results.machine.units):
         limits = (read["limits"] or {}).items()
         return {key: _limits(key, stated, reader) for key, stated in limits if stated and key in known}
 

@@ -19,7 +19,7 @@ from crankwork.report.dataset import check_extras
 from crankwork.report.language import key_unit
 from crankwork.study.machines import MachineVariants
 from crankwork.study.sought import NumericField, numeric_field
-from crankwork.units import coherent_unit, parse_in, shown_in
+from crankwork.units import coherent_unit, parse_in, use_units
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -159,7 +159,7 @@ def sweep(
 
 def units_of(numbers: Mapping[str, NumericField], keys: Sequence[str]) -> dict[str, str]:
     """Return the SI units of fields and of single values."""
-    with shown_in("si"):
+    with use_units("si"):
         values = {key: coherent_unit(key_unit(key)) for key in keys}
     return {key: coherent_unit(number.unit) if number.unit else "" for key, number in numbers.items()} | values
 

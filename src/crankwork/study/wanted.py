@@ -13,7 +13,7 @@ from crankwork.formula.known import Known
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.report.language import key_unit
-from crankwork.units import parse_in, shown_in
+from crankwork.units import parse_in, use_units
 
 # in SI: rounding
 _SAME = 1e-12
@@ -62,7 +62,7 @@ def parse_target(parts: TargetText, results: Results) -> Target:
     position = _place(place, is_time=bool(results.period)) if place else None
     # raises an error for an angle outside the cycle
     results.value(key, position)
-    with shown_in(results.machine.units):
+    with use_units(results.machine.units):
         return Target(key, position, level(key, right))
 
 

@@ -1,4 +1,4 @@
-"""A calculated working cycle: what was found, how, and the corners of its diagram."""
+"""A calculated working cycle: its values, how they follow, and the corners of its diagram."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Vol
 
 CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual"]
 Notice = tuple[str, Mapping[str, float | str]]
-# points of a diagram and the laws between them
-Drawn = tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]]
+# points of a diagram and the pieces between them
+DiagramDefinition = tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]]
 
 
 class Corners(NamedTuple):
-    """What the theoretical diagram is drawn from."""
+    """Pressures, exponents and ratios that define the theoretical diagram."""
 
     # Absolute pressures at the named points [Pa]
     p_r: Known
@@ -24,7 +24,7 @@ class Corners(NamedTuple):
     p_c: Known
     p_z: Known
     p_b: Known
-    rho: Known  # Volume at z over the clearance volume; 1 where burning is at constant volume [-]
+    rho: Known  # Volume at z over the clearance volume; 1 for combustion at constant volume [-]
     # Exponents of compression and expansion [-]
     n1: Known
     n2: Known
@@ -36,23 +36,23 @@ class Corners(NamedTuple):
 class CalculatedCycle:
     """A working cycle and how it was calculated."""
 
-    kind: CycleKind  # What was calculated
+    kind: CycleKind  # Method of calculation
     angle: float  # Crank angle of the cycle, 720 or 360 [deg]
     corners: Corners  # Of the theoretical diagram
     memory: Mapping[str, Known]  # Data and results by key, in the order of textbooks
-    notices: tuple[Notice, ...] = ()  # Code and numbers of everything worth saying
+    notices: tuple[Notice, ...] = ()  # Code and numbers of each notice
 
     @property
     def values(self) -> dict[str, float]:
         """Data and results by key. [SI]"""
-        return {key: one.value for key, one in self.memory.items()}
+        return {key: traced.value for key, traced in self.memory.items()}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, CalculatedCycle):
             return NotImplemented
-        # knowns are never compared: cycles are equal where their numbers are
-        told = [(one.kind, one.angle, one.values, one.notices) for one in (self, other)]
-        return told[0] == told[1]
+        # traced values have no equality: compare their numbers
+        theirs = other.kind, other.angle, other.values, other.notices
+        return (self.kind, self.angle, self.values, self.notices) == theirs
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -61,32 +61,32 @@ class Calculated(NamedTuple):
     """A calculated diagram."""
 
     diagram: IndicatorDiagram  # Absolute pressure over the cycle
-    # Single values by key of the table of quantities, in the order in which they were found
+    # Single values by key of the table of quantities, in the order of calculation
     memory: Mapping[str, Known]
-    notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # What the reader should know: code and values
+    notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # Codes and values
     theoretical: IndicatorDiagram | None = None  # The diagram before its corners were rounded
-    # Points and laws that give the diagram; empty where it is none of corners
-    drawn: Drawn = ({}, ())
-    peak: Mapping[str, Known] = {}  # What stands behind the greatest pressure of a release of heat, by key
+    # Points and pieces that define the diagram; empty unless it has corners
+    drawn: DiagramDefinition = ({}, ())
+    peak: Mapping[str, Known] = {}  # Values at the greatest pressure of a heat release, by key
 
     @property
     def values(self) -> dict[str, float]:
         """Single values by key. [SI]"""
-        return {key: one.value for key, one in self.memory.items()}
+        return {key: traced.value for key, traced in self.memory.items()}
 
     @property
     def worked(self) -> tuple[Known, ...]:
-        """What formulas and sums give, in the order of calculation."""
-        knowns = {**self.peak, **self.memory}
+        """Results of formulas and sums, in the order of calculation."""
+        traced_values = {**self.peak, **self.memory}
         return tuple(
-            one
-            for one in in_order(knowns.values())
-            if isinstance(one.node, Use | Total) and (one.key in knowns or "." in one.key)
+            traced
+            for traced in in_order(traced_values.values())
+            if isinstance(traced.node, Use | Total) and (traced.key in traced_values or "." in traced.key)
         )
 
 
 class CalculatedPressure(Protocol):
-    """A calculation of the working cycle, waiting for a cylinder."""
+    """Calculation of the working cycle for any cylinder."""
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder."""

@@ -20,17 +20,17 @@ from crankwork.locale import Refusal
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, check_heat_release, stages
 
-# a cycle of an engine takes one or two thousand
-_MOST_LOOKS = 10_000
-# of hydrogen with oxygen alone 13 MJ/kg are released
-_MOST_HEAT = 2e7
+# a cycle of an engine takes one or two thousand evaluations
+_MAX_EVALUATIONS = 10_000
+# hydrogen with oxygen releases 13 MJ/kg
+_MAX_HEAT = 2e7
 
 Flags = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
 class ClosedGas:
-    """The enclosed gas: what its pressure does at any crank angle. Volumes [m3], mass [kg], heat [J], angles [deg]."""
+    """The enclosed gas at any crank angle. Volumes [m3], mass [kg], heat [J], angles [deg]."""
 
     data: HeatReleaseData
     volume_at: VolumeAt
@@ -72,7 +72,7 @@ class ClosedGas:
         data = self.data
         motored = gas_formulas.polytropic_pressure(data.shut_pressure, self.shut_volume, volume, data.motored_exponent)
         factors = woschni.EXPANSION
-        # late in the expansion of a cold charge the difference may turn negative; burning slows no gas down
+        # late in the expansion of a cold charge the difference may be negative, but combustion never slows the gas down
         above = np.maximum(pressure, motored)
         factor = np.where(has_burnt, factors.burning, 0.0)
         shut = (data.shut_temperature, data.shut_pressure, self.shut_volume)
@@ -98,7 +98,7 @@ class ClosedGas:
         return np.asarray(woschni.wall_heat_rate(coefficient, area, temperature, data.wall_temperature, self.speed))
 
     def rates(self, degrees: Array, pressure: Array, stage: Stage) -> Array:
-        """Return what pressure, work and heat to the walls do per radian, shape (3, n).
+        """Return the derivatives of pressure, work and heat to the walls by crank angle, shape (3, n).
 
         Rates [Pa/rad], [J/rad], [J/rad].
         """
@@ -117,11 +117,10 @@ class ClosedGas:
         return np.array([rise, pressure * growth, wall])
 
     def integrated(self, stage: Stage, pressure: float, relative: float, absolute: float) -> tuple[VolumeAt, Array]:
-        """Return the solution of the first law over one part of the closed period.
+        """Solve the first law over one stage of the closed period.
 
-        Pressure, work and heat to the walls within it and at its end [Pa], [J], [J]. `pressure`, `relative` and
-        `absolute`: pressure at its start; relative and absolute tolerance, the latter by the size of each unknown
-        [Pa].
+        Returns pressure, work and heat to the walls as a function of the crank angle, and at its end [Pa], [J], [J].
+        `pressure`: at its start [Pa]; `relative` and `absolute`: tolerances, the latter by the size of each unknown.
         """
         try:
             from scipy.integrate import solve_ivp  # noqa: PLC0415 - loaded where it is needed
@@ -130,12 +129,12 @@ class ClosedGas:
         sizes = np.array([self.data.shut_pressure, 1.0, 1.0])
         sizes[1:] = self.data.shut_pressure * self.shut_volume + self.heat
 
-        looks = itertools.count()
+        evaluations = itertools.count()
 
         def right_side(angle: float, state: Array) -> Array:
-            if next(looks) > _MOST_LOOKS:
+            if next(evaluations) > _MAX_EVALUATIONS:
                 raise self._not_followed(stage, angle)
-            # a trial step that falls below vacuum is taken again, shorter
+            # nan makes the solver repeat a trial step below vacuum with a shorter one
             return np.radians(self.rates(np.array([angle]), state[:1], stage)[:, 0]) if state[0] > 0 else state * np.nan
 
         with np.errstate(all="ignore"):
@@ -170,10 +169,10 @@ def closed_gas(
     dead_centres: tuple[float, float],
     worked: Worked,
 ) -> ClosedGas:
-    """Return the gas enclosed at intake closing, its constants worked out."""
+    """Return the gas enclosed at intake closing, after calculating its constants."""
     check_heat_release(data)
-    shut, begin, end = (one.start for one in stages(data, dead_centres))
-    clearance, largest, shut_volume = (float(one) for one in volume_at(np.array([*dead_centres, shut])))
+    shut, begin, end = (stage.start for stage in stages(data, dead_centres))
+    clearance, largest, shut_volume = (float(volume) for volume in volume_at(np.array([*dead_centres, shut])))
     _give(worked, data)
     _give_sizes(worked, clearance, largest, data)
     worked.known["V_1"] = volume_when(worked, shut_volume, shut).named("cylinder_volume.1")
@@ -185,7 +184,7 @@ def closed_gas(
     if data.heat is None:
         worked(wiebe.fuel_heat)
     mass, heat = worked(first_law.gas_mass).value, worked["fuel_heat"].value
-    if heat > _MOST_HEAT * mass:
+    if heat > _MAX_HEAT * mass:
         raise CrankworkError(Refusal("heat_excessive", heat=heat, share=heat / mass / 1e6))
     return ClosedGas(
         data=data,
@@ -204,29 +203,29 @@ def closed_gas(
 
 
 def _give_sizes(worked: Worked, clearance: float, largest: float, data: HeatReleaseData) -> None:
-    """Take area, volumes and mean speed of the piston, of the stroke and the compression ratio of the cylinder."""
+    """Add area, volumes and mean speed of the piston, from the stroke and the compression ratio of the cylinder."""
     area = gas_formulas.piston_area(math.pi, worked["bore"])
     stroke = given("stroke", (largest - clearance) / area.value, data.stated_at("crank.stroke"))
     ratio = given("compression_ratio", largest / clearance, data.stated_at("cylinder.compression_ratio"))
     swept, speed = gas_formulas.swept_volume(area, stroke), mean_piston_speed(stroke, worked["rotational_speed"])
-    found = (area, swept, gas_formulas.clearance_volume(swept, ratio), speed)
-    worked.known |= {one.key: one for one in found}
+    traced_values = (area, swept, gas_formulas.clearance_volume(swept, ratio), speed)
+    worked.known |= {traced.key: traced for traced in traced_values}
 
 
 def volume_when(worked: Worked, volume: float, degrees: float) -> Known:
-    """Return the volume of the cylinder at a crank angle, of the way that the piston has come. [m3]"""
+    """Return the volume of the cylinder at a crank angle, from the displacement of the piston. [m3]"""
     clearance, area = worked["clearance_volume"], worked["piston_area"]
-    way = Known(Found((volume - clearance.value) / area.value, "motion", at=degrees), "piston_displacement")
-    found: Known = gas_formulas.cylinder_volume(clearance, area, way)
-    return found
+    displacement = Known(Found((volume - clearance.value) / area.value, "motion", at=degrees), "piston_displacement")
+    cylinder_volume: Known = gas_formulas.cylinder_volume(clearance, area, displacement)
+    return cylinder_volume
 
 
-# what the heat is made of, where it is not stated itself
+# define the heat unless it is stated itself
 _OF_FUEL = ("fuel_per_cycle", "heating_value", "burning_efficiency")
 
 
 def _give(worked: Worked, data: HeatReleaseData) -> None:
-    """Take the data as they are stated."""
+    """Add the data as stated."""
     worked.given("rotational_speed", data.rotational_speed, "crank.speed", "rpm")
     for name, key, path in (
         ("bore", "bore", "cylinder.bore"),
@@ -249,7 +248,7 @@ def _give(worked: Worked, data: HeatReleaseData) -> None:
     if not data.heat_ratio_slope:
         worked.absent("gas_heat_ratio_slope")
     worked.given("burning_duration", math.radians(data.burning_duration), data.stated_at("cycle.combustion_duration"))
-    # states of a quantity that varies go by the argument that stands for them
+    # states of a quantity that varies are stored under the argument that they are used for
     worked.known |= {
         "p_shut": given("cylinder_pressure", data.shut_pressure, data.stated_at("cycle.intake_pressure")),
         "T_shut": given("cylinder_temperature", data.shut_temperature, data.stated_at("cycle.intake_temperature")),

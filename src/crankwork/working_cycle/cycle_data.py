@@ -1,4 +1,4 @@
-"""What the calculation of Grinevetsky and Mazing starts from, and what is usual where nothing is given."""
+"""Data of the calculation of Grinevetsky and Mazing, with usual values for those that are not given."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from crankwork.working_cycle.performance import MECHANICAL_LOSSES
 
 @dataclass(frozen=True)
 class GrinevetskyData:
-    """Data of a calculated cycle; `None` takes the value that is usual for the kind of engine, or leaves a step out."""
+    """Data of a calculated cycle; `None` takes the usual value for the kind of engine, or leaves a step out."""
 
-    kind: Literal["petrol", "diesel"]  # Burning at constant volume, or at constant volume and then pressure
-    compression_ratio: float  # Of the closed cylinder; of a two-stroke engine from the shutting of its ports [-]
+    kind: Literal["petrol", "diesel"]  # Combustion at constant volume, or at constant volume and then pressure
+    compression_ratio: float  # Of the closed cylinder; of a two-stroke engine from the closing of its ports [-]
     rotational_speed: float  # Revolutions per minute [rpm]
     fuel: Fuel | None = None  # By default the one the kind is named after
     excess_air: float | None = None  # Air over air needed [-]
@@ -44,7 +44,7 @@ class GrinevetskyData:
     # Factors of charging after the dead centre and of scavenging [-]
     charge_up: float = 1.0
     scavenging: float = 1.0
-    # Whether the residual gas keeps its pressure in the balance of the intake, or expands to that of the intake
+    # Whether the residual gas keeps its pressure in the balance of the intake, or expands to the intake pressure
     intake_school: Literal["kolchin", "vietnamese"] = "kolchin"
     # Heat of the residual gas over that of the fresh charge, in the Vietnamese balance [-]
     heat_correction: float = 1.1
@@ -62,12 +62,12 @@ class GrinevetskyData:
     gas_constant: float = 8.315
     air_gas_constant: float = 287.0
     strokes: Literal[4, 2] = 4  # Strokes per cycle
-    cylinders: int = 1  # How many
+    cylinders: int = 1  # Number of cylinders
     # Coefficients of p_m = a + b v_p, or their key in `performance.MECHANICAL_LOSSES` [Pa, Pa s/m]
     mechanical_loss: tuple[float, float] | str | None = None
-    power: float | None = None  # Wanted effective power of the engine; bore and stroke follow [W]
-    stroke_bore_ratio: float = 1.0  # Stroke over bore, where they follow [-]
-    # Where they are given [m]
+    power: float | None = None  # Target of effective power, from which bore and stroke follow [W]
+    stroke_bore_ratio: float = 1.0  # Stroke over bore, if they follow from the power [-]
+    # Given size [m]
     bore: float | None = None
     stroke: float | None = None
     rounds_size: bool = False  # Whether bore and stroke that follow are rounded to whole millimetres
@@ -77,7 +77,7 @@ class GrinevetskyData:
     pi: float = 3.141592653589793  # The constant the calculation uses [-]
 
 
-# kolchin_demidov_2008, ch. 3: the middle of what is usual
+# kolchin_demidov_2008, ch. 3: the middle of the usual ranges
 _USUAL = {
     "petrol": {
         "excess_air": 0.95, "intake_loss_factor": 2.8, "intake_speed": 95.0, "residual_temperature": 1000.0,
@@ -94,7 +94,7 @@ _RESIDUAL = {"petrol": 1.15, "diesel": 1.05}
 
 
 def with_usual_values(data: GrinevetskyData) -> tuple[GrinevetskyData, tuple[str, ...]]:
-    """Return data with what is usual where nothing is given, and the names of what was taken."""
+    """Return data completed with usual values, and the names of the fields that were completed."""
     check_data(data)
     usual: dict[str, float] = dict(_USUAL[data.kind])
     if data.intake_pressure is not None:
@@ -122,7 +122,7 @@ def _losses(key: str) -> tuple[float, float]:
     return MECHANICAL_LOSSES[key]
 
 
-# fields that stand elsewhere in a machine file, or as a quantity of another name
+# fields with another path in a machine file, or another key of quantity
 _PLACES = {
     "compression_ratio": "cylinder.compression_ratio", "rotational_speed": "crank.speed", "bore": "cylinder.bore",
     "cylinders": "engine.cylinders", "strokes": "cycle.cycle",
@@ -132,7 +132,7 @@ _QUANTITIES = {
     "strokes": "strokes_per_cycle", "cylinders": "cylinder_count", "gas_constant": "molar_gas_constant",
     "air_gas_constant": "specific_gas_constant",
 }  # fmt: skip
-# what no file states
+# no key of a file states these
 _CONSTANTS = {
     "compressor_exponent", "cooler_drop", "heat_correction", "exhaust_exponent", "hydrogen_share", "gas_constant",
     "air_gas_constant", "cooling_factor", "cooling_exponent",
@@ -140,20 +140,20 @@ _CONSTANTS = {
 _LEFT_OUT = {"power", "stroke", "pi"}
 
 
-def what_is_given(data: GrinevetskyData, full: GrinevetskyData) -> Worked:
-    """Return the calculation before its first step: every number of the data as a known.
+def traced_cycle_inputs(data: GrinevetskyData, full: GrinevetskyData) -> Worked:
+    """Return the calculation before its first step: every number of the data as a traced input.
 
-    `data` and `full`: what was given, and the same with what is usual where nothing was.
+    `data` and `full`: as given, and completed with usual values.
     """
     worked = Worked()
-    for one in fields(data):
-        value, key = getattr(full, one.name), _QUANTITIES.get(one.name, one.name)
-        if not isinstance(value, float | int) or one.name in _LEFT_OUT:
+    for field in fields(data):
+        value, key = getattr(full, field.name), _QUANTITIES.get(field.name, field.name)
+        if not isinstance(value, float | int) or field.name in _LEFT_OUT:
             continue
-        if one.name == "lost_stroke" and not value:
+        if field.name == "lost_stroke" and not value:
             worked.absent(key)
             continue
-        path = "" if one.name in _CONSTANTS else _PLACES.get(one.name, f"cycle.{one.name}")
+        path = "" if field.name in _CONSTANTS else _PLACES.get(field.name, f"cycle.{field.name}")
         worked.given(key, value, path, "rpm" if key == "rotational_speed" else "")
     fuel = full.fuel or FUELS[full.kind]
     for name in ("carbon", "hydrogen", "oxygen", "molar_mass", "heating_value"):
@@ -161,7 +161,7 @@ def what_is_given(data: GrinevetskyData, full: GrinevetskyData) -> Worked:
         if value is not None:
             worked.given(f"fuel_{name}", value, f"cycle.fuel.{name}")
     if fuel.molar_mass is None:
-        # the share of a vapour without mass in the charge is none
+        # the share of a vapour without mass in the charge is 0
         worked.absent("fuel_molar_mass", math.inf)
     if full.kind == "petrol":
         worked.absent("cut_off", 1.0)
@@ -190,7 +190,7 @@ def check_data(data: GrinevetskyData) -> None:
 
 
 def _check_choices(data: GrinevetskyData) -> None:
-    """Raise if things are given that do not go together."""
+    """Raise if data contradict each other."""
     if data.strokes == 4 and data.lost_stroke:
         raise CycleError(Refusal("lost_stroke_of_two"))
     if data.lost_stroke >= 1:
@@ -202,13 +202,13 @@ def _check_choices(data: GrinevetskyData) -> None:
 
 
 def _check_signs(data: GrinevetskyData) -> None:
-    """Raise unless every number that is given is positive, or may be zero."""
-    for one in fields(data):
-        value = getattr(data, one.name)
-        if isinstance(value, float | int) and not isinstance(value, bool) and one.name not in _ANY_SIGN:
-            limit = 0.0 if one.name in ("lost_stroke", "scavenging") else None
+    """Raise unless every given number is positive, or may be zero."""
+    for field in fields(data):
+        value = getattr(data, field.name)
+        if isinstance(value, float | int) and not isinstance(value, bool) and field.name not in _ANY_SIGN:
+            limit = 0.0 if field.name in ("lost_stroke", "scavenging") else None
             if not (value >= limit if limit is not None else value > 0):
-                told = {"name": one.name, "value": value}
+                values = {"name": field.name, "value": value}
                 raise CycleError(
-                    Refusal("not_above", **told, limit=0) if limit is None else Refusal("not_negative", **told)
+                    Refusal("not_above", **values, limit=0) if limit is None else Refusal("not_negative", **values)
                 )

@@ -1,4 +1,4 @@
-"""Fuels: what they are made of, the heat they give and the air they need."""
+"""Fuels: elements, heating value and the air needed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Fuel(NamedTuple):
     carbon: float
     hydrogen: float
     oxygen: float = 0.0
-    molar_mass: float | None = None  # Of the vapour, where the fuel evaporates before the cylinder [kg/kmol]
+    molar_mass: float | None = None  # Of the vapour, if the fuel evaporates before the cylinder [kg/kmol]
     heating_value: float | None = None  # Lower heating value; by default from the elements [J/kg]
 
 
@@ -47,9 +47,9 @@ def air_amount_needed(C_f: Value, H_f: Value, O_f: Value) -> Value:
 
 
 def burning(worked: Worked, fuel: Fuel) -> None:
-    """Work the heat that 1 kg of fuel gives and the air that it needs.
+    """Calculate the heat of 1 kg of fuel and the air that it needs.
 
-    `fuel`: the fuel; its heating value is calculated unless it is given.
+    `fuel`: its heating value is calculated unless it is given.
     """
     elements = fuel[:3]
     if min(elements) < 0 or abs(sum(elements) - 1) > 0.02 or fuel.carbon + fuel.hydrogen <= 0:

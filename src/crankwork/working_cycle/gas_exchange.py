@@ -1,6 +1,6 @@
-"""Curves of an indicator diagram by themselves: with given end slopes, cut out, moved, and closed over the cycle.
+"""Segments of an indicator diagram: with given end slopes, clipped, shifted, and closed over the cycle.
 
-The exchange of gas is simplified: constant pressures of exhaust and intake, with smooth monotone passages between.
+Gas exchange is simplified: constant pressures of exhaust and intake, with smooth monotone transitions.
 """
 
 from __future__ import annotations
@@ -15,27 +15,22 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import Segment
 from crankwork.loads.monotone import hermite, hermite_slope
 
-_SAME = 1e-9
+_ANGLE_TOLERANCE = 1e-9
 
 # Crank angle [deg], pressure [Pa], slope [Pa/deg].
 Knot = tuple[float, float, float]
 
 
-def passage(start: Knot, end: Knot) -> Segment:
-    """Return one cubic between two knots, its slopes reduced where it would overshoot them.
+def connecting_cubic(start: Knot, end: Knot) -> Segment:
+    """Return one cubic between two knots, with slopes reduced where it would overshoot them.
 
     Source: fritsch_carlson_1980, sec. 3; slopes of one sign, at most three times the chord.
     """
     chord = (end[1] - start[1]) / (end[0] - start[0])
-    slopes = [np.sign(chord) * min(abs(one), 3 * abs(chord)) if one * chord > 0 else 0.0 for one in (start[2], end[2])]
-    return Segment(
-        start[0],
-        end[0],
-        "rounded",
-        np.array([start[0], end[0]]),
-        np.array([start[1], end[1]]),
-        np.array(slopes),
-    )
+    limit = 3 * abs(chord)
+    slopes = [np.sign(chord) * min(abs(slope), limit) if slope * chord > 0 else 0.0 for slope in (start[2], end[2])]
+    ends = np.array([start[0], end[0]])
+    return Segment(start[0], end[0], "rounded", ends, np.array([start[1], end[1]]), np.array(slopes))
 
 
 def constant_pressure(start: float, end: float, pressure: Known) -> Segment:
@@ -48,8 +43,8 @@ def constant_pressure(start: float, end: float, pressure: Known) -> Segment:
     )
 
 
-def clipped(segment: Segment, start: float, end: float) -> Segment:
-    """Return the part of a segment between two crank angles; it is the same curve there.
+def clip_segment(segment: Segment, start: float, end: float) -> Segment:
+    """Return the same curve between two crank angles.
 
     `start` and `end`: crank angles within it [deg].
     """
@@ -74,7 +69,7 @@ def _around(ends: Array, inside: Array) -> Array:
 
 
 def from_before_zero(dead_centres: tuple[float, float]) -> tuple[float, float]:
-    """Return the dead centres with a top that lies before 0 written as a negative angle. [deg]
+    """Return the dead centres, a top dead centre that lies before 0 as a negative angle. [deg]
 
     Top within half a revolution of 0, bottom after it.
     """
@@ -84,21 +79,21 @@ def from_before_zero(dead_centres: tuple[float, float]) -> tuple[float, float]:
 
 
 def within_cycle(segments: Sequence[Segment], cycle: float) -> tuple[Segment, ...]:
-    """Return segments of one whole cycle, begun anywhere, as segments from 0 to its end.
+    """Return segments of one cycle that begins anywhere as segments from 0 to its end.
 
-    The same curves, the one across the end of the cycle cut in two. `segments`: in order, together one cycle long; of
-    constant pressure or rounded.
+    The segment across the end of the cycle is cut in two. `segments`: in order, together one cycle long; of constant
+    pressure or rounded.
     """
     parts = []
     for segment in segments:
-        turn = cycle * np.floor((segment.start + _SAME) / cycle)
+        turn = cycle * np.floor((segment.start + _ANGLE_TOLERANCE) / cycle)
         cut = turn + cycle
-        if segment.end > cut + _SAME:
-            parts.append(_moved(clipped(segment, segment.start, cut), -turn))
-            parts.append(_moved(clipped(segment, cut, segment.end), -cut))
+        if segment.end > cut + _ANGLE_TOLERANCE:
+            parts.append(_moved(clip_segment(segment, segment.start, cut), -turn))
+            parts.append(_moved(clip_segment(segment, cut, segment.end), -cut))
         elif segment.end > segment.start:
             parts.append(_moved(segment, -turn))
-    parts.sort(key=lambda one: one.start)
+    parts.sort(key=lambda part: part.start)
     first, last = parts[0], parts[-1]
     parts[0] = replace(first, start=0.0, knots=np.concatenate([[0.0], first.knots[1:]]))
     parts[-1] = replace(last if len(parts) > 1 else parts[0], end=cycle)
@@ -106,5 +101,6 @@ def within_cycle(segments: Sequence[Segment], cycle: float) -> tuple[Segment, ..
     return tuple(parts)
 
 
-def _moved(segment: Segment, by: float) -> Segment:
-    return replace(segment, start=float(segment.start + by), end=float(segment.end + by), knots=segment.knots + by)
+def _moved(segment: Segment, shift: float) -> Segment:
+    start, end = float(segment.start + shift), float(segment.end + shift)
+    return replace(segment, start=start, end=end, knots=segment.knots + shift)

@@ -12,38 +12,32 @@ from crankwork.loads.gas import clearance_volume
 from crankwork.locale import Refusal
 from crankwork.working_cycle import charge, combustion, performance
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners, Notice
-from crankwork.working_cycle.cycle_data import GrinevetskyData, what_is_given, with_usual_values
+from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs, with_usual_values
 from crankwork.working_cycle.fuels import FUELS, CycleError, burning
-from crankwork.working_cycle.heat_capacities import (
-    fresh_heat,
-    mixture_heat,
-    product_coefficients,
-    residual_heat,
-)
+from crankwork.working_cycle.heat_capacities import fresh_heat, mixture_heat, product_coefficients, residual_heat
 from crankwork.working_cycle.mixture import mixture
 from crankwork.working_cycle.sizing import heat_balance, sized, work_power
 from crankwork.working_cycle.validity import cycle_notices
 
-# what was put in and belongs to the results
-# the laws of heat are fitted up to here, before anything has burnt [K]
-_HOTTEST = 3000.0
+# inputs that are shown with the results
 _SHOWN = (
     "fuel_heating_value", "excess_air", "compression_ratio", "ambient_temperature", "charge_pressure",
     "charge_temperature", "intake_pressure", "residual_pressure", "residual_temperature", "charge_heating",
     "compression_exponent", "expansion_exponent", "heat_use", "filling_factor", "cut_off", "lost_stroke",
     "strokes_per_cycle", "cylinder_count", "pressure_rise_ratio",
 )  # fmt: skip
+# the laws of heats are fitted up to this temperature before combustion [K]
+_HOTTEST = 3000.0
 
 
 def grinevetsky(data: GrinevetskyData) -> CalculatedCycle:
     """Return the working cycle of an engine.
 
-    What was found in the order of textbooks, corners of the theoretical diagram, notices. `data`: what is known; with
-    power, or bore and stroke, the engine is sized too. Source: kolchin_demidov_2008, ch. 1, 3, 4;
-    nguyen_tat_tien_2000.
+    Values in the order of textbooks, corners of the theoretical diagram, notices. `data`: with power, or bore and
+    stroke, the engine is sized too. Source: kolchin_demidov_2008, ch. 1, 3, 4; nguyen_tat_tien_2000.
     """
     full, assumed = with_usual_values(data)
-    worked = what_is_given(data, full)
+    worked = traced_cycle_inputs(data, full)
     burning(worked, full.fuel or FUELS[full.kind])
     mixture(worked)
     _intake(worked, full)
@@ -57,7 +51,7 @@ def grinevetsky(data: GrinevetskyData) -> CalculatedCycle:
         _effective(worked, full)
         heat_balance(worked, full)
     memory = {key: worked[key] for key in _SHOWN if key in worked.known and key not in worked.found} | worked.found
-    notices += cycle_notices(full.kind, full.heat_capacities, {key: one.value for key, one in memory.items()})
+    notices += cycle_notices(full.kind, full.heat_capacities, {key: traced.value for key, traced in memory.items()})
     notices += range_notices(memory.values())
     return CalculatedCycle(full.kind, 180.0 * full.strokes, _corners(worked), memory, tuple(notices))
 
@@ -91,8 +85,8 @@ def _intake(worked: Worked, data: GrinevetskyData) -> None:
 
 
 def _compression(worked: Worked, data: GrinevetskyData) -> None:
-    for one in _FILLINGS[data.intake_school]:
-        worked(one)
+    for function in _FILLINGS[data.intake_school]:
+        worked(function)
     if data.lost_stroke:
         closed = worked["volumetric_efficiency"].named("volumetric_efficiency.before_ports")
         worked(performance.ported_volumetric_efficiency, eta_v=closed)
@@ -120,19 +114,19 @@ def _combustion(worked: Worked, data: GrinevetskyData) -> None:
     worked(combustion.molar_change)
     worked(combustion.working_mixture_heat)
     product_coefficients(worked, law)
-    at = worked(charge.compression_celsius) if celsius else worked["compression_temperature"]
-    capacity = fresh_heat(worked, law, at)
+    temperature = worked(charge.compression_celsius) if celsius else worked["compression_temperature"]
+    capacity = fresh_heat(worked, law, temperature)
     if law == "linear":
         # its fresh charge includes the residual gas
         worked.known["mixture_heat"] = capacity
     else:
-        residual_heat(worked, law, at)
+        residual_heat(worked, law, temperature)
         worked(mixture_heat)
     constant = {}
     if data.kind == "petrol":
-        worked(combustion.isochoric_energy, th_gas=at)
+        worked(combustion.isochoric_energy, th_gas=temperature)
     else:
-        worked(combustion.dual_energy, th_gas=at)
+        worked(combustion.dual_energy, th_gas=temperature)
         constant["a_prod"] = worked(combustion.isobaric_heat_constant)
     worked(combustion.burnt_celsius if celsius else combustion.burnt_temperature, **constant)
     if celsius:
@@ -141,7 +135,7 @@ def _combustion(worked: Worked, data: GrinevetskyData) -> None:
 
 
 def _rise(worked: Worked, data: GrinevetskyData) -> None:
-    """Work pressure and volume at z."""
+    """Calculate pressure and volume at z."""
     if data.kind == "petrol":
         worked(combustion.isochoric_pressure)
         worked(combustion.real_combustion_pressure)
@@ -156,15 +150,15 @@ def _rise(worked: Worked, data: GrinevetskyData) -> None:
 def _expansion(worked: Worked, data: GrinevetskyData) -> None:
     if data.kind == "diesel":
         worked(combustion.afterexpansion)
-    whole = _whole_expansion(worked, data)
-    worked(combustion.expansion_pressure, **whole)
-    worked(combustion.expansion_temperature, **whole)
+    expansion_ratio = _whole_expansion(worked, data)
+    worked(combustion.expansion_pressure, **expansion_ratio)
+    worked(combustion.expansion_temperature, **expansion_ratio)
     worked(combustion.residual_temperature_found)
     worked(combustion.residual_temperature_deviation)
 
 
 def _whole_expansion(worked: Worked, data: GrinevetskyData) -> dict[str, Known]:
-    """Return the ratio of expansion where it is that of compression."""
+    """Return the ratio of the whole expansion as an argument; in petrol engines it equals the compression ratio."""
     if data.kind == "petrol":
         return {"delta_post": worked["compression_ratio"]}
     return {"delta_post": worked["afterexpansion"]}
@@ -178,10 +172,10 @@ def _indicated(worked: Worked, data: GrinevetskyData) -> None:
 
 
 def _effective(worked: Worked, data: GrinevetskyData) -> None:
-    """Work the effective results and the clearance volume of a sized engine."""
+    """Calculate the effective results and the clearance volume of a sized engine."""
     worked(performance.mechanical_efficiency)
     worked(performance.effective_efficiency)
     worked(performance.fuel_consumption)
     work_power(worked, data)
-    whole = worked.known.get("geometric_compression_ratio", worked["compression_ratio"])
-    worked(clearance_volume, r_c=whole)
+    geometric_ratio = worked.known.get("geometric_compression_ratio", worked["compression_ratio"])
+    worked(clearance_volume, r_c=geometric_ratio)

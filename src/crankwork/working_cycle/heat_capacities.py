@@ -1,8 +1,8 @@
 """Mean molar heats at constant volume.
 
-Three laws. `kolchin` sums the gases, counts from 0 degrees Celsius and has one set of coefficients to 1500 and one
-above; `vietnamese` and `linear` give the whole mixture by its excess air and count from 0 K. A heat in kJ/(kmol K) is
-the same number in J/(mol K).
+Three laws. `kolchin` sums the gases, starts from 0 degrees Celsius and has two sets of coefficients, to 1500 degrees
+and above; `vietnamese` and `linear` give the whole mixture by its excess air and start from 0 K. A heat in
+kJ/(kmol K) is the same number in J/(mol K).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from crankwork.working_cycle.charge import compression_celsius
 HeatLaw = Literal["kolchin", "vietnamese", "linear"]
 
 ZERO_CELSIUS = 273.15
-# where each set of coefficients of `kolchin` ends [degC]
+# upper ends of both sets of coefficients of `kolchin` [degC]
 LOW_LIMIT = 1500.0
 HIGH_LIMIT = 2800.0
 
@@ -170,14 +170,14 @@ _LAWS: dict[HeatLaw, _Law] = {
 
 
 def law_zero(law: HeatLaw) -> float:
-    """Return the absolute temperature from which a law counts. [K]"""
+    """Return the absolute temperature at which the scale of a law begins. [K]"""
     return _LAWS[law].zero
 
 
 def as_counted(worked: Worked, law: HeatLaw, temperature: Known, name: str) -> Known:
-    """Return a temperature of the gas as a law counts it.
+    """Return a temperature of the gas on the scale of a law.
 
-    `worked`: knows the zero of the law.
+    `worked`: has the zero of the law.
     """
     if not _LAWS[law].zero:
         return temperature
@@ -186,24 +186,24 @@ def as_counted(worked: Worked, law: HeatLaw, temperature: Known, name: str) -> K
 
 
 def product_coefficients(worked: Worked, law: HeatLaw) -> None:
-    """Work constant and slope of the heat of the products at the end of burning.
+    """Calculate constant and slope of the heat of the products at the end of combustion.
 
-    `worked`: knows the products, or the excess air; where they are kept.
+    `worked`: has the products, or the excess air; takes the results.
     """
-    for one in _LAWS[law].rich if worked["excess_air"].value < 1 else _LAWS[law].lean:
-        worked(one)
+    for function in _LAWS[law].rich if worked["excess_air"].value < 1 else _LAWS[law].lean:
+        worked(function)
 
 
-def fresh_heat(worked: Worked, law: HeatLaw, at: Known, key: str = "") -> Known:
+def fresh_heat(worked: Worked, law: HeatLaw, temperature: Known, key: str = "") -> Known:
     """Return the heat of the fresh charge. [kJ/(kmol K)]"""
-    return worked(_LAWS[law].fresh, key, **{"t_c" if law == "kolchin" else "T_c": at})
+    return worked(_LAWS[law].fresh, key, **{"t_c" if law == "kolchin" else "T_c": temperature})
 
 
-def residual_heat(worked: Worked, law: HeatLaw, at: Known, key: str = "") -> Known:
-    """Return the heat of the products below the heat of burning. [kJ/(kmol K)]
+def residual_heat(worked: Worked, law: HeatLaw, temperature: Known, key: str = "") -> Known:
+    """Return the heat of the products below combustion temperatures. [kJ/(kmol K)]
 
-    `worked`: knows the products, or the coefficients of a law that is the same at all temperatures; where it is kept.
+    `worked`: has the products, or the coefficients of a law that is the same at all temperatures; takes the results.
     """
     if law == "kolchin":
-        return worked(heat_of_gases, key, t_gas=at)
-    return worked(product_heat, key, th_gas=at)
+        return worked(heat_of_gases, key, t_gas=temperature)
+    return worked(product_heat, key, th_gas=temperature)

@@ -1,4 +1,4 @@
-"""What a cycle from the heat released is made of, and the parts of its closed period."""
+"""Data of a cycle from heat release, and the stages of its closed period."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from crankwork.locale import Refusal
 
 @dataclass(frozen=True)
 class HeatReleaseData:
-    """What a cycle from the heat released is made of."""
+    """Data of a cycle from heat release."""
 
     # Bore; revolutions per minute [m], [rpm]
     bore: float
@@ -52,10 +52,10 @@ class HeatReleaseData:
     # While gas is exchanged; with two strokes the first is that of scavenging [Pa]
     exhaust_pressure: float = 1.1e5
     intake_pressure: float = 0.9e5
-    chamber: str = ""  # Where a description has the chamber that it is in, of a linkage
+    chamber: str = ""  # Path of its chamber in the description, in a linkage
 
     def stated_at(self, path: str) -> str:
-        """Return where a description states what that of an engine states at a path."""
+        """Return the path in the description of the field that an engine states at `path`."""
         table, _, name = path.partition(".")
         if not self.chamber or path in ("", "crank.speed"):
             return path
@@ -63,7 +63,7 @@ class HeatReleaseData:
 
 
 class Stage(NamedTuple):
-    """A part of the closed period: from, to [deg]; whether fuel burns, and whether it has begun to."""
+    """Part of the closed period: from, to [deg]; whether fuel burns, and whether it has begun to."""
 
     start: float
     end: float
@@ -72,14 +72,11 @@ class Stage(NamedTuple):
 
 
 def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[Stage, Stage, Stage]:
-    """Return compression, burning and expansion.
-
-    In order; some may have no length.
-    """
+    """Return compression, combustion and expansion in order; their length may be 0."""
     top, bottom = dead_centres
     closes = data.intake_closes
     if data.cycle == 360:
-        # the ports that shut last begin the compression
+        # compression begins when the last ports close
         closes = max(closes, data.exhaust_closes)
     shut, opens = bottom + closes, bottom + 360.0 - data.exhaust_opens
     begin = top + 360.0 - data.burning_advance
@@ -90,30 +87,17 @@ def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[St
 
 
 _POSITIVE = (
-    "bore",
-    "rotational_speed",
-    "shut_pressure",
-    "shut_temperature",
-    "burning_duration",
-    "gas_constant",
-    "wall_temperature",
-    "exhaust_pressure",
-    "intake_pressure",
-)
+    "bore", "rotational_speed", "shut_pressure", "shut_temperature", "burning_duration", "gas_constant",
+    "wall_temperature", "exhaust_pressure", "intake_pressure",
+)  # fmt: skip
 _NOT_NEGATIVE = (
-    "burning_shape",
-    "fuel_per_cycle",
-    "heating_value",
-    "burning_efficiency",
-    "intake_closes",
-    "exhaust_opens",
-    "intake_opens",
-    "exhaust_closes",
-)
+    "burning_shape", "fuel_per_cycle", "heating_value", "burning_efficiency", "intake_closes", "exhaust_opens",
+    "intake_opens", "exhaust_closes",
+)  # fmt: skip
 
 
 def check_heat_release(data: HeatReleaseData) -> None:
-    """Raise unless every number makes sense by itself."""
+    """Raise unless every number is valid by itself."""
     wrong = [name for name in _POSITIVE if not getattr(data, name) > 0]
     if wrong:
         raise CrankworkError(Refusal("names_positive", names=", ".join(wrong)))

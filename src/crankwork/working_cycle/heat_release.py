@@ -1,4 +1,4 @@
-"""The working cycle from the heat released: Wiebe burning, heat to the walls, first law, degree by degree.
+"""The working cycle from heat release: Wiebe combustion, heat to the walls, first law, integrated over the crank angle.
 
 From intake closing to exhaust opening the gas is one zone of constant mass; the rest of the cycle is simplified.
 """
@@ -23,7 +23,7 @@ from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.calculated_cycle import Calculated
 from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas, volume_when
-from crankwork.working_cycle.gas_exchange import constant_pressure, from_before_zero, passage, within_cycle
+from crankwork.working_cycle.gas_exchange import connecting_cubic, constant_pressure, from_before_zero, within_cycle
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
 from crankwork.working_cycle.validity import heat_notices
 
@@ -37,7 +37,7 @@ class HeatReleaseTrace(NamedTuple):
     """The closed period point by point, arrays of shape (n,).
 
     Crank angle [deg], pressure [Pa], temperature [K], burnt fraction [-], pressure rise [Pa/rad], heat to the
-    walls [J/rad]. The angles count on from the start of the cycle and may pass its end.
+    walls [J/rad]. Angles continue past the end of the cycle.
     """
 
     degrees: Array
@@ -50,34 +50,31 @@ class HeatReleaseTrace(NamedTuple):
 
 @dataclass(frozen=True)
 class HeatReleaseResult:
-    """A cycle computed from the heat released."""
+    """A cycle from heat release."""
 
     calculated: Calculated  # Diagram, single values, notices
     trace: HeatReleaseTrace  # The closed period point by point
-    # Work and heat to the walls taken once more from the diagram, and what the first law leaves with them [J]
+    # Work and heat to the walls by quadrature over the diagram, and the residual of the first law with them [J]
     again: Mapping[str, float]
 
 
 def heat_release(
     data: HeatReleaseData, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
 ) -> HeatReleaseResult:
-    """Return the cycle that a release of heat makes (heywood_1988, ch. 9 and 12).
-
-    `data`: state at intake closing, heat, burning, gas, walls, valves.
-    """
+    """Return the cycle of a heat release (heywood_1988, ch. 9 and 12)."""
     dead_centres = from_before_zero(dead_centres)
     worked = Worked()
     gas = closed_gas(data, volume_at, volume_rate_at, dead_centres, worked)
-    periods = [one for one in stages(data, dead_centres) if one.end > one.start]
+    periods = [stage for stage in stages(data, dead_centres) if stage.end > stage.start]
     solved = _solved(gas, periods, tuple(worked.known.values()))
-    segments = [one for one, _ in solved]
+    segments = [segment for segment, _ in solved]
     trace = _trace(gas, solved)
-    # a curve that was integrated needs no volume
+    # the pressure has been integrated already: its column needs no volume
     diagram = _diagram(data, segments, dead_centres, (worked["residual_pressure"], worked["intake_pressure"]))
     pressure = remembered_pressure(diagram, absent("cylinder_volume"))
     work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
     stored = gas.energy_change(trace.temperature[-1])
-    # burning ends before the exhaust opens
+    # combustion ends before the exhaust opens
     burnt = wiebe.wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
     memory = {"fuel_heat": worked["fuel_heat"], "heat_released": (worked["fuel_heat"] * burnt).named("heat_released")}
     memory |= {
@@ -93,13 +90,15 @@ def heat_release(
     again["first_law_residual"] = memory["heat_released"].value - again["wall_heat"] - again["closed_work"] - stored
     at_peak = worked.again(".peak")
     work_peak(gas, memory, at_peak)
-    peak = {one.key: one for one in (*worked.found.values(), *at_peak.found.values()) if one.key not in memory}
-    found = Calculated(diagram, memory, (), peak=peak)
-    return HeatReleaseResult(found._replace(notices=heat_notices(data, gas, found.values)), trace, again)
+    peak = {
+        traced.key: traced for traced in (*worked.found.values(), *at_peak.found.values()) if traced.key not in memory
+    }
+    calculated = Calculated(diagram, memory, (), peak=peak)
+    return HeatReleaseResult(calculated._replace(notices=heat_notices(data, gas, calculated.values)), trace, again)
 
 
-def _solved(gas: ClosedGas, periods: list[Stage], of: tuple[Known, ...]) -> list[tuple[Segment, Array]]:
-    """Return for each period the curve of the pressure and the changes of pressure, work and heat to the walls."""
+def _solved(gas: ClosedGas, periods: list[Stage], inputs: tuple[Known, ...]) -> list[tuple[Segment, Array]]:
+    """Return the pressure curve of each stage, and the changes of pressure, work and heat to the walls over it."""
     results = []
     pressure = gas.data.shut_pressure
     scale = pressure * gas.shut_volume + gas.heat
@@ -112,14 +111,14 @@ def _solved(gas: ClosedGas, periods: list[Stage], of: tuple[Known, ...]) -> list
             if abs(segment.work(gas.volume_at) - final[1]) <= _AGREEMENT * scale:
                 break
             count *= 2
-        results.append((replace(segment, of=of), final - start))
+        results.append((replace(segment, of=inputs), final - start))
         pressure = float(final[0])
     return results
 
 
 def _curve(gas: ClosedGas, period: Stage, dense: VolumeAt, count: int, ends: tuple[float, float]) -> Segment:
-    """Return the cubics through the solution with the slopes of the first law."""
-    # with a small exponent burning sets in abruptly, which wants more knots at the start
+    """Return the cubics through the solution, with the slopes of the first law."""
+    # with a small exponent combustion begins abruptly, which needs denser knots at the start
     grading = max(1.0, 3.0 - gas.data.burning_shape) if period.burns else 1.0
     knots = period.start + (period.end - period.start) * np.linspace(0.0, 1.0, count + 1) ** grading
     knots[-1] = period.end
@@ -132,16 +131,16 @@ def _curve(gas: ClosedGas, period: Stage, dense: VolumeAt, count: int, ends: tup
 def _trace(gas: ClosedGas, solved: list[tuple[Segment, Array]]) -> HeatReleaseTrace:
     parts = [segment for segment, _ in solved]
     keep = [slice(1 if number else 0, None) for number in range(len(parts))]
-    degrees = np.concatenate([one.knots[part] for one, part in zip(parts, keep, strict=True)])
-    pressure = np.concatenate([one.pressures[part] for one, part in zip(parts, keep, strict=True)])
-    slopes = np.degrees(np.concatenate([one.slopes[part] for one, part in zip(parts, keep, strict=True)]))
+    degrees = np.concatenate([segment.knots[part] for segment, part in zip(parts, keep, strict=True)])
+    pressure = np.concatenate([segment.pressures[part] for segment, part in zip(parts, keep, strict=True)])
+    slopes = np.degrees(np.concatenate([segment.slopes[part] for segment, part in zip(parts, keep, strict=True)]))
     temperature = gas.temperature(degrees, pressure)
     wall = gas.wall_rate(degrees, pressure, gas.is_burning(degrees))
     return HeatReleaseTrace(degrees, pressure, temperature, gas.burnt(degrees), slopes, wall)
 
 
 def _by_quadrature(gas: ClosedGas, periods: list[Stage], segments: list[Segment]) -> dict[str, float]:
-    """Return work and heat to the walls as integrals over the diagram, apart from the differential equation."""
+    """Return work and heat to the walls as integrals over the diagram, independent of the differential equation."""
     work = wall = 0.0
     for period, segment in zip(periods, segments, strict=True):
         nodes, weights = quadrature(segment.knots)
@@ -154,34 +153,34 @@ def _by_quadrature(gas: ClosedGas, periods: list[Stage], segments: list[Segment]
 def _extremes(
     gas: ClosedGas, periods: list[Stage], segments: list[Segment], trace: HeatReleaseTrace, column: Known
 ) -> dict[str, Known]:
-    """Return the greatest pressure, temperature and pressure rise, and where they are."""
-    whole = IndicatorDiagram(tuple(segments), {})
+    """Return the greatest pressure, temperature and pressure rise, with their angles."""
+    diagram = IndicatorDiagram(tuple(segments), {})
 
     def pressure(degrees: Array) -> Array:
-        return whole.pressure(degrees, degrees)
+        return diagram.pressure(degrees, degrees)
 
     def temperature(degrees: Array) -> Array:
         return gas.temperature(degrees, pressure(degrees))
 
-    found: dict[str, Known] = {}
+    extremes: dict[str, Known] = {}
     for key, function, values in (
         ("cylinder_pressure", pressure, trace.pressure),
         ("cylinder_temperature", temperature, trace.temperature),
     ):
         top = int(np.argmax(values))
         fine = np.linspace(trace.degrees[max(top - 1, 0)], trace.degrees[min(top + 1, len(values) - 1)], _FINE)
-        found |= _greatest(key, [(fine, function(fine))], column, gas.data.cycle)
+        extremes |= _greatest(key, [(fine, function(fine))], column, gas.data.cycle)
     steepest = []
     for period, segment in zip(periods, segments, strict=True):
         top = int(np.argmax(segment.slopes))
         fine = np.linspace(segment.knots[max(top - 1, 0)], segment.knots[min(top + 1, len(segment.knots) - 1)], _FINE)
         rise = gas.rates(fine, hermite(segment.knots, segment.pressures, segment.slopes, fine), period)[0]
         steepest.append((fine, rise))
-    return found | _greatest("pressure_rise", steepest, column, gas.data.cycle)
+    return extremes | _greatest("pressure_rise", steepest, column, gas.data.cycle)
 
 
 def _hottest(gas: ClosedGas, memory: Mapping[str, Known], column: Known, worked: Worked) -> Known:
-    """Return the greatest temperature, of pressure and volume where it stands."""
+    """Return the greatest temperature, from pressure and volume at its angle."""
     degrees = math.degrees(memory["cylinder_temperature_max_angle"].value)
     volume = volume_when(worked, float(gas.volume_at(np.array([degrees]))[0]), degrees)
     state = at_angle(column, degrees, "cylinder_pressure"), volume
@@ -189,21 +188,20 @@ def _hottest(gas: ClosedGas, memory: Mapping[str, Known], column: Known, worked:
     return hottest.named("cylinder_temperature_max")  # type: ignore[no-any-return]
 
 
-def _greatest(key: str, stretches: list[tuple[Array, Array]], column: Known, cycle: float) -> dict[str, Known]:
-    """Return the largest of the values at crank angles, and where it stands."""
-    tops = [(float(values[at]), float(degrees[at])) for degrees, values in stretches for at in [int(np.argmax(values))]]
-    value, degrees = max(tops)
-    at = degrees % cycle
+def _greatest(key: str, intervals: list[tuple[Array, Array]], column: Known, cycle: float) -> dict[str, Known]:
+    """Return the largest value of all intervals, and its crank angle."""
+    value, degrees = max((float(values.max()), float(degrees[np.argmax(values)])) for degrees, values in intervals)
+    angle = degrees % cycle
     return {
-        f"{key}_max": Known(Found(value, "max", (column,), at), f"{key}_max"),
-        f"{key}_max_angle": Known(Found(math.radians(at), "max_angle", (column,), at), f"{key}_max_angle"),
+        f"{key}_max": Known(Found(value, "max", (column,), angle), f"{key}_max"),
+        f"{key}_max_angle": Known(Found(math.radians(angle), "max_angle", (column,), angle), f"{key}_max_angle"),
     }
 
 
 def _diagram(
     data: HeatReleaseData, closed: list[Segment], dead_centres: tuple[float, float], exchange: tuple[Known, Known]
 ) -> IndicatorDiagram:
-    """Return the diagram of the whole cycle, the exchange of gas simplified."""
+    """Return the diagram of the whole cycle, with simplified gas exchange."""
     top, bottom = dead_centres
     first, last = closed[0], closed[-1]
     opens, closes = last.end, first.start + data.cycle
@@ -217,30 +215,26 @@ def _diagram(
         intake = exhaust
     low = (blown, exhaust.value, 0.0)
     if blown > opens:
-        segments.append(passage((opens, float(last.pressures[-1]), float(last.slopes[-1])), low))
+        segments.append(connecting_cubic((opens, float(last.pressures[-1]), float(last.slopes[-1])), low))
     segments.append(constant_pressure(blown, change, exhaust))
     if changed > change:
-        segments.append(passage((change, exhaust.value, 0.0), (changed, intake.value, 0.0)))
+        segments.append(connecting_cubic((change, exhaust.value, 0.0), (changed, intake.value, 0.0)))
     end = (closes, data.shut_pressure, float(first.slopes[0]))
     charged = centre + data.cycle - 360.0
     segments.append(constant_pressure(changed, min(charged, closes), intake))
     if closes > charged:
-        segments.append(passage((charged, intake.value, 0.0), end))
-    named = {
-        "a": (first.start, data.shut_pressure),
-        "b": (opens, float(last.pressures[-1])),
-    }
-    placed = {name: (angle % data.cycle, pressure) for name, (angle, pressure) in named.items()}
-    return IndicatorDiagram(within_cycle(segments, data.cycle), placed)
+        segments.append(connecting_cubic((charged, intake.value, 0.0), end))
+    named = {"a": (first.start % data.cycle, data.shut_pressure), "b": (opens % data.cycle, float(last.pressures[-1]))}
+    return IndicatorDiagram(within_cycle(segments, data.cycle), named)
 
 
 def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> None:
-    """Work out burning, heat to the walls and pressure rise at the greatest pressure."""
+    """Calculate combustion, heat to the walls and pressure rise at the greatest pressure."""
     data, (start, end) = gas.data, gas.burning
     pressure = memory["cylinder_pressure_max"].named("cylinder_pressure")
     degrees = math.degrees(memory["cylinder_pressure_max_angle"].value)
     degrees += data.cycle if degrees < gas.first else 0.0
-    volume, growth = (float(one(np.array([degrees]))[0]) for one in (gas.volume_at, gas.volume_rate_at))
+    volume, growth = (float(function(np.array([degrees]))[0]) for function in (gas.volume_at, gas.volume_rate_at))
     area = worked["piston_area"]
     slope = Known(Found(growth / area.value, "motion", at=degrees), "piston_transfer_1")
     worked.known |= {"cylinder_pressure": pressure, "cylinder_volume": volume_when(worked, volume, degrees)}
@@ -264,7 +258,7 @@ def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> No
 
 
 def _work_walls(pressure: Known, worked: Worked, factor: woschni.GasSpeedFactors) -> None:
-    """Work out the heat to the walls."""
+    """Calculate the heat to the walls."""
     motored = worked(gas_formulas.polytropic_pressure, "motored_pressure", p_1=worked["p_shut"])
     higher = pressure if pressure.value > motored.value else motored
     worked(woschni.woschni_gas_speed, C_speed=factor.piston, C_burn=factor.burning, p_cyl=higher)

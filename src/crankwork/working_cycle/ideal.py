@@ -1,4 +1,4 @@
-"""Ideal cycles: Otto, Diesel and dual, of 1 kg of a gas with constant heats."""
+"""Ideal cycles: Otto, Diesel and dual, of 1 kg of a gas with constant heat capacities."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ IdealKind = Literal["otto", "ideal-diesel", "dual"]
 
 @dataclass(frozen=True)
 class IdealData:
-    """Data of an ideal cycle; how hot it becomes is said once."""
+    """Data of an ideal cycle; exactly one of them states how hot it becomes."""
 
-    kind: IdealKind  # Heat at constant volume, at constant pressure, or first the one and then the other
+    kind: IdealKind  # Heat at constant volume, at constant pressure, or first at constant volume
     compression_ratio: float  # Largest over smallest volume [-]
     # Absolute state at the start of compression [Pa], [K]
     pressure: float
@@ -30,10 +30,10 @@ class IdealData:
     # Heat added to 1 kg of gas, or the highest temperature [J/kg], [K]
     heat: float | None = None
     peak_temperature: float | None = None
-    # Rise of pressure at constant volume: needed by a dual cycle, one of the ways to say how
+    # Rise of pressure at constant volume: needed by a dual cycle, or states how
     # hot an Otto cycle becomes [-]
     pressure_ratio: float | None = None
-    # Rise of volume at constant pressure: one of the ways to say how hot the other two become [-]
+    # Rise of volume at constant pressure: states how hot the other two become [-]
     cut_off: float | None = None
     # Ratio of specific heats, gas constant [-], [J/(kg K)]
     adiabatic_exponent: float = 1.4
@@ -59,19 +59,11 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
     hot, heated = f"state_temperature.{last - 1}", f"state_pressure.{last - 1}"
     rise, cut_off = worked["pressure_rise_ratio"], worked["cut_off"]
     if not (worked[hot].value > cold.value and rise.value >= 1 and 1 <= cut_off.value < data.compression_ratio):
-        raise CycleError(
-            Refusal(
-                "heat_backwards",
-                cold=cold.value,
-                hot=worked[hot].value,
-                rise=rise.value,
-                cut_off=cut_off.value,
-                ratio=data.compression_ratio,
-            )
-        )
+        numbers = {"cold": cold.value, "hot": worked[hot].value, "rise": rise.value, "cut_off": cut_off.value}
+        raise CycleError(Refusal("heat_backwards", **numbers, ratio=data.compression_ratio))
     _results(worked, data, last)
     ratio, exponent = worked["compression_ratio"], worked["gas_heat_ratio"]
-    first, peak, end = (worked[one] for one in ("state_pressure.1", heated, f"state_pressure.{last}"))
+    first, peak, end = (worked[key] for key in ("state_pressure.1", heated, f"state_pressure.{last}"))
     corners = Corners(first, first, compressed, peak, end, cut_off, exponent, exponent, ratio)
     shown = (
         "compression_ratio", "state_pressure.1", "state_temperature.1", heated, hot, "gas_heat_ratio",
@@ -101,14 +93,14 @@ def _given(data: IdealData) -> Worked:
     return worked
 
 
-def _work(worked: Worked, function: Callable[..., Any], key: str = "", *, later: int = 0, **others: Known) -> Known:
-    """Work a formula whose arguments are numbered states, those as many points later."""
+def _work(worked: Worked, function: Callable[..., Any], key: str = "", *, later: int = 0, **arguments: Known) -> Known:
+    """Apply a formula whose arguments are numbered states, `later` points further on."""
     states = {
         name: worked[f"{ARGUMENTS[name].quantity}.{int(name[-1]) + later}"]
         for name in FORMULAS[function.__name__].arguments
-        if name.startswith(("T_st", "p_st")) and name not in others
+        if name.startswith(("T_st", "p_st")) and name not in arguments
     }
-    return worked(function, key, **states, **others)
+    return worked(function, key, **states, **arguments)
 
 
 def _otto(worked: Worked, data: IdealData) -> None:
@@ -162,7 +154,7 @@ _HEATS: dict[str, Callable[..., Any]] = {
 
 
 def _results(worked: Worked, data: IdealData, last: int) -> None:
-    """Work expansion, heats, work, efficiency and mean pressure."""
+    """Calculate expansion, heats, work, efficiency and mean pressure."""
     _work(worked, formulas.expanded_temperature, f"state_temperature.{last}", later=last - 4)
     _work(worked, formulas.expanded_pressure, f"state_pressure.{last}", later=last - 4)
     if data.heat is None:
@@ -186,10 +178,9 @@ def _check(data: IdealData) -> None:
     for name in ("compression_ratio", "adiabatic_exponent"):
         if not getattr(data, name) > 1:
             raise CycleError(Refusal("not_above", name=name, value=getattr(data, name), limit=1))
-    ways = [data.heat, data.peak_temperature]
-    ways += [] if data.kind == "dual" else [data.pressure_ratio]
-    ways += [data.cut_off]
-    if sum(way is not None for way in ways) > 1:
+    statements = [data.heat, data.peak_temperature, data.cut_off]
+    statements += [] if data.kind == "dual" else [data.pressure_ratio]
+    if sum(statement is not None for statement in statements) > 1:
         raise CycleError(Refusal("heat_said_twice"))
     if (data.kind == "otto" and data.cut_off) or (data.kind == "ideal-diesel" and data.pressure_ratio):
         wrong = "cut_off" if data.cut_off else "pressure_ratio"

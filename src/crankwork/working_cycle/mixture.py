@@ -1,4 +1,4 @@
-"""Fresh charge and products of burning, per 1 kg of fuel."""
+"""Fresh charge and combustion products, per 1 kg of fuel."""
 
 from __future__ import annotations
 
@@ -69,10 +69,10 @@ def heat_lost_incomplete(alpha_air: Value, L_air: Value) -> Value:
 
 
 def mixture(worked: Worked) -> None:
-    """Work charge and products of 1 kg of fuel.
+    """Calculate charge and products of 1 kg of fuel.
 
-    `worked`: knows the fuel, the air that it needs, the excess air and the share of hydrogen in the products of a
-    rich mixture; where it is kept.
+    `worked`: has the fuel, the air that it needs, the excess air and the share of hydrogen in the products of a rich
+    mixture; takes the results.
     """
     worked(fresh_charge_amount)
     excess_air = worked["excess_air"].value

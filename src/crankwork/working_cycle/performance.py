@@ -1,4 +1,4 @@
-"""What a cycle gives: mean pressures, efficiencies, fuel."""
+"""Results of a cycle: mean pressures, efficiencies, fuel."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Parts of a diagram written as named points and pieces: smooth where they meet, and cut at the end of the cycle.
+"""Parts of a diagram as named points and pieces: smooth where they meet, and cut at the end of the cycle.
 
-A rounded piece takes its slopes from its points alone. A point beside each of its ends, at the pressure that
-makes the three-point end slope the wanted one, lets it leave one law and join the next without a corner.
+A rounded piece takes its slopes from its points alone. A point next to each of its ends, at the pressure that
+gives the required three-point end slope, lets it join its neighbours without a corner.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Law, Piece
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 from crankwork.loads.retold import column, curve_laws
 
-# points that only shape a curve have names that begin with this mark
+# prefix of the names of points that only shape a curve
 AUXILIARY = "~"
-_BESIDE = 0.2
-_SAME = 1e-6
+_OFFSET = 0.2
+_ANGLE_TOLERANCE = 1e-6
 
 
-class Named(NamedTuple):
+class NamedPoint(NamedTuple):
     """A point by name: crank angle [deg], pressure [Pa]."""
 
     name: str
@@ -34,11 +34,11 @@ class Named(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Part:
-    """A law through points; a curve has slopes at its ends [Pa/deg], a polytrope an exponent and a reference."""
+class DiagramPart:
+    """A piece through points; a curve has slopes at its ends [Pa/deg], a polytrope an exponent and a reference."""
 
     law: Law
-    points: tuple[Named, ...]
+    points: tuple[NamedPoint, ...]
     slopes: tuple[Value, Value] = (0.0, 0.0)
     exponent: Value | None = None
     reference: str | None = None
@@ -46,157 +46,153 @@ class Part:
 
 def without_auxiliary(diagram: IndicatorDiagram) -> IndicatorDiagram:
     """Return a diagram without the names of points that only shape its curves."""
-    named = {name: at for name, at in diagram.named.items() if not name.startswith(AUXILIARY)}
+    named = {name: position for name, position in diagram.named.items() if not name.startswith(AUXILIARY)}
     return IndicatorDiagram(diagram.segments, named, diagram.jumps)
 
 
-def written(
-    parts: Sequence[Part], cycle: float, references: dict[str, DiagramPoint]
+def to_points_and_pieces(
+    parts: Sequence[DiagramPart], cycle: float, references: dict[str, DiagramPoint]
 ) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
-    """Return points and pieces of parts that together make one cycle, begun anywhere.
+    """Return points and pieces of parts that together make one cycle, from 0 to its end.
 
-    Points and pieces from 0 to the end of the cycle. `parts`: in order of the crank angle; parts without length are
-    left out.
+    `parts`: in order of the crank angle, beginning anywhere; parts without length are left out.
     """
     points, pieces = dict(references), []
     for part in inside_cycle(parts, cycle):
         knots = _shaped(part) if part.law == "rounded" else part.points
-        names = tuple(_placed(points, one) for one in knots)
+        names = tuple(_placed(points, knot) for knot in knots)
         pieces.append(Piece(part.law, names, part.exponent, part.reference))
     first, last = pieces[0].points[0], pieces[-1].points[-1]
     before = points[last].pressure
     if before is not None and points[first].pressure != before:
-        # a vertical line where the cycle begins; of no length, but it closes the diagram
-        foot = _placed(points, Named(f"{AUXILIARY}{last}", 0.0, before))
+        # a vertical line of no length closes the diagram where the cycle begins
+        foot = _placed(points, NamedPoint(f"{AUXILIARY}{last}", 0.0, before))
         pieces.insert(0, Piece("rounded", (foot, first)))
     return points, tuple(pieces)
 
 
-def inside_cycle(parts: Sequence[Part], cycle: float) -> list[Part]:
-    """Return parts from 0 to the end of the cycle, those without length left out."""
-    inside = [one for part in parts for one in _within(part, cycle)]
-    return sorted(inside, key=lambda one: plain(one.points[0].angle))
+def inside_cycle(parts: Sequence[DiagramPart], cycle: float) -> list[DiagramPart]:
+    """Return the parts with a length, from 0 to the end of the cycle."""
+    inside = [piece for part in parts for piece in _within(part, cycle)]
+    return sorted(inside, key=lambda part: plain(part.points[0].angle))
 
 
-def remembered(
-    parts: Sequence[Part], cycle: float, volume: Known, references: Mapping[str, tuple[Known, Known]]
+def traced_pressure_of_parts(
+    parts: Sequence[DiagramPart], cycle: float, volume: Known, references: Mapping[str, tuple[Known, Known]]
 ) -> Known:
-    """Return the pressure of parts made of knowns, every cubic between two knots a law of its own. [Pa]
+    """Return the pressure of traced parts as a piecewise column; each cubic between two knots is a piece. [Pa]
 
     `references`: pressure and volume of the states that polytropes pass through.
     """
     degrees, ends, laws = KnownAngle().degrees, list[Value](), list[Known]()
     for part in inside_cycle(parts, cycle):
-        if part.law != "rounded":
-            ends.append(part.points[-1].angle)
-            is_level = part.law == "constant"
-            law = part.points[0].pressure if is_level else _on_polytrope(part, references, volume)
-            laws.append(law)
+        if part.law == "rounded":
+            knots = _shaped(part)
+            for end, law in curve_laws([knot.angle for knot in knots], [knot.pressure for knot in knots], degrees):
+                ends.append(end)
+                laws.append(law)
             continue
-        knots = _shaped(part)
-        curve = curve_laws([one.angle for one in knots], [one.pressure for one in knots], degrees)
-        for end, law in curve:
-            ends.append(end)
-            laws.append(law)
+        ends.append(part.points[-1].angle)
+        laws.append(part.points[0].pressure if part.law == "constant" else _on_polytrope(part, references, volume))
     return Known(Pieces([*ends[:-1], cycle], tuple(laws)), "diagram_pressure")
 
 
-def _on_polytrope(part: Part, references: Mapping[str, tuple[Known, Known]], volume: Known) -> Known:
+def _on_polytrope(part: DiagramPart, references: Mapping[str, tuple[Known, Known]], volume: Known) -> Known:
     law: Known = polytropic_pressure(*references[part.reference or ""], volume, part.exponent)
     return law
 
 
-def _placed(points: dict[str, DiagramPoint], one: Named) -> str:
-    """Put a point among the others and return its name, marked if another point has that name already."""
-    name, number = one.name, 0
-    while name in points and not _is_same(points[name], one):
+def _placed(points: dict[str, DiagramPoint], added: NamedPoint) -> str:
+    """Add a point and return its name, which is changed if another point has it already."""
+    name, number = added.name, 0
+    while name in points and not _is_same(points[name], added):
         number += 1
-        name = f"{AUXILIARY}{one.name.removeprefix(AUXILIARY)}{number}"
-    points.setdefault(name, DiagramPoint(one.angle, one.pressure))
+        name = f"{AUXILIARY}{added.name.removeprefix(AUXILIARY)}{number}"
+    points.setdefault(name, DiagramPoint(added.angle, added.pressure))
     return name
 
 
-def _is_same(point: DiagramPoint, one: Named) -> bool:
+def _is_same(point: DiagramPoint, added: NamedPoint) -> bool:
     if point.angle is None or point.pressure is None or point.volume is not None:
         return False
-    is_near = abs(point.pressure - one.pressure) <= 1e-9 * abs(one.pressure)
-    return bool(is_near and abs(point.angle - one.angle) < _SAME)
+    is_near = abs(point.pressure - added.pressure) <= 1e-9 * abs(added.pressure)
+    return bool(is_near and abs(point.angle - added.angle) < _ANGLE_TOLERANCE)
 
 
-def _within(part: Part, cycle: float) -> list[Part]:
-    """Return a part moved into the cycle, in two if it crosses its end."""
+def _within(part: DiagramPart, cycle: float) -> list[DiagramPart]:
+    """Return a part shifted into the cycle, in two if it crosses its end."""
     start, end = plain(part.points[0].angle), plain(part.points[-1].angle)
-    if end - start < _SAME:
+    if end - start < _ANGLE_TOLERANCE:
         return []
-    turn = cycle * float(np.floor((start + _SAME) / cycle))
-    if end <= turn + cycle + _SAME:
+    turn = cycle * float(np.floor((start + _ANGLE_TOLERANCE) / cycle))
+    if end <= turn + cycle + _ANGLE_TOLERANCE:
         return [_moved(part, -turn, cycle)]
     before, after = _halves(part, turn + cycle)
     return [_moved(before, -turn, cycle), _moved(after, -turn - cycle, cycle)]
 
 
-def _moved(part: Part, by: float, cycle: float) -> Part:
-    """Return a part moved along the crank angle, the ends of the cycle hit exactly."""
-    moved = [one._replace(angle=one.angle + by) for one in part.points]
+def _moved(part: DiagramPart, shift: float, cycle: float) -> DiagramPart:
+    """Return a part shifted along the crank angle, with the ends of the cycle hit exactly."""
+    moved = [point._replace(angle=point.angle + shift) for point in part.points]
     snapped = [
-        one._replace(angle=edge) if abs(plain(one.angle) - edge) < _SAME else one
-        for one in moved
-        for edge in [0.0 if plain(one.angle) < cycle / 2 else cycle]
+        point._replace(angle=edge) if abs(plain(point.angle) - edge) < _ANGLE_TOLERANCE else point
+        for point in moved
+        for edge in [0.0 if plain(point.angle) < cycle / 2 else cycle]
     ]
-    return Part(part.law, tuple(snapped), part.slopes, part.exponent, part.reference)
+    return DiagramPart(part.law, tuple(snapped), part.slopes, part.exponent, part.reference)
 
 
-def _halves(part: Part, cut: float) -> tuple[Part, Part]:
-    """Return the parts before and after a crank angle, the same curve where it is cut."""
-    before = tuple(one for one in part.points if plain(one.angle) < cut - _SAME)
-    after = tuple(one for one in part.points if plain(one.angle) > cut + _SAME)
-    at = [one for one in part.points if abs(plain(one.angle) - cut) <= _SAME]
+def _halves(part: DiagramPart, cut: float) -> tuple[DiagramPart, DiagramPart]:
+    """Return the parts before and after a crank angle; the curve stays the same."""
+    before = tuple(point for point in part.points if plain(point.angle) < cut - _ANGLE_TOLERANCE)
+    after = tuple(point for point in part.points if plain(point.angle) > cut + _ANGLE_TOLERANCE)
+    at_cut = [point for point in part.points if abs(plain(point.angle) - cut) <= _ANGLE_TOLERANCE]
     slope: Value = 0.0
     if part.law == "rounded":
         knots = _shaped(part)
-        x, y = column([one.angle for one in knots]), column([one.pressure for one in knots])
+        x, y = column([knot.angle for knot in knots]), column([knot.pressure for knot in knots])
         curve, where = (x, y, monotone_slopes(x, y)), np.array([cut])
         pressure, slope = hermite(*curve, where)[0], hermite_slope(*curve, where)[0]
     else:
         pressure = part.points[0].pressure
-    middle = at[0] if at else Named(f"{AUXILIARY}0", cut, pressure)
-    first = Part(part.law, (*before, middle), (part.slopes[0], slope), part.exponent, part.reference)
-    second = Part(part.law, (middle, *after), (slope, part.slopes[1]), part.exponent, part.reference)
+    middle = at_cut[0] if at_cut else NamedPoint(f"{AUXILIARY}0", cut, pressure)
+    first = DiagramPart(part.law, (*before, middle), (part.slopes[0], slope), part.exponent, part.reference)
+    second = DiagramPart(part.law, (middle, *after), (slope, part.slopes[1]), part.exponent, part.reference)
     return first, second
 
 
-def _shaped(part: Part) -> tuple[Named, ...]:
-    """Return the points of a curve with one more beside each end, which give it its end slopes."""
+def _shaped(part: DiagramPart) -> tuple[NamedPoint, ...]:
+    """Return the points of a curve with one more next to each end, which give it its end slopes."""
     points = part.points
     if len(points) == 2:
         return _shaped_alone(points[0], points[1], part.slopes)
-    start = _beside(points[0], points[1], part.slopes[0])
-    end = _beside(points[-1], points[-2], part.slopes[1])
+    start = _slope_point(points[0], points[1], part.slopes[0])
+    end = _slope_point(points[-1], points[-2], part.slopes[1])
     return (points[0], start, *points[1:-1], end, points[-1])
 
 
-def _beside(end: Named, inner: Named, slope: Value) -> Named:
-    """Return the point beside an end for which (2h0 + h1) d0 - h0 d1 = (h0 + h1) slope, d1 being the next chord."""
-    whole = inner.angle - end.angle
-    near, far = _BESIDE * whole, (1 - _BESIDE) * whole
+def _slope_point(end: NamedPoint, inner: NamedPoint, slope: Value) -> NamedPoint:
+    """Return the point next to an end for which (2h0 + h1) d0 - h0 d1 = (h0 + h1) slope, with d1 the next chord."""
+    span = inner.angle - end.angle
+    near, far = _OFFSET * span, (1 - _OFFSET) * span
     rise = inner.pressure - end.pressure
-    chord = (slope * whole + near * rise / far) / (2 * near + far + near * near / far)
-    return Named(f"{AUXILIARY}{end.name}{inner.name}", end.angle + near, end.pressure + near * chord)
+    chord = (slope * span + near * rise / far) / (2 * near + far + near * near / far)
+    return NamedPoint(f"{AUXILIARY}{end.name}{inner.name}", end.angle + near, end.pressure + near * chord)
 
 
-def _shaped_alone(start: Named, end: Named, slopes: tuple[Value, Value]) -> tuple[Named, ...]:
-    """Return two points with one more beside each, for both end slopes at once."""
-    whole, rise = end.angle - start.angle, end.pressure - start.pressure
-    near, far = _BESIDE, 1 - 2 * _BESIDE
-    # slopes of chords times the whole angle: near (first + last) + far middle = rise, (2 near + far) first - near
+def _shaped_alone(start: NamedPoint, end: NamedPoint, slopes: tuple[Value, Value]) -> tuple[NamedPoint, ...]:
+    """Return two points with one more next to each, for both end slopes at once."""
+    span, rise = end.angle - start.angle, end.pressure - start.pressure
+    near, far = _OFFSET, 1 - 2 * _OFFSET
+    # slopes of chords times the span: near (first + last) + far middle = rise, (2 near + far) first - near
     # middle = (near + far) slope at the start, and so at the end
-    at_start, at_end = (slope * (near + far) * whole / (2 * near + far) for slope in slopes)
+    at_start, at_end = (slope * (near + far) * span / (2 * near + far) for slope in slopes)
     spread = near / (2 * near + far)
     middle = (rise - near * (at_start + at_end)) / (far + 2 * near * spread)
     first, last = at_start + spread * middle, at_end + spread * middle
     return (
         start,
-        Named(f"{AUXILIARY}{start.name}{end.name}", start.angle + near * whole, start.pressure + near * first),
-        Named(f"{AUXILIARY}{end.name}{start.name}", end.angle - near * whole, end.pressure - near * last),
+        NamedPoint(f"{AUXILIARY}{start.name}{end.name}", start.angle + near * span, start.pressure + near * first),
+        NamedPoint(f"{AUXILIARY}{end.name}{start.name}", end.angle - near * span, end.pressure - near * last),
         end,
     )

@@ -1,4 +1,4 @@
-"""RoundedCorners of the theoretical diagram rounded as valves, ignition and burning round them.
+"""The theoretical diagram with corners rounded by valves, ignition and combustion.
 
 Two schools: the Russian one puts c'' at a ratio to the end of compression and b'' halfway between b and the
 exhaust line; the Vietnamese one puts c'' a third of the way up to the peak and b'' in the middle of ab.
@@ -17,9 +17,15 @@ from crankwork.formula.known import Known, Procedure, plain
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.loads.retold import RememberedVolume
-from crankwork.working_cycle.calculated_cycle import Drawn, Notice
-from crankwork.working_cycle.gas_exchange import clipped
-from crankwork.working_cycle.rounded_pieces import Named, Part, remembered, without_auxiliary, written
+from crankwork.working_cycle.calculated_cycle import DiagramDefinition, Notice
+from crankwork.working_cycle.gas_exchange import clip_segment
+from crankwork.working_cycle.rounded_pieces import (
+    DiagramPart,
+    NamedPoint,
+    to_points_and_pieces,
+    traced_pressure_of_parts,
+    without_auxiliary,
+)
 from crankwork.working_cycle.rounding_corners import (
     RoundedCorners,
     Rounding,
@@ -42,7 +48,7 @@ _ABOVE = 1.1
 
 
 class RoundedDiagram(NamedTuple):
-    """A rounded diagram: points and pieces for `solve_diagram`, what was obtained, and what to know about it."""
+    """A rounded diagram: points and pieces for `solve_diagram`, its solution, values and notices."""
 
     points: Mapping[str, DiagramPoint]
     pieces: tuple[Piece, ...]
@@ -61,9 +67,8 @@ def rounded_diagram(
 ) -> RoundedDiagram:
     """Return the diagram with rounded corners.
 
-    Points, pieces, the solved diagram, the filling factor obtained. `theory`: `p_r`, `p_a`, `p_z`, `n1`, `n2` and for
-    a diesel `rho` of the theoretical cycle; `p_c`, `p_b` and `epsilon` are only compared [SI]. Source:
-    kolchin_demidov_2008, ch. 5; nguyen_tat_tien_2000.
+    `theory`: `p_r`, `p_a`, `p_z`, `n1`, `n2` and for a diesel `rho` of the theoretical cycle; `p_c`, `p_b` and
+    `epsilon` are only compared [SI]. Source: kolchin_demidov_2008, ch. 5; nguyen_tat_tien_2000.
     """
     corners = corners_of(theory, timing, rounding, volume_at, dead_centres)
     level, notices = _peak_level(corners)
@@ -72,25 +77,25 @@ def rounded_diagram(
     return RoundedDiagram(points, pieces, without_auxiliary(diagram), filling, level, notices)
 
 
-def remembered_pressure(
+def traced_rounded_pressure(
     theory: Mapping[str, Known], timing: Timing, rounding: Rounding, volume: Known, dead_centres: tuple[float, float]
 ) -> Known:
-    """Return the pressure of the rounded diagram as a column that is made of knowns alone; sharp without timing."""
+    """Return the pressure of the rounded diagram as a traced column; sharp without timing."""
     corners = corners_of(theory, timing, rounding, RememberedVolume(volume), dead_centres)
     exchange = exchange_parts(corners)
     if theory["psi"].value and not timing.exhaust_opens:
-        # ports of which only the share of the stroke is known
+        # only the share of the stroke that the ports take is given
         shut = theory["epsilon"] * corners.clearance
         opens, shuts = (
-            RememberedVolume(volume).reached(shut, corners.top, one) for one in (corners.bottom, corners.bottom - 360.0)
+            RememberedVolume(volume).reached(shut, corners.top, end) for end in (corners.bottom, corners.bottom - 360.0)
         )
         corners = corners._replace(start=shuts, opens=opens, start_volume=shut)
-        ends = Named("e", opens, theory["p_a"]), Named("a", shuts + timing.cycle, theory["p_a"])
-        exchange = [Part("constant", ends)]
+        ends = NamedPoint("e", opens, theory["p_a"]), NamedPoint("a", shuts + timing.cycle, theory["p_a"])
+        exchange = [DiagramPart("constant", ends)]
     level, _ = _peak_level(corners)
     parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange]
     states = {"~start": (theory["p_a"], corners.start_volume), "~burnt": (theory["p_z"], corners.burnt_volume)}
-    return remembered(parts, timing.cycle, volume, states)
+    return traced_pressure_of_parts(parts, timing.cycle, volume, states)
 
 
 def motored_diagram(
@@ -99,10 +104,10 @@ def motored_diagram(
     rounding: Rounding,
     volume_at: VolumeAt,
     dead_centres: tuple[float, float],
-) -> tuple[Drawn, IndicatorDiagram]:
-    """Return what is drawn, and the diagram, where nothing burns, the exchange of gas as where it does.
+) -> tuple[DiagramDefinition, IndicatorDiagram]:
+    """Return the points and pieces without combustion, and their diagram; gas exchange as with combustion.
 
-    `theory`: that of the rounded diagram, its expansion along the line of compression [SI].
+    `theory`: of the rounded diagram, with expansion along the compression line [SI].
     """
     corners = corners_of(theory, replace(timing, ignition_advance=0.0), rounding, volume_at, dead_centres)
     points, pieces, diagram = _drawn(corners._replace(kind="motored"), 1.0)
@@ -110,19 +115,19 @@ def motored_diagram(
 
 
 def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
-    """Return the peak over p_z: given, usual, or solved for so that the filling factor is the wanted one."""
+    """Return the peak over p_z: given, usual, or solved for the given filling factor."""
     rounding = corners.rounding
-    wanted = rounding.filling_factor
-    if wanted is None or not corners.timing.ignition_advance:
+    target = rounding.filling_factor
+    if target is None or not corners.timing.ignition_advance:
         return _LEVEL[corners.kind] if rounding.peak_level is None else rounding.peak_level, ()
     low, high = _LEVELS[corners.kind]
     for level in (low, high):
-        reached = _at_level(corners, level)[3]
-        if (reached - wanted) * (1 if level == low else -1) > rounding.tolerance:
-            return level, (("round_unreachable", {"wanted": wanted, "obtained": reached, "level": level}),)
+        obtained = _at_level(corners, level)[3]
+        if (obtained - target) * (1 if level == low else -1) > rounding.tolerance:
+            return level, (("round_unreachable", {"wanted": target, "obtained": obtained, "level": level}),)
     for _ in range(60):
         level = (low + high) / 2
-        excess = _at_level(corners, level)[3] - wanted
+        excess = _at_level(corners, level)[3] - target
         if abs(excess) <= rounding.tolerance:
             break
         low, high = (low, level) if excess > 0 else (level, high)
@@ -147,7 +152,7 @@ def _drawn(
         "~burnt": DiagramPoint(None, theory["p_z"], corners.burnt_volume),
     }
     parts = [*compression_parts(corners), *burning_parts(corners, level), *exchange_parts(corners)]
-    points, pieces = written(parts, corners.timing.cycle, references)
+    points, pieces = to_points_and_pieces(parts, corners.timing.cycle, references)
     diagram = solve_diagram(points, pieces, corners.timing.cycle, corners.volume_at, dead_centres=corners.dead_centres)
     return points, pieces, diagram
 
@@ -160,17 +165,17 @@ def _filling(corners: RoundedCorners, diagram: IndicatorDiagram) -> float:
         for segment in diagram.segments:
             first, last = max(segment.start, corners.start - turn), min(segment.end, end - turn)
             if last > first:
-                parts.append(clipped(segment, first, last))
+                parts.append(clip_segment(segment, first, last))
     work = IndicatorDiagram(tuple(parts), {}).work(corners.volume_at)
     return work / theoretical_work(corners.theory, corners.volume_at, (corners.start, corners.top, end))
 
 
 @dataclass(frozen=True)
 class FillingOfPolynomials:
-    """The filling factor of a diagram, of polynomials over one cycle.
+    """Filling factor of a diagram that is given by polynomials over one cycle.
 
-    `names` of the pressures and exponents of the theory; `angles` where compression starts, of the top dead centre, and
-    where expansion ends; the `cycle`. [deg]
+    `names` of the pressures and exponents of the theory; `angles` of compression start, top dead centre and expansion
+    end; the `cycle`. [deg]
     """
 
     names: tuple[str, ...]
@@ -187,27 +192,27 @@ class FillingOfPolynomials:
         V_1 = legendre.legval(nodes, legendre.legder(volume[inside].T))
 
         def volume_at(degrees: Array) -> Array:
-            at = np.mod(np.radians(degrees) - edges[0], edges[-1] - edges[0]) + edges[0]
-            panel = np.clip(np.searchsorted(edges, at) - 1, 0, len(edges) - 2)
-            u = (2 * at - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
+            angle = np.mod(np.radians(degrees) - edges[0], edges[-1] - edges[0]) + edges[0]
+            panel = np.clip(np.searchsorted(edges, angle) - 1, 0, len(edges) - 2)
+            u = (2 * angle - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
             return np.asarray(legendre.legval(u, volume[panel].T, tensor=False))
 
-        theory = {name: float(one[0, 0]) for name, one in zip(self.names, stated, strict=True)}
+        theory = {name: float(coefficients[0, 0]) for name, coefficients in zip(self.names, stated, strict=True)}
         return (float(((p * V_1) @ weights).sum()) / theoretical_work(theory, volume_at, self.angles),)
 
 
-def remembered_filling(
+def traced_filling_factor(
     value: float,
     theory: Mapping[str, Known],
     timing: Timing,
     columns: tuple[Known, Known],
     centres: tuple[float, float],
 ) -> Known:
-    """Return the filling factor as what a procedure finds of the pressure and the volume."""
+    """Return the filling factor as the value of a function of the columns of pressure and volume."""
     corners = corners_of(theory, timing, Rounding(), RememberedVolume(columns[1]), centres)
     end = corners.bottom if timing.cycle > 360 else plain(corners.opens)
-    by = FillingOfPolynomials(tuple(theory), (plain(corners.start), corners.top, end), timing.cycle)
-    return Known(Procedure(value, "integral", (*columns, *theory.values()), by, 0), "filling_factor.diagram")
+    function = FillingOfPolynomials(tuple(theory), (plain(corners.start), corners.top, end), timing.cycle)
+    return Known(Procedure(value, "integral", (*columns, *theory.values()), function, 0), "filling_factor.diagram")
 
 
 def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: tuple[float, float, float]) -> float:
@@ -216,7 +221,7 @@ def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: t
     `theory`: `p_a`, `p_z`, `n1`, `n2` and for a diesel `rho` [SI]; `angles`: where compression begins, top dead
     centre, where expansion ends [deg]. Source: kolchin_demidov_2008, ch. 4.
     """
-    start, least, end = (float(one) for one in volume_at(np.array(angles)))
+    start, least, end = (float(volume) for volume in volume_at(np.array(angles)))
     burnt = theory.get("rho", 1.0) * least
     lines = ((theory["p_a"], start, least, theory["n1"]), (theory["p_z"], burnt, end, theory["n2"]))
     work = theory["p_z"] * (burnt - least)
@@ -227,8 +232,8 @@ def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: t
 
 
 def _deviations(corners: RoundedCorners) -> list[Notice]:
-    """Return where given pressures are not those of the lines they lie on."""
-    found: list[Notice] = []
+    """Return notices of given pressures that differ from those of the lines they lie on."""
+    notices: list[Notice] = []
     computed = {
         "p_c": corners.compression(corners.top)[0] / 1e6,
         "p_b": corners.expansion(corners.opens if corners.timing.cycle == 360 else corners.bottom)[0] / 1e6,
@@ -240,26 +245,26 @@ def _deviations(corners: RoundedCorners) -> list[Notice]:
             continue
         given = given if name == "epsilon" else given / 1e6
         if abs(given - value) > _DEVIATION * value:
-            found.append(("round_differs", {"name": name, "given": given, "computed": value}))
-    return found
+            notices.append(("round_differs", {"name": name, "given": given, "computed": value}))
+    return notices
 
 
 def _unusual(corners: RoundedCorners, filling: float) -> list[Notice]:
-    rounding, found = corners.rounding, []
+    rounding, values = corners.rounding, []
     if corners.timing.ignition_advance:
-        found += [("round_peak", rounding.peak_angle, _USUAL_PEAK)]
+        values += [("round_peak", rounding.peak_angle, _USUAL_PEAK)]
         if rounding.school == "ru":
-            found += [("round_rise", rounding.rise, _USUAL_RISE)]
-        found += [("round_filling", filling, _USUAL_FILLING)]
+            values += [("round_rise", rounding.rise, _USUAL_RISE)]
+        values += [("round_filling", filling, _USUAL_FILLING)]
     return [
         (code, {"value": value, "low": low, "high": high})
-        for code, value, (low, high) in found
+        for code, value, (low, high) in values
         if not low <= value <= high
     ]
 
 
 def _above(corners: RoundedCorners, level: float) -> list[Notice]:
-    """Return whether the peak stands out above the expansion line that it is to be rounded from."""
+    """Return a notice if the peak is above the expansion line that it is rounded from."""
     if not corners.timing.ignition_advance:
         return []
     line = min(corners.theory["p_z"], *corners.expansion(corners.top + corners.rounding.peak_angle))

@@ -1,6 +1,6 @@
-"""The corners of a theoretical diagram: where they are, and the parts of the rounded diagram around them.
+"""Corners of a theoretical diagram, and the parts of the rounded diagram around them.
 
-A corner whose timing is zero is left as it is.
+A corner whose timing is zero stays sharp.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from crankwork.loads.indicator import VolumeAt
 from crankwork.loads.retold import RememberedVolume
 from crankwork.locale import Refusal
 from crankwork.working_cycle.gas_exchange import from_before_zero
-from crankwork.working_cycle.rounded_pieces import Named, Part
+from crankwork.working_cycle.rounded_pieces import DiagramPart, NamedPoint
 
 _JOIN_BELOW = 0.9
 _RISING = (0.25, 0.5, 0.75)
 
 
 class RoundedCorners(NamedTuple):
-    """What all levels of the peak share: angles [deg], volumes [m3], polytropes.
+    """Corners independent of the level of the peak: angles [deg], volumes [m3], polytropes.
 
-    Pressures, volumes and the angles that follow from them are numbers, or knowns, of which no number decides but for
-    what is refused.
+    Pressures, volumes and the angles that follow from them are numbers or traced values; numbers decide only about
+    errors.
     """
 
     theory: Mapping[str, Value]
@@ -61,18 +61,18 @@ class RoundedCorners(NamedTuple):
 
     def volumes(self, *angles: Value) -> list[Value]:
         """Return the volumes at crank angles. [m3]"""
-        at: Any = angles if isinstance(self.volume_at, RememberedVolume) else np.array(angles)
-        found: list[Value] = self.volume_at(at).tolist()
-        return found
+        degrees: Any = angles if isinstance(self.volume_at, RememberedVolume) else np.array(angles)
+        volumes: list[Value] = self.volume_at(degrees).tolist()
+        return volumes
 
     def slope(self, line: str, angle: Value, step: float = 0.01) -> Value:
         """Return the slope of a polytrope by crank angle. [Pa/deg]"""
-        on = self.compression if line == "compression" else self.expansion
-        after, before = on(angle + step, angle - step)
+        line_at = self.compression if line == "compression" else self.expansion
+        after, before = line_at(angle + step, angle - step)
         return (after - before) / (2 * step)
 
     def angle_of_volume(self, volume: Value) -> Value:
-        """Return where the expansion reaches a volume. [deg]"""
+        """Return the angle at which the expansion reaches a volume. [deg]"""
         if isinstance(self.volume_at, RememberedVolume):
             return self.volume_at.reached(volume, self.top, self.bottom)
         return reached(self.volume_at, volume, self.top, self.bottom)
@@ -85,7 +85,7 @@ def corners_of(
     volume_at: VolumeAt | RememberedVolume,
     dead_centres: tuple[float, float],
 ) -> RoundedCorners:
-    """Return what the corners of a theoretical diagram are made of."""
+    """Return the corners of a theoretical diagram."""
     _check(theory, timing)
     dead_centres = from_before_zero(dead_centres)
     top, bottom = dead_centres[0] + 360.0, dead_centres[1] + 360.0
@@ -123,8 +123,8 @@ def _check(theory: Mapping[str, Value], timing: Timing) -> None:
         raise CrankworkError(Refusal("ports_early", intake=timing.intake_opens, exhaust=timing.exhaust_opens))
 
 
-def compression_parts(corners: RoundedCorners) -> list[Part]:
-    """Return the compression line from a, in pieces that end at the named points on it."""
+def compression_parts(corners: RoundedCorners) -> list[DiagramPart]:
+    """Return the compression line from a, in parts that end at the named points on it."""
     timing = corners.timing
     events = [("a", corners.start)]
     if timing.cycle > 360 and timing.intake_closes:
@@ -136,119 +136,120 @@ def compression_parts(corners: RoundedCorners) -> list[Part]:
     else:
         events.append(("c", corners.top))
     names, angles = zip(*events, strict=True)
-    numbers = [plain(one) for one in angles]
+    numbers = [plain(angle) for angle in angles]
     if any(after <= before for before, after in pairwise(numbers)):
         raise CrankworkError(Refusal("events_crossed", names=list(names), angles=numbers))
-    points = list(map(Named, names, angles, corners.compression(*angles)))
-    return [Part("polytropic", pair, exponent=corners.theory["n1"], reference="~start") for pair in pairwise(points)]
+    points = list(map(NamedPoint, names, angles, corners.compression(*angles)))
+    exponent = corners.theory["n1"]
+    return [DiagramPart("polytropic", pair, exponent=exponent, reference="~start") for pair in pairwise(points)]
 
 
-def burning_parts(corners: RoundedCorners, level: float) -> list[Part]:
-    """Return combustion and expansion up to where the exhaust opens."""
+def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
+    """Return combustion and expansion up to the opening of the exhaust."""
     theory, top = corners.theory, corners.top
     if not corners.timing.ignition_advance:
         opened = _opened(corners, *corners.expansion(corners.opens))
         burnt = corners.angle_of_volume(corners.burnt_volume) if corners.kind == "diesel" else top
-        z = Named("z", burnt, theory["p_z"])
+        z = NamedPoint("z", burnt, theory["p_z"])
         return [
-            Part("constant", (Named("y", top, theory["p_z"]), z)),
-            Part("polytropic", (z, opened), exponent=theory["n2"], reference="~burnt"),
+            DiagramPart("constant", (NamedPoint("y", top, theory["p_z"]), z)),
+            DiagramPart("polytropic", (z, opened), exponent=theory["n2"], reference="~burnt"),
         ]
     peak = level * theory["p_z"]
-    highest = Named("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
+    highest = NamedPoint("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
     joined, falls_to = highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak)
     joined = chosen(falls_to - joined, falls_to, joined)
     if plain(joined) >= plain(corners.opens) or highest.angle <= top:
         raise CrankworkError(Refusal("peak_late", angle=corners.rounding.peak_angle))
     opened_pressure, joined_pressure = corners.expansion(corners.opens, joined)
-    opened, join = _opened(corners, opened_pressure), Named("~g", joined, joined_pressure)
+    opened, join = _opened(corners, opened_pressure), NamedPoint("~g", joined, joined_pressure)
     rising = _rising(corners, peak)
     slopes = corners.slope("compression", rising[0].angle), corners.slope("expansion", joined)
     return [
-        Part("rounded", (*rising, highest, join), slopes),
-        Part("polytropic", (join, opened), exponent=theory["n2"], reference="~burnt"),
+        DiagramPart("rounded", (*rising, highest, join), slopes),
+        DiagramPart("polytropic", (join, opened), exponent=theory["n2"], reference="~burnt"),
     ]
 
 
-def _opened(corners: RoundedCorners, pressure: Value) -> Named:
-    return Named("b'" if corners.timing.exhaust_opens else "b", corners.opens, pressure)
+def _opened(corners: RoundedCorners, pressure: Value) -> NamedPoint:
+    return NamedPoint("b'" if corners.timing.exhaust_opens else "b", corners.opens, pressure)
 
 
-def _rising(corners: RoundedCorners, peak: Value) -> list[Named]:
-    """Return the points from where the pressure leaves the compression line to c''."""
-    left = compression_parts(corners)[-1].points[-1]
-    angles = [left.angle + share * (corners.top - left.angle) for share in _RISING]
+def _rising(corners: RoundedCorners, peak: Value) -> list[NamedPoint]:
+    """Return the points from the end of the compression line to c''."""
+    start = compression_parts(corners)[-1].points[-1]
+    angles = [start.angle + share * (corners.top - start.angle) for share in _RISING]
     compressed, *lines = corners.compression(corners.top, *angles)
     if corners.rounding.school == "ru":
-        # with a small rise of pressure there is no room for the usual one
+        # a small rise of pressure has no room for the usual one
         usual, half = corners.rounding.rise * compressed, (compressed + peak) / 2
         middle = chosen(half - usual, usual, half)
     else:
         middle = compressed + (peak - compressed) / 3
-    low, at, high = (plain(one) for one in (compressed, middle, peak))
-    if not low < at < high:
-        raise CrankworkError(Refusal("middle_outside", middle=at / 1e6, compressed=low / 1e6, peak=high / 1e6))
-    # burning adds to the compression line as the square of the angle since it began
+    low, centre, high = (plain(pressure) for pressure in (compressed, middle, peak))
+    if not low < centre < high:
+        raise CrankworkError(Refusal("middle_outside", middle=centre / 1e6, compressed=low / 1e6, peak=high / 1e6))
+    # combustion adds to the compression line the square of the angle since its start
     between = [
-        Named(f"~f{number}", angle, line + (middle - compressed) * share**2)
+        NamedPoint(f"~f{number}", angle, line + (middle - compressed) * share**2)
         for number, (share, angle, line) in enumerate(zip(_RISING, angles, lines, strict=True))
     ]
-    return [left, *between, Named("c''", corners.top, middle)]
+    return [start, *between, NamedPoint("c''", corners.top, middle)]
 
 
 def _falls_to(corners: RoundedCorners, pressure: Value) -> Value:
-    """Return where the expansion line falls to a pressure. [deg]"""
+    """Return the angle at which the expansion line falls to a pressure. [deg]"""
     theory = corners.theory
-    # the law of the line with pressure and volume in each other's place
+    # the polytropic law with pressure and volume exchanged
     return corners.angle_of_volume(polytropic_pressure(corners.burnt_volume, theory["p_z"], pressure, 1 / theory["n2"]))
 
 
-def exchange_parts(corners: RoundedCorners) -> list[Part]:
-    """Return exhaust and intake from where the exhaust opens to a of the next cycle."""
+def exchange_parts(corners: RoundedCorners) -> list[DiagramPart]:
+    """Return exhaust and intake from the opening of the exhaust to a of the next cycle."""
     theory, timing = corners.theory, corners.timing
     low, charge = theory["p_r"], theory["p_a"]
     pressure, expanded = corners.expansion(corners.opens, corners.bottom)
     opened = _opened(corners, pressure)
-    closed = Named("a", corners.start + timing.cycle, charge)
+    closed = NamedPoint("a", corners.start + timing.cycle, charge)
     if timing.cycle == 360:
-        out = Named("~s", corners.bottom - timing.intake_opens, low)
-        turned = Named("~t", max(corners.bottom, out.angle), low)
+        out = NamedPoint("~s", corners.bottom - timing.intake_opens, low)
+        turned = NamedPoint("~t", max(corners.bottom, out.angle), low)
         blown = _blow_down(corners, (opened, out))
-        return [*blown, Part("constant", (out, turned)), Part("rounded", (turned, closed))]
-    out = Named("~s", corners.bottom + timing.exhaust_opens, low)
+        return [*blown, DiagramPart("constant", (out, turned)), DiagramPart("rounded", (turned, closed))]
+    out = NamedPoint("~s", corners.bottom + timing.exhaust_opens, low)
     turn = corners.dead_centres[0] + 720.0
-    left = Named("r'" if timing.intake_opens else "r", turn - timing.intake_opens, low)
-    entered = Named("a'" if timing.exhaust_closes else "~a", turn + timing.exhaust_closes, charge)
+    left = NamedPoint("r'" if timing.intake_opens else "r", turn - timing.intake_opens, low)
+    entered = NamedPoint("a'" if timing.exhaust_closes else "~a", turn + timing.exhaust_closes, charge)
     if left.angle < out.angle:
         raise CrankworkError(Refusal("exhaust_nothing", exhaust=timing.exhaust_opens, intake=timing.intake_opens))
     blown = []
     if timing.exhaust_opens:
         other = low if corners.rounding.school == "ru" else charge
-        middle = Named("b''", corners.bottom, (expanded + other) / 2)
+        middle = NamedPoint("b''", corners.bottom, (expanded + other) / 2)
         blown = _blow_down(corners, (opened, middle, out))
     return [
         *blown,
-        Part("constant", (out, left)),
-        Part("rounded", (left, entered)),
-        Part("constant", (entered, closed)),
+        DiagramPart("constant", (out, left)),
+        DiagramPart("rounded", (left, entered)),
+        DiagramPart("constant", (entered, closed)),
     ]
 
 
-def _blow_down(corners: RoundedCorners, points: tuple[Named, ...]) -> list[Part]:
+def _blow_down(corners: RoundedCorners, points: tuple[NamedPoint, ...]) -> list[DiagramPart]:
     if corners.kind == "motored":
-        # nothing blows: the pressure may rise to that of the exhaust
+        # without combustion the pressure may rise to that of the exhaust
         points = (points[0], points[-1])
-    pressures = [plain(one.pressure) for one in points]
+    pressures = [plain(point.pressure) for point in points]
     if points[-1].angle <= points[0].angle:
         return []
     if corners.kind != "motored" and any(after >= before for before, after in pairwise(pressures)):
-        raise CrankworkError(Refusal("blow_down_rising", pressures=[one / 1e6 for one in pressures]))
-    return [Part("rounded", points, (corners.slope("expansion", points[0].angle), 0.0))]
+        raise CrankworkError(Refusal("blow_down_rising", pressures=[pressure / 1e6 for pressure in pressures]))
+    return [DiagramPart("rounded", points, (corners.slope("expansion", points[0].angle), 0.0))]
 
 
 @dataclass(frozen=True)
 class Timing:
-    """When things begin and end, as books give it, by the true dead centres."""
+    """Angles of valves and ignition from the true dead centres."""
 
     # Spark or injection before top dead centre; from then until the pressure leaves the compression line [deg]
     ignition_advance: float = 0.0
@@ -272,5 +273,5 @@ class Rounding:
     peak_level: float | None = None
     join_after: float = 8.0  # From there to the expansion line, at least [deg]
     rise: float = 1.2  # Pressure at c'' over that at c, of the Russian school [-]
-    filling_factor: float | None = None  # Wanted; the peak level is then solved for [-]
-    tolerance: float = 1e-4  # How near the wanted filling factor is enough [-]
+    filling_factor: float | None = None  # Target for which the peak level is solved [-]
+    tolerance: float = 1e-4  # Largest deviation from the target [-]

@@ -1,4 +1,4 @@
-"""Bore and stroke of the engine that a cycle asks for, or the power of one whose size is known."""
+"""Bore and stroke of an engine for a power, or the power of an engine of a given size."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from crankwork.working_cycle.fuels import CycleError
 from crankwork.working_cycle.heat_capacities import as_counted, fresh_heat, residual_heat
 from crankwork.working_cycle.performance import effective_mean_pressure, mechanical_loss_pressure
 
-_SETTLED = 1e-13
-_LONGEST = 200
+_CONVERGED = 1e-13
+_MAX_PASSES = 200
 
 
 def work_power(worked: Worked, data: GrinevetskyData) -> None:
-    """Work power, torque and fuel per time of a sized engine."""
+    """Calculate power, torque and fuel per time of a sized engine."""
     worked(engine_size.effective_power)
     worked(engine_size.effective_torque, pi=data.pi)
     worked(engine_size.fuel_rate)
@@ -27,59 +27,54 @@ def work_power(worked: Worked, data: GrinevetskyData) -> None:
 
 
 def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
-    """Work the size of the engine of an indicated mean pressure, with a notice where it was rounded.
+    """Calculate the size of the engine for an indicated mean pressure, with a notice if it was rounded.
 
-    Losses depend on the mean piston speed and that on the stroke to be found: the calculation is repeated until the
-    stroke stays, and its last pass is the one that is shown.
+    Losses depend on the mean piston speed, and that on the unknown stroke: the calculation is repeated until the stroke
+    converges, and its last pass is the one that is shown.
     """
     if data.bore is not None and data.stroke is not None:
         worked.given("stroke", data.stroke, "crank.stroke")
         _of_size(worked, data)
         return []
     stroke = 0.0
-    for _ in range(_LONGEST):
-        found = _of_power(worked.again(""), data, stroke)
-        if abs(found - stroke) <= _SETTLED * found:
+    for _ in range(_MAX_PASSES):
+        following = _of_power(worked.again(""), data, stroke)
+        if abs(following - stroke) <= _CONVERGED * following:
             break
-        stroke = found
+        stroke = following
     else:
         raise CycleError(Refusal("power_unreached"))
     if not data.rounds_size:
         _of_power(worked, data, stroke)
         return []
-    asked = worked.again(".before_rounding")
-    _of_power(asked, data, stroke)
-    if min(round(asked[key].value * 1e3) for key in ("bore", "stroke")) == 0:
-        raise CycleError(Refusal("power_tiny", bore=asked["bore"].value * 1e3, stroke=asked["stroke"].value * 1e3))
-    said: dict[str, float | str] = {}
+    exact_size = worked.again(".before_rounding")
+    _of_power(exact_size, data, stroke)
+    millimetres = {key: exact_size[key].value * 1e3 for key in ("bore", "stroke")}
+    if min(round(value) for value in millimetres.values()) == 0:
+        raise CycleError(Refusal("power_tiny", **millimetres))
+    values: dict[str, float | str] = {}
     for key in ("bore", "stroke"):
-        exact = worked.keep(asked[key].named(key))
+        exact = worked.keep(exact_size[key].named(key))
         taken = round(exact.value * 1e3) / 1e3
         worked.known[key] = Known(Found(taken, "rounded", (exact,)), key)
-        said |= {key: exact.value * 1e3, f"{key}_taken": taken * 1e3}
+        values |= {key: exact.value * 1e3, f"{key}_taken": taken * 1e3}
     _of_size(worked, data)
-    return [("cycle_rounded_size", said)]
+    return [("cycle_rounded_size", values)]
 
 
 def _effective(worked: Worked, data: GrinevetskyData) -> None:
-    """Work the effective mean pressure at a stroke."""
+    """Calculate the effective mean pressure at a stroke."""
     if not isinstance(data.mechanical_loss, tuple):
         raise CycleError(Refusal("losses_two"))
     speed = worked(mean_piston_speed).value
     loss = worked(mechanical_loss_pressure).value
     if worked(effective_mean_pressure).value <= 0:
-        raise CycleError(
-            Refusal(
-                "losses_all",
-                speed=speed,
-                loss=loss / 1e6,
-                indicated=worked["indicated_mean_pressure"].value / 1e6,
-            )
-        )
+        indicated = worked["indicated_mean_pressure"].value / 1e6
+        raise CycleError(Refusal("losses_all", speed=speed, loss=loss / 1e6, indicated=indicated))
 
 
 def _of_power(worked: Worked, data: GrinevetskyData, stroke: float) -> float:
-    """Work the size that the power asks for if the stroke were the one given; return the stroke that follows. [m]"""
+    """Calculate the size that the power needs at an assumed stroke, and return the stroke that follows. [m]"""
     worked.known["stroke"] = Known(Found(stroke, "root"), "stroke")
     _effective(worked, data)
     worked(engine_size.displacement_of_power, N_e=given("effective_power", data.power or 0.0, "cycle.power"))
@@ -89,7 +84,7 @@ def _of_power(worked: Worked, data: GrinevetskyData, stroke: float) -> float:
 
 
 def _of_size(worked: Worked, data: GrinevetskyData) -> None:
-    """Work the size of an engine whose bore and stroke are known."""
+    """Calculate the size of an engine with given bore and stroke."""
     worked(piston_area, pi=data.pi)
     worked(swept_volume)
     worked(engine_size.displacement)
@@ -103,9 +98,9 @@ PARTS = {
 
 
 def heat_balance(worked: Worked, data: GrinevetskyData) -> None:
-    """Work the heat balance of a sized engine: power, coolant, exhaust, unburnt, rest, and their shares.
+    """Calculate the heat balance of a sized engine: power, coolant, exhaust, unburnt, rest, and their shares.
 
-    `worked`: knows charge, products, power and fuel; where it is kept. Source: kolchin_demidov_2008, ch. 4.
+    `worked`: has charge, products, power and fuel; takes the results. Source: kolchin_demidov_2008, ch. 4.
     """
     worked(engine_size.heat_supplied)
     worked(engine_size.heat_to_coolant)
@@ -124,7 +119,7 @@ def heat_balance(worked: Worked, data: GrinevetskyData) -> None:
 
 
 def _exhaust(worked: Worked, data: GrinevetskyData) -> None:
-    """Work the heat of the exhaust gas."""
+    """Calculate the heat of the exhaust gas."""
     law = data.heat_capacities
     hot, cold = (
         as_counted(worked, law, worked[key], name)
@@ -135,7 +130,7 @@ def _exhaust(worked: Worked, data: GrinevetskyData) -> None:
         fresh_heat(worked, law, cold, "fresh_charge_heat.charge"),
     )
     exhaust, fresh = (
-        worked(engine_size.molar_enthalpy, f"molar_enthalpy.{name}", mc_gas=heat, th_gas=at)
-        for name, heat, at in zip(("exhaust", "charge"), heats, (hot, cold), strict=True)
+        worked(engine_size.molar_enthalpy, f"molar_enthalpy.{name}", mc_gas=heat, th_gas=temperature)
+        for name, heat, temperature in zip(("exhaust", "charge"), heats, (hot, cold), strict=True)
     )
     worked(engine_size.heat_to_exhaust, h_prod=exhaust, h_fresh=fresh)

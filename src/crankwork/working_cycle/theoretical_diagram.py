@@ -20,14 +20,14 @@ _AngleOf = Callable[[float, float, float], float]
 def theoretical_diagram(
     corners: Corners, cycle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
 ) -> tuple[Points, tuple[Piece, ...]]:
-    """Return points and laws of the theoretical diagram on a cylinder, absolute pressures.
+    """Return points and pieces of the theoretical diagram of a cylinder, absolute pressures.
 
-    Four strokes: r, d begin the intake, a ends it; c, z (z' before it where burning goes on at constant pressure), b,
-    e and r end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their shutting. Named points
-    and pieces for `loads.indicator.solve_diagram`. Source: kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
+    Four strokes: r, d begin the intake, a ends it; c, z (z' before it if combustion continues at constant pressure), b,
+    e and r end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their closing. For
+    `loads.indicator.solve_diagram`. Source: kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
     """
     top = dead_centres[0] % 360
-    # a top dead centre just before 0 begins its cycle at the end of the one before
+    # a top dead centre just before 0 begins its cycle at the end of the previous one
     top = top + cycle - 360 if top > 180 else top
     bottom = top + (dead_centres[1] - dead_centres[0]) % 360
     clearance = float(volume_at(np.array([top]))[0])
@@ -96,17 +96,17 @@ def _burning(corners: Corners, firing: float, end: float, angle_of: _AngleOf) ->
     return points, [*pieces, Piece("polytropic", ("z", "b"), corners.n2.value)]
 
 
-def _angle_of_volume(volume_at: VolumeAt, wanted: float, small: float, large: float) -> float:
-    """Return the angle between those of a smaller and a larger volume at which a volume is reached."""
+def _angle_of_volume(volume_at: VolumeAt, volume: float, small: float, large: float) -> float:
+    """Return the angle at which a volume is reached, between angles of a smaller and a larger volume."""
     low, high = float(small), float(large)
     ends = volume_at(np.array([low, high]))
-    if not ends[0] <= wanted <= ends[1] * (1 + 1e-12):
-        raise CycleError(Refusal("volume_unreached", volume=wanted * 1e6, least=ends[0] * 1e6, most=ends[1] * 1e6))
-    return reached(volume_at, wanted, low, high)
+    if not ends[0] <= volume <= ends[1] * (1 + 1e-12):
+        raise CycleError(Refusal("volume_unreached", volume=volume * 1e6, least=ends[0] * 1e6, most=ends[1] * 1e6))
+    return reached(volume_at, volume, low, high)
 
 
 def _from_zero(points: Points, pieces: list[Piece], cycle: float) -> tuple[Points, tuple[Piece, ...]]:
-    """Return the same diagram begun at 0 instead of at its first dead centre; the piece across the end is cut."""
+    """Return the same diagram from 0 instead of from its first dead centre; the piece across the end is cut."""
     before: list[Piece] = []
     after: list[Piece] = []
     moved = dict(points)

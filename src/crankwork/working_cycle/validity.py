@@ -1,4 +1,4 @@
-"""What is unusual in a calculated cycle: it is said, and used as it is."""
+"""Notices of unusual values in a calculated cycle, which is used as it is."""
 
 from __future__ import annotations
 
@@ -48,56 +48,55 @@ USUAL: Mapping[str, Mapping[str, Range]] = {
         "residual_temperature": Range(600, 900),
     },
 }
-# of petrol, where a spark still lights the mixture
+# of petrol: a spark lights the mixture
 FLAMMABLE = Range(0.5, 1.6, "heywood_1988, ch. 9")
-# of petrol, above which it knocks as a rule
+# of petrol: knocks above it as a rule
 KNOCK_COMPRESSION_RATIO = Range(4.0, 12.0, "heywood_1988, ch. 9")
 LARGEST_DEVIATION = 0.10
 
 
 def cycle_notices(kind: str, law: HeatLaw, values: Mapping[str, float]) -> tuple[Notice, ...]:
-    """Return what is unusual in a cycle.
+    """Return notices of unusual values in a cycle.
 
     `law`: law of heats, for the range of its table.
     """
-    found: list[Notice] = []
+    notices: list[Notice] = []
     for key, usual in USUAL[kind].items():
         value = float(from_si(values[key], QUANTITIES[key].metric))
         if not usual.low <= value <= usual.high:
-            found.append((f"cycle_{key}", {"value": value, "low": usual.low, "high": usual.high}))
+            notices.append((f"cycle_{key}", {"value": value, "low": usual.low, "high": usual.high}))
     if kind == "petrol":
-        found += _spark(values)
+        notices += _spark(values)
     if law == "kolchin":
-        found += _heat_table(values)
+        notices += _heat_table(values)
     deviation = values["residual_temperature_deviation"]
     if abs(deviation) > LARGEST_DEVIATION:
         assumed, result = values["residual_temperature"], values["residual_temperature_found"]
         percent = 100 * deviation
-        found.append(("cycle_residual_check", {"assumed": assumed, "found": result, "percent": percent}))
-    return tuple(found)
+        notices.append(("cycle_residual_check", {"assumed": assumed, "found": result, "percent": percent}))
+    return tuple(notices)
 
 
 def _spark(values: Mapping[str, float]) -> list[Notice]:
-    found: list[Notice] = []
+    notices: list[Notice] = []
     air, ratio = values["excess_air"], values["compression_ratio"]
     if not FLAMMABLE.low <= air <= FLAMMABLE.high:
-        found.append(("cycle_flammability", {"value": air, "low": FLAMMABLE.low, "high": FLAMMABLE.high}))
+        notices.append(("cycle_flammability", {"value": air, "low": FLAMMABLE.low, "high": FLAMMABLE.high}))
     limit, hottest = KNOCK_COMPRESSION_RATIO.high, USUAL["petrol"]["compression_temperature"].high
     if ratio > limit or values["compression_temperature"] > hottest:
         numbers = {"compression_ratio": ratio, "temperature": values["compression_temperature"]}
-        found.append(("cycle_knock", {**numbers, "limit": limit, "hottest": hottest}))
-    return found
+        notices.append(("cycle_knock", {**numbers, "limit": limit, "hottest": hottest}))
+    return notices
 
 
 def _heat_table(values: Mapping[str, float]) -> list[Notice]:
-    found: list[Notice] = []
     burnt = values["combustion_temperature"] - ZERO_CELSIUS
-    if not LOW_LIMIT <= burnt <= HIGH_LIMIT:
-        found.append(("cycle_heat_high", {"value": burnt, "low": LOW_LIMIT, "high": HIGH_LIMIT}))
-    return found
+    if LOW_LIMIT <= burnt <= HIGH_LIMIT:
+        return []
+    return [("cycle_heat_high", {"value": burnt, "low": LOW_LIMIT, "high": HIGH_LIMIT})]
 
 
-# wide ranges of practice over petrol and diesel engines, no limits of the formulas themselves
+# wide ranges of practice over petrol and diesel engines, not limits of the formulas
 _SHAPE = (0.1, 5.0)
 _DURATION = (20.0, 120.0)
 _HEAT_RATIO = (1.2, 1.42)
@@ -107,27 +106,27 @@ _ROUGH, _KNOCK = 0.5e6, 0.8e6
 
 
 def heat_notices(data: HeatReleaseData, gas: ClosedGas, values: Mapping[str, float]) -> tuple[Notice, ...]:
-    """Return what is beyond the usual; it is said, and used."""
+    """Return notices of values beyond the usual ranges."""
     hottest = values["cylinder_temperature_max"]
-    found: list[Notice] = []
+    notices: list[Notice] = []
     if gas.heat:
-        found += _outside("heat_shape", data.burning_shape, _SHAPE)
-        found += _outside("heat_duration", data.burning_duration, _DURATION)
+        notices += _outside("heat_shape", data.burning_shape, _SHAPE)
+        notices += _outside("heat_duration", data.burning_duration, _DURATION)
     coldest = data.heat_ratio + data.heat_ratio_slope * data.shut_temperature
     for ratio in sorted({coldest, data.heat_ratio + data.heat_ratio_slope * hottest}):
-        found += _outside("heat_ratio", ratio, _HEAT_RATIO)
+        notices += _outside("heat_ratio", ratio, _HEAT_RATIO)
     if hottest > _HOTTEST:
-        found.append(("heat_temperature", {"temperature": hottest, "limit": _HOTTEST}))
+        notices.append(("heat_temperature", {"temperature": hottest, "limit": _HOTTEST}))
     if gas.heat and data.has_wall_loss:
         share = values["wall_heat"] / values["heat_released"]
-        found += _outside("heat_walls", 100 * share, (100 * _WALL_SHARE[0], 100 * _WALL_SHARE[1]))
+        notices += _outside("heat_walls", 100 * share, (100 * _WALL_SHARE[0], 100 * _WALL_SHARE[1]))
     steepest = math.radians(values["pressure_rise_max"])
     if steepest > _ROUGH:
         code = "heat_knock" if steepest > _KNOCK else "heat_rough"
         limit = _KNOCK if steepest > _KNOCK else _ROUGH
         angle = math.degrees(values["pressure_rise_max_angle"])
-        found.append((code, {"rise": steepest / 1e6, "angle": angle, "limit": limit / 1e6}))
-    return tuple(found)
+        notices.append((code, {"rise": steepest / 1e6, "angle": angle, "limit": limit / 1e6}))
+    return tuple(notices)
 
 
 def _outside(code: str, value: float, usual: tuple[float, float]) -> list[Notice]:

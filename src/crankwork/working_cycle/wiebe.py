@@ -1,6 +1,6 @@
-"""How fuel burns over the crank angle: the Wiebe function.
+"""Combustion over the crank angle: the Wiebe function.
 
-Burning ends when the exponent reaches ln 1000, that is when 0.999 of the fuel is burnt.
+Combustion ends when the exponent reaches ln 1000, that is when 0.999 of the fuel is burnt.
 """
 
 from __future__ import annotations

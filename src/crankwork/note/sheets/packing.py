@@ -14,7 +14,7 @@ from crankwork.locale import capital
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import Language
 from crankwork.show.paper import WIDER
-from crankwork.show.place import LARGER, MM, Place, here, placed
+from crankwork.show.place import LARGER, MM, ChartLayout, current_layout, use_layout
 from crankwork.show.scene import (
     TEXT,
     TITLE,
@@ -25,7 +25,7 @@ from crankwork.show.scene import (
     Polyline,
     Text,
     extent,
-    flowed,
+    flow_rows,
     moved,
     moved_plot,
 )
@@ -52,7 +52,7 @@ class Fit(NamedTuple):
     """A picture of one size: what draws it where, as drawn with its heading, and what it covers. [mm]"""
 
     picture: Picture
-    place: Place
+    place: ChartLayout
     drawing: Drawing
     ink: Box
 
@@ -95,7 +95,7 @@ def packed(
 
 def _finished(fit: Fit, field: Box, corner: Box) -> Fit:
     """Return a picture drawn whole where its rough drawing is, in the field."""
-    with placed(fit.place._replace(is_rough=False)):
+    with use_layout(fit.place._replace(is_rough=False)):
         whole = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
     left = fit.ink.left + (fit.ink.width - whole.ink.width) / 2
     top = max(fit.ink.top, field.bottom + whole.ink.height)
@@ -175,13 +175,13 @@ def _sizes(picture: Picture, width: float, limits: tuple[float, float]) -> list[
     """
     limit, least = limits
     talls = [one for one in _TALLS if one >= least]
-    with placed(Place(is_rough=True)):
+    with use_layout(ChartLayout(is_rough=True)):
         in_text = picture.draw()
     highest, point = _HIGHEST * in_text.height / in_text.width, MM * LARGER
 
     def fit(at: int) -> Fit:
-        place = Place(width / point, _LEFT / point, _RIGHT / point, talls[at], is_sheet=True, is_rough=True)
-        with placed(place):
+        place = ChartLayout(width / point, _LEFT / point, _RIGHT / point, talls[at], is_sheet=True, is_rough=True)
+        with use_layout(place):
             return headed(picture, picture.draw(), width, place)
 
     found = {0: fit(0), len(talls) - 1: fit(len(talls) - 1)}
@@ -204,14 +204,14 @@ def _sizes(picture: Picture, width: float, limits: tuple[float, float]) -> list[
     return result
 
 
-def headed(picture: Picture, drawing: Drawing, width: float, place: Place) -> Fit:
+def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout) -> Fit:
     """Return a drawing with its title and its scales over it, and what they cover."""
     ink = covered(drawing.items)
     if not picture.has_title:
         return Fit(picture, place, drawing, ink)
     middle, top = ink.left + ink.width / 2, ink.top + 2.0
-    rows = [(one, TEXT) for one in flowed(scales(drawing), ";  ", width)]
-    rows = [*((one, TITLE) for one in flowed(capital(drawing.title).split(" "), " ", 0.7 * width)), *rows]
+    rows = [(one, TEXT) for one in flow_rows(scales(drawing), ";  ", width)]
+    rows = [*((one, TITLE) for one in flow_rows(capital(drawing.title).split(" "), " ", 0.7 * width)), *rows]
     items: list[Item] = []
     for text, height in reversed(rows):
         items.append(Text((middle, top + 1.5), text, height, "middle"))
@@ -276,10 +276,10 @@ def in_grid(
     cells: Sequence[Callable[[], Drawing]], columns: int, title: str, language: Language, remark: Callable[[], str]
 ) -> Drawing:
     """Return drawings in rows of as many columns, each in the middle of its cell; `remark`: said of all then."""
-    place = here()
+    place = current_layout()
     columns = min(columns, len(cells), max(1, int(place.width * MM * LARGER / _LEAST)))
     rows = -(-len(cells) // columns)
-    with placed(place._replace(width=place.width / columns, tall=_LOWER * place.tall / math.sqrt(rows))):
+    with use_layout(place._replace(width=place.width / columns, tall=_LOWER * place.tall / math.sqrt(rows))):
         drawings = [one() for one in cells]
     inks = [covered(one.items) for one in drawings]
     wide = max(*(one.width for one in drawings), *(one.width + _BETWEEN for one in inks))

@@ -23,7 +23,7 @@ from crankwork.note.sheets.title_block import (
     title_height,
 )
 from crankwork.quantities import Language
-from crankwork.show.place import Place, placed
+from crankwork.show.place import ChartLayout, use_layout
 from crankwork.show.scene import Box, Drawing, Item, Polyline, rectangle
 
 Size = Literal["A0", "A1", "A2", "A3"]
@@ -143,7 +143,7 @@ def sheets_with(
 
 def _without_room(picture: Picture, paper: Paper, language: Language) -> Picture:
     """Return a sentence that says which figure a paper is too small for."""
-    with placed(Place(is_rough=True)):
+    with use_layout(ChartLayout(is_rough=True)):
         title = picture.draw().title
     told = say("sheets.no_room", language, title=title, size=paper.size)
     return Picture(picture.name, partial(text_block, [told], title, language), has_title=False)

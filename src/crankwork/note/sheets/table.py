@@ -12,9 +12,9 @@ import numpy as np
 
 from crankwork.locale import decimal
 from crankwork.quantities import Language
-from crankwork.show.paper import WIDER, Paper, fitted_lines, text_width
-from crankwork.show.place import here
-from crankwork.show.scene import Drawing, flowed
+from crankwork.show.paper import WIDER, Canvas, fitted_lines, text_width
+from crankwork.show.place import current_layout
+from crankwork.show.scene import Drawing, flow_rows
 
 _ROW, _PAD, _BETWEEN, _DIGITS = 13.0, 4.0, 8.0, 4
 _THICK, _THIN = 1.0, 0.4
@@ -49,9 +49,9 @@ def table(first: Sequence[Column], columns: Sequence[Column], title: str, langua
     )  # fmt: skip
     widths = np.array([sum(_width(one, size) for one in part) for part in parts])
     # as wide as what stands above and below it, if that is not much wider, and with rows as tall
-    wider = float(np.clip((here().width - _FREE) / widths.max(), 1.0, _WIDEST))
-    row, rows = _ROW * min(max(here().tall, 1.0), _TALLEST), len(first[0].cells) + 1
-    hand = Paper(wider * float(widths.max()), len(parts) * (row * rows + _BETWEEN) - _BETWEEN)
+    wider = float(np.clip((current_layout().width - _FREE) / widths.max(), 1.0, _WIDEST))
+    row, rows = _ROW * min(max(current_layout().tall, 1.0), _TALLEST), len(first[0].cells) + 1
+    hand = Canvas(wider * float(widths.max()), len(parts) * (row * rows + _BETWEEN) - _BETWEEN)
     for at, part in enumerate(parts):
         _draw(hand, part, [wider * _width(one, size) for one in part], (at * (row * rows + _BETWEEN), row), size)
     return hand.drawing(title, language)
@@ -59,7 +59,7 @@ def table(first: Sequence[Column], columns: Sequence[Column], title: str, langua
 
 def _parts(first: Sequence[Column], columns: Sequence[Column], size: float) -> tuple[list[list[Column]], float] | None:
     """Return columns in parts that fit, about as many in each, or nothing where one does not."""
-    room = here().width - _FREE - sum(_width(one, size) for one in first)
+    room = current_layout().width - _FREE - sum(_width(one, size) for one in first)
     if max(_width(one, size) for one in columns) > room:
         return None
     count = next(at for at in range(1, len(columns) + 1) if all(
@@ -78,7 +78,7 @@ def _width(column: Column, size: float) -> float:
 
 
 def _draw(
-    hand: Paper, columns: Sequence[Column], widths: Sequence[float], place: tuple[float, float], size: float
+    hand: Canvas, columns: Sequence[Column], widths: Sequence[float], place: tuple[float, float], size: float
 ) -> None:
     """Draw a part of a table: thick lines around it and under its head, thin ones between rows.
 
@@ -101,13 +101,13 @@ def text_block(entries: list[str], title: str, language: Language) -> Drawing:
     """Return entries in rows, as many as fit beside each other."""
     size, row = 8.5, 14.0
     # letters of a reader may be wider
-    width = 0.82 * here().width
+    width = 0.82 * current_layout().width
     rows = [
         line
-        for one in flowed(entries, ";   ", width, partial(text_width, size=size))
+        for one in flow_rows(entries, ";   ", width, partial(text_width, size=size))
         for line in fitted_lines(one, size, width)
     ]
-    hand = Paper(here().width, row * len(rows))
+    hand = Canvas(current_layout().width, row * len(rows))
     for at, text in enumerate(rows):
         hand.text(0.0, row * (at + 0.7), text, size=size)
     return hand.drawing(title, language)
