@@ -120,7 +120,7 @@ FOLLOWED = {
         "Δa = a − a_ex = −767.2 − (−792.361) = 25.1608 m/s²",
     ),
     # what is integrated
-    ("petrol-four", "kinetic_energy_change --at 50"): ("ΔT = ∫(M_Σ − M_Σm) dφ = …",),
+    ("petrol-four", "kinetic_energy_change --at 50"): ("ΔT = −∫(M_st − M_st,m) dφ = …",),
     # another cylinder is the first one later
     ("petrol-four", "total_torque --at 30 --method textbook"): (
         "F_T,4(30°) = F_T(390°) = …",

@@ -160,11 +160,11 @@ PRINTED = {
         "L_i = ∮ p dV = 905,655",
         "M_ср = 1/φ_ц·∫ M_кр dφ = 72,1365",
     ),
-    ("v8-diesel", "ru"): ("T_5 = T(300°) = ", "M_кр,5 = T_5·R = ", "δ = L_изб/(J_Σ·ω²) = "),
+    ("v8-diesel", "ru"): ("T_5 = T(300°) = ", "M_кр,5 = T_5·R = "),
     ("petrol-four", "ru"): (
         "Q_r = 1000·G_т·(M_2·h_μ,r − M_1·h_μ,0) = ",
         "M_кш,3 = M_кш,2 + M_кр,2 = ",
-        "L_изб = max ∫(M_Σ − M_Σср) dφ − min ∫(M_Σ − M_Σср) dφ = ",
+        "L_изб = max ΔT − min ΔT = ",
     ),
     # the first two orders of the motion as textbooks have them
     ("slider-crank", "en"): (

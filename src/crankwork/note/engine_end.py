@@ -105,7 +105,14 @@ def conclusion(material: Material) -> Iterator[Block]:
 def _main_keys(material: Material) -> list[str]:
     """Return the keys of the main results, in order; of one cylinder its own torque says it all."""
     kinds = [one for one in _MAIN if material.has_engine or one not in _OF_ENGINES]
-    return [key for one in kinds for key in material.summary if key == one or key.startswith(f"{one}.")]
+    # those of each method have a table of their own
+    alone = ("excess_work", "flywheel_inertia")
+    return [
+        key
+        for one in kinds
+        for key in material.summary
+        if key == one or (key.startswith(f"{one}.") and one not in alone)
+    ]
 
 
 def _row(material: Material, key: str) -> tuple[Cell, ...]:

@@ -142,9 +142,9 @@ def _of_engine(results: Results, engine: Engine, moment: Moment) -> Iterator[Gro
 
 def _uniformity(results: Results) -> tuple[str, ...]:
     """Return what the evenness of an engine is worked with; a flywheel by several methods stands by itself."""
-    if "flywheel_inertia.exact" not in results.memory:
+    if not results.summary.get("flywheel_inertia.exact"):
         return _UNIFORMITY
-    return tuple(key for key in _UNIFORMITY if key not in ("whole_inertia", "flywheel_inertia", "speed_fluctuation"))
+    return tuple(key for key in _UNIFORMITY if key not in ("whole_inertia", "flywheel_inertia"))
 
 
 def _own(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
