@@ -240,6 +240,9 @@ class Drive:
         The efficiencies that make up the whole, as they are given.
     wheel : Wheel or None
         What else is known of the flywheel, given or to be found.
+    losses : str
+        What the efficiency stands for: all losses of the `machine`, friction too, or those of the `drive` between motor
+        and crank; empty where the description states no friction.
     """
 
     efficiency: float = 1.0
@@ -250,6 +253,7 @@ class Drive:
     fluctuation: float | None = None
     chain: Series | None = None
     wheel: Wheel | None = None
+    losses: Literal["", "drive", "machine"] = ""
 
 
 @dataclass(frozen=True)

@@ -70,6 +70,29 @@ def test_a_flywheel_beside_friction_keeps_the_speed_by_another_integration():
     assert columns["crank_speed"] == pytest.approx(speeds(low), rel=1e-5)
 
 
+def test_losses_count_once():
+    """An efficiency of the drive divides the power of loads and friction, one of the machine that of loads alone."""
+    both = (*MOTOR, "efficiency.chain=[0.67]", "flywheel.fluctuation=0.05")
+    with pytest.raises(crankwork.InputError, match=r'losses are stated twice.*losses = "drive"'):
+        crankwork.read(PRESS, both)
+    of = {}
+    for losses in ("drive", "machine"):
+        results = crankwork.analyse(crankwork.read(PRESS, (*both, f"efficiency.losses={losses}")))
+        of[losses] = results.summary
+    assert of["drive"]["motor_power"] == pytest.approx(1401.12 / 0.67, abs=0.01)
+    assert of["machine"]["motor_power"] == pytest.approx(931.636 / 0.67, abs=0.01)
+    assert of["drive"]["flywheel_inertia"] == pytest.approx(1744.6, abs=0.05)
+    # the driver gives 1/0.67 of what loads and masses take, and gets 0.67 of what they give
+    step = math.radians(0.05)
+    results = crankwork.analyse(
+        crankwork.read(PRESS, (*both, "efficiency.losses=machine")), np.arange(0.0, 360.0, 0.05)
+    )
+    needed = results["static_torque"] + results["dynamic_torque"]
+    taken = np.where(needed > 0, needed / 0.67, needed * 0.67) - results["dynamic_torque"]
+    energy = np.cumsum(taken.mean() - (taken + np.roll(taken, -1)) / 2) * step
+    assert of["machine"]["excess_work"] == pytest.approx(np.ptp(energy), rel=1e-4)
+
+
 def test_a_motor_that_friction_stalls_has_no_steady_speed():
     """Let go at its speed the same machine comes to rest: 60 kg m2 do not carry it through the stroke."""
     settings = (*MOTOR, "crank.inertia=60 kg*m2", "transient.time=3 s", "transient.speed=40 rpm")

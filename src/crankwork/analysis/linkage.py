@@ -37,6 +37,7 @@ from crankwork.analysis.speed import (
     driven_by_motor,
     excess_of,
     has_flywheel,
+    has_friction,
     turn_of,
     work_of,
 )
@@ -145,14 +146,17 @@ def _turns(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> It
     drive, w, mean = machine.drive, speed_of(machine), memory.get("mean_torque")
     if not has_flywheel(drive) and drive.motor is None:
         return
-    balance, added = balance_of(machine, over, memory), 0.0
+    added = 0.0
     if has_flywheel(drive):
+        balance = balance_of(machine, over, memory)
         turn, excess = turn_of(machine, balance, w), excess_of(balance)
         cycle = given("cycle_angle", math.radians(machine.cycle))
         summary = {"excess_work": excess, **turn.summary}
         yield turn._replace(summary=summary, between=turn.between | work_of(excess, mean, cycle))
         added = turn.added
     if drive.motor is not None:
+        # the motor drives through the efficiency
+        balance = balance_of(machine, over, memory, counts_efficiency=False)
         yield driven_by_motor(machine, drive.motor, balance, w, mean, added)
 
 
@@ -345,7 +349,7 @@ def _summary(
         result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
     if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.knowns:
         # inertia does no work in a cycle, friction does
-        torque = "torque_with_friction" if "torque_with_friction" in over.knowns else "static_torque"
+        torque = "torque_with_friction" if has_friction(machine.drive, over) else "static_torque"
         needed = over.mean(torque, "mean_driving_torque")
         # an engine gives torque, and what it gives is told
         result["mean_torque"] = needed if needed.value >= 0 else (-needed).named("mean_torque")

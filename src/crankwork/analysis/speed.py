@@ -68,15 +68,23 @@ class Balance(NamedTuple):
     sign: float = -1.0  # Of `torque` where it drives: that of loads brakes
 
 
-def balance_of(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> Balance:
+def has_friction(drive: Drive, over: OverCycle) -> bool:
+    """Return whether friction counts in what drives a linkage: it is known, and no efficiency stands for it."""
+    return "torque_with_friction" in over.knowns and drive.losses != "machine"
+
+
+def balance_of(
+    machine: Machine, over: OverCycle, memory: Mapping[str, Known], *, counts_efficiency: bool = True
+) -> Balance:
     """Return what loads and losses take from the crank of a linkage, with its reduced inertia.
 
-    Losses are those of friction at the mean speed, or else those of an efficiency as the calculation uses it.
+    Losses are those of friction at the mean speed, or else those of an efficiency as the calculation uses it, unless
+    the motor has them.
     """
-    torque = memory["static_torque"]
-    if "torque_with_friction" in over.knowns:
+    torque, drive = memory["static_torque"], machine.drive
+    if has_friction(drive, over):
         torque = (torque + (memory["torque_with_friction"] - memory["balancing_torque"])).named("load_torque")
-    elif machine.drive.efficiency != 1 and torque.varies:
+    elif counts_efficiency and drive.efficiency != 1 and drive.losses != "drive" and torque.varies:
         torque = (torque + (memory["driving_torque"] - memory["balancing_torque"])).named("load_torque")
     edges = np.radians(over.edges)
 

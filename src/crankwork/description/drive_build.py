@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Literal
 
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
@@ -34,7 +35,10 @@ def read_drive(values: Values, reader: Reader) -> Drive:
         if whole < _LEAST_EFFICIENCY:
             reader.complain("efficiency.chain", Refusal("efficiency_small", whole=whole))
             return drive
-        drive = replace(drive, efficiency=whole, chain=series)
+        losses: Literal["", "drive", "machine"] = table.get("losses", "")
+        drive = replace(drive, efficiency=whole, chain=series, losses=losses)
+        if not losses and any(rubbing in values.get("friction", {}) for rubbing in ("pins", "sliders")):
+            reader.complain("efficiency", Refusal("losses_twice"))
         if "decimals" in table:
             used = round(whole, int(table["decimals"]))
             drive = replace(drive, efficiency=used, exact_efficiency=whole)

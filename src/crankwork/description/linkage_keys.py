@@ -166,6 +166,7 @@ _FRICTION = Table("friction", {
 EFFICIENCY = Table("efficiency", {
     "chain": Key(Nested(Number(0.001, 1.0)), required=True),
     "decimals": Key(Number(1, 6, whole=True)),
+    "losses": Key(Choice(("drive", "machine"))),
 })  # fmt: skip
 
 _MOTOR = Table("motor", {
