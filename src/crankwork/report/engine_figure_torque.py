@@ -96,12 +96,12 @@ def accumulated_torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]
 
 
 def excess_work(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the torque less its mean, hatched where it gives energy, and below it the energy with its extremes."""
+    """Return the total torque less its mean, hatched where it gives energy, and below it the work of that."""
     language, excess = engine.language, engine.diagrams.torque.excess
     angle = np.radians(engine.diagrams.degrees)
     surplus = engine.shown("total_torque", engine.diagrams.torque.total(angle) - excess.mean_torque)
     surplus[-1] = surplus[0]
-    energy = engine.shown("kinetic_energy_change", excess.curve(angle))
+    energy = engine.shown("excess_work", excess.curve(angle))
     upper, lower = scaled_height(120.0), scaled_height(150.0)
     paper = Canvas(current_layout().width, TOP + upper + _PANEL_GAP + lower + BOTTOM)
     box = ChartBox(current_layout().left, TOP, current_layout().inner, upper)
@@ -117,14 +117,15 @@ def excess_work(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     graph = over_cycle(paper, box, (low, high), engine.cycle, language)
     graph.curve("energy", engine.diagrams.degrees, energy)
     found = excess.curve.extremes()
-    unit_less = [float(engine.shown("kinetic_energy_change", one)) for one in (found.largest, found.least)]
+    unit_less = [float(engine.shown("excess_work", one)) for one in (found.largest, found.least)]
     for name, value, at in zip(("max", "min"), unit_less, (found.at_largest, found.at_least), strict=True):
         graph.level(value, DASH_DOT, f"level_{name}")
-        sign = f"{engine.symbol('kinetic_energy_change')[:-1]}_{name}$"
+        symbol = engine.symbol("excess_work")[:-1]
+        sign = f"{symbol}{',' if '_' in symbol else '_'}{name}$"
         mark_point(graph, name, float(np.degrees(at)), value, sign)
     at = 0.5 * engine.cycle * (0.02 if np.degrees(found.at_largest) > 0.1 * engine.cycle else 1.9)
     _span(graph, at, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
-    engine.name_axes(graph, "crank_angle", "kinetic_energy_change")
+    engine.name_axes(graph, "crank_angle", "excess_work")
     return paper, {"torque": torque, "energy": graph}
 
 
