@@ -25,6 +25,7 @@ from crankwork.cylinders.wear import OilHole, oil_hole
 from crankwork.formula.known import Found, breaks_of
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.shaft.fluctuation import ExcessWork, excess_work
 
 __all__ = ["CrankpinLoad", "EngineDiagrams", "Locus", "PolarDiagram", "WearRing", "crankpin_of_one", "wear_rings"]
 
@@ -114,9 +115,14 @@ class EngineDiagrams:
 
     @cached_property
     def torque(self) -> EngineTorque:
-        """Torque of one cylinder and of all, excess work and speed."""
+        """Torque of one cylinder and of all, and speed."""
         found = WholeMemory.of(self.whole.master)
         return engine_torque(found.whole, found.memory, found.over, found.extremes)
+
+    @cached_property
+    def excess(self) -> ExcessWork:
+        """What the torque of all cylinders does beyond its mean, that of inertia at constant speed in it."""
+        return excess_work(self.torque.total)
 
     @cached_property
     def degrees(self) -> Array:

@@ -33,19 +33,19 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import ExcessWork, TrueSpeed, excess_work
+from crankwork.shaft.fluctuation import TrueSpeed, excess_work
 
 _ORDERS = 12
 _SAMPLES = 1440
+_ROUNDING = 1e-16
 
 
 class EngineTorque(NamedTuple):
-    """Torque of cylinder 1 and of all over the cycle, the excess work of the sum, the speed, and their memory."""
+    """Torque of cylinder 1 and of all over the cycle, the speed, and their memory."""
 
     # Torques [N m]
     one: Curve
     total: Curve
-    excess: ExcessWork  # What the total torque does beyond its mean, its inertia forces in it
     speed: TrueSpeed | None  # With the flywheel, where anything has an inertia
     # Energy and speed over the crank angle; single values; what lies between them
     columns: Mapping[str, Known]
@@ -103,7 +103,7 @@ def engine_torque(
     """Return the torque of the engine with the flywheel it needs, and why there is none."""
     first = whole.of(1, "crank_torque").key
     one, all_ = (_curve(over, key) for key in (first, "total_torque"))
-    w, summed = whole.master.memory["speed"], excess_work(all_)
+    w = whole.master.memory["speed"]
     summary = {"mean_total_torque": over.mean("total_torque", "mean_total_torque")}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
     balance = _balance(whole, memory, over, all_)
@@ -114,11 +114,15 @@ def engine_torque(
     summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
     named = {key: known.named(key) for key, known in summary.items()}
     between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
-    return EngineTorque(one, all_, summed, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
+    return EngineTorque(one, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
 
 
 def _curve(over: OverCycle, key: str) -> Curve:
-    return Curve.legendre(np.radians(over.edges), over.polynomials(key))
+    """Return a column as polynomials, without degrees that are nothing but rounding."""
+    series = over.polynomials(key)
+    sizes = np.max(np.abs(series), axis=0)
+    last = int(np.max(np.flatnonzero(sizes > _ROUNDING * sizes.max()), initial=0))
+    return Curve.legendre(np.radians(over.edges), series[:, : last + 1])
 
 
 def _balance(whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, total_torque: Curve) -> Balance:
@@ -192,7 +196,7 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque, samples: Samples, mo
     works = [one.space.work for one in whole.cylinders if one.space is not None]
     result = {}
     if len(works) == len(whole.cylinders) and not whole.machine.angular_acceleration:
-        work = torque.excess.work_per_cycle
+        work = torque.total.mean * torque.total.cycle
         result["engine_work"] = abs(work - sum(works)) / (len(works) * moved)
     count = _common_samples(whole.layout)
     if whole.is_uniform and len(whole.cylinders) > 1 and count:

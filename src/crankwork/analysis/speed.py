@@ -43,6 +43,7 @@ from crankwork.shaft.flywheel import (
     slope_of_mean_speed,
     wittenbauer_slope_largest,
     wittenbauer_slope_least,
+    work_at_constant_speed,
     work_of_mean_torque,
 )
 from crankwork.shaft.motor import GearedMotor
@@ -178,10 +179,9 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
 
 def _at_constant_speed(balance: Balance, w: Known) -> Known:
     """Return the excess work of the torque at the mean speed, that of inertia in it, as Mertsalov takes it."""
-    slope = slope_of_mean_speed(w)
-    least, _, largest, _ = (balance.excess.curve - balance.inertia_curve * slope.value).extremes()
-    found = Flywheel("mertsalov", 0.0, largest - least)
-    return _excess(found, 2 * (slope.named("wittenbauer_slope.mertsalov"),), (balance.torque, balance.inertia))
+    work = work_at_constant_speed(balance.inertia_curve, balance.excess, w.value)
+    slopes = 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),)
+    return _excess(Flywheel("mertsalov", 0.0, work), slopes, (balance.torque, balance.inertia))
 
 
 def _whole(balance: Balance, between: Mapping[str, Known], wheel: Known) -> Known:
@@ -216,7 +216,7 @@ def _wheels(
         wheel, needed = constant_wheel(excess, wanted, w, balance.inertia)
         return {"flywheel_inertia": wheel}, {needed.key: needed} if wheel.value else {}, wheel
     inertia, load = balance.inertia_curve, balance.curve
-    found = [flywheel(inertia, load, w.value, wanted.value, way) for way in WAYS]
+    found = [flywheel(inertia, load, w.value, wanted.value, way, balance.excess) for way in WAYS]
     of = balance.torque, balance.inertia
     ways = {f"flywheel_inertia.{one.way}": _wheel(one, inertia, w, wanted, of) for one in found}
     wheel = ways["flywheel_inertia.exact"]
@@ -257,9 +257,8 @@ def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Kno
         for word, slope in zip(("largest", "least"), _SLOPES.get(way, ()), strict=False)
     ) or 2 * (slope_of_mean_speed(w).named(f"wittenbauer_slope.{way}"),)
     whole: Known = inertia_for_fluctuation(_excess(one, slopes, of), wanted, w)
-    parts = {"energy": ("mean", inertia.mean), "mertsalov": ("min", inertia.extremes().least)}
-    if way in parts:
-        word, value = parts[way]
+    if way in ("energy", "mertsalov"):
+        word, value = ("mean", inertia.mean) if way == "energy" else ("min", inertia.extremes().least)
         less = Known(Found(value, word, of[1:]), f"reduced_inertia.{word}")
         whole = flywheel_beside_machine(whole.named(f"whole_inertia.{way}"), less)
     return Known(Found(0.0, "none", (whole,)), key) if one.inertia <= 0 else whole.named(key)

@@ -32,7 +32,7 @@ def total_torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     shown = each if len(each) <= _MANY else each[:1]
     total = engine.shown("total_torque", torque.total(np.radians(engine.diagrams.degrees)))
     total[-1] = total[0]
-    mean = float(engine.shown("mean_total_torque", torque.excess.mean_torque))
+    mean = float(engine.shown("mean_total_torque", engine.diagrams.excess.mean_torque))
     mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
     rows = [
         Row(engine.named("total_torque"), width=_NAMED),
@@ -97,7 +97,7 @@ def accumulated_torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]
 
 def excess_work(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the total torque less its mean, hatched where it gives energy, and below it the work of that."""
-    language, excess = engine.language, engine.diagrams.torque.excess
+    language, excess = engine.language, engine.diagrams.excess
     angle = np.radians(engine.diagrams.degrees)
     surplus = engine.shown("total_torque", engine.diagrams.torque.total(angle) - excess.mean_torque)
     surplus[-1] = surplus[0]

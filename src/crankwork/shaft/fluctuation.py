@@ -20,7 +20,7 @@ from crankwork.shaft.curve import Curve, Extremes
 Mean = Literal["time", "extremes"]
 
 # of the mean speed, where rounding begins
-_SETTLED, _EQUAL = 3e-16, 1e-11
+_SETTLED, _EQUAL = 1e-14, 1e-11
 _STEPS = 60
 # how far the energy may be from that of half the panels, and how often they are halved
 _RESOLVED = 1e-14
@@ -154,8 +154,12 @@ def true_speed(
     # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
     greatest = mean_speed + (reach.largest - reach.least) / (2 * inertia.mean * mean_speed)
     energy = max(float(kinetic_energy(inertia.mean, greatest)) - reach.largest, floor * (1 + 1e-6))
+    of_time = None
+    if mean == "time":
+        energy = _energy_of_time(inertia, excess, energy, floor, mean_speed)
+        of_time = energy, extremes_at(energy)
+    extremes = of_time[1] if of_time is not None else extremes_at(energy)
     for _ in range(_STEPS):
-        extremes = extremes_at(energy)
         miss = (extremes.largest + extremes.least) / 2 - mean_speed
         # the derivative of each extreme speed by the energy is 1 / (J w)
         slope = sum(
@@ -165,13 +169,11 @@ def true_speed(
         following = max(energy - 2 * miss / slope, floor + (energy - floor) / 16)
         if abs(miss) <= _SETTLED * mean_speed or abs(following - energy) <= 4e-16 * energy:
             break
-        energy = following
+        energy, extremes = following, extremes_at(following)
     if abs(miss) > 1e-12 * mean_speed:
         raise MethodError(Refusal("machine_stops", speed=mean_speed, angle=float(np.degrees(extremes.at_least))))
     fluctuation = (extremes.largest - extremes.least) / mean_speed
-    if mean == "time":
-        energy = _energy_of_time(inertia, excess, energy, floor, mean_speed)
-        extremes = extremes_at(energy)
+    energy, extremes = of_time or (energy, extremes)
     return TrueSpeed(inertia, inertia_1, excess, balanced, energy, extremes, fluctuation)
 
 
