@@ -11,7 +11,7 @@ from crankwork.description.kinds import Reader
 from crankwork.description.measured_build import treatment_of
 from crankwork.description.schema import Values, nearest_name
 from crankwork.loads.indicator import DiagramPoint, Piece
-from crankwork.loads.measured import MeasuredPressure, Told
+from crankwork.loads.measured import MeasuredPressure, NoticeData
 from crankwork.loads.valves import Pipe, Valves
 from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas
@@ -147,9 +147,9 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
     source, absolute = values["measured"], values["pressures"] == "absolute"
     if measured is not None:
         treatment = treatment_of(source, f"{path}.measured", reader, absolute=absolute)
-        read_as: Told = "measured_reference", {"reference": measured.reference, "stated": values["pressures"]}
+        read_as: NoticeData = "measured_reference", {"reference": measured.reference, "stated": values["pressures"]}
         told = (read_as,) if measured.reference not in ("", values["pressures"]) else ()
-        measured = replace(measured, treatment=treatment, told=measured.told + told)
+        measured = replace(measured, treatment=treatment, notices=measured.notices + told)
     resample = source.si("resample")
     if absolute:
         for name, point in values["points"].items():

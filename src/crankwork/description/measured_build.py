@@ -15,7 +15,7 @@ from crankwork.description.schema import Values, means_nothing
 from crankwork.description.table_file import FileTable, read_table
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.measured import MeasuredPressure, Pegging, Told, Treatment
+from crankwork.loads.measured import MeasuredPressure, NoticeData, Pegging, Preprocessing
 from crankwork.locale import Refusal
 from crankwork.units import UNITS
 
@@ -47,7 +47,7 @@ class _Columns(NamedTuple):
     pressures: tuple[int, ...]
     angle_unit: str
     pressure_unit: str
-    told: tuple[Told, ...]
+    told: tuple[NoticeData, ...]
 
 
 def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
@@ -90,7 +90,7 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     return MeasuredPressure(degrees, pressure, table.lines, name, found.told, reference=reference)
 
 
-def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Treatment:
+def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Preprocessing:
     """Return what a description wants done to samples; `path`: where it says so."""
     peg, which, smooth, loss = values.get("peg"), values["cycle"], values.si("smooth"), values.si("loss_angle")
     pegging = None
@@ -101,7 +101,7 @@ def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -
     elif peg is not None and {"exponent", "from", "to"} <= set(peg):
         start, end = (round(math.degrees(peg.si(one)), 9) for one in ("from", "to"))
         pegging = Pegging(exponent=peg["exponent"], start=start, end=start + (end - start) % 720.0)
-    return Treatment(
+    return Preprocessing(
         cycle=int(which) if isinstance(which, float) else which,
         rest=values.si("rest_pressure"),
         peg=pegging,
@@ -115,7 +115,7 @@ def _columns(table: FileTable, values: Values) -> _Columns:
     """Return which columns are read, and their units; raise where the machine file must say it."""
     angle, *_ = _chosen(table, values, "angle", ())
     pressures = _chosen(table, values, "pressure", (angle,))
-    told: list[Told] = []
+    told: list[NoticeData] = []
     more = f"..{table.told(pressures[-1])}" if len(pressures) > 1 else ""
     taken = table.told(pressures[0]) + more
     if len(table.names) > 2 and not {"angle_column", "pressure_column"} <= set(values):
@@ -169,7 +169,7 @@ def _stated(table: FileTable, stated: str | float, key: str, taken: Sequence[int
     return positions
 
 
-def _unit(table: FileTable, values: Values, kind: str, at: int, told: list[Told]) -> str:
+def _unit(table: FileTable, values: Values, kind: str, at: int, told: list[NoticeData]) -> str:
     """Return the unit of angle or pressure: as stated, else as the file has it, empty for none."""
     key, own = f"{kind}_unit", table.units[at]
     if own and UNITS[own].dimension != kind:

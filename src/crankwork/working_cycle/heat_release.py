@@ -112,7 +112,7 @@ def _solved(gas: ClosedGas, periods: list[Stage], of: tuple[Known, ...]) -> list
             if abs(segment.work(gas.volume_at) - final[1]) <= _AGREEMENT * scale:
                 break
             count *= 2
-        results.append((replace(segment, of=of), final - start))
+        results.append((replace(segment, operands=of), final - start))
         pressure = float(final[0])
     return results
 

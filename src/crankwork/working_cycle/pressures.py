@@ -94,9 +94,9 @@ def _remembering(diagram: IndicatorDiagram, corners: Corners) -> IndicatorDiagra
     def remembering(segment: Segment) -> Segment:
         if segment.law == "polytropic":
             origin = _ORIGINS.get(segment.origin, segment.origin)
-            return replace(segment, origin=origin, of=lines[origin])
+            return replace(segment, origin=origin, operands=lines[origin])
         of = constants.get(segment.pressures[0], ()) if segment.law == "constant" else ()
-        return replace(segment, places=(), of=of)
+        return replace(segment, places=(), operands=of)
 
     return replace(diagram, segments=tuple(remembering(one) for one in diagram.segments))
 
