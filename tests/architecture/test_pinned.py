@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "9c940da83c5f",
     "quantities": "6afc290ef2c5",
-    "defaults": "a359d14cd0b1",
+    "defaults": "129474278be5",
 }
 
 
