@@ -1,4 +1,4 @@
-"""From the table of a working cycle to what gives the pressure, and the size of an engine to a power."""
+"""From the table of a working cycle to the calculated pressure, and the size of an engine from its power."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, cast
 
 import numpy as np
 
-from crankwork.description.kinds import Measure, Reader
+from crankwork.description.kinds import MeasuredValue, Reader
 from crankwork.description.schema import Values
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -30,7 +30,7 @@ _IDEAL = ("otto", "ideal-diesel", "dual")
 
 
 class Cycle(NamedTuple):
-    """The gas of a calculated cycle, and the machine file's values with what followed from it."""
+    """The gas of a calculated cycle, and the values of the machine file with the calculated sizes."""
 
     gas: Gas
     values: Values
@@ -56,7 +56,7 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
 
 
 def _blamed(message: str, table: Values) -> str:
-    """Return the key that a message begins with, or the table."""
+    """Return the key at the beginning of a message, or the table."""
     word = message.split(maxsplit=1)[0].rstrip(",:") if message else ""
     return f"cycle.{word}" if word in table else "cycle"
 
@@ -141,7 +141,7 @@ def _stroke_of_piston(values: Values) -> float | None:
 
 
 def _rod_of(values: Values) -> SliderCrank:
-    """Return crank and rod on the axis; a radius of one where only their ratio is given."""
+    """Return crank and rod without offset, of radius 1 if only their ratio is given."""
     rod, stroke = values["rod"], _stroke(values["crank"])
     radius, ratio = (stroke or 2.0) / 2, rod["ratio"] or 0.25
     if "length" in rod and stroke:
@@ -175,10 +175,10 @@ def _lost_stroke(values: Values, timing: Timing) -> float:
 
 
 def _sized(values: Values, cycle: CalculatedCycle) -> Values:
-    """Return the values with the bore and stroke that a power asks for, in whole millimetres."""
+    """Return the values with the bore and stroke required for a power, in whole millimetres."""
     crank, cylinder = values["crank"], values["cylinder"]
-    radius = crank["radius"] or Measure(round(cycle.values["stroke"], 3) / 2, "length")
-    bore = cylinder["bore"] or Measure(round(cycle.values["bore"], 3), "length")
+    radius = crank["radius"] or MeasuredValue(round(cycle.values["stroke"], 3) / 2, "length")
+    bore = cylinder["bore"] or MeasuredValue(round(cycle.values["bore"], 3), "length")
     return values.but(crank=crank.but(radius=radius), cylinder=cylinder.but(bore=bore))
 
 
@@ -189,7 +189,7 @@ def _with_ratio(values: Values, ratio: float) -> Values:
 def build_heat_release(
     table: Values, angle: float, bore: float | None, speed: float, chamber: str, reader: Reader
 ) -> HeatReleasePressure | None:
-    """Return what gives the pressure of a chamber by a release of heat, or None after complaints.
+    """Return the pressure of a chamber by a release of heat, or None after complaints.
 
     `angle`: of its cycle [deg]; `speed`: of the crank [rad/s]; `chamber`: where the description has it.
     """
@@ -201,7 +201,7 @@ def build_heat_release(
 
 
 def heat_release_data(table: Values, angle: float, bore: float | None, speed: float) -> HeatReleaseData:
-    """Return the data of a release of heat; what is not given stays as usual."""
+    """Return the data of a release of heat, with defaults for missing values."""
     timing = table["timing"]
     given: dict[str, Any] = {
         "heat": table.si("cycle_heat"),
@@ -237,5 +237,5 @@ def heat_release_data(table: Values, angle: float, bore: float | None, speed: fl
         shut_pressure=table.si("intake_pressure"),
         shut_temperature=table.si("intake_temperature"),
         cycle=angle,
-        **{name: one for name, one in given.items() if one is not None},
+        **{name: value for name, value in given.items() if value is not None},
     )
