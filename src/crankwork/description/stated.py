@@ -8,24 +8,24 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from crankwork.description.kinds import MeasuredValue
-from crankwork.machine import Stated
+from crankwork.machine import InputNumber
 
 
-def stated_numbers(values: Mapping[str, Any]) -> dict[str, Stated]:
+def stated_numbers(values: Mapping[str, Any]) -> dict[str, InputNumber]:
     """Return the numbers of read values by path; entries of lists are counted from 1, `efficiency.chain[2]`."""
     return dict(_numbers("", values))
 
 
-def _numbers(path: str, value: Any) -> Iterator[tuple[str, Stated]]:  # noqa: ANN401 - tables, lists and quantities
+def _numbers(path: str, value: Any) -> Iterator[tuple[str, InputNumber]]:  # noqa: ANN401 - tables, lists and quantities
     match value:
         case MeasuredValue():
-            yield path, Stated(value.value, value.unit)
+            yield path, InputNumber(value.value, value.unit)
         case bool():
             return
         case int() | float():
-            yield path, Stated(float(value))
+            yield path, InputNumber(float(value))
         case str() if match := re.fullmatch(r"(\d+) deg", value):
-            yield path, Stated(math.radians(float(match[1])), "deg")
+            yield path, InputNumber(math.radians(float(match[1])), "deg")
         case Mapping():
             for name, item in value.items():
                 yield from _numbers(f"{path}.{name}" if path else name, item)
