@@ -72,12 +72,14 @@ def _built(values: Values, table: Values, ratio: float, pi: float) -> Cycle:
         pressure = HeatReleasePressure(heat_release_data(table, angle, bore, speed))
     else:
         if kind in _IDEAL:
-            cycle = ideal_cycle(_ideal(table, ratio, angle))
+            state = {"pressure": table.si("intake_pressure"), "temperature": table.si("intake_temperature")}
+            cycle = ideal_cycle(table.made(IdealData, compression_ratio=ratio, **state, angle=angle))
         else:
             cycle = grinevetsky(_data(values, table, ratio, angle, timing, pi))
             values = _sized(values, cycle) if "power" in table else values
         if "geometric_compression_ratio" in cycle.memory:
-            values = _with_ratio(values, cycle.memory["geometric_compression_ratio"].value)
+            geometric = cycle.memory["geometric_compression_ratio"].value
+            values = values.but(cylinder=values["cylinder"].but(compression_ratio=geometric))
         rounds = (table["corners"] or ("rounded" if "timing" in table else "sharp")) == "rounded"
         pressure = CornerPressure(cycle, timing if rounds else None, _rounding(table))
     gas = Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure)
@@ -93,11 +95,6 @@ def _timing(table: Values, angle: float) -> Timing:
 def _rounding(table: Values) -> Rounding:
     school = cast("Literal['ru', 'vi']", table["school"])
     return Rounding(school=school, peak_angle=table["timing"].degrees("peak"), peak_level=table["peak_level"])
-
-
-def _ideal(table: Values, ratio: float, angle: float) -> IdealData:
-    pressure, temperature = table.si("intake_pressure"), table.si("intake_temperature")
-    return table.made(IdealData, compression_ratio=ratio, pressure=pressure, temperature=temperature, angle=angle)
 
 
 def _data(values: Values, table: Values, ratio: float, angle: float, timing: Timing, pi: float) -> GrinevetskyData:
@@ -180,10 +177,6 @@ def _sized(values: Values, cycle: CalculatedCycle) -> Values:
     radius = crank["radius"] or MeasuredValue(round(cycle.values["stroke"], 3) / 2, "length")
     bore = cylinder["bore"] or MeasuredValue(round(cycle.values["bore"], 3), "length")
     return values.but(crank=crank.but(radius=radius), cylinder=cylinder.but(bore=bore))
-
-
-def _with_ratio(values: Values, ratio: float) -> Values:
-    return values.but(cylinder=values["cylinder"].but(compression_ratio=ratio))
 
 
 def build_heat_release(

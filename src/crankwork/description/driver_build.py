@@ -86,7 +86,8 @@ def build_law(values: Values, reader: Reader) -> Law | None:
     filled = [float(places[0])]
     for place in places[1:]:
         filled.append(filled[-1] if place is None else float(place))
-    if "start" not in driver and not _moves([segment for _, segment in segments], filled):
+    passed = (place.value for _, segment in segments for place in segment["values"])
+    if "start" not in driver and all(place == filled[0] for place in itertools.chain(filled, passed)):
         reader.complain("driver.start", Refusal("law_stands"))
         return None
     if min(filled) <= 0 and "cylinder" in driver:
@@ -104,12 +105,6 @@ def build_law(values: Values, reader: Reader) -> Law | None:
         for (_, segment), to, time in zip(segments, filled[1:], times, strict=True)
     )  # fmt: skip
     return Law(made, period, filled[0])
-
-
-def _moves(segments: list[Values], places: list[float]) -> bool:
-    """Return whether any value of the law differs from the first."""
-    passed = (place.value for segment in segments for place in segment["values"])
-    return any(place != places[0] for place in itertools.chain(places, passed))
 
 
 def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:

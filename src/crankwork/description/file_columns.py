@@ -35,9 +35,11 @@ def resolve_file_columns(values: dict[str, Any], keys: TableSpec, reader: Reader
         file = table["file"]
         places = list(_places(path, table, kind))
         if not places:
-            reader.complain(f"{path}.file", Refusal("file_unused", example=_example(kind)))
+            example = next(name for name, key in kind.keys.items() if _takes_columns(key.kind))
+            reader.complain(f"{path}.file", Refusal("file_unused", example=example))
+        sheet = table["sheet"] if isinstance(table.get("sheet"), str) else None
         try:
-            read = read_table(folder / file, name=file, sheet=_sheet(table)) if places else None
+            read = read_table(folder / file, name=file, sheet=sheet) if places else None
         except CrankworkError as error:
             # consequences of an unreadable file are not reported
             reader.complain(f"{path}.file", error.args[0], meant=path)
@@ -77,17 +79,8 @@ def _places(path: str, table: dict[str, Any], kind: TableSpec) -> Iterator[_Plac
                         yield from _places(f"{path}.{name}.{own}", table_value, inner)
 
 
-def _sheet(table: dict[str, Any]) -> str | None:
-    sheet = table.get("sheet")
-    return sheet if isinstance(sheet, str) else None
-
-
 def _takes_columns(kind: object) -> bool:
     return isinstance(kind, ListOf) and kind.from_file
-
-
-def _example(kind: TableSpec) -> str:
-    return next(name for name, key in kind.keys.items() if _takes_columns(key.kind))
 
 
 def _column(table: FileTable, place: _Place) -> list[Any]:

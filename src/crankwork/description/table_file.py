@@ -110,10 +110,9 @@ class FileTable:
         wanted = (len(self.names) - 1, len(self.names))
         counts = {row.count(self.separator) for row in rows}
         # an extra separator ends every row, or is a mistake
-        return counts == {wanted[0]} or (counts == {wanted[1]} and self._ends_in_separator())
-
-    def _ends_in_separator(self) -> bool:
-        return all(row.rstrip(" ").endswith(self.separator or " ") for row in self.rows)
+        return counts == {wanted[0]} or (
+            counts == {wanted[1]} and all(row.rstrip(" ").endswith(self.separator) for row in self.rows)
+        )
 
     def _numbers(self, line: int, row: str, positions: Sequence[int], marks: set[str]) -> list[float]:
         """Return the numbers of a row; `marks`: the decimal marks so far, only one is allowed."""

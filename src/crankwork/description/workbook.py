@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import posixpath
 import re
 import zipfile
 import zlib
@@ -35,7 +36,7 @@ def workbook_text(data: bytes, sheet: str | None = None) -> str:
 def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
     related = {link.get("Id", ""): link.get("Target", "") for link in _root(book, "xl/_rels/workbook.xml.rels")}
     sheets = {
-        sheet_element.get("name", ""): _member(related[sheet_element.get(_ID, "")])
+        sheet_element.get("name", ""): posixpath.join("xl", related[sheet_element.get(_ID, "")]).lstrip("/")
         for sheet_element in _root(book, "xl/workbook.xml").iter(f"{_MAIN}sheet")
     }
     filled = [name for name, member in sheets.items() if b"<v>" in _read(book, member)]
@@ -50,10 +51,6 @@ def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
         lines += [""] * (number - 1 - len(lines))
         lines.append("\t".join(row))
     return "\n".join(lines)
-
-
-def _member(target: str) -> str:
-    return target.lstrip("/") if target.startswith("/") else f"xl/{target}"
 
 
 def _check_size(book: zipfile.ZipFile) -> None:

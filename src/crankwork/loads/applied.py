@@ -134,8 +134,9 @@ def force_on_slider(
 def torque_on(motion: Motion, link: str, torque: Value) -> AppliedLoads:
     """Return a torque on a link."""
     check_name("link", link, {**motion.links, **motion.frames})
-    rate = everywhere(_rate(motion, link), motion.grid)
-    return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), rate),))
+    frame: LinkMotion | None = motion.frames.get(link)
+    rate = motion.links[link].position_1 if frame is None else frame.angle_1
+    return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), everywhere(rate, motion.grid)),))
 
 
 def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
@@ -143,8 +144,3 @@ def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
     place = point.x.position, point.y.position
     x, y = carried(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)
     return PointMotion(x._replace(position=place[0]), y._replace(position=place[1]))
-
-
-def _rate(motion: Motion, link: str) -> Value:
-    frame: LinkMotion | None = motion.frames.get(link)
-    return motion.links[link].position_1 if frame is None else frame.angle_1

@@ -72,15 +72,12 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
     start: Value = load.start
     if is_known(slide.position):
         start = given(f"slider_displacement.{load.slider}.start", start, f"{path}.start")
-    travel = slide.position - start, _in_time(slide.position_1, motion)
+    # a rate with the sign of the velocity: the driver's coordinate may decrease
+    rate = slide.position_1 if motion.driver is None else slide.position_1 * motion.driver.position_1
+    travel = slide.position - start, rate
     travel = _Travel(*(travel if load.forward == 1 else (-travel[0], -travel[1])))
     force = _force(load, travel, motion, (load.slider, path))
     return AppliedLoads((force_along_guide(motion, load.slider, -force if load.forward == 1 else force),))
-
-
-def _in_time(rate: Value, motion: Motion) -> Value:
-    """Return a rate with the sign of the velocity: the driver's coordinate may decrease."""
-    return rate if motion.driver is None else rate * motion.driver.position_1
 
 
 def _force(load: ProcessForce, travel: _Travel, motion: Motion, named_at: tuple[str, str]) -> Value:
