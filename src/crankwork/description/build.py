@@ -138,8 +138,7 @@ def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tu
     if not turns_fully(SliderCrank(radius, length, offset)):
         key = "rod.ratio" if ratio is not None else "rod.length"
         lengths = {"length": length, "radius": radius, "offset": abs(offset), "missing": radius + abs(offset) - length}
-        shown = {name: size * 1e3 for name, size in lengths.items()}
-        reader.complain(key, Refusal("rod_short", **shown))
+        reader.complain(key, Refusal("rod_short", **{name: size * 1e3 for name, size in lengths.items()}))
         return None
     return radius, length, offset
 

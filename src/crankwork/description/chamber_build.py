@@ -86,8 +86,7 @@ def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader)
         if not slider and not reader.doubts(f"{place}.slider"):
             reader.complain(f"{place}.slider", Refusal("face_slider"))
         elif slider and sliders is not None and slider not in sliders:
-            known = ", ".join(sorted(sliders))
-            reader.complain(f"{place}.slider", Refusal("absent_slider", name=slider, known=known))
+            reader.complain(f"{place}.slider", Refusal("absent_slider", name=slider, known=", ".join(sorted(sliders))))
         elif slider in taken:
             reader.complain(f"{place}.slider", Refusal("face_twice", slider=slider))
         if bore is None and "area" not in face and not reader.doubts(f"{place}.bore", f"{place}.area"):
@@ -137,8 +136,7 @@ def _holders(sealed: Mapping[str, Values], chambers: Mapping[str, Values], reade
         for number, name in enumerate(table["chambers"], start=1):
             place = f"charges.{charge}.chambers[{number}]"
             if name is not None and name not in chambers and not reader.doubts(f"chambers.{name}"):
-                known = ", ".join(sorted(chambers)) or "–"
-                reader.complain(place, Refusal("absent_chamber", name=name, known=known))
+                reader.complain(place, Refusal("absent_chamber", name=name, known=", ".join(sorted(chambers)) or "–"))
             elif name in holder:
                 reader.complain(place, Refusal("chamber_twice", name=name))
             elif name is not None:

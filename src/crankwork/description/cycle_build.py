@@ -82,8 +82,7 @@ def _built(values: Values, table: Values, ratio: float, pi: float) -> Cycle:
             values = values.but(cylinder=values["cylinder"].but(compression_ratio=geometric))
         rounds = (table["corners"] or ("rounded" if "timing" in table else "sharp")) == "rounded"
         pressure = CornerPressure(cycle, timing if rounds else None, _rounding(table))
-    gas = Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure)
-    return Cycle(gas, values)
+    return Cycle(Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure), values)
 
 
 def _timing(table: Values, angle: float) -> Timing:

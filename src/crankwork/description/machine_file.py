@@ -404,14 +404,12 @@ def template(name: str, language: Language = "en") -> str:
         raise CrankworkError(Refusal("no_template", name=shown, known=known))
 
     def text_of(match: re.Match[str]) -> str:
-        key = match[1] if "." in match[1] else f"templates.{match[1]}"
-        return say(key, language)
+        return say(match[1] if "." in match[1] else f"templates.{match[1]}", language)
 
     def comment(match: re.Match[str]) -> str:
         return textwrap.fill(text_of(match), 116, initial_indent="# ", subsequent_indent="# ", break_on_hyphens=False)
 
-    written = read_resource(*TEMPLATES.split("/"), f"{name}.toml")
-    return _WORDS.sub(text_of, _COMMENT.sub(comment, written))
+    return _WORDS.sub(text_of, _COMMENT.sub(comment, read_resource(*TEMPLATES.split("/"), f"{name}.toml")))
 
 
 def template_title(name: str, language: Language = "en") -> str:

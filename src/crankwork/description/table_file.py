@@ -165,8 +165,7 @@ def _table(text: str, name: str) -> FileTable:
     separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
     if start < 0:
         single = next((number for number in filled if _float(lines[number - 1].strip(" \t;")) is not None), 0)
-        code = "measured_one_column" if single else "measured_heading"
-        raise ValueError(Refusal(code, line=single or filled[0]))
+        raise ValueError(Refusal("measured_one_column" if single else "measured_heading", line=single or filled[0]))
     numbers = filled[start:]
     if separator == "," and count > 2 and lines[numbers[0] - 2].count(",") + 1 == count / 2:
         raise ValueError(Refusal("table_commas", line=numbers[0]))

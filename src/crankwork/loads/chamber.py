@@ -156,8 +156,7 @@ def _stated(name: str, charge: Charge) -> Known:
 
 def _volume_over_cycle(name: str, volume: Known, period: float) -> OverCycle:
     """Return the volume of a charge and its inverse over the cycle; raise if the volume vanishes."""
-    over = OverCycle({"": volume}, CrankGrid.from_degrees, period)
-    largest, least = over.largest_and_least[""]
+    largest, least = OverCycle({"": volume}, CrankGrid.from_degrees, period).largest_and_least[""]
     if least.value <= ZERO_TOLERANCE * largest.value:
         raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=least.at))
     return OverCycle({"": volume, "inverse": 1 / volume}, CrankGrid.from_degrees, period)

@@ -78,8 +78,7 @@ def slider_damper(
     """Return the forces of a damper on a sliding piece and on the link that carries its guide."""
     check_name("sliding piece", load.slider, motion.sliders)
     rate = named(slider_velocity(motion.sliders[load.slider].position_1, speed), f"slider_velocity.{load.slider}")
-    damping = _damping(load, load.slider, rate, path)
-    force = -named(damper_force(damping, rate), f"damper_force.{load.slider}")
+    force = -named(damper_force(_damping(load, load.slider, rate, path), rate), f"damper_force.{load.slider}")
     return force_on_slider(mechanism, motion, load.slider, force, ".damper")
 
 

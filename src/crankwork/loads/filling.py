@@ -156,8 +156,7 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
         columns += [space.volume, pressures[name], above]
         for wall in space.walls:
             key = wall.area.key.replace("piston_area", "gas_force", 1)
-            force = gas.face_force(wall.sense, above, wall.area).named(key)
-            forces.append(GasForce(name, wall.slider, force))
+            forces.append(GasForce(name, wall.slider, gas.face_force(wall.sense, above, wall.area).named(key)))
         mean = gas.indicated_mean_pressure(works[name], space.swept).named(f"indicated_mean_pressure.{name}")
         own += [*_sizes(space), works[name], mean]
     columns += [*(gas_force.force for gas_force in forces), *_rod_loads(forces)]

@@ -184,8 +184,7 @@ class IndicatorDiagram:
 
     def pressure(self, degrees: Array, volume: Array) -> Array:
         """Return the pressure at ascending crank angles within one cycle. [Pa]"""
-        ends = [segment.end for segment in self.segments]
-        edges = [0, *np.searchsorted(degrees, ends, side="right")]
+        edges = [0, *np.searchsorted(degrees, [segment.end for segment in self.segments], side="right")]
         edges[-1] = len(degrees)
         result = np.empty_like(degrees)
         for segment, (first, last) in zip(self.segments, itertools.pairwise(edges), strict=True):

@@ -93,8 +93,7 @@ def recorded_cycles(
     `path`: where a description states them.
     """
     key = f"{path}.measured"
-    columns = measured.pressure.reshape(len(measured.degrees), -1)
-    _check_size(measured, columns, key)
+    _check_size(measured, measured.pressure.reshape(len(measured.degrees), -1), key)
     running = _running_on(measured, cycle, key)
     _check_angles(running, cycle, key)
     degrees = running.degrees
@@ -233,8 +232,7 @@ def _check_angles(measured: MeasuredPressure, cycle: float, key: str) -> None:
             key,
             Refusal("samples_gap", line=rows[worst + 1], first=degrees[worst], second=degrees[worst + 1], step=typical),
         )
-    covered = float(degrees[-1] - degrees[0]) + 1.5 * typical
-    if covered < cycle:
+    if float(degrees[-1] - degrees[0]) + 1.5 * typical < cycle:
         raise DiagramError(key, Refusal("samples_short", covered=degrees[-1] - degrees[0], cycle=cycle))
 
 
@@ -253,5 +251,4 @@ def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
 
 def wrap_is_rough(diagram: IndicatorDiagram, wrap: float) -> bool:
     """Return whether the step between end and start of the cycle is worth a warning."""
-    pressures = diagram.segments[0].pressures
-    return abs(wrap) > _WRAP * float(np.ptp(pressures))
+    return abs(wrap) > _WRAP * float(np.ptp(diagram.segments[0].pressures))

@@ -86,8 +86,7 @@ def _force(load: ProcessForce, travel: _Travel, motion: Motion, named_at: tuple[
     force = np.asarray(load.force(travel.position if load.against == "stroke" else motion.grid.angle), dtype=float)
     if load.acts == "both":
         return force
-    forward = travel.position_1 >= -_REST * np.max(np.abs(travel.position_1))
-    return np.where(forward, force, 0.0)
+    return np.where(travel.position_1 >= -_REST * np.max(np.abs(travel.position_1)), force, 0.0)
 
 
 def _remembered(load: ProcessForce, travel: _Travel, motion: Motion, name: str, path: str) -> Known:

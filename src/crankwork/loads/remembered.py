@@ -83,8 +83,7 @@ def curve_over_column(curve: Curve, column: Known, interpolator: Interpolator, k
     margin = _MARGIN * max(abs(low), abs(high))
     ends = sorted([*over.crossings("", low - margin).tolist(), *over.crossings("", high + margin).tolist()])
     ends = [*ends, float(over.edges[-1])]
-    middles = (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2
-    values = over.at("", middles)
+    values = over.at("", (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
     is_inside = (values > low - margin) & (values < high + margin)
     if is_inside.all():
         return law

@@ -100,8 +100,7 @@ def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, cycle_a
     cycle, key = cycle_and_key
     if peg.exponent is None:
         angles = np.mod(degrees, cycle)
-        pressures = [np.interp(peg.angle % cycle, angles, row, period=cycle) for row in cycles]
-        return peg.pressure - np.array(pressures)
+        return peg.pressure - np.array([np.interp(peg.angle % cycle, angles, row, period=cycle) for row in cycles])
     if np.min(volume) < _NO_CLEARANCE * np.max(volume):
         raise DiagramError(key, Refusal("gas_volume"))
     inside = np.mod(degrees - peg.start, cycle) <= peg.end - peg.start

@@ -323,8 +323,7 @@ class StatedValves:
         before, constant = self.temperature, self._given("specific_gas_constant", "gas_constant")
         if not before.is_absent:
             if self.valves.discharge_temperature is None:
-                after = discharge_temperature(before, high, low, exponents[0])
-                yield after.named(f"discharge_temperature{own}")
+                yield discharge_temperature(before, high, low, exponents[0]).named(f"discharge_temperature{own}")
             if not constant.is_absent:
                 yield mass_flow(low, flow, constant, before).named(f"gas_mass_flow{own}")
             free = self._given("free_air_pressure", "free_pressure")
