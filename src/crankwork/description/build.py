@@ -51,7 +51,7 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
             reader.complain(f"table.special_angles[{number}]", Refusal("angle_beyond", angle=angle, cycle=cycle))
     engine = None
     if is_whole:
-        from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one crank gear
+        from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one cylinder
 
         engine = build_engine(values, lengths, cycle, reader)
     if not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]:

@@ -164,9 +164,7 @@ def _times(driver: Values, segments: list[Values], places: list[float], reader: 
             times.append(segment["over"] * period)
             shares.append(segment["over"])
     if period is not None and abs(math.fsum(times) - period) > _SUM * period:
-        error = Refusal(
-            "law_shares" if shares else "law_times", whole=f"{math.fsum(times):.6g}", period=f"{period:.6g}"
-        )
-        reader.complain("driver.period", error)
+        text = Refusal("law_shares" if shares else "law_times", whole=f"{math.fsum(times):.6g}", period=f"{period:.6g}")
+        reader.complain("driver.period", text)
         return None
     return times

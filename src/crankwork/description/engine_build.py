@@ -1,4 +1,4 @@
-"""From the values of a machine file to the whole engine: cylinders, bearings, counterweights, flywheel."""
+"""From the values of a machine file to an engine: cylinders, bearings, counterweights, flywheel."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from crankwork.machine import Bearings, Engine
 def build_engine(
     values: Values, lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
 ) -> Engine | None:
-    """Return the whole engine of a machine file, or None if it describes one crank gear only or after complaints.
+    """Return the engine of a machine file, or None if it describes one crank mechanism only or after complaints.
 
     `lengths`: crank radius, rod length and offset, if they are known [m].
     """

@@ -1,4 +1,4 @@
-"""The keys of the whole engine: its cylinders, bearings, counterweights, flywheel and calculated cycle."""
+"""The keys of an engine: its cylinders, bearings, counterweights, flywheel and calculated cycle."""
 
 from __future__ import annotations
 

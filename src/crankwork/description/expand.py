@@ -54,7 +54,7 @@ def _check_expressible(machine: Machine, reader: Reader) -> None:
 
 
 def _linkage_text(values: Mapping[str, Any], machine: Machine, language: Language) -> str:
-    """Return the tables of a linkage for a crank gear."""
+    """Return the tables of a linkage for a crank mechanism."""
     lines = [f"# {say(text_key, language)}" for key, text_key in _NOT_EXPRESSIBLE.items() if key in values]
     for key, value in linkage_tables(values, machine):
         for table in value if isinstance(value, list) else [value]:

@@ -20,7 +20,7 @@ _DEVIATION = re.compile(
     r"\s*([0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*(\S.*)?"
 )
 # smaller numbers become 0, so that nothing is divided by them
-_ZERO_TOLERANCE = 1e-30
+_SMALLEST = 1e-30
 
 
 def _in_range(limit: float, rounding: str) -> str:
@@ -137,9 +137,7 @@ class Quantity(NamedTuple):
             return None
         if parsed.told:
             reader.notices.append((parsed.told, {"path": key, "text": value.strip(), "value": parsed.value}))
-        return MeasuredValue(
-            parsed.value if abs(parsed.value) > _ZERO_TOLERANCE else 0.0, parsed.dimension, parsed.unit
-        )
+        return MeasuredValue(parsed.value if abs(parsed.value) > _SMALLEST else 0.0, parsed.dimension, parsed.unit)
 
     def _deviates(self, parsed: units.Parsed, deviation: str, key: str, reader: Reader) -> bool:
         """Store a standard deviation, in the unit of the value or in its own; return whether it is valid."""
@@ -243,7 +241,7 @@ class Number(NamedTuple):
             return None
         if deviation is not None:
             reader.deviations[key] = units.size_of(units.Parsed(number, "", ""), deviation)
-        return number if abs(number) > _ZERO_TOLERANCE else 0.0
+        return number if abs(number) > _SMALLEST else 0.0
 
     def _out_of_range(self, kind: str, value: object) -> Refusal:
         name = f"{kind}_range{'_above' * self.above}"

@@ -413,9 +413,7 @@ def _applies(entry: KeySpec, language: Language) -> Iterator[str]:
         yield say("fields.with", language, condition=" | ".join(f"{key} = {option}" for option in values) or key)
     if isinstance(entry.default, DefaultBy):
         for default in dict.fromkeys(entry.default.values.values()):
-            cases = [
-                f"{entry.default.key} = {case}" for case, value in entry.default.values.items() if value == default
-            ]
+            cases = [f"{entry.default.key} = {case}" for case, item in entry.default.values.items() if item == default]
             yield say("fields.default_with", language, default=default, condition=" | ".join(cases))
 
 

@@ -187,9 +187,9 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
     if cylinder is None or gas is None:
         return
     face = {"slider": f"piston{gear.own}", "bore": _unit(cylinder.bore, "mm")}
-    room: dict[str, Any] = {"sense": 1}
-    room |= {"compression_ratio": cylinder.compression_ratio} if cylinder.compression_ratio else {}
-    room |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
+    space: dict[str, Any] = {"sense": 1}
+    space |= {"compression_ratio": cylinder.compression_ratio} if cylinder.compression_ratio else {}
+    space |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
     stated = _calculated(values["cycle"], gear.solved, gas) if gas.calculated else _stated(values["gas"], gas)
     plain: dict[str, Any] = {key: value for key, value in stated.items() if isinstance(value, str)}
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
@@ -199,7 +199,7 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
         delay = gear.place.firing_angle + (gear.solved.begins if is_stated else 0.0)
         plain |= {"delay": f"{delay % gas.cycle:.15g} deg"} if delay else {}
     name = f"chambers.cylinder{gear.own}"
-    yield name, {**face, **room, **plain}
+    yield name, {**face, **space, **plain}
     yield from ((f"{name}.{key}", value) for key, value in stated.items() if key not in plain)
     if cylinder.piston_rod_diameter:
         rod, back = _unit(cylinder.piston_rod_diameter, "mm"), values["gas"]["back_pressure"]

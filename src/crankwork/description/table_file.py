@@ -71,14 +71,12 @@ class FileTable:
                 raise self.refused("table_number", number=f"{column:g}", count=str(count))
             return int(column) - 1
         for spell in (str, lambda name: _split_unit(name)[0], lambda name: _split_unit(name)[0].casefold()):
-            positions = [
-                index for index, name in enumerate(self.names) if name and spell(name) == spell(column.strip())
-            ]
-            if len(positions) > 1:
-                numbers = [str(index + 1) for index in positions]
+            indices = [index for index, name in enumerate(self.names) if name and spell(name) == spell(column.strip())]
+            if len(indices) > 1:
+                numbers = [str(index + 1) for index in indices]
                 raise self.refused("table_twice", line=self.heading, name=column, numbers=numbers)
-            if positions:
-                return positions[0]
+            if indices:
+                return indices[0]
         known = ", ".join(name or "–" for name in self.names)[:200]
         raise self.refused("measured_absent", line=self.heading, name=column, known=known)
 

@@ -65,15 +65,13 @@ def with_value(source: str, key: str, value: Any, gives_way: tuple[str, ...] = (
     """
     around, name = _split(key)
     places = TomlPositions(source)
-    existing = [
-        path for path in (f"{around}.{alternative}".lstrip(".") for alternative in gives_way) if path in places.lines
-    ]
-    room = next((path for path in existing if path in places.pairs and key not in places.lines), None)
-    if room is not None:
-        source = _replaced(source, places.pairs[room], f"{key_text(name)} = {toml(value)}")
+    existing = [path for path in (f"{around}.{synonym}".lstrip(".") for synonym in gives_way) if path in places.lines]
+    replaced = next((path for path in existing if path in places.pairs and key not in places.lines), None)
+    if replaced is not None:
+        source = _replaced(source, places.pairs[replaced], f"{key_text(name)} = {toml(value)}")
     for other in existing:
-        source = source if other == room else without_key(source, other)
-    if room is not None:
+        source = source if other == replaced else without_key(source, other)
+    if replaced is not None:
         return source
     places = TomlPositions(source)
     if key in places.values:

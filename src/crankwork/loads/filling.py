@@ -368,9 +368,7 @@ def _of_its_own(
     retold = partial(stated.retold, diagram) if len(diagrams) == 1 and chamber.pieces else None
     pressure = remembered_pressure(diagram, space.volume, path, retold)
     own_phases = phases[: round(cycle / chamber.cycle)]
-    done = chamber.factor * sum(
-        diagrams[own_phase].work(_volume_from(space, begins + own_phase)) for own_phase in own_phases
-    )
+    done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)
     return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices
 
 

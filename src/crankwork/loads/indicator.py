@@ -274,7 +274,7 @@ class _Solver:
         if name in self.named or point.angle is not None or not self._is_by_volume(point):
             return self.angle(key, name, end)
         low, high = self._reach
-        is_here = abs(float(self.volume_at(np.array([end]))[0]) - self._volume_of_point(point)) <= _SAME_PLACE * (
+        is_here = abs(float(self.volume_at(np.array([end]))[0]) - self._point_volume(point)) <= _SAME_PLACE * (
             high - low
         )
         return end if is_here else self.angle(key, name, end)
@@ -300,7 +300,7 @@ class _Solver:
         volumes = self.volume_at(np.array(self.dead_centres))
         return float(np.min(volumes)), float(np.max(volumes))
 
-    def _volume_of_point(self, point: DiagramPoint) -> float:
+    def _point_volume(self, point: DiagramPoint) -> float:
         """Return the volume that places a point. [m3]"""
         low, high = self._reach
         return low + point.stroke * (high - low) if point.stroke is not None else point.volume or 0.0
@@ -313,7 +313,7 @@ class _Solver:
 
     def _angle_of_volume(self, name: str, after: float) -> float:
         """Return where the volume next comes to that of a point. [deg]"""
-        target, (low, high) = self._volume_of_point(self.points[name]), self._reach
+        target, (low, high) = self._point_volume(self.points[name]), self._reach
         edges = np.array([after, *self._centres_after(after)])
         differences = self.volume_at(edges) - target
         differences[np.abs(differences) <= _SAME_PLACE * (high - low)] = 0.0

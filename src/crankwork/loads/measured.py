@@ -104,9 +104,7 @@ def recorded_cycles(
     offsets = first if step is None else np.asarray(step * np.arange(np.ceil(cycle / step - 1e-6)), float)
     if len(offsets) > _MOST:
         raise DiagramError(key, Refusal("samples_many", count=len(offsets)))
-    cycles = [
-        pressures for column in running.pressure.T for pressures in _of_column(degrees, column, (cycle, count), offsets)
-    ]
+    cycles = [row for column in running.pressure.T for row in _of_column(degrees, column, (cycle, count), offsets)]
     # resampled values are on no line
     rows = running.rows[: len(offsets)] if len(cycles) == 1 and step is None else ()
     return RecordedCycles(offsets + start, np.array(cycles), rows, _wrap_step(running, cycle), running.notices)

@@ -174,11 +174,11 @@ class _DiagramTracer:
         if name in self._named:
             return self._volume_at([self._angle(name, self._named[name][0])])[0]  # type: ignore[no-any-return]
         if point.angle is None:
-            return self._volume_of_point(name, point)
+            return self._point_volume(name, point)
         angle = self._angle_stated(name, point.angle, point.angle + plain(self._source.begins))
         return self._volume_at([angle])[0]  # type: ignore[no-any-return]
 
-    def _volume_of_point(self, name: str, point: DiagramPoint) -> Known:
+    def _point_volume(self, name: str, point: DiagramPoint) -> Known:
         """Return the volume that places a point."""
         if name not in self._volumes:
             path = f"{self._source.path}.points.{name}"
@@ -198,7 +198,7 @@ class _DiagramTracer:
             return round(degrees, 9)
         if point.angle is not None:
             return self._angle_stated(name, point.angle, degrees)
-        return Known(Found(degrees, "reached", (self._source.volume,), degrees, self._volume_of_point(name, point)))
+        return Known(Found(degrees, "reached", (self._source.volume,), degrees, self._point_volume(name, point)))
 
     def _angle_stated(self, name: str, angle: float, degrees: float) -> Known:
         stated = given("", angle, f"{self._source.path}.points.{name}.angle", "deg")
