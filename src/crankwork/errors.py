@@ -1,4 +1,4 @@
-"""What can go wrong, as types. Every message is a sentence that names the place and the fix."""
+"""Types of errors. Every message is a sentence with the place and the fix."""
 
 from __future__ import annotations
 
@@ -11,12 +11,10 @@ from crankwork.resources import installable
 
 
 class CrankworkError(Exception):
-    """Anything crankwork refuses to do; the text is meant for the user as it stands."""
+    """Base of all errors of crankwork; the text is for the user."""
 
-    def __reduce__(
-        self,
-    ) -> tuple[Callable[..., CrankworkError], tuple[type[CrankworkError], object], dict[str, object]]:
-        # by its text, not by the arguments of its class: otherwise it cannot come back from a process
+    def __reduce__(self) -> tuple[object, ...]:
+        # rebuilt from its text, not from the arguments of its class, when it comes from another process
         return _again, (type(self), self.args), self.__dict__
 
 
@@ -29,15 +27,15 @@ class GeometryError(CrankworkError):
 
 
 class MethodError(CrankworkError):
-    """A method asked for where it is not defined."""
+    """A method that is not defined for the machine."""
 
 
 class DoubtfulError(CrankworkError):
-    """Results that were computed, but do not hold together or do not cover what was asked."""
+    """Results that are inconsistent or incomplete."""
 
 
 class UnknownKeyError(CrankworkError, KeyError):
-    """A key that results do not have; the text names the nearest that they have."""
+    """A key that results do not have; the text names the closest existing key."""
 
     # a KeyError would put its text in quotation marks
     __str__ = Exception.__str__
@@ -52,14 +50,14 @@ class MissingExtraError(CrankworkError):
 
 
 def missing_extras(modules: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the extras that bring the modules which are not installed, each once."""
+    """Return the extras of modules that are not installed, each once."""
     missing = (extra for module, extra in modules.items() if find_spec(module) is None)
     return tuple(dict.fromkeys(missing))
 
 
 @dataclass(frozen=True)
 class Problem:
-    """One mistake in a description: the dotted key it concerns, and what to write instead."""
+    """One mistake in a description: its dotted key, and what to write instead."""
 
     key: str
     message: str
@@ -68,7 +66,7 @@ class Problem:
 class InputError(CrankworkError):
     """Every mistake of one description, at once.
 
-    `places` holds, for each problem, the text that stands before the key (`file:line` or `--set`).
+    `places`: the text before the key of each problem, `file:line` or `--set`.
     """
 
     def __init__(self, problems: list[Problem], places: list[str]) -> None:
@@ -77,7 +75,7 @@ class InputError(CrankworkError):
         super().__init__("\n".join(self.lines()))
 
     def lines(self, tell: Callable[[str], str] = str) -> list[str]:
-        """Return one line per problem, `place: key: message`; `tell` says a message in another language."""
+        """Return one line per problem, `place: key: message`; `tell` translates a message."""
         return [
             ": ".join(part for part in (place, problem.key, tell(problem.message)) if part)
             for place, problem in zip(self.places, self.problems, strict=True)

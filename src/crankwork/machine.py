@@ -42,8 +42,8 @@ if TYPE_CHECKING:
 _TURN = 360.0
 
 
-class Stated(NamedTuple):
-    """A number as a description states it, in SI, and the unit in which it is written."""
+class InputNumber(NamedTuple):
+    """A number of a description in SI, and the unit in which it is stated."""
 
     value: float
     unit: str = ""
@@ -51,10 +51,10 @@ class Stated(NamedTuple):
 
 @dataclass(frozen=True)
 class Document:
-    """What a note and its sheets say of themselves; what is empty is left out, or to be filled in by hand.
+    """Title data of a note and its sheets; empty fields are left out or filled in by hand.
 
-    `work`: its kind, a course project; `subtitle`: what the note is, where it is no calculation report; `year`: 0 where
-    none is known; `sections`: those of the note in their order, none for those of its school.
+    `work`: kind of the work, such as a course project; `subtitle`: if the note is not a calculation report; `year`: 0
+    if unknown; `sections`: of the note in their order, by default those of its school.
     """
 
     ministry: str = ""
@@ -81,19 +81,19 @@ class Document:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """The cylinder of a crank gear.
+    """The cylinder of a crank mechanism.
 
     Parameters
     ----------
     bore : float
         Diameter. [m]
     clearance_volume, compression_ratio : float or None
-        One of them where the volume matters, that is, with gas. [m3], [-]
+        One of them is needed with gas. [m3], [-]
     piston_rod_diameter : float
         Of a double-acting piston; the rod takes its area from the crank side. [m]
     inclination : float or None
-        From the upward vertical to the direction of the head, leaning towards the crankpin at 90 degrees; None where
-        the engine stands upright. [rad]
+        From the upward vertical to the direction of the head, positive towards the crankpin at 90 degrees; None for
+        an upright engine. [rad]
     """
 
     bore: float
@@ -114,25 +114,25 @@ class Gas:
     points, pieces : mapping and tuple
         Named points and the laws between them.
     valves : Valves or None
-        What points and pieces follow from, counted from the top dead centre.
+        Valves that give points and pieces, counted from the top dead centre.
     measured : MeasuredPressure or None
         Samples instead of points and pieces.
     angle_shift, resample : float and float or None
         Added to measured angles; step at which they are resampled. [deg]
     is_absolute : bool
-        Whether pressures are absolute; then `ambient` is taken off.
+        Whether pressures are absolute; then `ambient` is subtracted.
     ambient : float
         Absolute pressure on the crankcase side. [Pa]
     names_ambient : bool
-        Whether the description gives it.
+        Whether the description states it.
     back_pressure : float
         Gauge pressure on the crank side of a double-acting piston. [Pa]
     calculated : CalculatedPressure or None
         A calculation of the working cycle instead of points and pieces.
     factor, factor_path : float and str
-        Of the gauge pressure, and where the description gives it. [-]
+        Of the gauge pressure, and its path in the description. [-]
     path : str
-        Where the description gives the diagram.
+        Of the diagram in the description.
     """
 
     cycle: float = 720.0
@@ -154,7 +154,7 @@ class Gas:
 
 @dataclass(frozen=True)
 class Bearings:
-    """Sizes of the bearings, as far as known, and how their wear is drawn.
+    """Known sizes of the bearings, and the rays of their wear diagrams.
 
     Parameters
     ----------
@@ -175,33 +175,33 @@ class Bearings:
 
 @dataclass(frozen=True)
 class Engine:
-    """What makes a whole engine of one crank gear.
+    """Everything that an engine of several cylinders has besides one crank mechanism.
 
     Parameters
     ----------
     layout : Layout
-        Where the cylinders stand and when they fire.
+        Positions and firing angles of the cylinders.
     slaves : tuple of ArticulatedRod or None
         The articulated rod of each cylinder, None where the rod turns on the crankpin; empty if none is articulated.
     slave_rod : CrankGearMasses or None
-        Masses of such a rod, at its piston pin and at its knuckle pin; those of the master rod if they are not given.
+        Masses of an articulated rod at piston pin and knuckle pin; by default those of the master rod.
     offsets : tuple of float
         Of each cylinder axis from the crankshaft axis, by number, positive towards the crankpin at 90 degrees; empty
-        if all have that of the crank gear. [m]
+        if all have that of the crank mechanism. [m]
     gases : tuple of Gas
-        The gas of each cylinder by number, alike ones the same object; empty if all have that of the crank gear.
+        The gas of each cylinder by number, one object for equal gas; empty if all have that of the crank mechanism.
     misfires : tuple of int
-        Numbers of the cylinders in which nothing burns.
+        Numbers of the cylinders without combustion.
     bearings : Bearings
-        Their sizes.
+        Sizes of the bearings.
     counterweight : float
         Mass moment opposite each throw. [kg m]
     rotating_share, reciprocating_share : float
         Shares of the masses that counterweights balance, beyond `counterweight`. [-]
     balance_shafts : tuple of int
-        Orders that pairs of balance shafts take out.
+        Orders that pairs of balance shafts balance.
     notices : tuple of (str, mapping)
-        What the reader should know of the layout: code and values.
+        Notices about the layout: code and values.
     """
 
     layout: Layout
@@ -220,26 +220,26 @@ class Engine:
 
 @dataclass(frozen=True)
 class Drive:
-    """What turns with the crank and drives it, or is driven by it.
+    """Motor, flywheel and efficiency on the crank.
 
     Parameters
     ----------
     efficiency : float
         Of the joints between motor and process, as the calculation uses it. [-]
     exact_efficiency : float or None
-        Before a document rounded it. [-]
+        Before rounding by a document. [-]
     inertia : float
-        Moment of inertia that turns with the crank, a given flywheel included, one to be found not. [kg m2]
+        Moment of inertia on the crank, including a given flywheel. [kg m2]
     motor : GearedMotor or None
-        The motor, as the crank feels it.
+        The motor with its gear to the crank.
     rated_power : float
         Of the motor. [W]
     fluctuation : float or None
-        Wanted fluctuation of the speed, for which a flywheel is to be found. [-]
+        Required fluctuation of the speed, for which a flywheel is sized. [-]
     chain : Series or None
-        The efficiencies that make up the whole, as they are given.
+        The given efficiencies that give the total.
     wheel : Wheel or None
-        What else is known of the flywheel, given or to be found.
+        Further data of the flywheel, given or to be sized.
     losses : str
         What the efficiency stands for: all losses of the `machine`, friction too, or those of the `drive` between motor
         and crank; empty where the description states no friction.
@@ -258,28 +258,28 @@ class Drive:
 
 @dataclass(frozen=True)
 class Transient:
-    """A machine let go: from where and how fast, what drives it besides its loads, and how long it is followed.
+    """Settings of a transient simulation: initial state, drive besides the loads, and end.
 
     Parameters
     ----------
     time : float
-        How long at most. [s]
+        Longest duration. [s]
     torque : float
         Constant torque on the crank. [N m]
     speed, start : float
-        Of the crank at the beginning, and its angle there. [rad/s], [rad]
+        Initial speed and angle of the crank. [rad/s], [rad]
     motor : bool
-        Whether the motor drives it.
+        Whether the motor drives.
     until : str
-        `time`, or before it the first `rest` or the `steady` cycle.
+        End at `time`, or earlier at the first `rest` or in the `steady` cycle.
     step : float or None
         Of the table. [s]
     stops : tuple of float
-        Crank angles at which it is stopped, infinite where there is none. [rad]
+        Crank angles of stops, infinite without a stop. [rad]
     restitution : float
-        Part of the speed that a stop gives back. [-]
+        Ratio of the speeds after and before a stop. [-]
     speeds : tuple of float
-        Speeds whose first time is told. [rad/s]
+        Speeds whose first time is reported. [rad/s]
     """
 
     time: float
@@ -296,7 +296,7 @@ class Transient:
 
 @dataclass(frozen=True)
 class TransferTable:
-    """Transfer functions by position, as a document prints them, instead of a mechanism.
+    """Tabulated transfer functions instead of a mechanism.
 
     Parameters
     ----------
@@ -305,11 +305,11 @@ class TransferTable:
     bodies : tuple of TabulatedBody
         Moving masses and their transfer functions at the positions.
     reduced_inertia_1 : tuple of float or None
-        Derivative of the reduced inertia, where the document prints its own. [kg m2]
+        Derivative of the reduced inertia, if tabulated. [kg m2]
     differences : str
-        How it is taken otherwise.
+        Method of differentiation if it is not tabulated.
     static_torque, balancing_torque : tuple of float or None
-        Torque that balances the loads, or that and the dynamic torque together. [N m]
+        Torque that balances the loads, and torque that balances loads and inertia. [N m]
     """
 
     angles: tuple[float, ...]
@@ -322,56 +322,56 @@ class TransferTable:
 
 @dataclass(frozen=True)
 class Machine:
-    """One machine, all in SI: what of it is known decides what is analysed.
+    """One machine, in SI units; the analysis depends on the fields that are given.
 
     Parameters
     ----------
     mechanism : Mechanism
-        What moves; a crank alone where transfer functions are given instead.
+        The mechanism; a crank only if transfer functions are given instead.
     speed, angular_acceleration : float
         Of the crank. [rad/s], [rad/s2]
     title : str
-        What the owner calls it.
+        Name of the machine.
     document : Document
-        What its note and sheets say of themselves.
+        Title data of its note and sheets.
     deviations : mapping of str to float
-        Standard deviations of numbers that the file states with one, by key. [SI]
+        Standard deviations stated in the file, by key. [SI]
     digest : str
-        SHA-256 of the machine file and of what was laid over it; empty for a machine made without one.
+        SHA-256 of the machine file and its overrides; empty for a machine made without a file.
     units : str
         System of units of its tables, figures and notes: `metric`, `si` or `imperial`; results are in SI.
     linkage : Linkage or None
-        The mechanism as it was drawn, for its structure; None for a crank gear, which is given by its lengths.
+        The linkage as described, for its structure; None for a crank mechanism, which is given by its lengths.
     transfer : TransferTable or None
         Transfer functions instead of a mechanism.
     turning : Turning or None
-        The torques on a shaft that is nothing but a shaft, instead of a mechanism.
+        The torques on a shaft, instead of a mechanism.
     cylinder, masses, gas : optional
-        What is known of a crank gear besides the motion.
+        Data of a crank mechanism besides its motion.
     has_gravity : bool
         Whether its weights count; those of a linkage are loads.
     loads : tuple of Load
-        What pushes a linkage.
+        Loads of a linkage.
     redundant : tuple of RedundantLink
-        Links too many that fit, and what each of them bears; `linkage` is without them.
+        Redundant links that fit, with their shares of the load; not in `linkage`.
     friction : tuple of Friction
-        What rubs in pins and guides of a linkage.
+        Friction in pins and guides of a linkage.
     chambers, charges : mapping of str to Chamber and to Charge
-        The gas between sliding pieces of a linkage, and that which is sealed in several chambers, by name.
+        The gas between sliding pieces of a linkage, and the gas sealed in several chambers, by name.
     drive : Drive
-        What turns with the crank and drives it.
+        Motor, flywheel and efficiency on the crank.
     transient : Transient or None
-        A start to be followed.
+        Settings of a transient simulation.
     method : Method
-        How to compute unless told otherwise.
+        The default method of calculation.
     table_step, table_special : float and tuple of float
         Step of the tables and further angles. [deg]
     working_range : tuple of float or None
-        Of a crank that does not turn fully, the crank angles between which largest values count. [deg]
+        Crank angles between which largest values count, of a crank that does not turn fully. [deg]
     engine : Engine or None
-        The whole engine that this crank gear is a cylinder of.
+        The engine of which this crank mechanism is a cylinder.
     notices : tuple of (str, mapping)
-        What the reader should know of the description of a linkage: code and values.
+        Notices about the description of a linkage: code and values.
     """
 
     mechanism: Mechanism
@@ -402,25 +402,25 @@ class Machine:
     working_range: tuple[float, float] | None = None
     engine: Engine | None = None
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
-    # How far its crank gets, where the description has followed that
+    # Crank range, if the description determined it
     way: Travel | None = field(default=None, compare=False, repr=False)
-    # The numbers of the description by their paths: `crank.stroke`; a machine may be made without one
-    stated: Mapping[str, Stated] = field(default_factory=dict, compare=False, repr=False)
+    # The numbers of the description by path, `crank.stroke`; empty without a description
+    stated: Mapping[str, InputNumber] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def lengths(self) -> SliderCrank | None:
-        """The lengths of crank and rod, where neither a drawing nor a table gives the motion. [m]"""
+        """The lengths of crank and rod, unless a linkage or a table gives the motion. [m]"""
         return as_slider_crank(self.mechanism) if self.linkage is None and self.transfer is None else None
 
     @property
     def inclination(self) -> float:
-        """From the upward vertical to the head of cylinder 1, stated or that of an upright layout. [rad]"""
+        """Angle from the upward vertical to the head of cylinder 1, stated or that of an upright layout. [rad]"""
         if self.cylinder is not None and self.cylinder.inclination is not None:
             return self.cylinder.inclination
         return math.radians(self.engine.layout.places[0].axis) if self.engine is not None else 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what a machine file could not state either."""
+        """Raise for values that a machine file could not state either."""
         is_timed = self.mechanism.driver.law is not None
         limits: dict[str, tuple[object, float]] = {
             "speed": (self.speed, 0.0 if is_timed else sys.float_info.min),
@@ -436,7 +436,7 @@ class Machine:
                 raise CrankworkError(Refusal("object_load", value=type(load).__name__))
 
     def driven_by(self, law: Law) -> Machine:
-        """Return the machine with another law of its driver, whose segments may move by a `MotionLaw` of one's own."""
+        """Return the machine with another law of its driver, whose segments may have a `MotionLaw` of the user."""
         driver = self.mechanism.driver
         if driver.law is None or self.linkage is None:
             raise CrankworkError(Refusal("law_unasked"))
@@ -450,15 +450,15 @@ class Machine:
 
     @property
     def drawn(self) -> Linkage:
-        """The linkage as it was drawn, of a machine that is one."""
+        """The linkage as described; TypeError if the machine is not a linkage."""
         if self.linkage is None:
             raise TypeError("this machine was not drawn as a linkage")
         return self.linkage
 
     @property
     def whole(self) -> Linkage:
-        """The linkage as it was drawn, with the links too many that `drawn` is without."""
-        extra = tuple(one.member for one in self.redundant)
+        """The linkage as described, including redundant links."""
+        extra = tuple(link.member for link in self.redundant)
         return replace(self.drawn, members=(*self.drawn.members, *extra)) if extra else self.drawn
 
     @property

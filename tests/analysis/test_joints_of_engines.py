@@ -12,7 +12,7 @@ import crankwork
 from crankwork.analysis.engine_routes import _bodies, _running
 from crankwork.analysis.solved import solve
 from crankwork.description.expand import expanded
-from crankwork.description.shorthand import gears_of
+from crankwork.description.shorthand import crank_mechanisms
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.kinematics.piston import only_rod
@@ -67,7 +67,7 @@ def test_those_of_articulated_rods_are_those_of_the_linkage_that_they_are(tmp_pa
     (tmp_path / "linkage.toml").write_text(expanded(path, settings), "utf-8")
     machine = crankwork.read(path, settings)
     engine, linkage = (crankwork.analyse(one) for one in (machine, crankwork.read(tmp_path / "linkage.toml")))
-    for gear in gears_of(machine):
+    for gear in crank_mechanisms(machine):
         number = gear.place.number
         own = f".{number}" if number > 1 else ""
         upright = np.exp(1j * np.radians(gear.head - 90))

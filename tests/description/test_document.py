@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 import crankwork
 from crankwork.description.document import Description
-from crankwork.description.locate import Places
-from crankwork.description.machine_file import Setting, lay, template, template_names
+from crankwork.description.locate import TomlPositions
+from crankwork.description.machine_file import Setting, apply_override, template, template_names
 from crankwork.description.written import toml
 from crankwork.errors import CrankworkError, UnknownKeyError
 from each import for_each
@@ -88,7 +88,7 @@ def test_every_form_of_toml_can_be_changed(text, key, value, changed):
     d = Description(text)
     d[key] = value
     assert d.dump() == changed
-    lay(values, Setting("key", key, value))
+    apply_override(values, Setting("key", key, value))
     assert tomllib.loads(changed) == values
 
 
@@ -175,24 +175,24 @@ def test_any_change_means_what_was_asked_and_keeps_every_comment(data):
     d, values = Description(text), tomllib.loads(text)
     for _ in range(data.draw(st.integers(1, 4))):
         key = data.draw(
-            st.sampled_from(sorted(Places(d.dump()).lines)) | st.sampled_from(["rod.ratio", "title", "x.y"])
+            st.sampled_from(sorted(TomlPositions(d.dump()).lines)) | st.sampled_from(["rod.ratio", "title", "x.y"])
         )
         value = data.draw(st.sampled_from([0.25, "75 mm", True, ["a", "b"], {"angle": "1 deg"}]))
         before, wanted = d.dump(), copy.deepcopy(values)
         try:
-            lay(wanted, Setting("key", key, value))
+            apply_override(wanted, Setting("key", key, value))
         except CrankworkError:
             with pytest.raises(CrankworkError):
                 d[key] = value
             continue
-        if key.endswith("]") and key in Places(before).ends and not isinstance(value, dict):
+        if key.endswith("]") and key in TomlPositions(before).ends and not isinstance(value, dict):
             with pytest.raises(CrankworkError, match="is a table"):
                 d[key] = value
             continue
         d[key] = value
         values = wanted
         assert tomllib.loads(d.dump()) == values
-        span = Places(before).pairs.get(key)
+        span = TomlPositions(before).pairs.get(key)
         if span is not None and "\n" not in before[span.start : span.end]:
             assert [one for one in comments(before) if one not in comments(d.dump())] == []
 

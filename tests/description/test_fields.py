@@ -11,9 +11,9 @@ import jsonschema
 import pytest
 
 from crankwork.description.engine_keys import CYCLE
-from crankwork.description.kinds import Measure, Quantity, Reader
+from crankwork.description.kinds import MeasuredValue, Quantity, Reader
 from crankwork.description.machine_file import FILES, json_schema, read_machine, template
-from crankwork.description.schema import By, Table, Values
+from crankwork.description.schema import DefaultBy, TableSpec, Values
 from crankwork.errors import InputError
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.heat_data import HeatReleaseData
@@ -25,7 +25,7 @@ ENGINE = template("whole-engine").replace('layout = "inline"', 'layout = "V"\nba
 
 
 def tables(kind):
-    if isinstance(kind, Table):
+    if isinstance(kind, TableSpec):
         yield kind
         for entry in kind.keys.values():
             yield from tables(entry.kind)
@@ -37,7 +37,7 @@ def tables(kind):
 DEFAULTS = {
     f"{table.name}.{name}={one}": (entry.kind, one)
     for file in FILES for table in tables(file) for name, entry in table.keys.items() if entry.default is not None
-    for one in (entry.default.values.values() if isinstance(entry.default, By) else [entry.default])
+    for one in (entry.default.values.values() if isinstance(entry.default, DefaultBy) else [entry.default])
 }  # fmt: skip
 
 
@@ -71,7 +71,7 @@ def test_every_quantity_has_a_floor_and_a_ceiling_that_a_division_bears():
 def test_what_must_stand_beside_a_key_is_a_key():
     for table in (one for file in FILES for one in tables(file)):
         for entry in table.keys.values():
-            decides = [entry.default.key] if isinstance(entry.default, By) else []
+            decides = [entry.default.key] if isinstance(entry.default, DefaultBy) else []
             assert {*entry.only, *entry.instead_of, *decides} <= set(table.keys)
 
 
@@ -92,7 +92,7 @@ def test_the_calculation_of_a_cycle_takes_the_same_by_default(kind, room, names)
     for key in CYCLE.keys:
         name, value = names.get(key, key), stated[key]
         if name in found and key != "cycle" and value not in (None, []):
-            is_angle = isinstance(value, Measure) and value.dimension == "angle"
+            is_angle = isinstance(value, MeasuredValue) and value.dimension == "angle"
             number = math.degrees(value.value) if is_angle else stated.si(key)
             assert found[name] == (pytest.approx(number, rel=1e-12) if isinstance(number, float) else number)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork import units
-from crankwork.description.kinds import Measure, Number, Quantity, Reader
+from crankwork.description.kinds import MeasuredValue, Number, Quantity, Reader
 from crankwork.description.machine_file import FILES
-from crankwork.description.schema import NumberOr, Table
+from crankwork.description.schema import NumberOr, TableSpec
 from each import for_each
 
 LIMITS = [(1e-6, 30000.0), (1 / 3, 200 / 7), (1e-4, 123456.7)]
@@ -20,7 +20,7 @@ def test_the_limits_that_a_refusal_tells_may_be_written(dimension: str, low: flo
     unit = units.EXAMPLES[dimension].split()[1]
     told = dict(kind._out_of_range(f"1e9 {unit}", dimension).values)
     for limit in (told["low"], told["high"]):
-        assert isinstance(kind.read(limit.strip('"'), "key", Reader()), Measure), limit
+        assert isinstance(kind.read(limit.strip('"'), "key", Reader()), MeasuredValue), limit
 
 
 def kinds_of(kind: object, seen: set[int]) -> Iterator[Quantity | Number]:
@@ -30,7 +30,7 @@ def kinds_of(kind: object, seen: set[int]) -> Iterator[Quantity | Number]:
     seen.add(id(kind))
     if isinstance(kind, Quantity | Number):
         yield kind
-    elif isinstance(kind, Table):
+    elif isinstance(kind, TableSpec):
         for key in kind.keys.values():
             yield from kinds_of(key.kind, seen)
     elif isinstance(kind, NumberOr):

@@ -19,7 +19,7 @@ from crankwork.description.machine_file import (
     template,
     template_names,
 )
-from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table
+from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec
 from crankwork.errors import CrankworkError
 from crankwork.locale import texts
 from crankwork.study.study_file import study_schema
@@ -128,13 +128,13 @@ def test_a_chain_of_efficiencies_is_the_same_to_schema_and_reader(chain, fits) -
 
 def _undocumented(value, kind, path):
     match kind:
-        case Table() if isinstance(value, dict):
+        case TableSpec() if isinstance(value, dict):
             for name, one in value.items():
                 if name not in kind.keys or not kind.meaning(name, "en"):
                     yield f"{path}.{name}"
                 else:
                     yield from _undocumented(one, kind.keys[name].kind, f"{path}.{name}")
-        case Named():
+        case MapOf():
             for name, one in value.items():
                 yield from _undocumented(one, kind.entry, f"{path}.{name}")
         case Nested() | NameOr():

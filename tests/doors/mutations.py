@@ -69,19 +69,19 @@ def _places(value: Any, place: Place = ()) -> Iterator[tuple[Place, Any]]:
         yield from _places(one, (*place, name))
 
 
-def _keys(table: schema.Table, place: Place) -> Iterator[tuple[Place, kinds.Kind]]:
+def _keys(table: schema.TableSpec, place: Place) -> Iterator[tuple[Place, kinds.ValueType]]:
     """Every key that a file can have; names of the user's own are `a`."""
     for name, key in table.keys.items():
         here, kind = (*place, name), key.kind
         yield here, kind
-        while isinstance(kind, schema.Named | schema.ListOf | schema.NameOr):
-            here += {schema.Named: ("a",), schema.ListOf: (0,)}.get(type(kind), ())
+        while isinstance(kind, schema.MapOf | schema.ListOf | schema.NameOr):
+            here += {schema.MapOf: ("a",), schema.ListOf: (0,)}.get(type(kind), ())
             kind = kind.other if isinstance(kind, schema.NameOr) else kind.entry
-        if isinstance(kind, schema.Table):
+        if isinstance(kind, schema.TableSpec):
             yield from _keys(kind, here)
 
 
-def _fitting(kind: kinds.Kind | None) -> list[Any]:  # noqa: C901 - one case for each kind
+def _fitting(kind: kinds.ValueType | None) -> list[Any]:  # noqa: C901 - one case for each kind
     """Values that a key accepts, its limits first."""
     match kind:
         case kinds.Quantity():
@@ -109,9 +109,9 @@ def _fitting(kind: kinds.Kind | None) -> list[Any]:  # noqa: C901 - one case for
             return [[0.9, [0.8, 0.7]]]
         case schema.NameOr():
             return ["a", "petrol", *_fitting(kind.other)]
-        case schema.Named():
+        case schema.MapOf():
             return [{"a": one, "b": one} for one in _fitting(kind.entry)[:4]]
-        case schema.Table():
+        case schema.TableSpec():
             whole = {name: (_fitting(key.kind) or [0])[0] for name, key in kind.keys.items()}
             needed = {name: whole[name] for name, key in kind.keys.items() if key.required}
             return [{}, needed, whole]
@@ -237,14 +237,14 @@ def _stretch(draw: random.Random, values: Values) -> None:
         _put(values, place, draw.choice(fitting))
 
 
-def _kind_at(kind: kinds.Kind, place: Place) -> kinds.Kind | None:
+def _kind_at(kind: kinds.ValueType, place: Place) -> kinds.ValueType | None:
     """What a place of a file holds."""
     for name in place:
         kind = kind.other if isinstance(kind, schema.NameOr) else kind
         match kind:
-            case schema.Table() if name in kind.keys:
+            case schema.TableSpec() if name in kind.keys:
                 kind = kind.keys[name].kind
-            case schema.Named() | schema.ListOf():
+            case schema.MapOf() | schema.ListOf():
                 kind = kind.entry
             case _:
                 return None

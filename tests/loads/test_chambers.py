@@ -14,7 +14,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.memory import given_mechanism, remembered_motion
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face
-from crankwork.loads.filling import filled
+from crankwork.loads.filling import solve_chambers
 from crankwork.loads.indicator import DiagramError, DiagramPoint, Piece
 from crankwork.mechanism.dyads import RPP, RPR, RRP, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, slider_crank
@@ -30,7 +30,9 @@ AREA, LESS = math.pi * BORE**2 / 4, math.pi * ROD**2 / 4
 
 
 def fill(mechanism, chambers, charges=None):
-    return filled(chambers, charges or {}, remembered_motion(mechanism, linkage_motion(mechanism, TURN)), math.pi)
+    return solve_chambers(
+        chambers, charges or {}, remembered_motion(mechanism, linkage_motion(mechanism, TURN)), math.pi
+    )
 
 
 def columns(filling, grid=GRID):

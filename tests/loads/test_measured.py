@@ -8,7 +8,7 @@ import pytest
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads import treated
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram
-from crankwork.loads.measured import MeasuredPressure, Treatment, recorded_cycles, wrap_is_rough
+from crankwork.loads.measured import MeasuredPressure, Preprocessing, recorded_cycles, wrap_is_rough
 from each import for_each
 
 CYCLE = 720.0
@@ -22,14 +22,14 @@ def _true_pressure(degrees: Array) -> Array:
 def _recorded(degrees: Array, pressure: Array | None = None, first_line: int = 2) -> MeasuredPressure:
     values = _true_pressure(degrees) if pressure is None else pressure
     rows = range(first_line, first_line + len(degrees))
-    return MeasuredPressure(degrees, values, rows, treatment=Treatment(cycle="mean"))
+    return MeasuredPressure(degrees, values, rows, treatment=Preprocessing(cycle="mean"))
 
 
 def measured_diagram(
     measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None
 ) -> tuple[IndicatorDiagram, int, float]:
     """Return the diagram of a recording, its cycles, and the step from their end to their start."""
-    around = treated.Around(lambda degrees: 2 - np.cos(np.radians(degrees)))
+    around = treated.PressureReference(lambda degrees: 2 - np.cos(np.radians(degrees)))
     diagram, _ = treated.measured_diagram(measured, cycle, around, shift=shift, step=step, path="gas")
     recorded = recorded_cycles(measured, cycle, step=step, path="gas")
     return diagram, len(recorded.cycles), recorded.wrap

@@ -16,7 +16,7 @@ from crankwork.analysis.results import Notice
 from crankwork.cli import commands
 from crankwork.cli.spoken import option_key, stand_in_key
 from crankwork.description import machine_file
-from crankwork.description.schema import Table
+from crankwork.description.schema import TableSpec
 from crankwork.kernel.trace import Reason
 from crankwork.locale import LANGUAGES, Refusal, has_text, say, texts, told
 from crankwork.mechanism import dyads
@@ -44,7 +44,7 @@ NAMED_IN = {
 
 def texts_of(kind: object) -> set[str]:
     """Return the names of the texts that say what the keys of a table mean, and of those below."""
-    if isinstance(kind, Table):
+    if isinstance(kind, TableSpec):
         known = texts("fields", "en")
         own = {f"{kind.name}.{key}" if f"{kind.name}.{key}" in known else key for key in kind.keys}
         return own.union(*(texts_of(one.kind) for one in kind.keys.values()))

@@ -19,7 +19,7 @@ from crankwork.kinematics.memory import given_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.chamber import Chamber, own_cycle
-from crankwork.loads.filling import Filling, filled, rate_by_angle, stated_valves
+from crankwork.loads.filling import ChamberGas, rate_by_angle, solve_chambers, stated_valves
 from crankwork.loads.valves import inlet_flow, isothermal_efficiency
 from crankwork.machine import Machine
 
@@ -38,7 +38,7 @@ def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
     law = machine.mechanism.driver.law
     period = machine.mechanism.period
     turning = turning_of(machine, motion)
-    filling = filled(machine.chambers, machine.charges, motion, method.pi, law, period, turning)
+    filling = solve_chambers(machine.chambers, machine.charges, motion, method.pi, law, period, turning)
     return SolvedLinkage(machine, method, speed, filling)
 
 
@@ -119,7 +119,7 @@ def indicators(results: Results) -> dict[str, Indicator]:
     return found
 
 
-def _against(filling: Filling, name: str, chamber: Chamber, cycle: float) -> float:
+def _against(filling: ChamberGas, name: str, chamber: Chamber, cycle: float) -> float:
     """Return the work on what is around a chamber, nothing where its volume comes back. [J]"""
     ends = Program({"": filling.columns[f"cylinder_volume.{name}"]})(CrankGrid.from_degrees([0.0, cycle]))[""]
     return chamber.factor * chamber.ambient * float(ends[1] - ends[0])

@@ -15,7 +15,7 @@ from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
 from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
-from crankwork.loads.retold import StatedDiagram
+from crankwork.loads.retold import DiagramInput
 from crankwork.loads.valves import StatedValves
 
 
@@ -89,7 +89,7 @@ def _retold(
         return None if traced is None else partial(traced, volume, solved.stroke[1:])
     size = memory["clearance_volume"], memory["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
-    told = StatedDiagram(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
+    told = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
     return partial(told.retold, space.diagram)
 
 

@@ -131,8 +131,8 @@ def _forces(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverForc
     """Yield forces, those at one point of a link as one."""
     found: dict[tuple[str, tuple[float, ...]], LeverForce] = {}
     for one in loads.forces:
-        end = _turned(one.at, speed)
-        place = tuple(round(float(np.ravel(side.position)[0]), 9) for side in one.at)
+        end = _turned(one.point, speed)
+        place = tuple(round(float(np.ravel(side.position)[0]), 9) for side in one.point)
         force = np.array([float(np.ravel(part)[0]) for part in (one.x, one.y)])
         same = found.get((one.link, place))
         found[one.link, place] = LeverForce(kind, one.link, end, force if same is None else same.force + force)

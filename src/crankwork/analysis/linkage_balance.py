@@ -30,7 +30,7 @@ def shaking(running: Running) -> Iterator[tuple[str, Known]]:
     yield from ((one.key, one) for one in (x, y, shaking_force(x, y).named("shaking_force")))
     if isinstance(driver, Crank):
         pivot = running.motion.frames[driver.link].origin
-        moments = [moment_of(arm(pivot, one.at), (one.x, one.y), f"{one.link}.shaking") for one in loads.forces]
+        moments = [moment_of(arm(pivot, one.point), (one.x, one.y), f"{one.link}.shaking") for one in loads.forces]
         turning = [one.torque for one in loads.torques]
         stated = [one for one in (*moments, *turning) if not one.is_absent]
         if stated:

@@ -15,7 +15,7 @@ from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Found, Known, absent, given
 from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, stroke_offset
-from crankwork.machine import Machine, Stated
+from crankwork.machine import InputNumber, Machine
 from crankwork.method import Method
 from crankwork.units import UNITS
 
@@ -170,7 +170,7 @@ def _excess(machine: Machine, rod: tuple[Known, Known, Value], excess: Known, ta
     return checked(rod_inertia_excess(own, mass, centre, length), excess)
 
 
-def _stated(machine: Machine, path: str) -> Stated | None:
+def _stated(machine: Machine, path: str) -> InputNumber | None:
     return machine.stated.get(path)
 
 

@@ -20,9 +20,9 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
-from crankwork.loads.filling import NO_GAS, Filling
+from crankwork.loads.filling import NO_GAS, ChamberGas
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
-from crankwork.loads.treated import Around, measured_diagram
+from crankwork.loads.treated import PressureReference, measured_diagram
 from crankwork.loads.valves import StatedValves
 from crankwork.machine import Cylinder, Gas, Machine
 from crankwork.method import Method
@@ -79,7 +79,7 @@ class Solved:
 class SolvedLinkage(Solved):
     """A linkage made ready: the gas in its chambers known."""
 
-    filling: Filling = field(default=NO_GAS, compare=False)
+    filling: ChamberGas = field(default=NO_GAS, compare=False)
 
 
 @dataclass(frozen=True)
@@ -208,7 +208,7 @@ def _given_diagram(
     `volume_at` and `centres`: volume and dead centres by these angles. [deg]
     """
     if gas.measured is not None:
-        around = Around(volume_at, centres[0])
+        around = PressureReference(volume_at, centres[0])
         diagram, told = measured_diagram(
             gas.measured, gas.cycle, around, shift=gas.angle_shift, step=gas.resample, path=gas.path
         )

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.loads.chamber import Chamber, face_owners
+from crankwork.loads.chamber import Chamber, face_names
 from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.load import Load
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
@@ -158,6 +158,6 @@ def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> StatedCham
         law = machine.mechanism.driver.law
         amounts = {"cycle": (math.radians(chamber.cycle), "deg") if law is None else (law.period, "s")}
     return StatedChamber(
-        name, tuple((one.slider, one.sense) for one in chamber.faces), face_owners(name, chamber), chamber.ambient,
+        name, tuple((one.slider, one.sense) for one in chamber.faces), face_names(name, chamber), chamber.ambient,
         kind, names, amounts, chamber.factor, math.radians(chamber.delay),
     )  # fmt: skip

@@ -6,10 +6,10 @@ import math
 from dataclasses import replace
 
 from crankwork.description.gas_build import ReadMeasured, build_gas
-from crankwork.description.kinds import Measure, Reader
+from crankwork.description.kinds import MeasuredValue, Reader
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
-from crankwork.description.wheel_build import read_wheel
+from crankwork.description.wheel_build import read_flywheel
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.errors import MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
@@ -48,19 +48,16 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
     cycle = gas.cycle if gas else 180.0 * values["engine"]["strokes"] if is_whole else 360.0
     for number, angle in enumerate(special, start=1):
         if angle > cycle + 1e-9 and not reader.doubts("gas.cycle"):
-            reader.complain(
-                f"table.special_angles[{number}]",
-                Refusal("angle_beyond", angle=angle, cycle=cycle),
-            )
+            reader.complain(f"table.special_angles[{number}]", Refusal("angle_beyond", angle=angle, cycle=cycle))
     engine = None
     if is_whole:
-        from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one crank gear
+        from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one cylinder
 
         engine = build_engine(values, lengths, cycle, reader)
     if not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]:
         engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
     speed = crank_speed(crank["speed"], method) if "speed" in crank else 0.0
-    drive = read_wheel(flywheel, Drive(), speed, reader, pi=method.pi)
+    drive = read_flywheel(flywheel, Drive(), speed, reader, pi=method.pi)
     if reader.problems or lengths is None:
         return None
     if engine is not None and engine.offsets:
@@ -86,7 +83,7 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
 def _with_own_gas(
     values: Values, engine: Engine | None, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
 ) -> tuple[Engine | None, Gas | None]:
-    """Return an engine whose cylinders differ by their gas, and that of the first."""
+    """Return an engine whose cylinders have different gas, and the gas of the first."""
     from crankwork.description.cylinder_gas import with_own_gas  # noqa: PLC0415 - few engines have such cylinders
 
     if engine is None:
@@ -97,19 +94,15 @@ def _with_own_gas(
     return engine, engine.gases[0] if engine.gases else gas
 
 
-def crank_speed(given: Measure, method: Method) -> float:
-    """Return the speed of a crank; one in radians stays as it is written, whatever pi a document has. [rad/s]"""
-    # what is calculated with is this speed times pi of the document over pi
+def crank_speed(given: MeasuredValue, method: Method) -> float:
+    """Return the speed of a crank; a speed in radians per second is independent of the pi of the method. [rad/s]"""
+    # the calculation multiplies by the pi of the method over pi
     return given.value * math.pi / method.pi if given.unit in _RADIANS else given.value
 
 
 def build_method(values: Values, reader: Reader) -> Method:
     """Return the method of a machine file; exact after a complaint."""
-    method = Method(
-        pi=values["pi"],
-        gravity=values.si("gravity"),
-        inertia_rod_ratio=values["inertia_rod_ratio"],
-    )
+    method = Method(pi=values["pi"], gravity=values.si("gravity"), inertia_rod_ratio=values["inertia_rod_ratio"])
     try:
         method = method.named(values["kinematics"])
     except MethodError as error:
@@ -125,7 +118,7 @@ def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tu
     inverse = rod["ratio_definition"] == "l/r"
     if ratio is not None and not inverse and ratio >= 1:
         meant = f"{1 / ratio:.6g}"
-        # next to 1 its inverse would be refused as well
+        # close to 1 the inverse would be rejected too
         key = "ratio_inverse" if float(meant) < 1 else "ratio_of_one"
         reader.complain("rod.ratio", Refusal(key, ratio=f"{ratio:g}", inverse=meant))
         return None
@@ -145,8 +138,7 @@ def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tu
     if not turns_fully(SliderCrank(radius, length, offset)):
         key = "rod.ratio" if ratio is not None else "rod.length"
         lengths = {"length": length, "radius": radius, "offset": abs(offset), "missing": radius + abs(offset) - length}
-        shown = {name: one * 1e3 for name, one in lengths.items()}
-        reader.complain(key, Refusal("rod_short", **shown))
+        reader.complain(key, Refusal("rod_short", **{name: size * 1e3 for name, size in lengths.items()}))
         return None
     return radius, length, offset
 
@@ -167,7 +159,7 @@ def _cylinder(values: Values) -> Cylinder | None:
 
 
 def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, float] | None, reader: Reader) -> None:
-    """Complain of a clearance volume beside which the stroke means nothing."""
+    """Report a clearance volume that is large compared with the swept volume."""
     if cylinder is None or cylinder.clearance_volume is None or lengths is None:
         return
     swept = 2 * lengths[0] * float(piston_area(math.pi, cylinder.bore))
@@ -187,8 +179,8 @@ def _masses(
 ) -> CrankGearMasses | None:
     area = float(piston_area(method.pi, cylinder.bore)) if cylinder else None
     rod_keys = ("mass", "small_end_mass", "big_end_mass")
-    wanted = [("piston", "mass"), ("crank", "mass"), *(("rod", key) for key in rod_keys)]
-    given = {(table, key): values[table][key] for table, key in wanted if key in values[table]}
+    keys = [("piston", "mass"), ("crank", "mass"), *(("rod", key) for key in rod_keys)]
+    given = {(table, key): values[table][key] for table, key in keys if key in values[table]}
     if not given:
         return None
     mass = {place: _mass(measure, area, ".".join(place), reader) for place, measure in given.items()}
@@ -219,7 +211,7 @@ def rod_masses(rod: Values, mass: float, length: float, reader: Reader, table: s
     )
 
 
-def _mass(measure: Measure, area: float | None, key: str, reader: Reader) -> float:
+def _mass(measure: MeasuredValue, area: float | None, key: str, reader: Reader) -> float:
     """Return a mass, multiplied by the piston area if it is given per area. [kg]"""
     if measure.dimension == "mass":
         return measure.value

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from crankwork.description.gas_build import ReadMeasured, build_diagram, build_valves, check_parts, with_valves
 from crankwork.description.kinds import Reader
-from crankwork.description.schema import Values, means_nothing
+from crankwork.description.schema import Values, no_effect_message
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfHeat
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import DrivingSlider
@@ -20,47 +20,47 @@ _AMOUNTS = ("mean_pressure", "pressure", "mass")
 def build_chambers(
     values: Values, linkage: Linkage | None, reader: Reader, read_measured: ReadMeasured
 ) -> tuple[dict[str, Chamber], dict[str, Charge]]:
-    """Return chambers and charges by name; those with complaints may be left out."""
-    tables = {name: one for name, one in values["chambers"].items() if one is not None}
-    sealed = {name: one for name, one in values["charges"].items() if one is not None}
-    sliders = {one.name for one in linkage.members if one.guide} if linkage is not None else None
+    """Return chambers and charges by name; those with mistakes may be left out."""
+    tables = {name: table for name, table in values["chambers"].items() if table is not None}
+    sealed = {name: charge for name, charge in values["charges"].items() if charge is not None}
+    sliders = {member.name for member in linkage.members if member.guide} if linkage is not None else None
     if linkage is not None and sliders is not None and isinstance(linkage.driver, DrivingSlider):
         sliders.add(linkage.driver.link)
     holder = _holders(sealed, tables, reader)
-    for name, one in sealed.items():
-        _check_charge(f"charges.{name}", one, reader)
+    for name, charge in sealed.items():
+        _check_charge(f"charges.{name}", charge, reader)
     chambers = {}
-    for name, one in tables.items():
+    for name, table in tables.items():
         path = f"chambers.{name}"
-        faces = tuple(_faces(path, one, sliders, reader))
-        _check_pressure(path, one, sealed.get(holder.get(name, "")), reader)
-        diagram, valves = build_diagram(one, path, reader, read_measured), build_valves(one, path, reader)
+        faces = tuple(_faces(path, table, sliders, reader))
+        _check_pressure(path, table, sealed.get(holder.get(name, "")), reader)
+        diagram, valves = build_diagram(table, path, reader, read_measured), build_valves(table, path, reader)
         if not faces or any(problem.key.startswith(path) for problem in reader.problems):
             continue
         if valves is not None:
-            volumes = (one.si("clearance_volume"), one["compression_ratio"])
+            volumes = (table.si("clearance_volume"), table["compression_ratio"])
             diagram = with_valves(diagram, valves, has_clearance=any(volumes))
-        is_absolute = one["pressures"] == "absolute" or name in holder or "cycle" in one
-        counted = one.but(pressures="absolute") if is_absolute else one
-        chambers[name] = one.made(
+        is_absolute = table["pressures"] == "absolute" or name in holder or "cycle" in table
+        counted = table.but(pressures="absolute") if is_absolute else table
+        chambers[name] = table.made(
             Chamber,
             faces=faces,
             ambient=counted.si("ambient") or 0.0,
-            names_ambient="ambient" in one or not is_absolute,
-            cycle=float(one["period"].split()[0]),
-            delay=one.degrees("delay") or 0.0,
-            factor=one["pressure_factor"],
-            released=_released(one, faces, values["crank"], path, reader),
+            names_ambient="ambient" in table or not is_absolute,
+            cycle=float(table["period"].split()[0]),
+            delay=table.degrees("delay") or 0.0,
+            factor=table["pressure_factor"],
+            released=_released(table, faces, values["crank"], path, reader),
             valves=valves,
             **diagram._asdict(),
         )
-    return chambers, {} if reader.problems else {name: _charge(one) for name, one in sealed.items()}
+    return chambers, {} if reader.problems else {name: _charge(charge) for name, charge in sealed.items()}
 
 
 def _released(
     chamber: Values, faces: tuple[Face, ...], crank: Values, path: str, reader: Reader
 ) -> PressureOfHeat | None:
-    """Return the release of heat that gives the pressure of a chamber, if it has one."""
+    """Return the release of heat that gives the pressure of a chamber, None without one."""
     if "cycle" not in chamber or "speed" not in crank:
         return None
     from crankwork.description.cycle_build import build_heat_release  # noqa: PLC0415 - few chambers have one
@@ -74,7 +74,7 @@ def _released(
 
 
 def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader) -> Iterator[Face]:
-    """Yield the faces of a chamber; complain of what is not one."""
+    """Yield the faces of a chamber; report invalid faces."""
     listed = chamber["faces"]
     written = listed or [chamber]
     taken: set[str] = set()
@@ -86,8 +86,7 @@ def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader)
         if not slider and not reader.doubts(f"{place}.slider"):
             reader.complain(f"{place}.slider", Refusal("face_slider"))
         elif slider and sliders is not None and slider not in sliders:
-            known = ", ".join(sorted(sliders))
-            reader.complain(f"{place}.slider", Refusal("absent_slider", name=slider, known=known))
+            reader.complain(f"{place}.slider", Refusal("absent_slider", name=slider, known=", ".join(sorted(sliders))))
         elif slider in taken:
             reader.complain(f"{place}.slider", Refusal("face_twice", slider=slider))
         if bore is None and "area" not in face and not reader.doubts(f"{place}.bore", f"{place}.area"):
@@ -99,7 +98,7 @@ def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader)
 
 
 def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: Reader) -> None:
-    """Complain of a chamber without a pressure, with more than one, and of what belongs to another kind of it."""
+    """Report a chamber without a pressure or with several, and keys of another kind of pressure."""
     own = [key for key in _OWN_PRESSURE if key in chamber]
     if charge is not None:
         for key in (*own, "pressures", "period", "delay", "pressure_factor"):
@@ -112,7 +111,7 @@ def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: R
             and "cycle" not in own
             and not reader.doubts(f"{path}.pressures")
         ):
-            reader.complain(f"{path}.ambient", means_nothing("pressures", "gauge", ("absolute",)))
+            reader.complain(f"{path}.ambient", no_effect_message("pressures", "gauge", ("absolute",)))
         if not own and not reader.doubts(*(f"{path}.{key}" for key in _OWN_PRESSURE), "charges"):
             reader.complain(path, Refusal("chamber_pressure", path=path))
         elif own and {"pressure", "cycle"}.isdisjoint(own):
@@ -131,14 +130,13 @@ def _miss(path: str, key: str, reader: Reader) -> None:
 
 
 def _holders(sealed: Mapping[str, Values], chambers: Mapping[str, Values], reader: Reader) -> dict[str, str]:
-    """Return which charge each chamber belongs to; complain of names of none, and of chambers of two charges."""
+    """Return the charge of each chamber; report unknown names, and chambers of two charges."""
     holder: dict[str, str] = {}
-    for charge, one in sealed.items():
-        for number, name in enumerate(one["chambers"], start=1):
+    for charge, table in sealed.items():
+        for number, name in enumerate(table["chambers"], start=1):
             place = f"charges.{charge}.chambers[{number}]"
             if name is not None and name not in chambers and not reader.doubts(f"chambers.{name}"):
-                known = ", ".join(sorted(chambers)) or "–"
-                reader.complain(place, Refusal("absent_chamber", name=name, known=known))
+                reader.complain(place, Refusal("absent_chamber", name=name, known=", ".join(sorted(chambers)) or "–"))
             elif name in holder:
                 reader.complain(place, Refusal("chamber_twice", name=name))
             elif name is not None:
@@ -147,21 +145,21 @@ def _holders(sealed: Mapping[str, Values], chambers: Mapping[str, Values], reade
 
 
 def _check_charge(path: str, charge: Values, reader: Reader) -> None:
-    """Complain of what the state of a charge lacks, and of what it does not need."""
+    """Report missing and superfluous keys of the state of a charge."""
     amounts = [key for key in _AMOUNTS if key in charge]
     if not amounts and not reader.doubts(*(f"{path}.{key}" for key in _AMOUNTS)):
         reader.complain(path, Refusal("charge_amount"))
-    parts = [(f"{path}.dead_volumes[{k}]", one) for k, one in enumerate(charge["dead_volumes"], start=1)]
+    parts = [(f"{path}.dead_volumes[{k}]", volume) for k, volume in enumerate(charge["dead_volumes"], start=1)]
     if "exponent" in charge:
         unused = [f"{path}.{key}" for key in ("gas_constant", "mass") if key in charge]
-        unused += [f"{place}.temperature" for place, one in parts if one and "temperature" in one]
+        unused += [f"{place}.temperature" for place, volume in parts if volume and "temperature" in volume]
         for place in unused:
             reader.complain(place, Refusal("charge_polytrope"))
         return
     if "gas_constant" not in charge:
         _miss(path, "gas_constant", reader)
-    for place, one in parts:
-        if one and "temperature" not in one:
+    for place, volume in parts:
+        if volume and "temperature" not in volume:
             _miss(place, "temperature", reader)
 
 
@@ -169,6 +167,6 @@ def _charge(values: Values) -> Charge:
     return values.made(
         Charge,
         chambers=tuple(values["chambers"]),
-        dead_volumes=tuple(one.made(DeadVolume) for one in values["dead_volumes"] if one),
+        dead_volumes=tuple(volume.made(DeadVolume) for volume in values["dead_volumes"] if volume),
         angle=math.degrees(values.si("angle") or 0.0),
     )

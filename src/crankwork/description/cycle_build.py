@@ -1,4 +1,4 @@
-"""From the table of a working cycle to what gives the pressure, and the size of an engine to a power."""
+"""From the table of a working cycle to the calculated pressure, and the size of an engine from its power."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, cast
 
 import numpy as np
 
-from crankwork.description.kinds import Measure, Reader
+from crankwork.description.kinds import MeasuredValue, Reader
 from crankwork.description.schema import Values
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -30,7 +30,7 @@ _IDEAL = ("otto", "ideal-diesel", "dual")
 
 
 class Cycle(NamedTuple):
-    """The gas of a calculated cycle, and the machine file's values with what followed from it."""
+    """The gas of a calculated cycle, and the values of the machine file with the calculated sizes."""
 
     gas: Gas
     values: Values
@@ -56,7 +56,7 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
 
 
 def _blamed(message: str, table: Values) -> str:
-    """Return the key that a message begins with, or the table."""
+    """Return the key at the beginning of a message, or the table."""
     word = message.split(maxsplit=1)[0].rstrip(",:") if message else ""
     return f"cycle.{word}" if word in table else "cycle"
 
@@ -72,16 +72,17 @@ def _built(values: Values, table: Values, ratio: float, pi: float) -> Cycle:
         pressure = HeatReleasePressure(heat_release_data(table, angle, bore, speed))
     else:
         if kind in _IDEAL:
-            cycle = ideal_cycle(_ideal(table, ratio, angle))
+            state = {"pressure": table.si("intake_pressure"), "temperature": table.si("intake_temperature")}
+            cycle = ideal_cycle(table.made(IdealData, compression_ratio=ratio, **state, angle=angle))
         else:
             cycle = grinevetsky(_data(values, table, ratio, angle, timing, pi))
             values = _sized(values, cycle) if "power" in table else values
         if "geometric_compression_ratio" in cycle.memory:
-            values = _with_ratio(values, cycle.memory["geometric_compression_ratio"].value)
+            geometric = cycle.memory["geometric_compression_ratio"].value
+            values = values.but(cylinder=values["cylinder"].but(compression_ratio=geometric))
         rounds = (table["corners"] or ("rounded" if "timing" in table else "sharp")) == "rounded"
         pressure = CornerPressure(cycle, timing if rounds else None, _rounding(table))
-    gas = Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure)
-    return Cycle(gas, values)
+    return Cycle(Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure), values)
 
 
 def _timing(table: Values, angle: float) -> Timing:
@@ -93,11 +94,6 @@ def _timing(table: Values, angle: float) -> Timing:
 def _rounding(table: Values) -> Rounding:
     school = cast("Literal['ru', 'vi']", table["school"])
     return Rounding(school=school, peak_angle=table["timing"].degrees("peak"), peak_level=table["peak_level"])
-
-
-def _ideal(table: Values, ratio: float, angle: float) -> IdealData:
-    pressure, temperature = table.si("intake_pressure"), table.si("intake_temperature")
-    return table.made(IdealData, compression_ratio=ratio, pressure=pressure, temperature=temperature, angle=angle)
 
 
 def _data(values: Values, table: Values, ratio: float, angle: float, timing: Timing, pi: float) -> GrinevetskyData:
@@ -141,7 +137,7 @@ def _stroke_of_piston(values: Values) -> float | None:
 
 
 def _rod_of(values: Values) -> SliderCrank:
-    """Return crank and rod on the axis; a radius of one where only their ratio is given."""
+    """Return crank and rod without offset, of radius 1 if only their ratio is given."""
     rod, stroke = values["rod"], _stroke(values["crank"])
     radius, ratio = (stroke or 2.0) / 2, rod["ratio"] or 0.25
     if "length" in rod and stroke:
@@ -175,21 +171,17 @@ def _lost_stroke(values: Values, timing: Timing) -> float:
 
 
 def _sized(values: Values, cycle: CalculatedCycle) -> Values:
-    """Return the values with the bore and stroke that a power asks for, in whole millimetres."""
+    """Return the values with the bore and stroke required for a power, in whole millimetres."""
     crank, cylinder = values["crank"], values["cylinder"]
-    radius = crank["radius"] or Measure(round(cycle.values["stroke"], 3) / 2, "length")
-    bore = cylinder["bore"] or Measure(round(cycle.values["bore"], 3), "length")
+    radius = crank["radius"] or MeasuredValue(round(cycle.values["stroke"], 3) / 2, "length")
+    bore = cylinder["bore"] or MeasuredValue(round(cycle.values["bore"], 3), "length")
     return values.but(crank=crank.but(radius=radius), cylinder=cylinder.but(bore=bore))
-
-
-def _with_ratio(values: Values, ratio: float) -> Values:
-    return values.but(cylinder=values["cylinder"].but(compression_ratio=ratio))
 
 
 def build_heat_release(
     table: Values, angle: float, bore: float | None, speed: float, chamber: str, reader: Reader
 ) -> HeatReleasePressure | None:
-    """Return what gives the pressure of a chamber by a release of heat, or None after complaints.
+    """Return the pressure of a chamber by a release of heat, or None after complaints.
 
     `angle`: of its cycle [deg]; `speed`: of the crank [rad/s]; `chamber`: where the description has it.
     """
@@ -201,7 +193,7 @@ def build_heat_release(
 
 
 def heat_release_data(table: Values, angle: float, bore: float | None, speed: float) -> HeatReleaseData:
-    """Return the data of a release of heat; what is not given stays as usual."""
+    """Return the data of a release of heat, with defaults for missing values."""
     timing = table["timing"]
     given: dict[str, Any] = {
         "heat": table.si("cycle_heat"),
@@ -237,5 +229,5 @@ def heat_release_data(table: Values, angle: float, bore: float | None, speed: fl
         shut_pressure=table.si("intake_pressure"),
         shut_temperature=table.si("intake_temperature"),
         cycle=angle,
-        **{name: one for name, one in given.items() if one is not None},
+        **{name: value for name, value in given.items() if value is not None},
     )

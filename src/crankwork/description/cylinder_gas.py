@@ -20,16 +20,16 @@ _AMBIENT = "ambient"
 def with_own_gas(
     values: Values, engine: Engine, gas: Gas | None, reader: Reader, read_measured: ReadMeasured
 ) -> Engine:
-    """Return an engine with the gas of each cylinder where they differ; complain of what does not fit."""
+    """Return an engine with the gas of each cylinder if they differ; report contradictions."""
     table, count = values["engine"], len(engine.layout.places)
-    asked = [f"engine.{key}" for key in ("misfire", "pressure_factors") if key in table]
+    requested = [f"engine.{key}" for key in ("misfire", "pressure_factors") if key in table]
     own = values["gas"]["cylinders"]
     if gas is None:
-        for key in asked:
+        for key in requested:
             if not reader.doubts("gas", "cycle", "cylinder"):
                 reader.complain(key, Refusal("cylinder_gas_none"))
         return engine
-    if not asked and not own:
+    if not requested and not own:
         return engine
     diagrams = _own_diagrams(values["gas"], gas, count, reader, read_measured) if own else {}
     misfires = _misfires(table, own, count, reader)
@@ -43,52 +43,52 @@ def with_own_gas(
         return engine
     gases, known = list[Gas](), dict[tuple[int, float], Gas]()
     for number, factor in enumerate(factors, start=1):
-        one = motored if motored is not None and number in misfires else diagrams.get(number, gas)
+        own_gas = motored if motored is not None and number in misfires else diagrams.get(number, gas)
         if factor != 1:
             path = f"engine.pressure_factors[{number}]"
-            one = known.setdefault((id(one), factor), replace(one, factor=factor, factor_path=path))
-        gases.append(one)
+            own_gas = known.setdefault((id(own_gas), factor), replace(own_gas, factor=factor, factor_path=path))
+        gases.append(own_gas)
     return replace(engine, gases=tuple(gases), misfires=tuple(sorted(misfires)))
 
 
 def _own_diagrams(table: Values, gas: Gas, count: int, reader: Reader, read_measured: ReadMeasured) -> dict[int, Gas]:
     """Return the gas of the cylinders that have a diagram of their own, by number."""
-    found = {}
-    for name, one in table["cylinders"].items():
+    gases = {}
+    for name, values in table["cylinders"].items():
         path = f"gas.cylinders.{name}"
         if name not in map(str, range(1, count + 1)):
             reader.complain(path, Refusal("cylinder_name", count=count))
-        elif one is not None:
-            found[int(name)] = _with_diagram(gas, one, path, table, reader, read_measured)
-    return found
+        elif values is not None:
+            gases[int(name)] = _with_diagram(gas, values, path, table, reader, read_measured)
+    return gases
 
 
 def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Reader, read: ReadMeasured) -> Gas:
-    """Return the gas with another diagram; pressures count from where those of the table of the gas do."""
+    """Return the gas with another diagram; its pressures are absolute or gauge as those of the gas table."""
     check_parts(values, path, reader)
     diagram = build_diagram(values.but(pressures=table["pressures"]), path, reader, read)
     return replace(gas, **diagram._asdict(), valves=None, path=path)
 
 
 def _misfires(table: Values, own: dict[str, Values | None], count: int, reader: Reader) -> set[int]:
-    """Return the numbers of the cylinders in which nothing burns."""
-    found = set[int]()
-    for at, one in enumerate(table["misfire"], start=1):
-        if one is None:
+    """Return the numbers of the cylinders without combustion."""
+    misfires = set[int]()
+    for index, entry in enumerate(table["misfire"], start=1):
+        if entry is None:
             continue
-        number, place = int(one), f"engine.misfire[{at}]"
+        number, place = int(entry), f"engine.misfire[{index}]"
         if number > count:
             reader.complain(place, Refusal("misfire_absent", number=number, count=count))
-        elif number in found:
+        elif number in misfires:
             reader.complain(place, Refusal("misfire_twice", number=number))
         elif str(number) in own:
             reader.complain(place, Refusal("misfire_own", number=number))
-        found.add(number)
-    return found
+        misfires.add(number)
+    return misfires
 
 
 def _factors(table: Values, misfires: set[int], count: int, reader: Reader) -> list[float]:
-    """Return by what the gauge pressure of each cylinder is multiplied."""
+    """Return the factor of the gauge pressure of each cylinder."""
     factors = table["pressure_factors"]
     if not factors or None in factors:
         return [1.0] * count
@@ -97,16 +97,16 @@ def _factors(table: Values, misfires: set[int], count: int, reader: Reader) -> l
     for number in misfires:
         if number <= len(factors) and factors[number - 1] != 1:
             reader.complain(f"engine.pressure_factors[{number}]", Refusal("misfire_factor", number=number))
-    return [float(one) for one in factors]
+    return [float(factor) for factor in factors]
 
 
 def _motored(values: Values, gas: Gas, reader: Reader, read_measured: ReadMeasured) -> Gas | None:
-    """Return the gas of a cylinder in which nothing burns."""
+    """Return the gas of a cylinder without combustion."""
     if gas.calculated is not None:
-        of = cast("CornerPressure | HeatReleasePressure", gas.calculated)
+        calculated = cast("CornerPressure | HeatReleasePressure", gas.calculated)
         is_open = values["cycle"]["motored"] == _AMBIENT
         around = given("ambient_pressure", gas.ambient, "cycle.ambient_pressure") if is_open else None
-        return replace(gas, calculated=MisfirePressure(of, gas.cycle, around))
+        return replace(gas, calculated=MisfirePressure(calculated, gas.cycle, around))
     table = values["gas"]
     motored = table["motored"]
     if motored is None:

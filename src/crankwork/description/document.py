@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any
 from crankwork import files
 from crankwork.description.machine_file import (
     Setting,
+    apply_override,
     are_readable,
     entry_at,
     file_keys,
-    lay,
     parse,
     read_machine,
     settings_of,
     steps_of,
 )
-from crankwork.description.schema import Table, Values
-from crankwork.description.written import document, with_value, without
+from crankwork.description.schema import TableSpec, Values
+from crankwork.description.written import document, with_value, without_key
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.locale import Refusal
 
@@ -65,13 +65,13 @@ class Description:
 
     def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - what the file states
         """Return a value as the file states it, or its default as a file would; KeyError if there is neither."""
-        found = stated_value(self._values, key)
-        if found is None:
+        value = stated_value(self._values, key)
+        if value is None:
             raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
-        return copy.deepcopy(found)
+        return copy.deepcopy(value)
 
     def __iter__(self) -> Iterator[str]:
-        """Yield the key of every value that the file states, as it stands there."""
+        """Yield the key of every value of the file, as spelled there."""
         return _keys(self._values)
 
     def keys(self) -> tuple[str, ...]:
@@ -87,51 +87,51 @@ class Description:
 
     def __contains__(self, key: str) -> bool:
         """Return whether the file states a key."""
-        found: Any = self._values
+        value: Any = self._values
         for step in steps_of(key):
-            found = _at(found, step)
-        return found is not None
+            value = _at(value, step)
+        return value is not None
 
     def __setitem__(self, key: str, value: Any) -> None:  # noqa: ANN401 - what a file may state
-        """State a value, text with a unit, number or table; what says the same gives way."""
+        """Set a value: text with a unit, number or table; keys that exclude it are removed."""
         self._change({key: value})
 
     def __delitem__(self, key: str) -> None:
         """Take a key, or a table, out of the file."""
         if key not in self:
             raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
-        self._text = without(self._text, key)
+        self._text = without_key(self._text, key)
         self._values = parse(self._text, self.name)
 
     def replace(self, changes: Mapping[str, Any]) -> None:
-        """State several values at once: all of them, or, after a refusal, none."""
+        """Set several values at once: all, or none after an error."""
         self._change(changes)
 
     def _change(self, changes: Mapping[str, Any]) -> None:
         text, values = self._text, copy.deepcopy(self._values)
         for key, value in changes.items():
-            gives_way = lay(values, Setting("key", key, value))
+            gives_way = apply_override(values, Setting("key", key, value))
             text = with_value(text, key, value, gives_way)
             if parse(text, self.name) != values:
-                # one of tables with lines of their own, [[loads]], is to be something else
+                # an entry of an array of tables, [[loads]], would get another type
                 raise CrankworkError(Refusal("entry_table", key=key[:60]))
         self._text, self._values = text, values
 
     def values_with(self, overrides: Sequence[str | Setting]) -> dict[str, Any]:
-        """Return what the file states with settings laid over it, as nested tables and lists."""
+        """Return the values of the file with overrides applied, as nested tables and lists."""
         values = self.values
-        for one in settings_of(overrides):
-            lay(values, one)
+        for setting in settings_of(overrides):
+            apply_override(values, setting)
         return values
 
     @property
     def values(self) -> dict[str, Any]:
-        """What the file states, as nested tables and lists; a copy."""
+        """A copy of the values of the file, as nested tables and lists."""
         return copy.deepcopy(self._values)
 
     @property
     def is_readable(self) -> bool:
-        """Whether all that it states is of the kind that its keys ask for, although it may be no machine yet."""
+        """Whether all values have the types of their keys, even if the machine is incomplete."""
         return are_readable(self.values)
 
     def dump(self) -> str:
@@ -139,7 +139,7 @@ class Description:
         return self._text
 
     def machine(self, overrides: Sequence[str | Setting] = ()) -> Machine:
-        """Return the machine that the file describes, with settings `KEY=VALUE` laid over it.
+        """Return the machine that the file describes, with settings `KEY=VALUE` applied.
 
         Raises
         ------
@@ -173,25 +173,25 @@ def stated_value(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - wha
     for step in path:
         kind = entry_at(kind, step)
         table = _at(table, step)
-    found = _at(table, last)
-    if found is None and isinstance(kind, Table) and isinstance(last, str):
+    value = _at(table, last)
+    if value is None and isinstance(kind, TableSpec) and isinstance(last, str):
         return kind.written_default(last, Values(table if isinstance(table, Mapping) else {}, kind))
-    return found
+    return value
 
 
 def _at(table: Any, step: str | int) -> Any:  # noqa: ANN401 - what a file has there
-    """Return what stands in a table or list, None where nothing does."""
+    """Return an entry of a table or list, None if there is none."""
     if isinstance(step, int):
         return table[step - 1] if isinstance(table, list) and 0 < step <= len(table) else None
     return table.get(step) if isinstance(table, dict) else None
 
 
 def _keys(values: Any, path: str = "") -> Iterator[str]:  # noqa: ANN401 - what a file states
-    """Yield the dotted keys of all values below a table; tables of a list by their numbers, lists of values whole."""
+    """Yield the dotted keys of all values in a table; a list of values is one value."""
     if isinstance(values, Mapping):
         for name, value in values.items():
             yield from _keys(value, f"{path}.{name}".lstrip("."))
-    elif isinstance(values, list) and values and all(isinstance(one, Mapping) for one in values):
+    elif isinstance(values, list) and values and all(isinstance(entry, Mapping) for entry in values):
         for number, value in enumerate(values, start=1):
             yield from _keys(value, f"{path}[{number}]")
     else:

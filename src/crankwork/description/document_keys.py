@@ -1,4 +1,4 @@
-"""The keys of `[document]`: what a note and its sheets say of themselves, and which sections the note has."""
+"""The keys of `[document]`: title data of a note and its sheets, and the sections of the note."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from crankwork.description.kinds import Number, Reader, Text, shown
-from crankwork.description.schema import Key, OneOrMore, Table, nearest_name
+from crankwork.description.schema import KeySpec, OneOrMore, TableSpec, nearest_name
 from crankwork.locale import Language, Refusal
 from crankwork.machine import Document
 
@@ -32,7 +32,7 @@ _HEAD = (
 _PEOPLE = ("group", "supervisor", "checked_by", "standards_by", "approved_by", "city")
 
 
-class Day(NamedTuple):
+class Date(NamedTuple):
     """A day: a date of TOML, or the same as text."""
 
     def read(self, value: object, key: str, reader: Reader) -> dt.date | None:
@@ -69,16 +69,16 @@ class Section(NamedTuple):
         return {"enum": list(self.options)}
 
 
-def document_key(sections: tuple[str, ...]) -> Key:
+def document_key(sections: tuple[str, ...]) -> KeySpec:
     """Return the key of the table for machines whose notes have these sections."""
-    return Key(
-        Table("document", {
-            **dict.fromkeys(_HEAD, Key(_WORDS)),
-            **dict.fromkeys(("author", "student_number"), Key(OneOrMore(_WORDS, most=12))),
-            **dict.fromkeys(_PEOPLE, Key(_WORDS)),
-            "year": Key(Number(1900, 2200, whole=True), instead_of=("date",)),
-            "date": Key(Day(), instead_of=("year",)),
-            "sections": Key(OneOrMore(Section(sections), most=40)),
+    return KeySpec(
+        TableSpec("document", {
+            **dict.fromkeys(_HEAD, KeySpec(_WORDS)),
+            **dict.fromkeys(("author", "student_number"), KeySpec(OneOrMore(_WORDS, most=12))),
+            **dict.fromkeys(_PEOPLE, KeySpec(_WORDS)),
+            "year": KeySpec(Number(1900, 2200, whole=True), instead_of=("date",)),
+            "date": KeySpec(Date(), instead_of=("year",)),
+            "sections": KeySpec(OneOrMore(Section(sections), most=40)),
         })
     )  # fmt: skip
 
@@ -88,7 +88,7 @@ TRANSFER, TURNING = document_key(_TRANSFER), document_key(_TURNING)
 
 
 def stated_document(values: Mapping[str, Any]) -> Document:
-    """Return what the table states, text without blanks around it."""
+    """Return the values of the table, text without surrounding blanks."""
     stated: Mapping[str, Any] = values.get("document") or {}
-    found: dict[str, Any] = {key: one.strip() if isinstance(one, str) else one for key, one in stated.items()}
-    return Document(**found | {"year": int(found.get("year", 0))})
+    texts: dict[str, Any] = {key: value.strip() if isinstance(value, str) else value for key, value in stated.items()}
+    return Document(**texts | {"year": int(texts.get("year", 0))})

@@ -26,24 +26,24 @@ def read_drive(values: Values, reader: Reader) -> Drive:
     """Return efficiency and motor of a description."""
     drive = Drive()
     chain = values["efficiency"]["chain"]
-    # what could not be read has been told already
-    if chain and all(_is_whole(one) for one in chain):
+    # unreadable values are already reported
+    if chain and all(_is_whole(part) for part in chain):
         table = values["efficiency"]
-        parts: list[Chain] = [Parallel(tuple(one)) if isinstance(one, list) else one for one in chain]
+        parts: list[Chain] = [Parallel(tuple(part)) if isinstance(part, list) else part for part in chain]
         series = Series(tuple(parts))
-        whole = efficiency(series)
-        if whole < _LEAST_EFFICIENCY:
-            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=whole))
+        total = efficiency(series)
+        if total < _LEAST_EFFICIENCY:
+            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=total))
             return drive
         losses: Literal["", "drive", "machine"] = table.get("losses", "")
-        drive = replace(drive, efficiency=whole, chain=series, losses=losses)
-        if not losses and any(rubbing in values.get("friction", {}) for rubbing in ("pins", "sliders")):
+        drive = replace(drive, efficiency=total, chain=series, losses=losses)
+        if not losses and any(joints in values.get("friction", {}) for joints in ("pins", "sliders")):
             reader.complain("efficiency", Refusal("losses_twice"))
         if "decimals" in table:
-            used = round(whole, int(table["decimals"]))
-            drive = replace(drive, efficiency=used, exact_efficiency=whole)
+            used = round(total, int(table["decimals"]))
+            drive = replace(drive, efficiency=used, exact_efficiency=total)
             if used <= 0:
-                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=whole))
+                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=total))
     motor = values.get("motor")
     if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
         frequency = motor.si("frequency") / (2 * math.pi)

@@ -1,23 +1,23 @@
-"""From the table of a driver to its law, with what is wrong in it."""
+"""From the table of a driver to its law, and checks of the table."""
 
 from __future__ import annotations
 
 import itertools
 import math
 
-from crankwork.description.kinds import Measure, Reader
+from crankwork.description.kinds import MeasuredValue, Reader
 from crankwork.description.schema import Values
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law, Segment
 
-# what presumes a crank that turns evenly
+# tables for a crank with a constant mean speed
 _TURNING = ("efficiency", "motor", "flywheel", "transient")
 _WITHOUT_DRIVER = ("speed", "angular_acceleration")
 _SUM = 1e-9
 
 
 def check_driver(values: Values, reader: Reader) -> None:
-    """Complain of what a machine with a driver cannot have, or lacks."""
+    """Report tables and keys that a machine with a driver cannot have, or needs."""
     driver, crank = values["driver"], values.get("crank")
     for name in _TURNING:
         if name in values:
@@ -35,7 +35,7 @@ def check_driver(values: Values, reader: Reader) -> None:
 
 
 def check_halves(values: Values, reader: Reader) -> None:
-    """Complain of barrel and rod where no cylinder drives."""
+    """Report barrel and rod without a driving cylinder."""
     driver = values["driver"]
     for name in ("barrel", "rod"):
         if name in driver and "cylinder" not in driver and not reader.doubts("driver.cylinder"):
@@ -43,16 +43,16 @@ def check_halves(values: Values, reader: Reader) -> None:
 
 
 def check_loads(values: Values, reader: Reader) -> None:
-    """Complain of loads that count by a crank angle which nothing has."""
+    """Report loads over the crank angle in a machine without one."""
     for number, load in enumerate(values["loads"], start=1):
         if load and ((load["kind"] == "torque" and "at" in load) or load["against"] == "angle"):
             reader.complain(f"loads[{number}]", Refusal("load_by_angle"))
 
 
 def check_gas(values: Values, reader: Reader) -> None:
-    """Complain of gas whose pressure counts by the crank angle, which a driver with a law has not."""
-    for name, one in values.get("chambers", {}).items():
-        path, table = f"chambers.{name}", one or {}
+    """Report gas with a pressure over the crank angle, which a driver with a law does not have."""
+    for name, charge in values.get("chambers", {}).items():
+        path, table = f"chambers.{name}", charge or {}
         keys = [
             key
             for key in ("measured", "cycle", "period", "delay")
@@ -62,8 +62,8 @@ def check_gas(values: Values, reader: Reader) -> None:
         keys += [f"points.{point}.angle" for point, placed in points if placed and "angle" in placed]
         for key in keys:
             reader.complain(f"{path}.{key}", Refusal("gas_by_angle"))
-    for name, one in values.get("charges", {}).items():
-        if one and "angle" in one:
+    for name, charge in values.get("charges", {}).items():
+        if charge and "angle" in charge:
             reader.complain(f"charges.{name}.angle", Refusal("charge_by_angle"))
 
 
@@ -72,78 +72,73 @@ def build_law(values: Values, reader: Reader) -> Law | None:
     driver = values["driver"]
     wanted = "length" if {"slider", "cylinder"} & set(driver) else "angle"
     places = [_place(driver, "start", "driver.start", wanted, reader)]
-    segments = [(number, one) for number, one in enumerate(driver["law"], start=1) if one is not None]
-    for number, one in segments:
-        places.append(_end(one, number, places, wanted, reader))
-        _check_kind(one, f"driver.law[{number}]", wanted, reader)
+    segments = [(number, segment) for number, segment in enumerate(driver["law"], start=1) if segment is not None]
+    for number, segment in segments:
+        places.append(_end(segment, number, places, wanted, reader))
+        _check_kind(segment, f"driver.law[{number}]", wanted, reader)
     if reader.problems:
         return None
     if places[0] is None:
-        places[0] = next((one for one in reversed(places) if one is not None), None)
+        places[0] = next((start for start in reversed(places) if start is not None), None)
     if places[0] is None:
         reader.complain("driver.start", Refusal("driver_start"))
         return None
     filled = [float(places[0])]
     for place in places[1:]:
         filled.append(filled[-1] if place is None else float(place))
-    if "start" not in driver and not _moves([one for _, one in segments], filled):
+    passed = (place.value for _, segment in segments for place in segment["values"])
+    if "start" not in driver and all(place == filled[0] for place in itertools.chain(filled, passed)):
         reader.complain("driver.start", Refusal("law_stands"))
         return None
     if min(filled) <= 0 and "cylinder" in driver:
         reader.complain("driver.law", Refusal("cylinder_short"))
         return None
-    times = _times(driver, [one for _, one in segments], filled, reader)
+    times = _times(driver, [segment for _, segment in segments], filled, reader)
     if times is None:
         return None
     period = math.fsum(times)
     made = tuple(
         Segment(
-            one["kind"], to, time / period, one["ramp"] or Segment.ramp,
-            tuple(zip(one["at"], (place.value for place in one["values"]), strict=True)),
+            segment["kind"], to, time / period, segment["ramp"] or Segment.ramp,
+            tuple(zip(segment["at"], (place.value for place in segment["values"]), strict=True)),
         )
-        for (_, one), to, time in zip(segments, filled[1:], times, strict=True)
+        for (_, segment), to, time in zip(segments, filled[1:], times, strict=True)
     )  # fmt: skip
     return Law(made, period, filled[0])
 
 
-def _moves(segments: list[Values], places: list[float]) -> bool:
-    """Return whether any segment ends or passes elsewhere than where the law begins."""
-    passed = (place.value for one in segments for place in one["values"])
-    return any(place != places[0] for place in itertools.chain(places, passed))
-
-
 def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> float | None:
-    """Return a value of the coordinate in SI; complain where it is an angle and should be a length."""
-    one: Measure | None = table[key]
-    if one is not None and one.dimension != wanted:
+    """Return a value of the coordinate in SI; report a wrong dimension."""
+    measure: MeasuredValue | None = table[key]
+    if measure is not None and measure.dimension != wanted:
         reader.complain(path, Refusal(f"driver_{wanted}"))
-    return None if one is None else one.value
+    return None if measure is None else measure.value
 
 
-def _end(one: Values, number: int, before: list[float | None], wanted: str, reader: Reader) -> float | None:
-    """Return where a segment ends, None for where it began."""
+def _end(segment: Values, number: int, before: list[float | None], wanted: str, reader: Reader) -> float | None:
+    """Return the end of a segment, None for its start."""
     path = f"driver.law[{number}]"
-    if one["kind"] == "dwell":
+    if segment["kind"] == "dwell":
         return before[-1]
-    if "to" not in one:
+    if "to" not in segment:
         reader.complain(f"{path}.to", Refusal("law_to", example="0.5 m" if wanted == "length" else "90 deg"))
-    return _place(one, "to", f"{path}.to", wanted, reader)
+    return _place(segment, "to", f"{path}.to", wanted, reader)
 
 
-def _check_kind(one: Values, path: str, wanted: str, reader: Reader) -> None:
-    """Complain of a rate that is none of the coordinate, and of a table that is none."""
-    if "speed" in one and one["speed"].dimension != ("velocity" if wanted == "length" else "speed"):
+def _check_kind(segment: Values, path: str, wanted: str, reader: Reader) -> None:
+    """Report a rate of a wrong dimension, and an invalid table."""
+    if "speed" in segment and segment["speed"].dimension != ("velocity" if wanted == "length" else "speed"):
         reader.complain(f"{path}.speed", Refusal(f"driver_speed_{wanted}"))
-    if one["kind"] == "table":
-        _check_table(one, path, wanted, reader)
+    if segment["kind"] == "table":
+        _check_table(segment, path, wanted, reader)
 
 
-def _check_table(one: Values, path: str, wanted: str, reader: Reader) -> None:
-    """Complain of a table that does not rise, or whose columns do not match."""
-    at, values = one["at"], one["values"]
-    if len(at) != len(values) or not at:
+def _check_table(segment: Values, path: str, wanted: str, reader: Reader) -> None:
+    """Report a table that does not rise, or with columns of different lengths."""
+    times, values = segment["at"], segment["values"]
+    if len(times) != len(values) or not times:
         reader.complain(f"{path}.at", Refusal("law_table"))
-    elif None not in at and any(b <= a for a, b in itertools.pairwise([0.0, *at, 1.0])):
+    elif None not in times and any(b <= a for a, b in itertools.pairwise([0.0, *times, 1.0])):
         reader.complain(f"{path}.at", Refusal("law_table_rises"))
     for number, value in enumerate(values, start=1):
         if value is not None and value.dimension != wanted:
@@ -154,22 +149,22 @@ def _times(driver: Values, segments: list[Values], places: list[float], reader: 
     """Return the time of each segment. [s]"""
     period = driver.si("period")
     times, shares = [], []
-    for number, (one, (low, high)) in enumerate(zip(segments, itertools.pairwise(places), strict=True), start=1):
-        if "speed" in one:
-            times.append(abs(high - low) / one["speed"].value)
+    for number, (segment, (low, high)) in enumerate(zip(segments, itertools.pairwise(places), strict=True), start=1):
+        if "speed" in segment:
+            times.append(abs(high - low) / segment["speed"].value)
             if not times[-1]:
                 reader.complain(f"driver.law[{number}].speed", Refusal("law_still"))
                 return None
-        elif isinstance(one["over"], Measure):
-            times.append(one["over"].value)
+        elif isinstance(segment["over"], MeasuredValue):
+            times.append(segment["over"].value)
         elif period is None:
             reader.complain(f"driver.law[{number}].over", Refusal("law_period"))
             return None
         else:
-            times.append(one["over"] * period)
-            shares.append(one["over"])
+            times.append(segment["over"] * period)
+            shares.append(segment["over"])
     if period is not None and abs(math.fsum(times) - period) > _SUM * period:
-        told = Refusal("law_shares" if shares else "law_times", whole=f"{math.fsum(times):.6g}", period=f"{period:.6g}")
-        reader.complain("driver.period", told)
+        text = Refusal("law_shares" if shares else "law_times", whole=f"{math.fsum(times):.6g}", period=f"{period:.6g}")
+        reader.complain("driver.period", text)
         return None
     return times

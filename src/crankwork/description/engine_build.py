@@ -1,4 +1,4 @@
-"""From the values of a machine file to the whole engine: cylinders, bearings, counterweights, flywheel."""
+"""From the values of a machine file to an engine: cylinders, bearings, counterweights, flywheel."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from crankwork.machine import Bearings, Engine
 def build_engine(
     values: Values, lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
 ) -> Engine | None:
-    """Return the whole engine of a machine file, or None if it describes one crank gear only or after complaints.
+    """Return the engine of a machine file, or None if it describes one crank mechanism only or after complaints.
 
     `lengths`: crank radius, rod length and offset, if they are known [m].
     """
@@ -44,26 +44,26 @@ def build_engine(
         reader.complain(error.key, error.args[0])
         return None
     _check_places(layout, table, reader)
-    slaves = _slaves(table, layout, lengths, reader)
+    rods = _articulated_rods(table, layout, lengths, reader)
     sizes, balance = values["bearings"], values["balance"]
     if sizes.si("counterweight") and balance["rotating_share"]:
         reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
     return Engine(
         layout=layout,
-        slaves=slaves,
+        slaves=rods,
         offsets=_offsets(values, layout, lengths, reader),
-        slave_rod=_slave_rod(table["articulated"], slaves, reader),
+        slave_rod=_articulated_rod_masses(table["articulated"], rods, reader),
         bearings=sizes.made(Bearings),
         counterweight=sizes.si("counterweight"),
         rotating_share=balance["rotating_share"],
         reciprocating_share=balance["reciprocating_share"],
         balance_shafts=tuple(dict.fromkeys(balance["shafts"])),
-        notices=tuple((one.code, one.values) for one in notices),
+        notices=tuple((notice.code, notice.values) for notice in notices),
     )
 
 
 def _check_places(layout: Layout, table: Values, reader: Reader) -> None:
-    """Complain of cylinders that stand outside the main journals of their throw."""
+    """Report cylinders outside the main journals of their throw."""
     if table.si("spacing"):
         try:
             check_journals(layout)
@@ -72,13 +72,13 @@ def _check_places(layout: Layout, table: Values, reader: Reader) -> None:
 
 
 def _tops(table: Values, lengths: tuple[float, float, float] | None) -> tuple[float, ...]:
-    """Return where offsets that differ put the top dead centres of the cylinders, from their axes. [deg]"""
-    offsets = [one.value for one in table["offsets"] if one]
+    """Return the angles of top dead centres from the cylinder axes if offsets differ. [deg]"""
+    offsets = [offset.value for offset in table["offsets"] if offset]
     if lengths is None or len(offsets) != int(table["cylinders"]) or len(set(offsets)) == 1:
         return ()
-    if not all(turns_fully(SliderCrank(*lengths[:2], one)) for one in offsets):
+    if not all(turns_fully(SliderCrank(*lengths[:2], offset)) for offset in offsets):
         return ()
-    return tuple(math.degrees(math.asin(one / (lengths[0] + lengths[1]))) for one in offsets)
+    return tuple(math.degrees(math.asin(offset / (lengths[0] + lengths[1]))) for offset in offsets)
 
 
 def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layout, tuple[LayoutNotice, ...]]:
@@ -86,7 +86,7 @@ def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layou
     kind, cylinders = table["layout"], int(table["cylinders"])
     throws = table.degrees("throws") if "throws" in table else None
     usual = _usual(table, strokes)
-    order = [int(one) for one in table["firing_order"] if one]
+    order = [int(number) for number in table["firing_order"] if number]
     if not order and kind != "radial":
         if usual is None:
             raise LayoutError("engine.firing_order", _no_order(table, strokes))
@@ -121,33 +121,35 @@ def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layou
 
 
 def _no_order(table: Values, strokes: int) -> Refusal:
-    """Return what to write where no order is customary, or with which split of the pins one would be."""
-    asked = {"kind": table["layout"], "cylinders": int(table["cylinders"]), "strokes": strokes}
+    """Return the advice for a layout without a customary firing order, with the closest split of the pins."""
+    requested = {"kind": table["layout"], "cylinders": int(table["cylinders"]), "strokes": strokes}
     half = (table.degrees("bank_angle") or 0.0) / 2
-    for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
-        if one.axes == (-half, half) and one.pin_offset:
-            return Refusal("order_unusual_near", **asked, pin_offset=f"{one.pin_offset:g}")
-    return Refusal("order_unusual", **asked)
+    for order in standard_orders(table["layout"], int(table["cylinders"]), strokes):
+        if order.axes == (-half, half) and order.pin_offset:
+            return Refusal("order_unusual_near", **requested, pin_offset=f"{order.pin_offset:g}")
+    return Refusal("order_unusual", **requested)
 
 
 def _usual(table: Values, strokes: int) -> StandardOrder | None:
     """Return the customary engine with these keys."""
     half = (table.degrees("bank_angle") or 0.0) / 2
-    for one in standard_orders(table["layout"], int(table["cylinders"]), strokes):
-        fits = table["layout"] != "V" or (one.axes == (-half, half) and one.pin_offset == table.degrees("pin_offset"))
-        if fits and table["numbering"] in (None, one.numbering):
-            return one
+    for order in standard_orders(table["layout"], int(table["cylinders"]), strokes):
+        fits = table["layout"] != "V" or (
+            order.axes == (-half, half) and order.pin_offset == table.degrees("pin_offset")
+        )
+        if fits and table["numbering"] in (None, order.numbering):
+            return order
     return None
 
 
 def _offsets(
     values: Values, layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
 ) -> tuple[float, ...]:
-    """Return the offset of each cylinder where they differ; complain where one cannot turn."""
+    """Return the offset of each cylinder if offsets are stated; report cranks that cannot turn."""
     stated = values["engine"]["offsets"]
     if not stated or None in stated or lengths is None:
         return ()
-    offsets, count = [one.value for one in stated], len(layout.places)
+    offsets, count = [offset.value for offset in stated], len(layout.places)
     if len(offsets) != count:
         reader.complain("engine.offsets", Refusal("offsets_count", count=len(offsets), cylinders=count))
         return ()
@@ -159,53 +161,51 @@ def _offsets(
         if not turns_fully(SliderCrank(*lengths[:2], offset)):
             shown = {"length": lengths[1], "radius": lengths[0], "offset": abs(offset)}
             missing = lengths[0] + abs(offset) - lengths[1]
-            told = {name: f"{one * 1e3:.6g}" for name, one in {**shown, "missing": missing}.items()}
-            reader.complain(f"engine.offsets[{number}]", Refusal("rod_short", **told))
+            texts = {name: f"{size * 1e3:.6g}" for name, size in {**shown, "missing": missing}.items()}
+            reader.complain(f"engine.offsets[{number}]", Refusal("rod_short", **texts))
     return tuple(offsets)
 
 
-def _slave_rod(table: Values, slaves: tuple[ArticulatedRod | None, ...], reader: Reader) -> CrankGearMasses | None:
-    """Return the masses of the articulated rods where they have their own."""
-    rod = next((one for one in slaves if one is not None), None)
+def _articulated_rod_masses(
+    table: Values, rods: tuple[ArticulatedRod | None, ...], reader: Reader
+) -> CrankGearMasses | None:
+    """Return the masses of the articulated rods if stated."""
+    rod = next((articulated for articulated in rods if articulated is not None), None)
     if "mass" not in table or rod is None:
         return None
     return rod_masses(table, table["mass"].value, rod.length, reader, "engine.articulated")
 
 
-def _slaves(
+def _articulated_rods(
     table: Values, layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
 ) -> tuple[ArticulatedRod | None, ...]:
-    """Return the articulated rod of every cylinder that has one."""
+    """Return the articulated rod of every cylinder, None for master rods."""
     values = table["articulated"]
     if lengths is None or "knuckle_radius" not in values:
         return ()
     radius = values["knuckle_radius"].value
     length = values.si("rod_length") or lengths[1] - radius
-    slaves = [one for one in layout.places if one.master]
-    between = {one.number: one.axis - layout.places[one.master - 1].axis for one in slaves}
+    places = [place for place in layout.places if place.master]
+    between = {place.number: place.axis - layout.places[place.master - 1].axis for place in places}
     angles: Sequence[float] = list(between.values())
     if "knuckle_angles" in values:
         angles = values.degrees("knuckle_angles")
-        if len(angles) != len(slaves):
+        if len(angles) != len(places):
             reader.complain(
-                "engine.articulated.knuckle_angles",
-                Refusal("knuckle_count", count=len(angles), slaves=len(slaves)),
+                "engine.articulated.knuckle_angles", Refusal("knuckle_count", count=len(angles), slaves=len(places))
             )
             return ()
     if length <= 0:
-        reader.complain(
-            "engine.articulated.rod_length",
-            Refusal("articulated_length", length=length * 1e3),
-        )
+        reader.complain("engine.articulated.rod_length", Refusal("articulated_length", length=length * 1e3))
         return ()
     if radius >= lengths[1]:
-        told = Refusal("knuckle_far", radius=radius * 1e3, rod=lengths[1] * 1e3)
-        reader.complain("engine.articulated.knuckle_radius", told)
+        message = Refusal("knuckle_far", radius=radius * 1e3, rod=lengths[1] * 1e3)
+        reader.complain("engine.articulated.knuckle_radius", message)
         return ()
     of_number = dict(zip(between, angles, strict=True))
     rods = [
-        ArticulatedRod(length, radius, of_number[one.number], between[one.number]) if one.master else None
-        for one in layout.places
+        ArticulatedRod(length, radius, of_number[place.number], between[place.number]) if place.master else None
+        for place in layout.places
     ]
     for rod in rods:
         try:

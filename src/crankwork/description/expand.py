@@ -1,4 +1,4 @@
-"""A machine file written out: what its shorthand stands for, in the tables of a linkage, with every default."""
+"""A machine file written out: its shorthand as tables of a linkage, with every default."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from typing import Any
 
 from crankwork.description.document import Description, load
 from crankwork.description.kinds import Reader
-from crankwork.description.locate import Places
+from crankwork.description.locate import TomlPositions
 from crankwork.description.machine_file import file_keys, input_error, read, settings_of
-from crankwork.description.schema import Table, Values
+from crankwork.description.schema import TableSpec, Values
 from crankwork.description.shorthand import linkage_tables
 from crankwork.description.written import key_text, toml, with_value
 from crankwork.locale import Language, Refusal, say
 from crankwork.machine import Machine
 
-# of an engine, what the tables of a linkage have no words for
-_UNSAID = {
+# tables of an engine that a linkage does not have
+_NOT_EXPRESSIBLE = {
     "engine": "check.unsaid_engine",
     "cycle": "check.unsaid_cycle",
     "bearings": "check.unsaid_bearings",
@@ -30,23 +30,23 @@ _ALWAYS = ("method", "table")
 def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language = "en") -> str:
     """Return the text of a machine file with its shorthand and its defaults written out; these are marked by a comment.
 
-    What cannot be said in the tables of a linkage is refused.
+    InputError if the tables of a linkage cannot express it.
     """
     machine = read(path, overrides)
     description = load(path)
-    for one in settings_of(overrides):
-        description[one.key] = one.value
+    for setting in settings_of(overrides):
+        description[setting.key] = setting.value
     if machine.linkage is None and machine.turning is None:
         reader = Reader()
-        _refuse(machine, reader)
+        _check_expressible(machine, reader)
         if reader.problems:
             raise input_error(description.dump(), description.name, reader)
         description = Description(_linkage_text(description.values, machine, language), description.name)
     return _with_defaults(description, say("check.by_default", language))
 
 
-def _refuse(machine: Machine, reader: Reader) -> None:
-    """Complain of everything that no table of a linkage says."""
+def _check_expressible(machine: Machine, reader: Reader) -> None:
+    """Report everything that no table of a linkage expresses."""
     if machine.transfer is not None:
         reader.complain("transfer", Refusal("unsaid_transfer"))
     if machine.transfer is None and not machine.method.is_exact:
@@ -54,28 +54,28 @@ def _refuse(machine: Machine, reader: Reader) -> None:
 
 
 def _linkage_text(values: Mapping[str, Any], machine: Machine, language: Language) -> str:
-    """Return the tables of a linkage for a crank gear."""
-    lines = [f"# {say(told, language)}" for key, told in _UNSAID.items() if key in values]
+    """Return the tables of a linkage for a crank mechanism."""
+    lines = [f"# {say(text_key, language)}" for key, text_key in _NOT_EXPRESSIBLE.items() if key in values]
     for key, value in linkage_tables(values, machine):
-        for one in value if isinstance(value, list) else [value]:
-            if isinstance(one, Mapping):
+        for table in value if isinstance(value, list) else [value]:
+            if isinstance(table, Mapping):
                 lines += ["", f"[[{key}]]" if isinstance(value, list) else f"[{key}]"]
-                lines += (f"{key_text(name)} = {toml(it)}" for name, it in one.items())
+                lines += (f"{key_text(name)} = {toml(item)}" for name, item in table.items())
             else:
-                lines.append(f"{key} = {toml(one)}")
+                lines.append(f"{key} = {toml(table)}")
     return "\n".join([*lines, ""])
 
 
 def _with_defaults(description: Description, mark: str) -> str:
     """Return the text with every default that applies, each on a line with a mark, or named behind its inline table."""
     keys, text = file_keys(description.values), description.dump()
-    found = keys.read(description.values, "", Reader()) or Values({}, keys)
+    values = keys.read(description.values, "", Reader()) or Values({}, keys)
     for name in _ALWAYS:
         kind = keys.keys[name].kind if name in keys.keys else None
-        if isinstance(kind, Table) and name not in found:
-            found[name] = Values({}, kind)
-    sealed = {name for one in found.get("charges", {}).values() for name in one["chambers"]}
-    for path, table in _stated_tables("", found):
+        if isinstance(kind, TableSpec) and name not in values:
+            values[name] = Values({}, kind)
+    sealed = {name for charge in values.get("charges", {}).values() for name in charge["chambers"]}
+    for path, table in _stated_tables("", values):
         is_sealed = path.removeprefix("chambers.") in sealed
         for name in table.table.keys:
             written = table.table.written_default(name, table)
@@ -87,29 +87,29 @@ def _with_defaults(description: Description, mark: str) -> str:
 
 
 def _stated_tables(path: str, value: Any) -> Iterator[tuple[str, Values]]:  # noqa: ANN401 - tables and lists
-    """Yield the tables that stand in values, with their keys."""
+    """Yield the tables in values, with their keys."""
     match value:
         case Values():
             yield path, value
-            for name, one in value.items():
-                yield from _stated_tables(f"{path}.{name}".lstrip("."), one)
+            for name, item in value.items():
+                yield from _stated_tables(f"{path}.{name}".lstrip("."), item)
         case Mapping():
-            for name, one in value.items():
-                yield from _stated_tables(f"{path}.{name}", one)
+            for name, item in value.items():
+                yield from _stated_tables(f"{path}.{name}", item)
         case list():
-            for at, one in enumerate(value, start=1):
-                yield from _stated_tables(f"{path}[{at}]", one)
+            for index, item in enumerate(value, start=1):
+                yield from _stated_tables(f"{path}[{index}]", item)
 
 
 def _marked(text: str, key: str, mark: str) -> str:
-    """Return a text with a comment behind the line of a key that has its default."""
-    places = Places(text)
+    """Return a text with a comment after the line of a key with its default."""
+    places = TomlPositions(text)
     around, _, name = key.rpartition(".")
     end = text.find("\n", places.pairs[key].end)
     end = len(text) if end < 0 else end
     if around not in places.inner:
         return f"{text[:end]}  # {mark}{text[end:]}"
     start = text.rfind("\n", 0, places.pairs[key].start) + 1
-    told = f"{mark}: " in text[start:end].partition("#")[2]
-    comment = f", {name}" if told else f"; {mark}: {name}" if "#" in text[start:end] else f"  # {mark}: {name}"
+    is_marked = f"{mark}: " in text[start:end].partition("#")[2]
+    comment = f", {name}" if is_marked else f"; {mark}: {name}" if "#" in text[start:end] else f"  # {mark}: {name}"
     return f"{text[:end]}{comment}{text[end:]}"

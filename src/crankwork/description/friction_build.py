@@ -1,4 +1,4 @@
-"""What rubs in a linkage, from the values of a machine file."""
+"""Friction of a linkage, from the values of a machine file."""
 
 from __future__ import annotations
 
@@ -18,37 +18,37 @@ from crankwork.mechanism.mechanism import Crank, Mechanism
 
 
 def build_friction(values: Values, linkage: Linkage, mechanism: Mechanism, reader: Reader) -> tuple[Friction, ...]:
-    """Return the friction of pins and guides; complain of joints that are not there."""
+    """Return the friction of pins and guides; report unknown joints."""
     table = values.get("friction")
     if table is None:
         return ()
     held, shown = whole_of(mechanism)[1], names_of_pivots(mechanism)
-    pins = {shown.get(one.name, one.name): one.name for one in held if isinstance(one, Pin)}
-    guides = {one.name: one.name for one in held if not isinstance(one, Pin)}
+    pins = {shown.get(joint.name, joint.name): joint.name for joint in held if isinstance(joint, Pin)}
+    guides = {joint.name: joint.name for joint in held if not isinstance(joint, Pin)}
     circle: Circle = table["circle"] or "tangent"
-    rubbing_pins = tuple(
-        PinFriction(joint, one.si("radius") or 0.0, one["coefficient"], one.si("moment"), one.si("damping"), circle)
-        for joint, one in _known(table["pins"], pins, "pins", reader)
+    pin_friction = tuple(
+        PinFriction(joint, pin.si("radius") or 0.0, pin["coefficient"], pin.si("moment"), pin.si("damping"), circle)
+        for joint, pin in _known(table["pins"], pins, "pins", reader)
     )
-    sliding = tuple(
-        _guide(name, one, _middle(name, linkage, mechanism))
-        for name, one in _known(table["sliders"], guides, "sliders", reader)
+    guide_friction = tuple(
+        _guide(name, stated, _middle(name, linkage, mechanism))
+        for name, stated in _known(table["sliders"], guides, "sliders", reader)
     )
-    return (*rubbing_pins, *sliding)
+    return (*pin_friction, *guide_friction)
 
 
-def _guide(name: str, one: Values, middle: Point) -> GuideFriction:
-    length, force, damping = (one.si(key) or 0.0 for key in ("length", "force", "damping"))
-    return GuideFriction(name, one["coefficient"], length, force, damping, middle)
+def _guide(name: str, values: Values, middle: Point) -> GuideFriction:
+    length, force, damping = (values.si(key) or 0.0 for key in ("length", "force", "damping"))
+    return GuideFriction(name, values["coefficient"], length, force, damping, middle)
 
 
 def _middle(name: str, linkage: Linkage, mechanism: Mechanism) -> Point:
-    """Return where the origin of a sliding piece, which is on its guide, lies from the pin that it is solved at."""
-    member = next((one for one in linkage.members if one.name == name), None)
+    """Return the origin of a sliding piece, a point of its guide, relative to the pin that it is solved at."""
+    member = next((candidate for candidate in linkage.members if candidate.name == name), None)
     chained = (link.name for group in mechanism.dyads if isinstance(group, Chain) for link in group.links)
     if member is None or not member.points or name in chained:
         return 0.0, 0.0
-    further = {one.name: (one.along, one.across) for one in mechanism.points if one.link == name}
+    further = {placed.name: (placed.along, placed.across) for placed in mechanism.points if placed.link == name}
     point = next(iter(further), next(iter(member.points)))
     (x, y), (u, v) = further.get(point, (0.0, 0.0)), member.points[point]
     return x - u, y - v
@@ -57,17 +57,17 @@ def _middle(name: str, linkage: Linkage, mechanism: Mechanism) -> Point:
 def _known(
     tables: Mapping[str, Values | None], known: Mapping[str, str], kind: str, reader: Reader
 ) -> Iterator[tuple[str, Values]]:
-    """Yield the joints that are there with their tables, and complain of the others."""
-    for name, one in tables.items():
+    """Yield known joints with their tables; report unknown joints."""
+    for name, table in tables.items():
         if name not in known:
-            told = Refusal(f"absent_rubbing_{kind}", name=name, known=", ".join(known) or "–")
-            reader.complain(f"friction.{kind}.{name}", told)
-        elif one is not None:
-            yield known[name], one
+            message = Refusal(f"absent_rubbing_{kind}", name=name, known=", ".join(known) or "–")
+            reader.complain(f"friction.{kind}.{name}", message)
+        elif table is not None:
+            yield known[name], table
 
 
 def check_friction(machine: Machine, reader: Reader) -> None:
-    """Complain of friction where forces are told that do not know of it."""
+    """Report friction in machines whose joint forces are calculated without it."""
     if not machine.friction:
         return
     crank = machine.mechanism.driver
@@ -75,5 +75,5 @@ def check_friction(machine: Machine, reader: Reader) -> None:
         reader.complain("friction", Refusal("friction_redundant", name=machine.redundant[0].member.name))
     if machine.mechanism.passages:
         reader.complain("friction", Refusal("friction_passages"))
-    if isinstance(crank, Crank) and any(one.pressure_angle for one in crank.geared):
+    if isinstance(crank, Crank) and any(geared_crank.pressure_angle for geared_crank in crank.geared):
         reader.complain("friction", Refusal("friction_teeth"))

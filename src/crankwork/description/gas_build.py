@@ -11,13 +11,13 @@ from crankwork.description.kinds import Reader
 from crankwork.description.measured_build import treatment_of
 from crankwork.description.schema import Values, nearest_name
 from crankwork.loads.indicator import DiagramPoint, Piece
-from crankwork.loads.measured import MeasuredPressure, Told
+from crankwork.loads.measured import MeasuredPressure, NoticeData
 from crankwork.loads.valves import Pipe, Valves
 from crankwork.locale import Refusal
 from crankwork.machine import Cylinder, Gas
 
 _OF_GAS = ("expansion_exponent", "temperature")
-# reads the table of a file with samples, and complains under the path of what it belongs to
+# reads the table of a file with samples; mistakes are reported under the path of its owner
 ReadMeasured = Callable[[Values, Reader, str], MeasuredPressure | None]
 
 
@@ -48,13 +48,13 @@ def build_gas(
 
 
 def _check_gas(values: Values, cylinder: Cylinder | None, reader: Reader) -> None:
-    """Complain of what the gas needs and has not."""
+    """Report missing keys of the gas."""
     if cylinder is None:
         if not reader.doubts("cylinder.bore"):
             reader.complain("gas", Refusal("gas_cylinder"))
     elif (
         {cylinder.clearance_volume, cylinder.compression_ratio} == {None}
-        and any(one and one.get("law") == "polytropic" for table in _tables(values) for one in table["pieces"])
+        and any(piece and piece.get("law") == "polytropic" for table in _tables(values) for piece in table["pieces"])
         and not reader.doubts("cylinder.clearance_volume", "cylinder.compression_ratio")
     ):
         reader.complain("cylinder", Refusal("gas_volume"))
@@ -63,20 +63,20 @@ def _check_gas(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 
 def has_diagram(values: Values) -> bool:
-    """Return whether a table has a diagram, or a part of one."""
+    """Return whether a table has a diagram or a part of it."""
     return not {"points", "pieces", "measured", "valves"}.isdisjoint(values)
 
 
 def _tables(values: Values) -> Iterator[Values]:
     """Yield the tables of the gas that may have a diagram: its own, and those of cylinders that differ."""
     yield values
-    for one in (values["motored"], *values["cylinders"].values()):
-        if isinstance(one, Values):
-            yield one
+    for table in (values["motored"], *values["cylinders"].values()):
+        if isinstance(table, Values):
+            yield table
 
 
 def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> None:
-    """Complain of a piston rod without pressure beside it, and of a pressure without a rod."""
+    """Report a piston rod without back pressure, and a back pressure without a rod."""
     has_rod, has_pressure = cylinder is not None and cylinder.piston_rod_diameter > 0, "back_pressure" in values
     if has_pressure and not has_rod and not reader.doubts("cylinder.piston_rod_diameter", "cylinder"):
         reader.complain("gas.back_pressure", Refusal("back_pressure_alone"))
@@ -85,36 +85,36 @@ def _check_rod(values: Values, cylinder: Cylinder | None, reader: Reader) -> Non
 
 
 def check_parts(values: Values, path: str, reader: Reader) -> None:
-    """Complain of points without laws, and of laws without points."""
+    """Report points without laws, and laws without points."""
     for key in ("points", "pieces") if {"measured", "valves"}.isdisjoint(values) else ():
         if key not in values and not reader.doubts(f"{path}.{key}", f"{path}.measured", f"{path}.valves"):
             reader.complain(f"{path}.{key}", Refusal(f"gas_{key}", path=path))
 
 
 def build_valves(values: Values, path: str, reader: Reader) -> Valves | None:
-    """Return the valves of a cylinder or chamber, None without; complain of what they cannot do."""
+    """Return the valves of a cylinder or chamber, None without; report contradictions."""
     if "valves" not in values or not {"suction", "discharge"} <= set(values["valves"]):
         return None
     stated, path = values["valves"], f"{path}.valves"
     pipes = {name: _pipe(stated, name) for name in ("suction_pipe", "discharge_pipe")}
-    found: Valves = stated.made(Valves, **pipes)
-    if not found.discharge > found.suction:
+    valves: Valves = stated.made(Valves, **pipes)
+    if not valves.discharge > valves.suction:
         reader.complain(f"{path}.discharge", Refusal("valves_turned"))
-    elif found.temperature and found.discharge_temperature:
-        most = found.temperature * found.discharge / found.suction
-        if not found.temperature <= found.discharge_temperature < most:
-            low = found.temperature
+    elif valves.temperature and valves.discharge_temperature:
+        most = valves.temperature * valves.discharge / valves.suction
+        if not valves.temperature <= valves.discharge_temperature < most:
+            low = valves.temperature
             reader.complain(f"{path}.discharge_temperature", Refusal("valves_temperature", low=low, high=most))
     is_liquid = {"compression_exponent", "discharge_temperature"}.isdisjoint(stated)
     for key in _OF_GAS if is_liquid and not reader.doubts(f"{path}.compression_exponent") else ():
         if key in stated:
             advice = "compression_exponent = 1.3"
             reader.complain(f"{path}.{key}", Refusal("only_beside", key="compression_exponent", advice=advice))
-    return found
+    return valves
 
 
 def _pipe(stated: Values, name: str) -> Pipe | None:
-    """Return a pipe of a pump, None without one or after complaints about it."""
+    """Return a pipe of a pump, None without it or after complaints."""
     if name not in stated or not {"length", "diameter"} <= set(stated[name]):
         return None
     pipe: Pipe = stated[name].made(Pipe)
@@ -138,18 +138,15 @@ def with_valves(diagram: Diagram, valves: Valves, *, has_clearance: bool) -> Dia
 
 
 def build_diagram(values: Values, path: str, reader: Reader, read_measured: ReadMeasured) -> Diagram:
-    """Return points and laws, or measured samples; complain of what does not fit together.
-
-    `path`: where the description states them.
-    """
+    """Return points and laws, or measured samples; report contradictions; `path`: of the diagram in the description."""
     _check_points(values, path, reader)
     measured = read_measured(values["measured"], reader, path) if "measured" in values else None
     source, absolute = values["measured"], values["pressures"] == "absolute"
     if measured is not None:
         treatment = treatment_of(source, f"{path}.measured", reader, absolute=absolute)
-        read_as: Told = "measured_reference", {"reference": measured.reference, "stated": values["pressures"]}
-        told = (read_as,) if measured.reference not in ("", values["pressures"]) else ()
-        measured = replace(measured, treatment=treatment, told=measured.told + told)
+        read_as: NoticeData = "measured_reference", {"reference": measured.reference, "stated": values["pressures"]}
+        notices = (read_as,) if measured.reference not in ("", values["pressures"]) else ()
+        measured = replace(measured, treatment=treatment, notices=measured.notices + notices)
     resample = source.si("resample")
     if absolute:
         for name, point in values["points"].items():
@@ -158,14 +155,14 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
                 reader.complain(f"{path}.points.{name}.pressure", Refusal("point_vacuum"))
     return Diagram(
         points={
-            name: one.made(DiagramPoint, angle=one.degrees("angle"))
-            for name, one in values["points"].items()
-            if one is not None
+            name: point.made(DiagramPoint, angle=point.degrees("angle"))
+            for name, point in values["points"].items()
+            if point is not None
         },
         pieces=tuple(
-            one.made(Piece, points=tuple(name for name in one["points"] if name))
-            for one in values["pieces"]
-            if one and {"law", "points"} <= set(one)
+            piece.made(Piece, points=tuple(name for name in piece["points"] if name))
+            for piece in values["pieces"]
+            if piece and {"law", "points"} <= set(piece)
         ),
         measured=measured,
         angle_shift=math.degrees(source.si("shift")),
@@ -174,7 +171,7 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
 
 
 def _check_points(values: Values, path: str, reader: Reader) -> None:
-    """Complain of every point that a piece names and the table of points does not know."""
+    """Report every point of a piece that is not in the table of points."""
     known = values.get("points")
     if known is None:
         return

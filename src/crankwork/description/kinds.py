@@ -13,14 +13,14 @@ from crankwork.errors import Problem
 from crankwork.locale import Language, Refusal, say
 
 _MAX_PROBLEMS = 50
-# text of a value with a standard deviation; the unit stands behind either
+# text of a value with a standard deviation, the unit after either number
 _LONG = 100
 _DEVIATION = re.compile(
     r"\s*([+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*([^\s±+\d][^±+]*)?(?:±|\+-|\+/-)"
     r"\s*([0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*(\S.*)?"
 )
-# what is nearer to zero than this is zero, and nothing is divided by it
-_NOTHING = 1e-30
+# smaller numbers become 0, so that nothing is divided by them
+_SMALLEST = 1e-30
 
 
 def _in_range(limit: float, rounding: str) -> str:
@@ -31,24 +31,24 @@ def _in_range(limit: float, rounding: str) -> str:
     return f"{float(Context(prec=6, rounding=rounding).create_decimal(limit)):.6g}"
 
 
-def apart(text: str) -> tuple[str, str | None]:
-    """Return a stated value and its standard deviation, which may be a share of it or have a unit of its own.
+def split_deviation(text: str) -> tuple[str, str | None]:
+    """Return a stated value and its standard deviation: absolute, in percent, or with a unit of its own.
 
     Examples
     --------
-    >>> apart("75 ± 0.1 mm"), apart("0.25 ± 2 %"), apart("75 mm +- 1%"), apart("75 mm"), apart("2 kg ± 5 g")
-    (('75 mm', '0.1'), ('0.25', '2%'), ('75 mm', '1%'), ('75 mm', None), ('2 kg', '5 g'))
+    >>> [split_deviation(text) for text in ("75 ± 0.1 mm", "0.25 ± 2 %", "75 mm +- 1%", "75 mm", "2 kg ± 5 g")]
+    [('75 mm', '0.1'), ('0.25', '2%'), ('75 mm', '1%'), ('75 mm', None), ('2 kg', '5 g')]
     """
     match = _DEVIATION.fullmatch(text) if len(text) < _LONG else None
     if match is None:
         return text, None
-    value, first, size, last = (one.strip() for one in match.groups(""))
+    value, first, size, last = (part.strip() for part in match.groups(""))
     if last == "%":
         return f"{value} {first}".strip(), f"{size}%"
     return f"{value} {first or last}".strip(), f"{size} {last}" if first and last else size
 
 
-class Measure(NamedTuple):
+class MeasuredValue(NamedTuple):
     """A quantity as read: SI value, dimension, and the unit in which it is written."""
 
     value: float
@@ -65,7 +65,7 @@ class Reader:
     def __init__(self, *, decimal_comma: bool = False, metric_hp: bool = False) -> None:
         self.problems: list[Problem] = []
         self.notices: list[tuple[str, dict[str, float | str]]] = []
-        # standard deviations of what is stated with one, by key [SI]
+        # standard deviations of values stated with them, by key [SI]
         self.deviations: dict[str, float] = {}
         self.more = 0
         self.decimal_comma, self.metric_hp = decimal_comma, metric_hp
@@ -73,9 +73,9 @@ class Reader:
         self._suspects: set[str] = set()
 
     def complain(self, key: str, message: str, *, meant: str = "") -> None:
-        """Remember a mistake; a key that is wrong already is not blamed twice.
+        """Add a mistake; only the first mistake of a key is kept.
 
-        `meant` is the key that a misspelt one stands for, so that it is not missed as well.
+        `meant`: the correct key of a misspelt one, which is then not reported as missing.
         """
         if key in self._blamed:
             return
@@ -92,12 +92,12 @@ class Reader:
         return len(self.problems) >= _MAX_PROBLEMS
 
     def doubts(self, *keys: str) -> bool:
-        """Return whether one of the keys, or a table around it, is wrong already: what follows from it is not told."""
-        around = ({key, *(key[:at] for at, mark in enumerate(key) if mark == ".")} for key in keys)
-        return any(not self._suspects.isdisjoint(one) for one in around)
+        """Return whether one of the keys, or a table around it, is already reported: its consequences are not."""
+        around = ({key, *(key[:index] for index, mark in enumerate(key) if mark == ".")} for key in keys)
+        return any(not self._suspects.isdisjoint(path) for path in around)
 
 
-class Kind(Protocol):
+class ValueType(Protocol):
     """A kind of value."""
 
     def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - each kind has its own type
@@ -115,7 +115,7 @@ class Quantity(NamedTuple):
     high: float
     above: bool = False
 
-    def read(self, value: object, key: str, reader: Reader) -> Measure | None:
+    def read(self, value: object, key: str, reader: Reader) -> MeasuredValue | None:
         """Return SI value and dimension."""
         if isinstance(value, bool) or not isinstance(value, str | int | float):
             reader.complain(key, Refusal("quantity_as_text", example=self._example()))
@@ -124,61 +124,61 @@ class Quantity(NamedTuple):
             written = self._written(value if _is_moderate(value) else math.inf, shown(value))
             reader.complain(key, Refusal("no_unit", value=shown(value), example=f'"{written}"'))
             return None
-        value, deviation = apart(value)
+        value, deviation = split_deviation(value)
         try:
-            found = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
+            parsed = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
             reader.complain(key, self._advised(error.args[0], value, reader))
             return None
-        if not self._holds(found.value):
-            reader.complain(key, self._out_of_range(value.strip(), found.dimension))
+        if not self._holds(parsed.value):
+            reader.complain(key, self._out_of_range(value.strip(), parsed.dimension))
             return None
-        if deviation is not None and not self._deviates(found, deviation, key, reader):
+        if deviation is not None and not self._deviates(parsed, deviation, key, reader):
             return None
-        if found.notice:
-            reader.notices.append((found.notice, {"path": key, "text": value.strip(), "value": found.value}))
-        return Measure(found.value if abs(found.value) > _NOTHING else 0.0, found.dimension, found.unit)
+        if parsed.notice:
+            reader.notices.append((parsed.notice, {"path": key, "text": value.strip(), "value": parsed.value}))
+        return MeasuredValue(parsed.value if abs(parsed.value) > _SMALLEST else 0.0, parsed.dimension, parsed.unit)
 
-    def _deviates(self, found: units.ParsedQuantity, deviation: str, key: str, reader: Reader) -> bool:
-        """Remember a standard deviation, in the unit of the value or in its own."""
+    def _deviates(self, parsed: units.ParsedQuantity, deviation: str, key: str, reader: Reader) -> bool:
+        """Store a standard deviation, in the unit of the value or in its own; return whether it is valid."""
         size, _, own = deviation.partition(" ")
         try:
-            of = units.parse(deviation, (found.dimension,), decimal_comma=reader.decimal_comma) if own else found
+            unit = units.parse(deviation, (parsed.dimension,), decimal_comma=reader.decimal_comma) if own else parsed
         except ValueError as error:
             reader.complain(key, error.args[0])
             return False
-        reader.deviations[key] = units.deviation_in_si(of, size)
+        reader.deviations[key] = units.deviation_in_si(unit, size)
         return True
 
     def _holds(self, number: float) -> bool:
-        # a limit in another unit may be off by rounding
+        # a limit in another unit may differ by rounding
         at_end = math.isclose(number, self.high) or (math.isclose(number, self.low) and not self.above)
         return self.low < number < self.high or at_end
 
     def _out_of_range(self, value: str, dimension: str) -> Refusal:
-        low, high = (f'"{one}"' for one in self._range(dimension))
+        low, high = (f'"{end}"' for end in self._range(dimension))
         return Refusal(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
 
-    def _advised(self, told: Refusal, value: str, reader: Reader) -> Refusal:
-        """Return why a text is no quantity, with advice that is in range, so that it is not refused next."""
-        if told.name != "decimal_comma":
-            number = _float(value) if told.name == "unit_missing" else math.inf
+    def _advised(self, message: Refusal, value: str, reader: Reader) -> Refusal:
+        """Return the reason why a text is not a quantity, with an example that is in range."""
+        if message.name != "decimal_comma":
+            number = _float(value) if message.name == "unit_missing" else math.inf
             written = self._written(number, value.strip()) if isinstance(number, float) else self._example()
-            return Refusal(told.name, **{**told.values, "example": written})
+            return Refusal(message.name, **{**message.values, "example": written})
         try:
             meant = units.parse(value, self.dimensions, decimal_comma=True, metric_hp=reader.metric_hp)
         except ValueError as error:
             return self._advised(error.args[0], value, reader)
-        return told if self._holds(meant.value) else self._out_of_range(value.strip(), meant.dimension)
+        return message if self._holds(meant.value) else self._out_of_range(value.strip(), meant.dimension)
 
     def _written(self, number: float, text: str) -> str:
-        """Return a number without a unit as it may be written: with the usual one, or another in range."""
+        """Return a text with the usual unit if it is then in range, else an example in range."""
         unit = units.EXAMPLES[self.dimensions[0]].split()[1]
         fits = math.isfinite(number) and self._holds(units.to_si(float(number), unit))
         return f"{text} {unit}" if fits else self._example()
 
     def _example(self) -> str:
-        """Return a value in range, for advice: the usual one of its dimension, or the nearest limit."""
+        """Return an example in range: the usual value of its dimension, or the nearest limit."""
         usual = units.EXAMPLES[self.dimensions[0]]
         value = units.parse(usual, self.dimensions).value
         least, largest = self._range(self.dimensions[0])
@@ -197,10 +197,10 @@ class Quantity(NamedTuple):
         described = say(
             f"fields.quantity{'_above' * self.above}",
             language,
-            dimension=" / ".join(say(f"refusals.dimension_{one}", language) for one in self.dimensions),
+            dimension=" / ".join(say(f"refusals.dimension_{dimension}", language) for dimension in self.dimensions),
             low=low,
             high=high,
-            units=", ".join(one for dimension in self.dimensions for one in units.spellings(dimension)),
+            units=", ".join(spelling for dimension in self.dimensions for spelling in units.spellings(dimension)),
         )
         return {
             "type": "string",
@@ -214,19 +214,19 @@ class Quantity(NamedTuple):
 
 
 class Number(NamedTuple):
-    """A plain number between `low` and `high`; a whole one if it counts something, told as what it is."""
+    """A plain number between `low` and `high`, an integer if `whole`; `message_kind` begins the name of its message."""
 
     low: float
     high: float
     above: bool = False
     whole: bool = False
-    told: str = "number"
+    message_kind: str = "number"
 
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
         deviation = None
         if isinstance(value, str):
-            stated, deviation = apart(value)
+            stated, deviation = split_deviation(value)
             is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
             value = _float(stated.replace(",", ".")) if is_number else value
         if isinstance(value, bool) or not isinstance(value, int | float):
@@ -234,14 +234,14 @@ class Number(NamedTuple):
             return None
         number = float(value) if _is_moderate(value) else math.nan
         if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
-            reader.complain(key, self._out_of_range(self.told, value))
+            reader.complain(key, self._out_of_range(self.message_kind, value))
             return None
         if self.whole and not number.is_integer():
             reader.complain(key, self._out_of_range("whole", value))
             return None
         if deviation is not None:
             reader.deviations[key] = units.deviation_in_si(units.ParsedQuantity(number, "", ""), deviation)
-        return number if abs(number) > _NOTHING else 0.0
+        return number if abs(number) > _SMALLEST else 0.0
 
     def _out_of_range(self, kind: str, value: object) -> Refusal:
         name = f"{kind}_range{'_above' * self.above}"
@@ -266,8 +266,8 @@ class Choice(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> str | int | None:
         """Return the word or number."""
         if not isinstance(value, bool) and value in self.options:
-            return next(one for one in self.options if one == value)
-        options = tuple(shown(one) for one in self.options)
+            return next(option for option in self.options if option == value)
+        options = tuple(shown(option) for option in self.options)
         reader.complain(key, Refusal("choice", value=shown(value), options=options))
         return None
 
@@ -314,17 +314,17 @@ class Flag(NamedTuple):
         return {"type": "boolean"}
 
 
-# what turns the letters after it round
+# characters that reverse the direction of the text after them
 _TURNING = ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
 
 
 def is_one_line(text: str) -> bool:
-    """Return whether a text has no line break, no control character and nothing that XML forbids."""
+    """Return whether a text has no line break, no control character and no character that XML forbids."""
     return not any(
-        unicodedata.category(one) in ("Cc", "Zl", "Zp", "Cs")
-        or unicodedata.bidirectional(one) in _TURNING
-        or one in "\ufffe\uffff"
-        for one in text
+        unicodedata.category(character) in ("Cc", "Zl", "Zp", "Cs")
+        or unicodedata.bidirectional(character) in _TURNING
+        or character in "\ufffe\uffff"
+        for character in text
     )
 
 
@@ -334,7 +334,7 @@ def _is_moderate(value: float) -> bool:
 
 
 def shown(value: object) -> str:
-    """Return a value as a message shows it: short, and as TOML writes it."""
+    """Return a value for a message: short, and as TOML writes it."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int) and not _is_moderate(value):

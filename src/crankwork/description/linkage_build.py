@@ -16,13 +16,13 @@ from crankwork.description.drive_build import read_drive
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
 from crankwork.description.friction_build import build_friction, check_friction
 from crankwork.description.gas_build import ReadMeasured
-from crankwork.description.kinds import Measure, Reader
-from crankwork.description.linkage_reach import checked_motion, told_redundant, way_if_assembled, with_starts
-from crankwork.description.positions_build import settled, told_positions
-from crankwork.description.redundant_build import fitting, geometry_of, taken_out, without_unshared
+from crankwork.description.kinds import MeasuredValue, Reader
+from crankwork.description.linkage_reach import checked_motion, explain_redundant, with_crank_range, with_starts
+from crankwork.description.positions_build import branches_from_positions, position_notices
+from crankwork.description.redundant_build import fitting, geometry_of, without_redundant, without_unshared
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
-from crankwork.description.wheel_build import read_wheel
+from crankwork.description.wheel_build import read_flywheel
 from crankwork.dynamics.tabulated import TabulatedBody
 from crankwork.kinematics.memory import remembered_motion
 from crankwork.loads.damper import Damper, SliderDamper
@@ -60,10 +60,10 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     linkage, problems = linkage_from(tables)
     mechanism, notices = None, tuple[tuple[str, dict[str, float | str]], ...]()
     if linkage is not None:
-        linkage, carried = without_unshared(*taken_out(linkage, values, reader))
-        found = settled(linkage)
-        mechanism, problems = found.mechanism, told_redundant(linkage, found.problems)
-        notices = tuple(told_positions(tables, linkage, found, reader, is_new=values["format"] > 1))
+        linkage, carried = without_unshared(*without_redundant(linkage, values, reader))
+        branched = branches_from_positions(linkage)
+        mechanism, problems = branched.mechanism, explain_redundant(linkage, branched.problems)
+        notices = tuple(position_notices(tables, linkage, branched, reader, is_new=values["format"] > 1))
     for problem in problems:
         reader.complain(problem.key or "links", problem.message)
     method = build_method(values["method"], reader)
@@ -78,13 +78,13 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     transient = _transient(values, reader)
     if reader.problems or mechanism is None or linkage is None:
         return None
-    mechanism, way = way_if_assembled(mechanism)
+    mechanism, crank_range = with_crank_range(mechanism)
     redundant = fitting(linkage, carried, values, reader)
     if reader.problems:
         return None
     friction = build_friction(values, linkage, mechanism, reader)
     notices += tuple(_on_pins(loads, linkage, mechanism))
-    loads = with_starts(loads, values, mechanism, way)
+    loads = with_starts(loads, values, mechanism, crank_range)
     if values["method"]["weights"]:
         loads = (*loads, Weight(method.gravity))
     crank, table = values["crank"], values["table"]
@@ -97,7 +97,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         loads=loads,
         redundant=redundant,
         friction=friction,
-        way=way,
+        way=crank_range,
         notices=notices,
         chambers=chambers,
         charges=charges,
@@ -119,11 +119,11 @@ def _drive(values: Values, method: Method, reader: Reader) -> Drive:
     speed = crank_speed(crank["speed"], method) if "speed" in crank else None
     if "recovery" in flywheel:
         reader.complain("flywheel.recovery", Refusal("recovery_of_linkage"))
-    return read_wheel(flywheel, read_drive(values, reader), speed, reader, pi=method.pi)
+    return read_flywheel(flywheel, read_drive(values, reader), speed, reader, pi=method.pi)
 
 
 def _weighs(values: Values) -> bool:
-    """Return whether the inertia of the crank is that of a body among the others."""
+    """Return whether the crank is a body with mass among the others."""
     return "driver" in values or not {"mass", "centre"}.isdisjoint(values["crank"])
 
 
@@ -131,28 +131,30 @@ def _geometry(values: Values, reader: Reader) -> dict[str, Any]:
     """Return the tables that describe the linkage, and its driver with its law."""
     tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
     if "links" in tables:
-        tables["links"] = {name: geometry_of(one) for name, one in tables["links"].items()}
+        tables["links"] = {name: geometry_of(link) for name, link in tables["links"].items()}
     if "crank" in tables:
-        # what a crank alone weighs it bears at its pivot; what turns besides does not
+        # an inertia without a mass belongs to the drive, not to the crank
         elsewhere = _RATES if _weighs(values) else (*_RATES, "inertia")
-        tables["crank"] = {name: one for name, one in tables["crank"].items() if name not in elsewhere}
+        tables["crank"] = {name: value for name, value in tables["crank"].items() if name not in elsewhere}
     if "driver" in values:
         check_driver(values, reader)
         check_halves(values, reader)
-        named = {name: _plain(one) for name, one in values["driver"].items() if name not in ("start", "period", "law")}
+        named = {
+            name: _plain(value) for name, value in values["driver"].items() if name not in ("start", "period", "law")
+        }
         tables["driver"] = {**named, "law": build_law(values, reader)}
     return tables
 
 
 def _table_step(given: float | None, law: Law | None) -> float:
-    """Return the step of the tables [deg], given as an angle, or as a part of the period of a law."""
+    """Return the step of the tables [deg], stated as an angle, or as a time of a driver with a law."""
     if law is None:
         return round(math.degrees(given or 0.0), 9)
     return 10.0 if given is None else min(360.0 * given / law.period, 360.0)
 
 
 def _is_filled(machine: Machine, values: Values, reader: Reader) -> bool:
-    """Complain of gas that does not suit the volumes of its chambers."""
+    """Return whether the gas suits the volumes of its chambers; report if not."""
     if not machine.chambers:
         return True
     reached = reachable(machine, _STEP)
@@ -211,15 +213,12 @@ def build_tabulated(values: Values, reader: Reader) -> Machine | None:
 
 
 def _body(name: str, body: Values, count: int, reader: Reader) -> TabulatedBody:
-    """Return a body of a table of transfer functions; complain where it has not a value for each position."""
+    """Return a body of a table of transfer functions; report columns of a wrong length."""
     columns = {key: tuple(_plain(body[key])) for key in ("velocity", "rotation") if key in body}
     for key, column in columns.items():
         _check_count(f"transfer.bodies.{name}.{key}", column, count, reader)
     if not columns:
-        reader.complain(
-            f"transfer.bodies.{name}",
-            Refusal("body_still"),
-        )
+        reader.complain(f"transfer.bodies.{name}", Refusal("body_still"))
     still = (0.0,) * count
     return TabulatedBody(
         name, body.si("mass"), body.si("inertia"),
@@ -239,7 +238,7 @@ def _transient(values: Values, reader: Reader) -> Transient | None:
     has_motor = "motor" in values
     if table["motor"] and not has_motor:
         reader.complain("transient.motor", Refusal("transient_motorless"))
-    start, ends = table.si("start"), tuple(one.value for one in table["stops"] or ())
+    start, ends = table.si("start"), tuple(stop.value for stop in table["stops"] or ())
     if ends and not (ends[0] <= start <= ends[1] and ends[0] < ends[1]):
         reader.complain("transient.stops", Refusal("transient_stops"))
     rows = table.si("time") / table.si("step") if table["step"] and table["time"] else 0.0
@@ -251,24 +250,24 @@ def _transient(values: Values, reader: Reader) -> Transient | None:
         motor=has_motor and table.get("motor", "torque" not in table),
         stops=ends or (-math.inf, math.inf),
         restitution=table["restitution"] or 0.0,
-        speeds=tuple(one.value for one in table["speeds"] or ()),
+        speeds=tuple(speed.value for speed in table["speeds"] or ()),
     )
     return transient
 
 
 def _loads(values: Values, linkage: Linkage | None, reader: Reader) -> tuple[Load, ...]:
-    made = []
-    for number, one in enumerate(values["loads"], start=1):
-        if one and "kind" in one and _check_load(f"loads[{number}]", one, linkage, reader):
+    loads = []
+    for number, load in enumerate(values["loads"], start=1):
+        if load and "kind" in load and _check_load(f"loads[{number}]", load, linkage, reader):
             try:
-                made.append(_load(one))
+                loads.append(_load(load))
             except ValueError as error:
                 reader.complain(f"loads[{number}]", error.args[0])
-    return tuple(made)
+    return tuple(loads)
 
 
 def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader) -> bool:
-    """Complain of ends of springs, of tables that are none, and of names that stand for nothing."""
+    """Return whether ends of springs, tables and names of a load are valid; report mistakes."""
     if load["kind"] in _ENDED and ("between" in load) == ("slider" in load):
         reader.complain(f"{key}.between", Refusal(f"{load['kind']}_ends"))
     if len(set(load["between"] or "  x")) < 2:
@@ -280,9 +279,9 @@ def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader)
 
 
 def _check_names(key: str, load: Values, linkage: Linkage, reader: Reader) -> None:
-    """Complain of sliders, links and points that are not there, and of a point that is not on the link."""
-    names = {"slider": {one.name for one in (*linkage.members, linkage.driving) if one.guide},
-             "link": {one.name for one in linkage.members} | linkage.base - {GROUND},
+    """Report unknown sliders, links and points, and a point that is not on the link."""
+    names = {"slider": {member.name for member in (*linkage.members, linkage.driving) if member.guide},
+             "link": {member.name for member in linkage.members} | linkage.base - {GROUND},
              "point": set(linkage.owners)}  # fmt: skip
     for name, known in names.items():
         if name in load and load[name] not in known:
@@ -297,16 +296,16 @@ def _check_names(key: str, load: Values, linkage: Linkage, reader: Reader) -> No
     for where, point, link in ends:
         owners = linkage.owners.get(point, [])
         if owners and link not in owners:
-            told = Refusal("load_elsewhere", point=point, link=link, owners=", ".join(owners))
-            reader.complain(f"{key}.{where}", told)
+            message = Refusal("load_elsewhere", point=point, link=link, owners=", ".join(owners))
+            reader.complain(f"{key}.{where}", message)
 
 
 def _on_pins(
     loads: Iterable[Load], linkage: Linkage, mechanism: Mechanism
 ) -> Iterator[tuple[str, dict[str, float | str]]]:
-    """Yield notices of loads at pins of several links of which none is named, and which is taken."""
-    bearer = bearers(mechanism)
-    # the third side of a triangle that a motor opens is no link
+    """Yield notices of loads at pins of several links if no link is named, with the link assumed."""
+    first_links = bearers(mechanism)
+    # the third side of a triangle that a motor drives is not a link
     no_link = mechanism.driver.link if isinstance(mechanism.driver, LinkMotor) else ""
     for number, load in enumerate(loads, start=1):
         match load:
@@ -317,31 +316,31 @@ def _on_pins(
             case _:
                 continue
         for point, link in ends:
-            owners = [one for one in linkage.owners[point] if one != no_link]
+            owners = [owner for owner in linkage.owners[point] if owner != no_link]
             if not link and len(owners) > 1 and GROUND not in owners:
                 yield "load_on_pin", {
-                    "load": f"loads[{number}]", "point": point, "owners": ", ".join(owners), "link": bearer[point],
+                    "load": f"loads[{number}]", "point": point, "owners": ", ".join(owners), "link": first_links[point],
                     "field": key,
                 }  # fmt: skip
 
 
 def _check_table(key: str, load: Values, reader: Reader) -> None:
-    """Complain of a table of a load whose columns do not match, do not rise, or count by the wrong quantity."""
+    """Report a table of a load with columns that differ in length, do not rise, or have a wrong dimension."""
     column = "torque" if load["kind"] == "torque" else "force"
-    values, at = load[column], load.get("at")
-    if None in values or at is None or None in at:
-        if at is None and len(values) > 1:
+    values, abscissas = load[column], load.get("at")
+    if None in values or abscissas is None or None in abscissas:
+        if abscissas is None and len(values) > 1:
             reader.complain(f"{key}.at", Refusal("load_at_missing", count=len(values), column=column))
         return
     wanted = "angle" if column == "torque" or load["against"] == "angle" else "length"
-    if any(one.dimension != wanted for one in at):
+    if any(abscissa.dimension != wanted for abscissa in abscissas):
         reader.complain(f"{key}.at", Refusal(f"load_at_{wanted}"))
-    elif any(after.value <= before.value for before, after in itertools.pairwise(at)):
+    elif any(after.value <= before.value for before, after in itertools.pairwise(abscissas)):
         reader.complain(f"{key}.at", Refusal("load_at_rises"))
-    elif wanted == "angle" and at[-1].value - at[0].value > _REVOLUTION:
+    elif wanted == "angle" and abscissas[-1].value - abscissas[0].value > _REVOLUTION:
         reader.complain(f"{key}.at", Refusal("load_at_turn"))
-    if len(at) != len(values):
-        reader.complain(f"{key}.at", Refusal("load_at_count", count=len(at), others=len(values), column=column))
+    if len(abscissas) != len(values):
+        reader.complain(f"{key}.at", Refusal("load_at_count", count=len(abscissas), others=len(values), column=column))
 
 
 def _load(load: Values) -> Load:
@@ -365,7 +364,7 @@ def _load(load: Values) -> Load:
 
 
 def _ends(load: Values) -> dict[str, str]:
-    """Return the points that a spring or damper joins, and the links that are named there."""
+    """Return the points that a spring or damper joins, and the links named for them."""
     named = zip(("start", "end", "start_link", "end_link"), (*load["between"], *(load["links"] or ())), strict=False)
     return dict(named)
 
@@ -376,18 +375,18 @@ def _curve(load: Values, key: str) -> LoadTable:
     smooth = load["curve"] == "smooth"
     if "at" not in load:
         return LoadTable((-1e3, 1e3), (values[0], values[0]))
-    at = tuple(_plain(load["at"]))
+    abscissas = tuple(_plain(load["at"]))
     period = 2 * math.pi if load["against"] == "angle" or load["kind"] == "torque" else 0.0
-    return LoadTable(at, values, "monotone" if smooth else "linear", period)
+    return LoadTable(abscissas, values, "monotone" if smooth else "linear", period)
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, as the file has them
     """Return values with every quantity as its SI number."""
     match value:
-        case Measure():
+        case MeasuredValue():
             return value.value
         case dict():
-            return {name: _plain(one) for name, one in value.items()}
+            return {name: _plain(item) for name, item in value.items()}
         case list():
-            return [_plain(one) for one in value]
+            return [_plain(item) for item in value]
     return value

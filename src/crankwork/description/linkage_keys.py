@@ -19,7 +19,7 @@ from crankwork.description.keys import (
     TITLE,
 )
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
-from crankwork.description.schema import Key, ListOf, Named, NameOr, Nested, NumberOr, Table
+from crankwork.description.schema import KeySpec, ListOf, MapOf, NameOr, Nested, NumberOr, TableSpec
 from crankwork.mechanism.driver import LawKind
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -31,275 +31,275 @@ _SPEED = Quantity(("speed",), 1e-6, 3e4)
 _TORQUE = Quantity(("torque",), -1e9, 1e9)
 _FORCE = Quantity(("force",), -1e9, 1e9)
 _NAME = Text(60)
-_NO_ANGLE = Key(_ANGLE, default="0 deg")
-_INERTIA = Key(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2")
-# of what turns about a pivot all of it counts, and a mass has the inertia of its distance
-_TURNING = {"mass": Key(Quantity(("mass",), 1e-9, 1e6)), "inertia": _INERTIA._replace(default=None),
-            "centre": Key(NameOr(_PLACE))}  # fmt: skip
+_NO_ANGLE = KeySpec(_ANGLE, default="0 deg")
+_INERTIA = KeySpec(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2")
+# bodies that turn about a pivot: all inertia counts, also that of the mass at its distance
+_TURNING = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "inertia": _INERTIA._replace(default=None),
+            "centre": KeySpec(NameOr(_PLACE))}  # fmt: skip
 _MASS = {**_TURNING, "inertia": _INERTIA._replace(only={"mass": ()})}
 
-_CRANK = Table("driving", {
-    "pivot": Key(_NAME, required=True),
-    "pin": Key(_NAME, required=True),
-    "radius": Key(_LENGTH, required=True),
-    "speed": Key(_SPEED, required=True),
+_CRANK = TableSpec("driving", {
+    "pivot": KeySpec(_NAME, required=True),
+    "pin": KeySpec(_NAME, required=True),
+    "radius": KeySpec(_LENGTH, required=True),
+    "speed": KeySpec(_SPEED, required=True),
     "angular_acceleration": NO_ACCELERATION,
     "start": _NO_ANGLE,
-    "direction": Key(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
-    "points": Key(Named(_PLACE)),
+    "direction": KeySpec(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
+    "points": KeySpec(MapOf(_PLACE)),
     **_TURNING,
-    "from": Key(_ANGLE),
-    "to": Key(_ANGLE),
+    "from": KeySpec(_ANGLE),
+    "to": KeySpec(_ANGLE),
 })  # fmt: skip
 
 _COORDINATE_OF_DRIVER = Quantity(("length", "angle"), -1e3, 1e3)
 _TIME = Quantity(("time",), 1e-6, 1e6)
 
-_BY_TABLE, _MOVES = {"kind": ("table",)}, {"kind": tuple(one for one in get_args(LawKind) if one != "dwell")}
-_SEGMENT = Table("segment", {
-    "kind": Key(Choice(get_args(LawKind)), required=True),
-    "to": Key(_COORDINATE_OF_DRIVER, only=_MOVES),
-    "over": Key(NumberOr(_TIME, Number(0.0, 1.0, above=True)), required=True, instead_of=("speed",)),
-    "speed": Key(Quantity(("velocity", "speed"), 0.0, 3e4, above=True), instead_of=("over",),
+_BY_TABLE, _MOVES = {"kind": ("table",)}, {"kind": tuple(kind for kind in get_args(LawKind) if kind != "dwell")}
+_SEGMENT = TableSpec("segment", {
+    "kind": KeySpec(Choice(get_args(LawKind)), required=True),
+    "to": KeySpec(_COORDINATE_OF_DRIVER, only=_MOVES),
+    "over": KeySpec(NumberOr(_TIME, Number(0.0, 1.0, above=True)), required=True, instead_of=("speed",)),
+    "speed": KeySpec(Quantity(("velocity", "speed"), 0.0, 3e4, above=True), instead_of=("over",),
                  only={"kind": ("constant",)}),
-    "ramp": Key(Number(0.0, 0.5, above=True), default=1 / 3, only={"kind": ("trapezoidal",)}),
-    "at": Key(ListOf(Number(0.0, 1.0)), only=_BY_TABLE),
-    "values": Key(ListOf(_COORDINATE_OF_DRIVER), only=_BY_TABLE),
+    "ramp": KeySpec(Number(0.0, 0.5, above=True), default=1 / 3, only={"kind": ("trapezoidal",)}),
+    "at": KeySpec(ListOf(Number(0.0, 1.0)), only=_BY_TABLE),
+    "values": KeySpec(ListOf(_COORDINATE_OF_DRIVER), only=_BY_TABLE),
 })  # fmt: skip
 
-_HALF = Table("half", {
-    "mass": Key(Quantity(("mass",), 1e-9, 1e6), required=True),
+_HALF = TableSpec("half", {
+    "mass": KeySpec(Quantity(("mass",), 1e-9, 1e6), required=True),
     "inertia": _INERTIA,
-    "centre": Key(_PLACE, required=True),
+    "centre": KeySpec(_PLACE, required=True),
 })  # fmt: skip
 
-_DRIVER = Table("driver", {
-    "slider": Key(_NAME),
-    "cylinder": Key(ListOf(_NAME, fewest=2, most=2)),
-    "barrel": Key(_HALF),
-    "rod": Key(_HALF),
-    "between": Key(ListOf(_NAME, fewest=2, most=2)),
-    "start": Key(_COORDINATE_OF_DRIVER),
-    "law": Key(ListOf(_SEGMENT, fewest=1, most=100), required=True),
-    "period": Key(_TIME),
+_DRIVER = TableSpec("driver", {
+    "slider": KeySpec(_NAME),
+    "cylinder": KeySpec(ListOf(_NAME, fewest=2, most=2)),
+    "barrel": KeySpec(_HALF),
+    "rod": KeySpec(_HALF),
+    "between": KeySpec(ListOf(_NAME, fewest=2, most=2)),
+    "start": KeySpec(_COORDINATE_OF_DRIVER),
+    "law": KeySpec(ListOf(_SEGMENT, fewest=1, most=100), required=True),
+    "period": KeySpec(_TIME),
 })  # fmt: skip
 
-_GEARED = Table("geared", {
-    "pivot": Key(_NAME, required=True),
-    "ratio": Key(Number(-1e3, 1e3), required=True),
+_GEARED = TableSpec("geared", {
+    "pivot": KeySpec(_NAME, required=True),
+    "ratio": KeySpec(Number(-1e3, 1e3), required=True),
     "start": _NO_ANGLE,
-    "points": Key(Named(_PLACE), required=True),
-    "pressure_angle": Key(Quantity(("angle",), 0.0, math.radians(45))),
+    "points": KeySpec(MapOf(_PLACE), required=True),
+    "pressure_angle": KeySpec(Quantity(("angle",), 0.0, math.radians(45))),
     **_TURNING,
 })  # fmt: skip
 
-_LINK = Table("link", {
-    "joins": Key(ListOf(_NAME, fewest=2), required=True),
-    "length": Key(_LENGTH),
-    "points": Key(Named(_PLACE)),
-    "share": Key(Number(-1e3, 1e3)),
-    "of": Key(_NAME),
+_LINK = TableSpec("link", {
+    "joins": KeySpec(ListOf(_NAME, fewest=2), required=True),
+    "length": KeySpec(_LENGTH),
+    "points": KeySpec(MapOf(_PLACE)),
+    "share": KeySpec(Number(-1e3, 1e3)),
+    "of": KeySpec(_NAME),
     **_MASS,
 })  # fmt: skip
 
-_SLIDER = Table("slider", {
-    "guide": Key(_NAME, required=True),
-    "pin": Key(_NAME),
-    "points": Key(Named(_PLACE)),
+_SLIDER = TableSpec("slider", {
+    "guide": KeySpec(_NAME, required=True),
+    "pin": KeySpec(_NAME),
+    "points": KeySpec(MapOf(_PLACE)),
     **_MASS,
 })  # fmt: skip
 
-_GUIDE = Table("guide", {
-    "through": Key(NameOr(_PLACE), default=["0 mm", "0 mm"]),
+_GUIDE = TableSpec("guide", {
+    "through": KeySpec(NameOr(_PLACE), default=["0 mm", "0 mm"]),
     "angle": _NO_ANGLE,
-    "link": Key(_NAME),
+    "link": KeySpec(_NAME),
 })  # fmt: skip
 
 _PROCESS, _PUSH, _TURNS, _SPRING, _DAMPER = (
-    {"kind": (one,)} for one in ("process", "force", "torque", "spring", "damper")
+    {"kind": (kind,)} for kind in ("process", "force", "torque", "spring", "damper")
 )
 _BY_COLUMN, _BETWEEN = {"kind": ("process", "torque")}, {"kind": ("spring", "damper")}
-_LOAD = Table("load", {
-    "kind": Key(Choice(("process", "force", "torque", "spring", "damper")), required=True),
-    "slider": Key(_NAME, required=("process",), only={"kind": ("process", "spring", "damper")}),
-    "point": Key(_NAME, required=True, only=_PUSH),
-    "link": Key(_NAME, required=("torque",), only={"kind": ("force", "torque")}),
-    "between": Key(ListOf(_NAME, fewest=2, most=2), only=_BETWEEN),
-    "links": Key(ListOf(_NAME, fewest=2, most=2), only={"between": ()}),
-    "x": Key(_FORCE, default="0 N", only=_PUSH),
-    "y": Key(_FORCE, default="0 N", only=_PUSH),
-    "against": Key(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
-    "file": Key(Text(1000), only=_BY_COLUMN),
+_LOAD = TableSpec("load", {
+    "kind": KeySpec(Choice(("process", "force", "torque", "spring", "damper")), required=True),
+    "slider": KeySpec(_NAME, required=("process",), only={"kind": ("process", "spring", "damper")}),
+    "point": KeySpec(_NAME, required=True, only=_PUSH),
+    "link": KeySpec(_NAME, required=("torque",), only={"kind": ("force", "torque")}),
+    "between": KeySpec(ListOf(_NAME, fewest=2, most=2), only=_BETWEEN),
+    "links": KeySpec(ListOf(_NAME, fewest=2, most=2), only={"between": ()}),
+    "x": KeySpec(_FORCE, default="0 N", only=_PUSH),
+    "y": KeySpec(_FORCE, default="0 N", only=_PUSH),
+    "against": KeySpec(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
+    "file": KeySpec(Text(1000), only=_BY_COLUMN),
     "sheet": SHEET,
-    "at": Key(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, from_file=True), only=_BY_COLUMN),
-    "force": Key(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
-    "torque": Key(ListOf(_TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
-    "curve": Key(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
-    "stroke": Key(Choice(("growing", "falling")), default="growing", only=_PROCESS),
-    "start": Key(_COORDINATE, only=_PROCESS),
-    "acts": Key(Choice(("forward", "both")), default="forward", only=_PROCESS),
-    "stiffness": Key(Quantity(("stiffness",), 0.0, 1e12), required=True, only=_SPRING),
-    "free_length": Key(Quantity(("length",), 0.0, 1e3), default="0 mm", only=_SPRING),
-    "preload": Key(_FORCE, default="0 N", only=_SPRING),
-    "damping": Key(Quantity(("damping",), 0.0, 1e12), required=True, only=_DAMPER),
+    "at": KeySpec(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, from_file=True), only=_BY_COLUMN),
+    "force": KeySpec(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
+    "torque": KeySpec(ListOf(_TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
+    "curve": KeySpec(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
+    "stroke": KeySpec(Choice(("growing", "falling")), default="growing", only=_PROCESS),
+    "start": KeySpec(_COORDINATE, only=_PROCESS),
+    "acts": KeySpec(Choice(("forward", "both")), default="forward", only=_PROCESS),
+    "stiffness": KeySpec(Quantity(("stiffness",), 0.0, 1e12), required=True, only=_SPRING),
+    "free_length": KeySpec(Quantity(("length",), 0.0, 1e3), default="0 mm", only=_SPRING),
+    "preload": KeySpec(_FORCE, default="0 N", only=_SPRING),
+    "damping": KeySpec(Quantity(("damping",), 0.0, 1e12), required=True, only=_DAMPER),
 })  # fmt: skip
 
-_COEFFICIENT = Key(Number(0.0, 1.0, told="coefficient"), default=0.0)
-_RUBBING_PIN = Table("rubbing", {
+_COEFFICIENT = KeySpec(Number(0.0, 1.0, message_kind="coefficient"), default=0.0)
+_PIN_FRICTION = TableSpec("rubbing", {
     "coefficient": _COEFFICIENT,
-    "radius": Key(Quantity(("length",), 0.0, 10.0), required=True, only={"coefficient": ()}),
-    "moment": Key(Quantity(("torque",), 0.0, 1e9), default="0 N*m"),
-    "damping": Key(Quantity(("angular_damping",), 0.0, 1e9), default="0 N*m*s/rad"),
+    "radius": KeySpec(Quantity(("length",), 0.0, 10.0), required=True, only={"coefficient": ()}),
+    "moment": KeySpec(Quantity(("torque",), 0.0, 1e9), default="0 N*m"),
+    "damping": KeySpec(Quantity(("angular_damping",), 0.0, 1e9), default="0 N*m*s/rad"),
 })  # fmt: skip
-_RUBBING_SLIDER = Table("rubbing_slider", {
+_SLIDER_FRICTION = TableSpec("rubbing_slider", {
     "coefficient": _COEFFICIENT,
-    "length": Key(_LENGTH, only={"coefficient": ()}),
-    "force": Key(Quantity(("force",), 0.0, 1e9), default="0 N"),
-    "damping": Key(Quantity(("damping",), 0.0, 1e12), default="0 N*s/m"),
+    "length": KeySpec(_LENGTH, only={"coefficient": ()}),
+    "force": KeySpec(Quantity(("force",), 0.0, 1e9), default="0 N"),
+    "damping": KeySpec(Quantity(("damping",), 0.0, 1e12), default="0 N*s/m"),
 })  # fmt: skip
-_FRICTION = Table("friction", {
-    "circle": Key(Choice(("tangent", "sine")), default="tangent"),
-    "pins": Key(Named(_RUBBING_PIN, most=500)),
-    "sliders": Key(Named(_RUBBING_SLIDER, most=300)),
-})  # fmt: skip
-
-EFFICIENCY = Table("efficiency", {
-    "chain": Key(Nested(Number(0.001, 1.0)), required=True),
-    "decimals": Key(Number(1, 6, whole=True)),
-    "losses": Key(Choice(("drive", "machine"))),
+_FRICTION = TableSpec("friction", {
+    "circle": KeySpec(Choice(("tangent", "sine")), default="tangent"),
+    "pins": KeySpec(MapOf(_PIN_FRICTION, most=500)),
+    "sliders": KeySpec(MapOf(_SLIDER_FRICTION, most=300)),
 })  # fmt: skip
 
-_MOTOR = Table("motor", {
-    "rated_power": Key(Quantity(("power",), 1e-3, 1e9), required=True),
-    "rated_speed": Key(_SPEED, required=True),
-    "overload": Key(Number(1.01, 10.0), required=True),
-    "pole_pairs": Key(Number(1, 24, whole=True), required=True),
-    "frequency": Key(_SPEED, default="50 Hz"),
-    "ratio": Key(Number(1e-4, 1e4), default=1.0),
+EFFICIENCY = TableSpec("efficiency", {
+    "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True),
+    "decimals": KeySpec(Number(1, 6, whole=True)),
+    "losses": KeySpec(Choice(("drive", "machine"))),
+})  # fmt: skip
+
+_MOTOR = TableSpec("motor", {
+    "rated_power": KeySpec(Quantity(("power",), 1e-3, 1e9), required=True),
+    "rated_speed": KeySpec(_SPEED, required=True),
+    "overload": KeySpec(Number(1.01, 10.0), required=True),
+    "pole_pairs": KeySpec(Number(1, 24, whole=True), required=True),
+    "frequency": KeySpec(_SPEED, default="50 Hz"),
+    "ratio": KeySpec(Number(1e-4, 1e4), default=1.0),
     "inertia": _INERTIA,
 })  # fmt: skip
 
 _ANY_SPEED = Quantity(("speed",), -3e4, 3e4)
 _ANY_ANGLE = Quantity(("angle",), -1e4, 1e4)
-_TRANSIENT = Table("transient", {
-    "time": Key(_TIME, required=True),
-    "torque": Key(_TORQUE),
-    "motor": Key(Flag()),
+_TRANSIENT = TableSpec("transient", {
+    "time": KeySpec(_TIME, required=True),
+    "torque": KeySpec(_TORQUE),
+    "motor": KeySpec(Flag()),
     "start": _NO_ANGLE,
-    "speed": Key(_ANY_SPEED, default="0 rpm"),
-    "until": Key(Choice(("time", "rest", "steady")), default="time"),
-    "step": Key(_TIME),
-    "speeds": Key(ListOf(_ANY_SPEED, most=20)),
-    "stops": Key(ListOf(_ANY_ANGLE, fewest=2, most=2)),
-    "restitution": Key(Number(0.0, 1.0), default=0.0, only={"stops": ()}),
+    "speed": KeySpec(_ANY_SPEED, default="0 rpm"),
+    "until": KeySpec(Choice(("time", "rest", "steady")), default="time"),
+    "step": KeySpec(_TIME),
+    "speeds": KeySpec(ListOf(_ANY_SPEED, most=20)),
+    "stops": KeySpec(ListOf(_ANY_ANGLE, fewest=2, most=2)),
+    "restitution": KeySpec(Number(0.0, 1.0), default=0.0, only={"stops": ()}),
 })  # fmt: skip
 
 _PRESSURE = Quantity(("pressure",), -1e8, 1e10)
 _ABSOLUTE = Quantity(("pressure",), 1.0, 1e10)
-_TEMPERATURE = Key(Quantity(("temperature",), 1.0, 1e4))
+_TEMPERATURE = KeySpec(Quantity(("temperature",), 1.0, 1e4))
 _FACE = {
-    "slider": Key(_NAME),
-    "bore": Key(_LENGTH, instead_of=("area",)),
-    "rod_diameter": Key(_LENGTH),
-    "area": Key(Quantity(("area",), 1e-12, 1e4), instead_of=("bore",)),
-    "sense": Key(Choice((1, -1)), default=1),
+    "slider": KeySpec(_NAME),
+    "bore": KeySpec(_LENGTH, instead_of=("area",)),
+    "rod_diameter": KeySpec(_LENGTH),
+    "area": KeySpec(Quantity(("area",), 1e-12, 1e4), instead_of=("bore",)),
+    "sense": KeySpec(Choice((1, -1)), default=1),
 }
 _OF_FACE = tuple(_FACE)
 
-_CHAMBER = Table("chamber", {
+_CHAMBER = TableSpec("chamber", {
     **_FACE,
-    "faces": Key(ListOf(Table("chamber", _FACE), fewest=1, most=20), instead_of=_OF_FACE),
-    "clearance_volume": Key(Quantity(("volume",), 0.0, 1e3), instead_of=("compression_ratio",)),
-    "compression_ratio": Key(Number(1.0001, 1e4), instead_of=("clearance_volume",)),
-    "period": Key(Choice(("360 deg", "720 deg")), default="360 deg"),
-    "ambient": Key(Quantity(("pressure",), 0.0, 1e10), default=AMBIENT),
-    "pressure": Key(_PRESSURE, instead_of=("points", "pieces", "measured", "cycle")),
-    "pressure_factor": Key(Number(0.0, 10.0), default=1.0),
+    "faces": KeySpec(ListOf(TableSpec("chamber", _FACE), fewest=1, most=20), instead_of=_OF_FACE),
+    "clearance_volume": KeySpec(Quantity(("volume",), 0.0, 1e3), instead_of=("compression_ratio",)),
+    "compression_ratio": KeySpec(Number(1.0001, 1e4), instead_of=("clearance_volume",)),
+    "period": KeySpec(Choice(("360 deg", "720 deg")), default="360 deg"),
+    "ambient": KeySpec(Quantity(("pressure",), 0.0, 1e10), default=AMBIENT),
+    "pressure": KeySpec(_PRESSURE, instead_of=("points", "pieces", "measured", "cycle")),
+    "pressure_factor": KeySpec(Number(0.0, 10.0), default=1.0),
     "pressures": PRESSURES,
     **DIAGRAM,
-    "valves": Key(PIPED_VALVES, instead_of=(*DIAGRAM, "pressure", "cycle"),
+    "valves": KeySpec(PIPED_VALVES, instead_of=(*DIAGRAM, "pressure", "cycle"),
                   only={"pressures": ("absolute",), "period": ("360 deg",)}),
-    "cycle": Key(HEAT_RELEASE, instead_of=("points", "pieces", "measured", "pressure")),
-    "delay": Key(_TURN),
+    "cycle": KeySpec(HEAT_RELEASE, instead_of=("points", "pieces", "measured", "pressure")),
+    "delay": KeySpec(_TURN),
     "temperature": _TEMPERATURE,
 })  # fmt: skip
 
-_DEAD_VOLUME = Table("dead_volume", {
-    "volume": Key(Quantity(("volume",), 1e-15, 1e3), required=True),
+_DEAD_VOLUME = TableSpec("dead_volume", {
+    "volume": KeySpec(Quantity(("volume",), 1e-15, 1e3), required=True),
     "temperature": _TEMPERATURE,
 })  # fmt: skip
 
-_CHARGE = Table("charge", {
-    "chambers": Key(ListOf(_NAME, fewest=1, most=20), required=True),
-    "dead_volumes": Key(ListOf(_DEAD_VOLUME, most=50)),
-    "gas_constant": Key(Quantity(("specific_heat",), 1.0, 1e5)),
-    "exponent": Key(Number(0.0, 5.0)),
-    "mean_pressure": Key(_ABSOLUTE, instead_of=("pressure", "mass")),
-    "pressure": Key(_ABSOLUTE, instead_of=("mean_pressure", "mass")),
-    "angle": Key(_TURN, default="0 deg", only={"pressure": ()}),
-    "mass": Key(Quantity(("mass",), 1e-12, 1e6), instead_of=("mean_pressure", "pressure")),
+_CHARGE = TableSpec("charge", {
+    "chambers": KeySpec(ListOf(_NAME, fewest=1, most=20), required=True),
+    "dead_volumes": KeySpec(ListOf(_DEAD_VOLUME, most=50)),
+    "gas_constant": KeySpec(Quantity(("specific_heat",), 1.0, 1e5)),
+    "exponent": KeySpec(Number(0.0, 5.0)),
+    "mean_pressure": KeySpec(_ABSOLUTE, instead_of=("pressure", "mass")),
+    "pressure": KeySpec(_ABSOLUTE, instead_of=("mean_pressure", "mass")),
+    "angle": KeySpec(_TURN, default="0 deg", only={"pressure": ()}),
+    "mass": KeySpec(Quantity(("mass",), 1e-12, 1e6), instead_of=("mean_pressure", "pressure")),
 })  # fmt: skip
 
-LINKAGE_FILE = Table("file", {
+LINKAGE_FILE = TableSpec("file", {
     **TITLE,
     "document": document_keys.LINKAGE,
-    "fixed_points": Key(Named(_PLACE)),
-    "crank": Key(_CRANK, required=True),
-    "geared": Key(Named(_GEARED, most=50)),
-    "links": Key(Named(_LINK, most=500)),
-    "guides": Key(Named(_GUIDE)),
-    "sliders": Key(Named(_SLIDER, most=300)),
-    "branch": Key(Named(Choice((1, -1)))),
-    "positions": Key(Named(_PLACE)),
-    "loads": Key(ListOf(_LOAD)),
-    "friction": Key(_FRICTION),
-    "chambers": Key(Named(_CHAMBER, most=50)),
-    "charges": Key(Named(_CHARGE, most=20)),
-    "efficiency": Key(EFFICIENCY),
-    "motor": Key(_MOTOR),
-    "flywheel": Key(FLYWHEEL),
-    "transient": Key(_TRANSIENT),
-    "method": Key(METHOD),
-    "table": Key(TABLE),
+    "fixed_points": KeySpec(MapOf(_PLACE)),
+    "crank": KeySpec(_CRANK, required=True),
+    "geared": KeySpec(MapOf(_GEARED, most=50)),
+    "links": KeySpec(MapOf(_LINK, most=500)),
+    "guides": KeySpec(MapOf(_GUIDE)),
+    "sliders": KeySpec(MapOf(_SLIDER, most=300)),
+    "branch": KeySpec(MapOf(Choice((1, -1)))),
+    "positions": KeySpec(MapOf(_PLACE)),
+    "loads": KeySpec(ListOf(_LOAD)),
+    "friction": KeySpec(_FRICTION),
+    "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
+    "charges": KeySpec(MapOf(_CHARGE, most=20)),
+    "efficiency": KeySpec(EFFICIENCY),
+    "motor": KeySpec(_MOTOR),
+    "flywheel": KeySpec(FLYWHEEL),
+    "transient": KeySpec(_TRANSIENT),
+    "method": KeySpec(METHOD),
+    "table": KeySpec(TABLE),
 })  # fmt: skip
 
-# a crank that follows a law has no speed of its own, and other drivers have no crank
+# a crank with a law has no speed, and other drivers have no crank
 DRIVEN_FILE = LINKAGE_FILE._replace(keys={
     **LINKAGE_FILE.keys,
-    "crank": Key(_CRANK._replace(keys={
+    "crank": KeySpec(_CRANK._replace(keys={
         **{name: key._replace(required=False) for name, key in _CRANK.keys.items()},
         "angular_acceleration": NO_ACCELERATION._replace(default=None),
     })),
-    "charges": Key(Named(_CHARGE._replace(keys={**_CHARGE.keys, "angle": Key(_TURN)}), most=20)),
-    "driver": Key(_DRIVER, required=True),
-    "table": Key(Table("table", {"step": Key(_TIME)})),
+    "charges": KeySpec(MapOf(_CHARGE._replace(keys={**_CHARGE.keys, "angle": KeySpec(_TURN)}), most=20)),
+    "driver": KeySpec(_DRIVER, required=True),
+    "table": KeySpec(TableSpec("table", {"step": KeySpec(_TIME)})),
 })  # fmt: skip
 
-_BODY = Table("body", {
-    "mass": Key(Quantity(("mass",), 0.0, 1e6), default="0 kg"),
+_BODY = TableSpec("body", {
+    "mass": KeySpec(Quantity(("mass",), 0.0, 1e6), default="0 kg"),
     "inertia": _INERTIA,
-    "velocity": Key(ListOf(_COORDINATE, fewest=2, from_file=True)),
-    "rotation": Key(ListOf(Number(-1e3, 1e3), fewest=2, from_file=True)),
+    "velocity": KeySpec(ListOf(_COORDINATE, fewest=2, from_file=True)),
+    "rotation": KeySpec(ListOf(Number(-1e3, 1e3), fewest=2, from_file=True)),
 })  # fmt: skip
 _TORQUES = ListOf(_TORQUE, fewest=2, from_file=True)
-_TRANSFER = Table("transfer", {
-    "file": Key(Text(1000)),
+_TRANSFER = TableSpec("transfer", {
+    "file": KeySpec(Text(1000)),
     "sheet": SHEET,
-    "angles": Key(ListOf(_TURN, fewest=2, from_file=True), required=True),
-    "bodies": Key(Named(_BODY), required=True),
-    "reduced_inertia_1": Key(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2, from_file=True),
+    "angles": KeySpec(ListOf(_TURN, fewest=2, from_file=True), required=True),
+    "bodies": KeySpec(MapOf(_BODY), required=True),
+    "reduced_inertia_1": KeySpec(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2, from_file=True),
                              instead_of=("differences",)),
-    "differences": Key(Choice(("forward", "central", "spectral")), default="central",
+    "differences": KeySpec(Choice(("forward", "central", "spectral")), default="central",
                        instead_of=("reduced_inertia_1",)),
-    "static_torque": Key(_TORQUES, instead_of=("balancing_torque",)),
-    "balancing_torque": Key(_TORQUES, instead_of=("static_torque",)),
+    "static_torque": KeySpec(_TORQUES, instead_of=("balancing_torque",)),
+    "balancing_torque": KeySpec(_TORQUES, instead_of=("static_torque",)),
 })  # fmt: skip
 
-TRANSFER_FILE = Table("file", {
+TRANSFER_FILE = TableSpec("file", {
     **TITLE,
     "document": document_keys.TRANSFER,
-    "crank": Key(Table("driving", {"speed": Key(_SPEED, required=True)}), required=True),
-    "transfer": Key(_TRANSFER, required=True),
-    "efficiency": Key(EFFICIENCY),
-    "method": Key(METHOD),
+    "crank": KeySpec(TableSpec("driving", {"speed": KeySpec(_SPEED, required=True)}), required=True),
+    "transfer": KeySpec(_TRANSFER, required=True),
+    "efficiency": KeySpec(EFFICIENCY),
+    "method": KeySpec(METHOD),
 })  # fmt: skip

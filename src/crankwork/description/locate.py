@@ -1,8 +1,4 @@
-"""Where in a TOML text each key stands.
-
-The standard parser reads the values but forgets their places. This reads the same text again, after the parser has
-accepted it, and keeps only the places.
-"""
+"""Positions of keys in a TOML text: the text is read again after the standard parser, which does not keep them."""
 
 from __future__ import annotations
 
@@ -37,7 +33,7 @@ class _Token(NamedTuple):
 
 
 class Span(NamedTuple):
-    """A stretch of a text, from its first character to that after its last."""
+    """A range of characters; `end` is the index after the last."""
 
     start: int
     end: int
@@ -48,14 +44,14 @@ def locate(source: str) -> dict[str, int]:
 
     Line by dotted key; entries of arrays are counted from one, `gas.pieces[2].law`.
     """
-    return Places(source).lines
+    return TomlPositions(source).lines
 
 
-class Places:
-    """Where in a valid TOML text keys, values and tables stand, by dotted key.
+class TomlPositions:
+    """Positions of keys, values and tables in a valid TOML text, by dotted key.
 
-    `lines` of everything; `values` and `pairs`: stretches of a value, and of it with its key; `ends`: where in a table
-    with a line of its own the last pair ends; `inner`: where in an inline one; `headers`: lines of tables in order.
+    `lines` of all; `values` and `pairs`: spans of values without and with their keys; `ends`: end of the last pair of a
+    table; `inner`: span of the pairs of an inline table; `headers`: names and starts of tables in order.
     """
 
     def __init__(self, source: str) -> None:
@@ -170,7 +166,7 @@ class Places:
             last = self._end()
 
     def _split(self, double: str) -> None:
-        """Take a doubled bracket apart where it closes or opens nested arrays."""
+        """Split a doubled bracket that opens or closes nested arrays into two tokens."""
         if self._text() == double:
             token = self.tokens[self.at]
             half = token._replace(text=double[0])
@@ -181,7 +177,7 @@ class Places:
             self.at += 1
 
     def _end(self) -> int:
-        """Return where what was read last ends."""
+        """Return the end of the last token read."""
         return self.tokens[self.at - 1].end
 
     def _text(self) -> str:

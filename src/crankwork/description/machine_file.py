@@ -1,4 +1,4 @@
-"""The door for machine files: text to machine, with every mistake told at once and on its line."""
+"""Machine files: from text to machine, with all mistakes reported at once, each on its line."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from crankwork import files
 from crankwork.analysis import solve
 from crankwork.description.build import build_machine
 from crankwork.description.document_keys import stated_document
-from crankwork.description.file_columns import with_columns
+from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.keys import FORMATS, MACHINE_FILE, SIZED_FILE
 from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.locate import locate
 from crankwork.description.measured_build import read_measured
-from crankwork.description.schema import ListOf, Named, NameOr, Nested, Table, Values, nearest_name
+from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
 from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
@@ -41,14 +41,14 @@ _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
 _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
-# words of a template by their key, and a comment that is nothing else
+# a text of a template by its key, and a comment that consists of it
 _WORDS = re.compile(r"\{([a-z][\w.]*)\}")
 _COMMENT = re.compile(rf"^# {_WORDS.pattern}$", re.MULTILINE)
 _STRINGS = re.compile(r"""\"(?:\\.|[^\"\\])*\"?|'[^']*'?""")
 
 
 class Setting(NamedTuple):
-    """A value laid over the file by an option of the command line, which messages name instead of a line."""
+    """A value set by an option of the command line; messages name the option instead of a line."""
 
     option: str
     key: str
@@ -85,44 +85,44 @@ def read_machine(
     folder = folder or Path()
     values = parse(source, name)
     settings = settings_of(overrides)
-    for one in settings:
-        lay(values, one)
+    for setting in settings:
+        apply_override(values, setting)
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
     machine = _build(values, reader, folder)
     if reader.problems or machine is None:
         raise input_error(source, name, reader, settings)
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
-    told = (*machine.notices, *reader.notices)
+    notices = (*machine.notices, *reader.notices)
     return replace(
-        machine, notices=told, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations
+        machine, notices=notices, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations
     )
 
 
 def are_readable(values: dict[str, Any]) -> bool:
-    """Return whether all that a file states is of the kind that its keys ask for."""
+    """Return whether all values of a file have the types of their keys."""
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
     return file_keys(values).read(values, "", reader) is not None and not reader.problems
 
 
 def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
     """Return the machine of the values, or None after complaints."""
-    if isinstance(found := values.get("format"), int) and found > FORMATS[-1]:
-        # what it states may mean something else
+    if isinstance(stated := values.get("format"), int) and stated > FORMATS[-1]:
+        # its keys may have other meanings
         reader.complain("format", Refusal("format_unknown", newest=str(FORMATS[-1])))
         return None
     keys = file_keys(values)
     if keys in (MACHINE_FILE, SIZED_FILE) and values.pop("friction", None) is not None:
         reader.complain("friction", Refusal("friction_of_engine"))
-    read_values = keys.read(with_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
+    read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader, folder)
     return None if machine is None else replace(machine, document=stated_document(read_values))
 
 
-def _of_kind(keys: Table, read_values: Values, reader: Reader, folder: Path) -> Machine | None:
+def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path) -> Machine | None:
     """Return the machine of values that were read, or None after complaints."""
 
-    def read_samples(table: Values, one: Reader, path: str) -> MeasuredPressure | None:
-        return read_measured(table, one, path, folder)
+    def read_samples(table: Values, sample_reader: Reader, path: str) -> MeasuredPressure | None:
+        return read_measured(table, sample_reader, path, folder)
 
     if keys in (TURNING_FILE, PRESS_FILE):
         # most files do not load it
@@ -130,7 +130,7 @@ def _of_kind(keys: Table, read_values: Values, reader: Reader, folder: Path) -> 
 
         return build_turning(read_values, reader)
     if keys in (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE):
-        # an engine starts faster without this room
+        # an engine starts faster without these modules
         from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
             build_linkage,
             build_tabulated,
@@ -143,7 +143,7 @@ def _of_kind(keys: Table, read_values: Values, reader: Reader, folder: Path) -> 
 
 
 def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machine | None:
-    """Complain of a crank gear whose pressures cannot be found."""
+    """Return a crank mechanism; report pressures that cannot be calculated."""
     if machine is None:
         return None
     try:
@@ -165,8 +165,8 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
     return machine
 
 
-def file_keys(values: Mapping[str, Any]) -> Table:
-    """Return the keys of the kind of machine that a file describes: an engine, a linkage, a table of one, a shaft."""
+def file_keys(values: Mapping[str, Any]) -> TableSpec:
+    """Return the keys for the kind of machine in a file: engine, linkage, tabulated linkage or shaft."""
     if "transfer" in values:
         return TRANSFER_FILE
     if "torque" in values or "load" in values:
@@ -178,7 +178,7 @@ def file_keys(values: Mapping[str, Any]) -> Table:
 
 
 def parse(source: str, name: str) -> dict[str, Any]:
-    """Return the values of a TOML text, refusing what would keep the parser busy."""
+    """Return the values of a TOML text; raise for texts that would take the parser too long."""
     for number, line in enumerate(source.split("\n"), start=1):
         if len(line) > files.MAX_LINE:
             raise CrankworkError(Refusal("line_long", place=f"{name}:{number}", most=files.MAX_LINE))
@@ -220,15 +220,15 @@ def _is_toml(line: str) -> bool:
     return True
 
 
-# marks of quotation that a word processor writes
+# quotation marks of word processors
 _CURLY = "“”„‟«»‘’‚‛"
 
 
 def _syntax_message(source: str, name: str, text: str) -> Refusal:
-    """Return a sentence for a syntax error, with the line and a likely fix."""
-    found = re.search(r"\(at line (\d+), column (\d+)\)", text)
+    """Return the message for a syntax error, with the line and a likely fix."""
+    match = re.search(r"\(at line (\d+), column (\d+)\)", text)
     lines = source.split("\n")
-    number = int(found[1]) if found else len(lines)
+    number = int(match[1]) if match else len(lines)
     place = f"{name}:{number}"
     line = _printable(lines[number - 1].strip()[:60]) if number <= len(lines) else ""
     if any(word in text for word in ("overwrite", "twice", "already", "mutate", "Duplicate", "immutable")):
@@ -256,8 +256,8 @@ def _syntax_message(source: str, name: str, text: str) -> Refusal:
 
 
 def settings_of(overrides: Sequence[str | Setting]) -> list[Setting]:
-    """Return the settings that options mean."""
-    return [one if isinstance(one, Setting) else _setting(one) for one in overrides]
+    """Return the settings of options."""
+    return [override if isinstance(override, Setting) else _setting(override) for override in overrides]
 
 
 def _setting(text: str) -> Setting:
@@ -274,8 +274,8 @@ def _setting(text: str) -> Setting:
         return Setting("--set", key, value)
 
 
-def lay(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
-    """Lay a setting over the values; return the keys that say the same, which give way."""
+def apply_override(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
+    """Apply a setting to the values; return the keys that it excludes, which are removed."""
     if setting.option == "--step" and "transfer" in values:
         raise CrankworkError(Refusal("step_of_table"))
     *path, last = steps_of(setting.key)
@@ -287,13 +287,13 @@ def lay(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
         table = _entry_of(table, step, shown) if isinstance(step, int) else table.setdefault(step, {})
         if not isinstance(table, list if isinstance(following, int) else dict):
             name = step if isinstance(step, str) else f"[{step}]"
-            told = "setting_no_list" if isinstance(following, int) else "setting_no_table"
-            raise CrankworkError(Refusal(told, setting=shown, name=_printable(name[:40])))
+            code = "setting_no_list" if isinstance(following, int) else "setting_no_table"
+            raise CrankworkError(Refusal(code, setting=shown, name=_printable(name[:40])))
     if isinstance(last, int):
         _entry_of(table, last, shown)
         table[last - 1] = setting.value
         return ()
-    known = entry.keys.get(last) if isinstance(entry, Table) else None
+    known = entry.keys.get(last) if isinstance(entry, TableSpec) else None
     gives_way = known.instead_of if known else ()
     for other in gives_way:
         table.pop(other, None)
@@ -313,18 +313,18 @@ def steps_of(key: str) -> Iterator[str | int]:
 
 
 def _entry_of(table: list[Any], number: int, shown: str) -> Any:  # noqa: ANN401 - what the file has there
-    """Return an entry of a list, counted from one."""
+    """Return an entry of a list by its number from 1."""
     if not 1 <= number <= len(table):
         raise CrankworkError(Refusal("setting_no_entry", setting=shown, number=number, count=len(table)))
     return table[number - 1]
 
 
 def entry_at(entry: object, step: str | int) -> object:
-    """Return the kind of what stands below a table or list."""
+    """Return the type of an entry of a table or list."""
     match entry:
-        case Table():
+        case TableSpec():
             return entry.keys[step].kind if isinstance(step, str) and step in entry.keys else None
-        case Named() | ListOf() | Nested():
+        case MapOf() | ListOf() | Nested():
             return entry.entry
         case NameOr():
             return entry_at(entry.other, step)
@@ -332,48 +332,48 @@ def entry_at(entry: object, step: str | int) -> object:
 
 
 def input_error(source: str, name: str, reader: Reader, settings: Sequence[Setting] = ()) -> InputError:
-    """Return the error that tells every problem, in the order of the lines."""
+    """Return the error with all problems, in the order of the lines."""
     lines = locate(source)
-    found = []
+    located = []
     for problem in reader.problems:
         message = problem.message
         message = message.cleaned(_printable) if isinstance(message, Refusal) else _printable(message)
-        setting = next((one for one in settings if _concerns(problem.key, one.key, lines)), None)
+        setting = next((candidate for candidate in settings if _concerns(problem.key, candidate.key, lines)), None)
         if setting is not None:
             key = f" {_printable(problem.key)}" if setting.option == "--set" else ""
-            found.append((0, f"{setting.option}{key}", Problem("", message)))
+            located.append((0, f"{setting.option}{key}", Problem("", message)))
             continue
         key = problem.key
         while key and key not in lines:
             key = key[: max(key.rfind("."), key.rfind("["), 0)]
         line = lines[key] if key else 1
-        found.append((line, f"{name}:{line}", Problem(_printable(problem.key), message)))
-    found.sort(key=lambda one: one[0])
+        located.append((line, f"{name}:{line}", Problem(_printable(problem.key), message)))
+    located.sort(key=lambda item: item[0])
     if reader.more:
-        found.append((0, name, Problem("", Refusal("more_mistakes", count=reader.more))))
-    return InputError([problem for _, _, problem in found], [place for _, place, _ in found])
+        located.append((0, name, Problem("", Refusal("more_mistakes", count=reader.more))))
+    return InputError([problem for _, _, problem in located], [position for _, position, _ in located])
 
 
 def _concerns(blamed: str, key: str, lines: Mapping[str, int]) -> bool:
-    """Return whether a problem is that of a setting: of its key, of what is in it, or of a table it has made."""
-    made = [blamed, *(blamed[:at] for at, mark in enumerate(blamed) if mark == ".")]
+    """Return whether a problem is of a setting: its key, a key inside its value, or a table that it created."""
+    made = [blamed, *(blamed[:index] for index, mark in enumerate(blamed) if mark == ".")]
     return (
         blamed == key
         or blamed.startswith((f"{key}.", f"{key}["))
-        or any(key.startswith(f"{one}.") and one not in lines for one in made)
+        or any(key.startswith(f"{key_part}.") and key_part not in lines for key_part in made)
     )
 
 
 def _printable(text: str) -> str:
     """Return a text of the user for a message: one line, no control characters, not too long."""
-    # what is to be written instead stands at the end
+    # the end says what to write instead
     text = text if len(text) <= 400 else f"{text[:240]} ... {text[-155:]}"
-    return text if is_one_line(text) else "".join(one if is_one_line(one) else ascii(one)[1:-1] for one in text)
+    return "".join(letter if is_one_line(letter) else ascii(letter)[1:-1] for letter in text)
 
 
 def json_schema(language: Language = "en") -> str:
     """Return the JSON Schema of the machine file, for editors, its descriptions in a language."""
-    return schema_text("crankwork machine file", {"anyOf": [one.schema(language) for one in FILES]})
+    return schema_text("crankwork machine file", {"anyOf": [keys.schema(language) for keys in FILES]})
 
 
 def schema_text(title: str, schema: dict[str, Any]) -> str:
@@ -383,7 +383,7 @@ def schema_text(title: str, schema: dict[str, Any]) -> str:
 
 
 def template_names() -> list[str]:
-    """Return the names of the machines that `template` knows."""
+    """Return the names of the templates."""
     return resource_names(TEMPLATES, ".toml")
 
 
@@ -403,17 +403,15 @@ def template(name: str, language: Language = "en") -> str:
             raise CrankworkError(Refusal("no_template_near", name=shown, nearest=near))
         raise CrankworkError(Refusal("no_template", name=shown, known=known))
 
-    def said(found: re.Match[str]) -> str:
-        key = found[1] if "." in found[1] else f"templates.{found[1]}"
-        return say(key, language)
+    def text_of(match: re.Match[str]) -> str:
+        return say(match[1] if "." in match[1] else f"templates.{match[1]}", language)
 
-    def comment(found: re.Match[str]) -> str:
-        return textwrap.fill(said(found), 116, initial_indent="# ", subsequent_indent="# ", break_on_hyphens=False)
+    def comment(match: re.Match[str]) -> str:
+        return textwrap.fill(text_of(match), 116, initial_indent="# ", subsequent_indent="# ", break_on_hyphens=False)
 
-    written = read_resource(*TEMPLATES.split("/"), f"{name}.toml")
-    return _WORDS.sub(said, _COMMENT.sub(comment, written))
+    return _WORDS.sub(text_of, _COMMENT.sub(comment, read_resource(*TEMPLATES.split("/"), f"{name}.toml")))
 
 
 def template_title(name: str, language: Language = "en") -> str:
-    """Return what the machine of a template is called in a language."""
+    """Return the title of a template in a language."""
     return str(tomllib.loads(template(name, language))["title"])

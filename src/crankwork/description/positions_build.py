@@ -1,4 +1,4 @@
-"""The branches of a linkage from positions of its joints, and what is told of positions without effect."""
+"""The branches of a linkage from positions of its joints, and notices of positions without effect."""
 
 from __future__ import annotations
 
@@ -22,41 +22,40 @@ from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Mechanism
 
-# share of the size of a linkage by which a stated position may be rough
+# share of the size of a linkage by which a stated position may differ
 _ROUGHLY = 0.25
 
 
-class Settled(NamedTuple):
-    """A mechanism with its branches, what is wrong with it, and where its joints are at the beginning. [m]"""
+class BranchedMechanism(NamedTuple):
+    """A mechanism with its branches, its problems, and the positions of its joints at the start. [m]"""
 
     mechanism: Mechanism | None
     problems: list[Problem]
     places: Mapping[str, tuple[float, float]]
 
 
-def settled(linkage: Linkage) -> Settled:
-    """Return the mechanism of a linkage, its branches from stated positions as seen from solved ones.
+def branches_from_positions(linkage: Linkage) -> BranchedMechanism:
+    """Return the mechanism of a linkage with branches from stated positions, group after group.
 
-    Where a link carries the points that the next group hangs on, these are known when its own group is solved: group
-    after group settles its branch.
+    A group may need solved positions of points on links of groups before it.
     """
     mechanism, problems = mechanism_of(linkage)
     solved: dict[str, tuple[float, float]] = {}
     for _ in mechanism.dyads if mechanism is not None and linkage.positions else ():
         if mechanism is None:
             break
-        here = _placed(mechanism)
-        places = {name: tuple(float(np.ravel(one.position)[0]) for one in point) for name, point in here.items()}
+        points = _placed(mechanism)
+        places = {name: tuple(float(np.ravel(axis.position)[0]) for axis in point) for name, point in points.items()}
         solved = {name: (x, y) for name, (x, y) in places.items() if math.isfinite(x) and math.isfinite(y)}
         before = mechanism
         mechanism, problems = mechanism_of(linkage, solved)
         if mechanism == before:
             break
-    return Settled(None if problems else mechanism, problems, solved)
+    return BranchedMechanism(None if problems else mechanism, problems, solved)
 
 
 def _placed(mechanism: Mechanism) -> Mapping[str, PointMotion]:
-    """Return the points at the beginning, as far as groups close: a chain may need a branch before it settled first."""
+    """Return the points at the start, of as many groups as can be assembled with the branches so far."""
     for count in range(len(mechanism.dyads), 0, -1):
         try:
             return place(replace(mechanism, dyads=mechanism.dyads[:count]), CrankGrid.from_degrees([0.0])).points
@@ -65,41 +64,47 @@ def _placed(mechanism: Mechanism) -> Mapping[str, PointMotion]:
     return {}
 
 
-def told_positions(
-    tables: Mapping[str, Any], linkage: Linkage, found: Settled, reader: Reader, *, is_new: bool
+def position_notices(
+    tables: Mapping[str, Any], linkage: Linkage, branched: BranchedMechanism, reader: Reader, *, is_new: bool
 ) -> Iterator[tuple[str, dict[str, float | str]]]:
-    """Yield notices of positions far from where their joints are, unless they settle which branch of a dyad that is.
+    """Yield notices of positions far from their joints, unless they decide the branch of a dyad.
 
-    In files of format 2 (`is_new`) complain of these, and of every position without which all would be the same.
+    In files of format 2 (`is_new`) report these, and all positions without effect.
     """
-    if found.mechanism is None:
+    if branched.mechanism is None:
         return
-    branches, starts = _settling(linkage, found.mechanism)
-    size = max((math.dist(one, other) for one in found.places.values() for other in found.places.values()), default=0.0)
+    branches, starts = _settling(linkage, branched.mechanism)
+    size = max(
+        (math.dist(first, second) for first in branched.places.values() for second in branched.places.values()),
+        default=0.0,
+    )
     for name, stated in linkage.positions.items():
         if name in branches:
             continue
-        if name in found.places and math.dist(stated, found.places[name]) > _ROUGHLY * size:
-            told = "position_far" if name in starts else "position_idle"
+        if name in branched.places and math.dist(stated, branched.places[name]) > _ROUGHLY * size:
+            code = "position_far" if name in starts else "position_idle"
             values: dict[str, float | str] = {"name": name}
-            values |= dict(zip("xy", (float(f"{1e3 * one:.4g}") for one in found.places[name]), strict=True))
+            values |= dict(zip("xy", (float(f"{1e3 * axis:.4g}") for axis in branched.places[name]), strict=True))
             if is_new:
-                reader.complain(f"positions.{name}", Refusal(told, **values))
+                reader.complain(f"positions.{name}", Refusal(code, **values))
             else:
-                yield told, values
-        elif is_new and name not in starts and _is_idle(tables, linkage, found.mechanism, name):
+                yield code, values
+        elif is_new and name not in starts and _is_idle(tables, linkage, branched.mechanism, name):
             reader.complain(f"positions.{name}", Refusal("position_unused"))
 
 
 def _is_idle(tables: Mapping[str, Any], linkage: Linkage, mechanism: Mechanism, name: str) -> bool:
     """Return whether a linkage is the same without a stated position."""
-    rest = {one: at for one, at in tables["positions"].items() if one != name}
+    rest = {joint: position for joint, position in tables["positions"].items() if joint != name}
     other, _ = linkage_from({**tables, "positions": rest})
     if other is None:
         return False
-    names = {one.name for one in linkage.members}
-    other = replace(other, members=tuple(one for one in other.members if one.name in names))
-    return replace(other, positions={}) == replace(linkage, positions={}) and settled(other).mechanism == mechanism
+    names = {member.name for member in linkage.members}
+    other = replace(other, members=tuple(member for member in other.members if member.name in names))
+    return (
+        replace(other, positions={}) == replace(linkage, positions={})
+        and branches_from_positions(other).mechanism == mechanism
+    )
 
 
 def _settling(linkage: Linkage, mechanism: Mechanism) -> tuple[set[str], set[str]]:

@@ -1,4 +1,4 @@
-"""Links too many, their part in what is borne stated or not: taken out of the linkage, if they fit where it moves."""
+"""Redundant links, with or without a stated share of the load: removed from the linkage if they fit its motion."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from crankwork.description.kinds import Reader
-from crankwork.description.linkage_reach import fit
+from crankwork.description.linkage_reach import check_redundant_fit
 from crankwork.description.schema import Values
 from crankwork.dynamics.redundant import RedundantLink
 from crankwork.errors import Problem
@@ -19,54 +19,54 @@ from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.structure import mobility
 
 _KEYS = ("share", "of")
-# links too many that are found without being told of, and the ways to leave so many out that are tried
+# largest number of redundant links without a share, and of combinations tried
 _MOST_UNSHARED, _MOST_TRIED = 3, 100
 
 
 def geometry_of(link: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the keys of a link without those that say what it bears."""
-    return {name: one for name, one in link.items() if name not in _KEYS}
+    """Return the keys of a link without those of its share of the load."""
+    return {name: value for name, value in link.items() if name not in _KEYS}
 
 
-def taken_out(linkage: Linkage, values: Values, reader: Reader) -> tuple[Linkage, tuple[Member, ...]]:
-    """Return a linkage without the links that have a share, and these; complain of what can have none."""
+def without_redundant(linkage: Linkage, values: Values, reader: Reader) -> tuple[Linkage, tuple[Member, ...]]:
+    """Return a linkage without the links with a share, and these links; report invalid shares."""
     links = values["links"]
     for name, link in links.items():
         for key, other in (_KEYS, _KEYS[::-1]):
             if key in link and other not in link:
-                example = next((one for one in links if one != name), "rocker")
+                example = next((member_name for member_name in links if member_name != name), "rocker")
                 reader.complain(f"links.{name}.{other}", Refusal(f"{other}_missing", name=name, example=example))
-    shared = tuple(one for one in linkage.members if set(_KEYS) <= set(links.get(one.name, ())))
+    shared = tuple(member for member in linkage.members if set(_KEYS) <= set(links.get(member.name, ())))
     if reader.problems or not shared:
         return linkage, ()
     if not mechanism_of(linkage)[1]:
-        for one in shared:
-            reader.complain(f"links.{one.name}.share", Refusal("share_needless", name=one.name))
+        for member in shared:
+            reader.complain(f"links.{member.name}.share", Refusal("share_needless", name=member.name))
         return linkage, ()
-    without = replace(linkage, members=tuple(one for one in linkage.members if one not in shared))
-    for one in shared:
-        _check((linkage, without), one, links[one.name]["of"], reader)
+    without = replace(linkage, members=tuple(member for member in linkage.members if member not in shared))
+    for member in shared:
+        _check((linkage, without), member, links[member.name]["of"], reader)
     return without, shared
 
 
 def without_unshared(linkage: Linkage, taken: tuple[Member, ...]) -> tuple[Linkage, tuple[Member, ...]]:
-    """Return a linkage without links too many that fit, have no mass and no share, and all that are taken out.
+    """Return a linkage without redundant links that fit and have no mass, and all links removed.
 
-    The linkage as it is where it moves or nothing is to be taken out. `taken`: those with a share, taken out already.
+    `taken`: links with a share, removed already.
     """
-    named = [one.key.partition(".")[2] for one in mechanism_of(linkage)[1] if _is_stiff(one)]
+    named = [problem.key.partition(".")[2] for problem in mechanism_of(linkage)[1] if _is_stiff(problem)]
     count = 1 - round(float(mobility(linkage).value))
     if not named or not 1 <= count <= _MOST_UNSHARED:
         return linkage, taken
-    weightless = [one for one in linkage.members if not (one.mass or one.inertia or one.guide)]
-    weightless.sort(key=lambda one: one.name not in named)
-    for some in itertools.islice(itertools.combinations(weightless, count), _MOST_TRIED):
-        without = replace(linkage, members=tuple(one for one in linkage.members if one not in some))
+    weightless = [member for member in linkage.members if not (member.mass or member.inertia or member.guide)]
+    weightless.sort(key=lambda member: member.name not in named)
+    for subset in itertools.islice(itertools.combinations(weightless, count), _MOST_TRIED):
+        without = replace(linkage, members=tuple(member for member in linkage.members if member not in subset))
         if mechanism_of(without)[1]:
             continue
-        told = [fit(without, one, 0.0) for one in some]
-        if all(one is not None and one.name == "redundant_fits" for one in told):
-            return without, (*taken, *some)
+        fits = [check_redundant_fit(without, member, 0.0) for member in subset]
+        if all(message is not None and message.name == "redundant_fits" for message in fits):
+            return without, (*taken, *subset)
     return linkage, taken
 
 
@@ -74,20 +74,20 @@ def _is_stiff(problem: Problem) -> bool:
     return isinstance(problem.message, Refusal) and problem.message.name == "stiff_one"
 
 
-def _check(both: tuple[Linkage, Linkage], one: Member, other: str, reader: Reader) -> None:
-    """Complain of a link that cannot have a share, and of one that it cannot share with.
+def _check(both: tuple[Linkage, Linkage], link: Member, other: str, reader: Reader) -> None:
+    """Report a link that cannot have a share, and a link that it cannot share with.
 
-    `both`: the linkage with all links, and without those that have a share.
+    `both`: the linkage with all links, and without those with a share.
     """
-    key, (whole, without) = f"links.{one.name}", both
-    if sum(point in without.owners for point in one.points) != 2:
-        reader.complain(f"{key}.share", Refusal("share_joints", name=one.name))
-    if one.mass or one.inertia:
-        reader.complain(f"{key}.mass", Refusal("share_mass", name=one.name))
+    key, (full, without) = f"links.{link.name}", both
+    if sum(point in without.owners for point in link.points) != 2:
+        reader.complain(f"{key}.share", Refusal("share_joints", name=link.name))
+    if link.mass or link.inertia:
+        reader.complain(f"{key}.mass", Refusal("share_mass", name=link.name))
     known = [member.name for member in without.members if not member.guide]
     if other not in known:
         reader.complain(f"{key}.of", Refusal("absent_link", name=other, known=", ".join(known)))
-    elif len(_joints(whole, whole.member(other))) != 2:
+    elif len(_joints(full, full.member(other))) != 2:
         reader.complain(f"{key}.of", Refusal("share_joints", name=other))
 
 
@@ -96,30 +96,30 @@ def _joints(linkage: Linkage, member: Member) -> list[str]:
 
 
 def fitting(linkage: Linkage, members: tuple[Member, ...], values: Values, reader: Reader) -> tuple[RedundantLink, ...]:
-    """Return links too many that fit where the linkage moves, and complain of those that do not."""
-    found = []
-    for one in members:
-        freedom = float(mobility(replace(linkage, members=(*linkage.members, one))).value)
-        told = fit(linkage, one, freedom)
-        if told is None or told.name != "redundant_fits":
-            reader.complain(f"links.{one.name}", told or Refusal("share_driver", name=one.name))
+    """Return redundant links that fit the motion of the linkage; report those that do not."""
+    redundant = []
+    for link in members:
+        freedom = float(mobility(replace(linkage, members=(*linkage.members, link))).value)
+        message = check_redundant_fit(linkage, link, freedom)
+        if message is None or message.name != "redundant_fits":
+            reader.complain(f"links.{link.name}", message or Refusal("share_driver", name=link.name))
             continue
-        start, end = (point for point in one.points if point in linkage.owners)
-        length = math.dist(one.points[start], one.points[end])
-        if "share" not in values["links"][one.name]:
-            found.append(RedundantLink(one, start, end, length))
+        start, end = (point for point in link.points if point in linkage.owners)
+        length = math.dist(link.points[start], link.points[end])
+        if "share" not in values["links"][link.name]:
+            redundant.append(RedundantLink(link, start, end, length))
             continue
-        other = linkage.member(values["links"][one.name]["of"])
+        other = linkage.member(values["links"][link.name]["of"])
         near, far = _counted(linkage, other, (start, end))
         of_length = math.dist(other.points[near], other.points[far])
-        share = values["links"][one.name]["share"]
-        found.append(RedundantLink(one, start, end, length, share, other.name, near, far, of_length))
-    return tuple(found)
+        share = values["links"][link.name]["share"]
+        redundant.append(RedundantLink(link, start, end, length, share, other.name, near, far, of_length))
+    return tuple(redundant)
 
 
 def _counted(linkage: Linkage, other: Member, ends: tuple[str, str]) -> tuple[str, str]:
-    """Return the joint of a link where the force along it counts, and the other: first where both hang on one link."""
-    beside = {owner for end in ends for owner in linkage.owners[end]} - {GROUND}
+    """Return the two joints of a link, first that on a link which the ends belong to: the force counts there."""
+    owners = {owner for end in ends for owner in linkage.owners[end]} - {GROUND}
     joints = _joints(linkage, other)
-    near = next((one for one in joints if beside & {*linkage.owners[one]} - {other.name}), joints[0])
-    return near, next(one for one in joints if one != near)
+    near = next((joint for joint in joints if owners & {*linkage.owners[joint]} - {other.name}), joints[0])
+    return near, next(joint for joint in joints if joint != near)

@@ -1,4 +1,4 @@
-"""What a table of the machine file holds: fields that are stated once, and lists and tables of values."""
+"""Types of tables and lists in the machine file, from which reader, messages and JSON Schema follow."""
 
 from __future__ import annotations
 
@@ -11,7 +11,17 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from crankwork import units
-from crankwork.description.kinds import Choice, Kind, Measure, Number, Quantity, Reader, Text, is_one_line, shown
+from crankwork.description.kinds import (
+    Choice,
+    MeasuredValue,
+    Number,
+    Quantity,
+    Reader,
+    Text,
+    ValueType,
+    is_one_line,
+    shown,
+)
 from crankwork.locale import Language, Refusal, say, texts
 
 _MAX_ENTRIES = 10_000
@@ -19,12 +29,9 @@ _LONGEST_NAME = 60
 
 
 class ListOf(NamedTuple):
-    """A list whose entries are of one kind; `from_file`: or a column of the file that stands beside it.
+    """A list of entries of one type; `from_file`: or the name of a column, or a single value if `fewest` is 1."""
 
-    A single value may stand for a list of one that is `from_file`.
-    """
-
-    entry: Kind
+    entry: ValueType
     fewest: int = 0
     most: int = _MAX_ENTRIES
     from_file: bool = False
@@ -35,11 +42,11 @@ class ListOf(NamedTuple):
         return self.from_file and self.fewest == 1
 
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
-        """Return the entries; a bad one is left out after its complaint."""
+        """Return the entries; an invalid entry becomes None after its complaint."""
         if self.may_be_one and isinstance(value, str) and not reader.doubts(key):
             return [self.entry.read(value, key, reader)]
         if not isinstance(value, list):
-            # what a file that is none would have held is not told
+            # the missing content of an unreadable file is not reported
             if not (self.from_file and reader.doubts(key)):
                 reader.complain(key, self._advice(key))
             return None
@@ -49,10 +56,10 @@ class ListOf(NamedTuple):
                 wanted = Refusal("entries_between", fewest=self.fewest, most=self.most)
             reader.complain(key, Refusal("entries", count=len(value), wanted=wanted))
             return None
-        return [self.entry.read(one, f"{key}[{i}]", reader) for i, one in enumerate(value, start=1)]
+        return [self.entry.read(entry, f"{key}[{i}]", reader) for i, entry in enumerate(value, start=1)]
 
     def _advice(self, key: str) -> Refusal:
-        if isinstance(self.entry, Table):
+        if isinstance(self.entry, TableSpec):
             return Refusal("list_of_tables", key=key)
         match self.entry:
             case Quantity(dimensions=(first, *_)):
@@ -77,27 +84,27 @@ class ListOf(NamedTuple):
 
 
 class Nested(NamedTuple):
-    """A list whose entries are of one kind or lists of it."""
+    """A list whose entries are of one type or lists of it."""
 
-    entry: Kind
+    entry: ValueType
 
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
-        """Return the entries, lists within as lists."""
+        """Return the entries, inner lists as lists."""
         if not isinstance(value, list) or not 1 <= len(value) <= _MAX_ENTRIES:
             reader.complain(key, Refusal("list_like", example="[0.98, [0.95, 0.95], 0.99]"))
             return None
         inner = ListOf(self.entry, fewest=1)
         return [
-            (inner if isinstance(one, list) else self.entry).read(one, f"{key}[{i}]", reader)
-            for i, one in enumerate(value, start=1)
+            (inner if isinstance(entry, list) else self.entry).read(entry, f"{key}[{i}]", reader)
+            for i, entry in enumerate(value, start=1)
         ]
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an array with arrays in it."""
-        one = self.entry.schema(language)
+        entry = self.entry.schema(language)
         return {
             "type": "array",
-            "items": {"anyOf": [one, {"type": "array", "items": one, "minItems": 1}]},
+            "items": {"anyOf": [entry, {"type": "array", "items": entry, "minItems": 1}]},
             "minItems": 1,
         }
 
@@ -105,16 +112,16 @@ class Nested(NamedTuple):
 class OneOrMore(NamedTuple):
     """A value of one kind, or a list of them."""
 
-    entry: Kind
+    entry: ValueType
     most: int
 
     def read(self, value: object, key: str, reader: Reader) -> tuple[Any, ...] | None:
-        """Return the values; a bad one is left out after its complaint."""
+        """Return the values; an invalid value is left out after its complaint."""
         if not isinstance(value, list):
-            one = self.entry.read(value, key, reader)
-            return None if one is None else (one,)
-        found = ListOf(self.entry, fewest=1, most=self.most).read(value, key, reader)
-        return None if found is None else tuple(one for one in found if one is not None)
+            single = self.entry.read(value, key, reader)
+            return None if single is None else (single,)
+        entries = ListOf(self.entry, fewest=1, most=self.most).read(value, key, reader)
+        return None if entries is None else tuple(entry for entry in entries if entry is not None)
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""
@@ -125,7 +132,7 @@ class OneOrMore(NamedTuple):
 class NameOr(NamedTuple):
     """A name, or a value of another kind."""
 
-    other: Kind
+    other: ValueType
 
     def read(self, value: object, key: str, reader: Reader) -> Any:  # noqa: ANN401 - a name or the other kind's type
         """Return the name or the value."""
@@ -157,7 +164,7 @@ class NumberOr(NamedTuple):
     quantity: Quantity
     number: Number
 
-    def read(self, value: object, key: str, reader: Reader) -> Measure | float | None:
+    def read(self, value: object, key: str, reader: Reader) -> MeasuredValue | float | None:
         """Return the quantity of a text and the number of a number."""
         return (self.quantity if isinstance(value, str) else self.number).read(value, key, reader)
 
@@ -166,13 +173,10 @@ class NumberOr(NamedTuple):
         return {"anyOf": [self.quantity.schema(language), self.number.schema(language)]}
 
 
-class Named(NamedTuple):
-    """A table whose keys are names of the user's own, all values of one kind.
+class MapOf(NamedTuple):
+    """A table with names of the user as keys and values of one type; `deep`: levels of tables from dotted names."""
 
-    `deep`: how many tables within each other dots of a name make, that are read as one.
-    """
-
-    entry: Kind
+    entry: ValueType
     most: int = _MAX_ENTRIES
     deep: int = 0
 
@@ -187,7 +191,7 @@ class Named(NamedTuple):
         for name in value:
             if not name or len(name) > _LONGEST_NAME or not is_one_line(name):
                 reader.complain(f"{key}.{name}", Refusal("no_name", most=_LONGEST_NAME))
-        return {name: self.entry.read(one, f"{key}.{name}", reader) for name, one in value.items()}
+        return {name: self.entry.read(item, f"{key}.{name}", reader) for name, item in value.items()}
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of a mapping."""
@@ -199,8 +203,8 @@ class Named(NamedTuple):
                 "maxProperties": self.most}  # fmt: skip
 
 
-class By(NamedTuple):
-    """A default that follows from what stands beside it: the key that decides, and the default by its value."""
+class DefaultBy(NamedTuple):
+    """A default that depends on another key: that key, and the default for each of its values."""
 
     key: str
     values: Mapping[str, Any]
@@ -209,46 +213,46 @@ class By(NamedTuple):
 Made = TypeVar("Made")
 
 
-class Key(NamedTuple):
+class KeySpec(NamedTuple):
     """A field of a table: its kind, its default as a file would state it, and when it applies.
 
-    `required`: always, or for tables of these kinds; `instead_of`: keys that say the same and exclude it; `only`: what
-    must stand beside it, by key the values that it may have, none for any.
+    `required`: always, or for tables of these kinds; `instead_of`: equivalent keys that exclude it; `only`: keys that
+    must be present, each with its allowed values, or empty for any.
     """
 
-    kind: Kind
+    kind: ValueType
     required: bool | tuple[str, ...] = False
     instead_of: tuple[str, ...] = ()
     default: Any = None
     only: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 
 
-class Table(NamedTuple):
-    """A table with a fixed set of keys; `name` is the one that texts about its keys begin with."""
+class TableSpec(NamedTuple):
+    """A table with a fixed set of keys; `name` begins the keys of texts about its fields."""
 
     name: str
-    keys: Mapping[str, Key]
+    keys: Mapping[str, KeySpec]
 
     def read(self, value: object, key: str, reader: Reader) -> Values | None:
         """Return the values by key."""
-        if isinstance(value, list) and all(isinstance(one, dict) for one in value):
+        if isinstance(value, list) and all(isinstance(part, dict) for part in value):
             reader.complain(key, Refusal("one_table", count=len(value), key=key))
             return None
         if not isinstance(value, dict):
             reader.complain(key, Refusal("table_below", key=key) if "[" not in key else Refusal("table_inline"))
             return None
         result = {}
-        for name, one in value.items():
+        for name, item in value.items():
             path = f"{key}.{name}" if key else name
             if name not in self.keys:
-                self._complain_unknown(name, one, path, reader)
+                self._report_unknown(name, item, path, reader)
                 continue
-            result[name] = self.keys[name].kind.read(one, path, reader)
+            result[name] = self.keys[name].kind.read(item, path, reader)
             clashes = [other for other in self.keys[name].instead_of if other in value]
             later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
             if later or any(name not in self.keys[other].instead_of for other in clashes):
                 reader.complain(path, Refusal("same", others=clashes))
-        values = Values({name: one for name, one in result.items() if one is not None}, self)
+        values = Values({name: read_value for name, read_value in result.items() if read_value is not None}, self)
         prefix = f"{key}." if key else ""
         for name, entry in self.keys.items():
             if name in value:
@@ -257,49 +261,49 @@ class Table(NamedTuple):
                 self._check_there(name, value, values, prefix, reader)
         return values
 
-    def default(self, name: str, beside: Values) -> Any:  # noqa: ANN401 - each kind has its own type
-        """Return what a key is taken to be where only others are given, None for nothing."""
+    def default(self, name: str, values: Values) -> Any:  # noqa: ANN401 - each kind has its own type
+        """Return the default of a key, given the other values of its table, or None."""
         entry = self.keys.get(name)
         match entry.kind if entry else None:
-            case Table() as table:
+            case TableSpec() as table:
                 return Values({}, table)
-            case Named():
+            case MapOf():
                 return {}
             case ListOf() if entry and entry.default is None:
                 return []
-        written = self.written_default(name, beside)
+        written = self.written_default(name, values)
         return None if entry is None or written is None else entry.kind.read(written, name, Reader())
 
-    def written_default(self, name: str, beside: Values) -> Any:  # noqa: ANN401 - as a file has it
-        """Return the default of a key as a file would state it, None where it has none or does not apply."""
+    def written_default(self, name: str, values: Values) -> Any:  # noqa: ANN401 - as a file has it
+        """Return the default of a key as a file would state it, None if it has none or does not apply."""
         entry = self.keys.get(name)
-        excluding = (one for one in beside if one in self.keys and name in self.keys[one].instead_of)
-        if entry is None or self._foreign(entry, beside) or any(excluding):
+        excluding = (other for other in values if other in self.keys and name in self.keys[other].instead_of)
+        if entry is None or self._foreign(entry, values) or any(excluding):
             return None
-        one = entry.default
-        return one.values.get(beside[one.key]) if isinstance(one, By) else one
+        default = entry.default
+        return default.values.get(values[default.key]) if isinstance(default, DefaultBy) else default
 
     @staticmethod
-    def _foreign(entry: Key, beside: Values) -> tuple[str, tuple[str, ...]] | None:
-        """Return the first key, with its values wanted, that keeps a key from applying."""
+    def _foreign(entry: KeySpec, values: Values) -> tuple[str, tuple[str, ...]] | None:
+        """Return the first key, with its required values, because of which a key does not apply."""
         for other, wanted in entry.only.items():
-            if beside[other] not in wanted if wanted else other not in beside:
+            if values[other] not in wanted if wanted else other not in values:
                 return other, wanted
         return None
 
     def _check_applies(self, name: str, values: Values, prefix: str, reader: Reader) -> None:
-        """Complain of a key that means nothing beside the others."""
+        """Report a key without effect because of the other keys."""
         missed = self._foreign(self.keys[name], values)
         if missed is None or reader.doubts(f"{prefix}{missed[0]}"):
             return
         other, wanted = missed
         if wanted:
-            reader.complain(f"{prefix}{name}", means_nothing(other, values[other], wanted))
+            reader.complain(f"{prefix}{name}", no_effect_message(other, values[other], wanted))
         else:
             advice = _advice(other, self.keys[other].kind, prefix)
             reader.complain(f"{prefix}{name}", Refusal("only_beside", key=other, advice=advice))
 
-    def _complain_unknown(self, name: str, value: object, path: str, reader: Reader) -> None:
+    def _report_unknown(self, name: str, value: object, path: str, reader: Reader) -> None:
         if reader.is_full:
             reader.complain(path, "")
             return
@@ -308,62 +312,64 @@ class Table(NamedTuple):
         if nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
             reader.complain(path, Refusal(f"unknown_{what}_near", nearest=nearest), meant=meant)
-            # what stands in a misspelt table has mistakes of its own to tell
+            # report mistakes inside a misspelt table too
             self.keys[nearest].kind.read(value, path, reader)
         else:
             reader.complain(path, Refusal(f"unknown_{what}", known=", ".join(self.keys)))
 
     def _check_there(self, name: str, value: Mapping[str, object], values: Values, prefix: str, reader: Reader) -> None:
-        """Complain if a required key is missing, and so are those that could stand in its place."""
+        """Report a required key if it and its alternatives are missing."""
         entry = self.keys[name]
         alternatives = (name, *entry.instead_of)
-        told = reader.doubts(*(f"{prefix}{one}" for one in (*alternatives, *entry.only)))
-        if told or any(one in value for one in alternatives) or self._foreign(entry, values):
+        is_reported = reader.doubts(*(f"{prefix}{key}" for key in (*alternatives, *entry.only)))
+        if is_reported or any(alternative in value for alternative in alternatives) or self._foreign(entry, values):
             return
-        advice = tuple(_advice(one, self.keys[one].kind, prefix) for one in alternatives)
+        advice = tuple(_advice(alternative, self.keys[alternative].kind, prefix) for alternative in alternatives)
         reader.complain(f"{prefix}{name}", Refusal("missing", advice=advice))
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an object."""
-        properties, beside = {}, {}
+        properties, dependent = {}, {}
         for name, entry in self.keys.items():
             own = entry.kind.schema(language)
             parts = [self.meaning(name, language), *_applies(entry, language), own.get("description")]
             described = "; ".join(part for part in parts if part)
-            default = {} if entry.default is None or isinstance(entry.default, By) else {"default": entry.default}
+            default = (
+                {} if entry.default is None or isinstance(entry.default, DefaultBy) else {"default": entry.default}
+            )
             properties[name] = {**own, "description": described, **default}
             if entry.only or entry.instead_of:
-                beside[name] = self._beside(entry)
-        always = [name for name, one in self.keys.items() if one.required is True and not (one.only or one.instead_of)]
-        rules = [self._needed(name, one) for name, one in self.keys.items() if one.required and name not in always]
+                dependent[name] = self._dependent_schema(entry)
+        always = [name for name, key in self.keys.items() if key.required is True and not (key.only or key.instead_of)]
+        rules = [self._needed(name, key) for name, key in self.keys.items() if key.required and name not in always]
         return {"type": "object", "properties": properties, "required": always, "additionalProperties": False,
-                "dependentSchemas": beside, **({"allOf": rules} if rules else {})}  # fmt: skip
+                "dependentSchemas": dependent, **({"allOf": rules} if rules else {})}  # fmt: skip
 
     @staticmethod
-    def _needed(name: str, entry: Key) -> dict[str, Any]:
-        """Return the schema of a table that needs a key, or one that says the same, for some of its kinds."""
-        there = {"anyOf": [{"required": [one]} for one in (name, *entry.instead_of)]}
+    def _needed(name: str, entry: KeySpec) -> dict[str, Any]:
+        """Return the schema of a table that needs a key, or an equivalent key, for some of its kinds."""
+        present = {"anyOf": [{"required": [alternative]} for alternative in (name, *entry.instead_of)]}
         cases = {"kind": entry.required} if isinstance(entry.required, tuple) else entry.only
-        here = {"properties": {key: {"enum": list(values)} for key, values in cases.items()}, "required": list(cases)}
-        return {"if": here, "then": there} if cases else there
+        when = {"properties": {key: {"enum": list(values)} for key, values in cases.items()}, "required": list(cases)}
+        return {"if": when, "then": present} if cases else present
 
-    def _beside(self, entry: Key) -> dict[str, Any]:
-        """Return the schema of a table in which a key stands."""
+    def _dependent_schema(self, entry: KeySpec) -> dict[str, Any]:
+        """Return the schema of a table that has a key."""
         wanted = {other: {"enum": list(values)} for other, values in entry.only.items() if values}
         stated = [other for other, values in entry.only.items() if self.keys[other].default not in values or not values]
         none = {"not": {"anyOf": [{"required": [other]} for other in entry.instead_of]}} if entry.instead_of else {}
         return {"properties": wanted, "required": stated, **none}
 
     def meaning(self, name: str, language: Language) -> str:
-        """Return what a key means, in this table or in every one."""
+        """Return the text about a key, of this table or of any table."""
         known = texts("fields", language)
         return known.get(f"{self.name}.{name}") or known.get(name, "")
 
 
 class Values(dict[str, Any]):
-    """What a table states. What it leaves out has its default when it is asked for, and is not `in` it."""
+    """Values of a table; a missing key gives its default and is not `in` the table."""
 
-    def __init__(self, stated: Mapping[str, Any], table: Table) -> None:
+    def __init__(self, stated: Mapping[str, Any], table: TableSpec) -> None:
         super().__init__(stated)
         self.table = table
 
@@ -371,24 +377,24 @@ class Values(dict[str, Any]):
         return self.table.default(name, self)
 
     def si(self, name: str) -> Any:  # noqa: ANN401 - a number, a word, or None
-        """Return a value, that of a quantity in SI; None where there is none."""
+        """Return a value, of a quantity in SI, or None."""
         value = self[name]
-        return value.value if isinstance(value, Measure) else value
+        return value.value if isinstance(value, MeasuredValue) else value
 
     def degrees(self, name: str) -> Any:  # noqa: ANN401 - a number, several of a list, or None
-        """Return an angle in degrees, without what radians have added to it; None where there is none."""
+        """Return an angle, or a list of angles, in degrees without rounding errors of radians, or None."""
         value = self[name]
         if isinstance(value, list):
-            return [_degrees(one) for one in value if one is not None]
+            return [_degrees(angle) for angle in value if angle is not None]
         return None if value is None else _degrees(value)
 
-    def made(self, kind: Callable[..., Made], **others: Any) -> Made:  # noqa: ANN401 - each field has its own type
-        """Return an object that has these values in SI in fields of the same names, and `others`."""
+    def made(self, kind: Callable[..., Made], **fields: Any) -> Made:  # noqa: ANN401 - each field has its own type
+        """Return an object with these values in SI in fields of the same names, and `fields`."""
         own = {name: self.si(name) for name in _fields_of(kind) if name in self.table.keys}
-        return kind(**{**own, **others})
+        return kind(**{**own, **fields})
 
     def but(self, **changes: Any) -> Values:  # noqa: ANN401 - each kind has its own type
-        """Return these values with others in their place."""
+        """Return these values with changes."""
         return Values({**self, **changes}, self.table)
 
 
@@ -397,33 +403,33 @@ def _fields_of(kind: Callable[..., Any]) -> tuple[str, ...]:
     return tuple(inspect.signature(kind).parameters)
 
 
-def _degrees(angle: Measure) -> float:
+def _degrees(angle: MeasuredValue) -> float:
     return round(math.degrees(angle.value), 9)
 
 
-def _applies(entry: Key, language: Language) -> Iterator[str]:
-    """Yield in words what must stand beside a key, and a default that follows from it."""
+def _applies(entry: KeySpec, language: Language) -> Iterator[str]:
+    """Yield texts about the keys that a key needs, and about a default that depends on another key."""
     for key, values in entry.only.items():
-        yield say("fields.with", language, condition=" | ".join(f"{key} = {one}" for one in values) or key)
-    if isinstance(entry.default, By):
+        yield say("fields.with", language, condition=" | ".join(f"{key} = {option}" for option in values) or key)
+    if isinstance(entry.default, DefaultBy):
         for default in dict.fromkeys(entry.default.values.values()):
-            cases = [f"{entry.default.key} = {case}" for case, one in entry.default.values.items() if one == default]
+            cases = [f"{entry.default.key} = {case}" for case, item in entry.default.values.items() if item == default]
             yield say("fields.default_with", language, default=default, condition=" | ".join(cases))
 
 
-def means_nothing(key: str, found: object, wanted: tuple[str, ...]) -> Refusal:
-    """Return what is said of a key that applies only where another one is something else."""
-    return Refusal("only_with", key=key, found=shown(found), needed=tuple(map(shown, wanted[:5])))
+def no_effect_message(key: str, value: object, wanted: tuple[str, ...]) -> Refusal:
+    """Return the message about a key that applies only with other values of another key."""
+    return Refusal("only_with", key=key, found=shown(value), needed=tuple(map(shown, wanted[:5])))
 
 
 def nearest_name(word: str, options: Iterable[str]) -> str:
-    """Return the option nearest to a misspelt word, or nothing if none is near."""
+    """Return the option closest to a misspelt word, empty if none is close."""
     matches = difflib.get_close_matches(word[:60], list(options), n=1, cutoff=0.6)
     return matches[0] if matches else ""
 
 
-def _advice(name: str, kind: Kind, prefix: str) -> str:
-    """Return what to write for a missing key of the table whose keys begin with `prefix`."""
+def _advice(name: str, kind: ValueType, prefix: str) -> str:
+    """Return an example of a missing key; `prefix`: of the keys of its table."""
     match kind:
         case Quantity():
             return f'{name} = "{units.EXAMPLES[kind.dimensions[0]]}"'
@@ -433,9 +439,9 @@ def _advice(name: str, kind: Kind, prefix: str) -> str:
             return f"{name} = {shown(kind.options[0])}"
         case Text():
             return f'{name} = "..."'
-        case Table():
+        case TableSpec():
             return Refusal("a_table", key=f"{prefix}{name}")
-        case Named():
+        case MapOf():
             return Refusal("tables_of_names", key=f"{prefix}{name}")
         case ListOf(Text()):
             return f'{name} = ["A", "B"]'

@@ -1,4 +1,4 @@
-"""What a crank gear, or an engine of several on one shaft, is shorthand for: the tables of a linkage with chambers."""
+"""The tables of a linkage with chambers that are equivalent to a crank mechanism or an engine."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
 _ALONE = Place(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
 
 
-class Gear(NamedTuple):
-    """The crank gear of one cylinder among those of an engine.
+class CrankMechanism(NamedTuple):
+    """The crank mechanism of one cylinder of an engine.
 
-    `head`: direction from the shaft to its head, the crank turning clockwise from that of cylinder 1 [deg]; `own`: what
-    its names end with; `joint`: the pin that its rod turns on.
+    `head`: direction from the shaft to its head, with the crank turning clockwise from the head of cylinder 1 [deg];
+    `own`: suffix of its names; `joint`: pin of its rod.
     """
 
     solved: SolvedCylinder
@@ -55,41 +55,41 @@ class Gear(NamedTuple):
 
     @property
     def top(self) -> float:
-        """How far its piston pin is from the shaft, along its axis, at top dead centre. [m]"""
+        """Distance of its piston pin from the shaft along its axis at top dead centre. [m]"""
         if self.solved.slave is not None:
             return slave_stroke(self.solved.lengths, self.solved.slave).top
         return math.sqrt((self.length + self.solved.lengths.crank_radius) ** 2 - self.offset**2)
 
     def at(self, along: float, across: float) -> complex:
-        """Return a place so far from the shaft along its axis, and across it to where the offset counts. [m]"""
+        """Return the position of a point given along the axis, and across it as the offset counts. [m]"""
         return complex(along, -across) * _direction(self.head)
 
     def pin_beyond(self, joint: complex) -> complex:
-        """Return where the piston pin is while its rod is at a joint. [m]"""
+        """Return the position of the piston pin for a position of the joint of its rod. [m]"""
         seen = joint / _direction(self.head)
         return self.at(seen.real + math.sqrt(self.length**2 - (seen.imag + self.offset) ** 2), self.offset)
 
 
-def gears_of(machine: Machine) -> list[Gear]:
-    """Return the crank gears of an engine, that of cylinder 1 first."""
+def crank_mechanisms(machine: Machine) -> list[CrankMechanism]:
+    """Return the crank mechanisms of an engine, cylinder 1 first."""
     solved = solve(machine, machine.method)
     if machine.engine is None or len(machine.engine.layout.places) == 1:
-        return [Gear(solved, _ALONE, _head(machine, 0.0, 0.0), "", "A")]
+        return [CrankMechanism(solved, _ALONE, _head(machine, 0.0, 0.0), "", "A")]
     first, *_ = places = machine.engine.layout.places
     return [
-        Gear(
-            one,
+        CrankMechanism(
+            cylinder,
             place,
             _head(machine, place.axis, first.axis),
             f"_{place.number}",
-            f"A{place.crankpin + 1}" if one.slave is None else f"C{place.number}",
+            f"A{place.crankpin + 1}" if cylinder.slave is None else f"C{place.number}",
         )
-        for one, place in zip(whole_engine(solved).cylinders, places, strict=True)
+        for cylinder, place in zip(whole_engine(solved).cylinders, places, strict=True)
     ]
 
 
 def _head(machine: Machine, axis: float, first: float) -> float:
-    """Return the direction of a head, cylinder 1 leaning as the machine does. [deg]"""
+    """Return the direction of a head; cylinder 1 is inclined as the machine. [deg]"""
     return round(90.0 - axis + first - math.degrees(machine.inclination), 9)
 
 
@@ -99,58 +99,60 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     yield from ((key, values[key]) for key in ("title", "decimal_mark", "units") if key in values)
     if "document" in values:
         # the note of a linkage has other sections
-        yield "document", {key: one for key, one in values["document"].items() if key != "sections"}
-    gears = gears_of(machine)
+        yield "document", {key: value for key, value in values["document"].items() if key != "sections"}
+    gears = crank_mechanisms(machine)
     yield "fixed_points", {"O": _place(0)}
     yield "crank", _crank(values["crank"], machine, gears)
-    for one in gears:
-        yield f"links.rod{one.own}", _rod(one, gears)
-    for one in gears:
-        through = one.at(one.top, one.offset)
-        yield f"guides.bore{one.own}", {"through": _place(through), "angle": f"{one.head + 180:.15g} deg"}
+    for mechanism in gears:
+        yield f"links.rod{mechanism.own}", _rod(mechanism, gears)
+    for mechanism in gears:
+        through = mechanism.at(mechanism.top, mechanism.offset)
+        yield f"guides.bore{mechanism.own}", {"through": _place(through), "angle": f"{mechanism.head + 180:.15g} deg"}
     mass = machine.masses.piston if machine.masses else 0.0
-    for one in gears:
+    for mechanism in gears:
         weighing = {"mass": _unit(mass, "kg")} if mass else {}
-        yield f"sliders.piston{one.own}", {"guide": f"bore{one.own}", "pin": one.pin, **weighing}
-    yield "positions", {name: _place(at) for name, at in _positions(gears)}
-    for one in gears:
-        yield from _chambers(values, one)
+        yield f"sliders.piston{mechanism.own}", {"guide": f"bore{mechanism.own}", "pin": mechanism.pin, **weighing}
+    yield "positions", {name: _place(position) for name, position in _positions(gears)}
+    for mechanism in gears:
+        yield from _chambers(values, mechanism)
     if "flywheel" in values:
         yield "flywheel", values["flywheel"]
     method = {
-        key: one for key, one in values.get("method", {}).items() if key in ("kinematics", "pi", "gravity", "weights")
+        key: value
+        for key, value in values.get("method", {}).items()
+        if key in ("kinematics", "pi", "gravity", "weights")
     }
-    yield from ((key, one) for key, one in (("method", method), ("table", values.get("table"))) if one)
+    yield from ((key, table) for key, table in (("method", method), ("table", values.get("table"))) if table)
 
 
-def _crank(stated: Mapping[str, Any], machine: Machine, gears: list[Gear]) -> dict[str, Any]:
-    """Return the crank with all its pins, and half the mass of a throw at each of two pins that it has."""
+def _crank(stated: Mapping[str, Any], machine: Machine, gears: list[CrankMechanism]) -> dict[str, Any]:
+    """Return the crank with all its pins; two pins of one throw have half of its mass each."""
     radius, pins = gears[0].solved.lengths.crank_radius, dict[str, complex]()
-    throws = {one.place.crankpin: one.place.throw for one in gears}
-    for one in gears:
-        pins.setdefault(f"A{one.place.crankpin + 1}", radius * _direction(-one.place.pin_angle))
+    throws = {mechanism.place.crankpin: mechanism.place.throw for mechanism in gears}
+    for mechanism in gears:
+        pins.setdefault(f"A{mechanism.place.crankpin + 1}", radius * _direction(-mechanism.place.pin_angle))
     crank: dict[str, Any] = {"pivot": "O", "pin": gears[0].joint, "radius": _unit(radius, "mm")}
     crank |= {key: stated[key] for key in ("speed", "angular_acceleration") if key in stated}
     crank |= {"start": f"{gears[0].head:.15g} deg", "direction": "clockwise"}
     if len(pins) > 1:
-        crank["points"] = {name: _place(at) for name, at in pins.items() if name != gears[0].joint}
+        crank["points"] = {name: _place(position) for name, position in pins.items() if name != gears[0].joint}
     throw = machine.masses.crank if machine.masses else 0.0
-    shares = [throw / list(throws.values()).count(at) for at in throws.values()]
+    shares = [throw / list(throws.values()).count(throw_of_pin) for throw_of_pin in throws.values()]
     mass = math.fsum(shares)
     turning = mass * radius**2
     if mass:
-        centre = sum(share * at for share, at in zip(shares, pins.values(), strict=True)) / mass
+        centre = sum(share * position for share, position in zip(shares, pins.values(), strict=True)) / mass
         crank |= {"mass": _unit(mass, "kg"), "centre": gears[0].joint if len(pins) == 1 else _place(centre)}
     return crank | ({"inertia": _unit(turning, "kg*m2")} if turning else {})
 
 
-def _rod(gear: Gear, gears: list[Gear]) -> dict[str, Any]:
-    """Return the rod as a link from pin to piston pin, its inertia that of its masses where it is not given."""
+def _rod(gear: CrankMechanism, gears: list[CrankMechanism]) -> dict[str, Any]:
+    """Return the rod as a link from pin to piston pin, with the inertia of its masses if none is stated."""
     rod: dict[str, Any] = {"joins": [gear.joint, gear.pin], "length": _unit(gear.length, "mm")}
     knuckles = {
-        one.joint: _place(one.solved.slave.knuckle_radius * _direction(-one.solved.slave.knuckle_angle))
-        for one in gears
-        if one.solved.slave is not None and one.place.master == gear.place.number
+        other.joint: _place(other.solved.slave.knuckle_radius * _direction(-other.solved.slave.knuckle_angle))
+        for other in gears
+        if other.solved.slave is not None and other.place.master == gear.place.number
     }
     rod |= {"points": knuckles} if knuckles else {}
     machine = gear.solved.machine
@@ -164,32 +166,32 @@ def _rod(gear: Gear, gears: list[Gear]) -> dict[str, Any]:
     return rod | {"mass": _unit(mass, "kg"), "centre": _place(centre), "inertia": _unit(inertia, "kg*m2")}
 
 
-def _positions(gears: list[Gear]) -> Iterator[tuple[str, complex]]:
-    """Yield where the piston pins are at a crank angle of zero. [m]"""
+def _positions(gears: list[CrankMechanism]) -> Iterator[tuple[str, complex]]:
+    """Yield the positions of the piston pins at a crank angle of zero. [m]"""
     start, rods = gears[0].head, dict[int, tuple[complex, complex]]()
-    for one in sorted(gears, key=lambda gear: gear.place.master):
-        slave = one.solved.slave
-        if slave is None:
-            joint = one.solved.lengths.crank_radius * _direction(start - one.place.pin_angle)
-            rods[one.place.number] = joint, one.pin_beyond(joint)
+    for mechanism in sorted(gears, key=lambda gear: gear.place.master):
+        rod_kind = mechanism.solved.slave
+        if rod_kind is None:
+            joint = mechanism.solved.lengths.crank_radius * _direction(start - mechanism.place.pin_angle)
+            rods[mechanism.place.number] = joint, mechanism.pin_beyond(joint)
         else:
-            joint, beyond = rods[one.place.master]
+            joint, beyond = rods[mechanism.place.master]
             rod = (beyond - joint) / abs(beyond - joint)
-            joint += slave.knuckle_radius * rod * _direction(-slave.knuckle_angle)
-        yield one.pin, one.pin_beyond(joint)
+            joint += rod_kind.knuckle_radius * rod * _direction(-rod_kind.knuckle_angle)
+        yield mechanism.pin, mechanism.pin_beyond(joint)
 
 
-def _chambers(values: Mapping[str, Any], gear: Gear) -> Iterator[tuple[str, Any]]:
-    """Yield the chamber of the gas in a cylinder, and that of the pressure beside a piston rod."""
+def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple[str, Any]]:
+    """Yield the chamber of a cylinder, and the chamber on the side of its piston rod."""
     cylinder, gas = gear.solved.machine.cylinder, gear.solved.machine.gas
     if cylinder is None or gas is None:
         return
     face = {"slider": f"piston{gear.own}", "bore": _unit(cylinder.bore, "mm")}
-    room: dict[str, Any] = {"sense": 1}
-    room |= {"compression_ratio": cylinder.compression_ratio} if cylinder.compression_ratio else {}
-    room |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
+    space: dict[str, Any] = {"sense": 1}
+    space |= {"compression_ratio": cylinder.compression_ratio} if cylinder.compression_ratio else {}
+    space |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
     stated = _calculated(values["cycle"], gear.solved, gas) if gas.calculated else _stated(values["gas"], gas)
-    plain: dict[str, Any] = {key: one for key, one in stated.items() if isinstance(one, str)}
+    plain: dict[str, Any] = {key: value for key, value in stated.items() if isinstance(value, str)}
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
     if "pressure" not in stated:
         plain["period"] = f"{gas.cycle:g} deg"
@@ -197,50 +199,50 @@ def _chambers(values: Mapping[str, Any], gear: Gear) -> Iterator[tuple[str, Any]
         delay = gear.place.firing_angle + (gear.solved.begins if is_stated else 0.0)
         plain |= {"delay": f"{delay % gas.cycle:.15g} deg"} if delay else {}
     name = f"chambers.cylinder{gear.own}"
-    yield name, {**face, **room, **plain}
-    yield from ((f"{name}.{key}", one) for key, one in stated.items() if key not in plain)
+    yield name, {**face, **space, **plain}
+    yield from ((f"{name}.{key}", value) for key, value in stated.items() if key not in plain)
     if cylinder.piston_rod_diameter:
         rod, back = _unit(cylinder.piston_rod_diameter, "mm"), values["gas"]["back_pressure"]
         yield f"chambers.crank_end{gear.own}", {**face, "rod_diameter": rod, "sense": -1, "pressure": back}
 
 
 def _stated(table: Mapping[str, Any], gas: Gas) -> dict[str, Any]:
-    """Return the diagram of a cylinder as the description has it, or the pressure of one that stays open."""
+    """Return the diagram of a cylinder as stated, or the pressure of a cylinder that stays open."""
     counted = {key: table[key] for key in _COUNTED if key in table}
     diagram: Any = functools.reduce(lambda inner, name: inner[name], gas.path.split(".")[1:], table)
     if isinstance(diagram, str):
         return counted | {"pressure": _unit(gas.points["o"].pressure or 0.0, "Pa")}
-    return counted | {key: one for key, one in diagram.items() if key in _DIAGRAM}
+    return counted | {key: value for key, value in diagram.items() if key in _DIAGRAM}
 
 
 def _calculated(stated: Mapping[str, Any], solved: SolvedCylinder, gas: Gas) -> dict[str, Any]:
-    """Return the diagram of a calculated cycle: the release of heat that gives it, or its points and laws."""
+    """Return the diagram of a calculated cycle: its release of heat, or its points and laws."""
     around = {"pressures": "absolute", "ambient": _unit(gas.ambient, "Pa")}
     points, pieces = solved.space.calculated.drawn if solved.space and solved.space.calculated else ({}, ())
     if not pieces:
-        released = {key: one for key, one in stated.items() if key in HEAT_RELEASE.keys}
+        released = {key: value for key, value in stated.items() if key in HEAT_RELEASE.keys}
         if isinstance(gas.calculated, MisfirePressure):
-            released = {key: one for key, one in released.items() if key not in _OF_FUEL} | {"cycle_heat": "0 J"}
+            released = {key: value for key, value in released.items() if key not in _OF_FUEL} | {"cycle_heat": "0 J"}
         return around | {"cycle": released}
     return around | {
-        "points": {name: _point(one) for name, one in points.items()},
-        "pieces": [_given(law=one.law, points=list(one.points), exponent=one.exponent, reference=one.reference)
-                   for one in pieces],
+        "points": {name: _point(point) for name, point in points.items()},
+        "pieces": [_given(law=piece.law, points=list(piece.points), exponent=piece.exponent, reference=piece.reference)
+                   for piece in pieces],
     }  # fmt: skip
 
 
-def _point(one: DiagramPoint) -> dict[str, Any]:
+def _point(point: DiagramPoint) -> dict[str, Any]:
     return _given(
-        angle=None if one.angle is None else f"{one.angle:.15g} deg",
-        stroke=one.stroke,
-        pressure=None if one.pressure is None else _unit(one.pressure, "Pa"),
-        volume=None if one.volume is None else _unit(one.volume, "cm3"),
+        angle=None if point.angle is None else f"{point.angle:.15g} deg",
+        stroke=point.stroke,
+        pressure=None if point.pressure is None else _unit(point.pressure, "Pa"),
+        volume=None if point.volume is None else _unit(point.volume, "cm3"),
     )
 
 
 def _given(**values: Any) -> dict[str, Any]:  # noqa: ANN401 - as a file states them
-    """Return the values that there are."""
-    return {key: one for key, one in values.items() if one is not None}
+    """Return the values that are not None."""
+    return {key: value for key, value in values.items() if value is not None}
 
 
 def _direction(degrees: float) -> complex:
@@ -249,11 +251,11 @@ def _direction(degrees: float) -> complex:
     return complex(math.cos(radians), math.sin(radians))
 
 
-def _place(at: complex) -> list[str]:
-    return [_unit(at.real, "mm"), _unit(at.imag, "mm")]
+def _place(position: complex) -> list[str]:
+    return [_unit(position.real, "mm"), _unit(position.imag, "mm")]
 
 
 def _unit(value: float, unit: str) -> str:
-    # what is nearer to zero than rounding is zero
+    # smaller values come from rounding
     shown = from_si(value, unit) if abs(value) > 1e-15 else 0.0
     return f"{shown:.15g} {unit}"

@@ -10,11 +10,11 @@ from typing import NamedTuple
 from crankwork.analysis.turning import analyse_turning
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.drive_build import read_drive
-from crankwork.description.kinds import Measure, Reader
+from crankwork.description.kinds import MeasuredValue, Reader
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
 from crankwork.description.turning_keys import FORMS
-from crankwork.description.wheel_build import read_wheel
+from crankwork.description.wheel_build import read_flywheel
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.mechanism import Crank, Mechanism
@@ -31,7 +31,7 @@ from crankwork.shaft.torque_diagram import (
 
 _TABLES = ("torque", "load")
 _OF_ENERGY = ("areas", "excess_work", "energy_fluctuation")
-# works of a document are rounded; beyond this share a shaft would not run at one speed
+# largest imbalance of stated works, which are rounded, as a share
 _BALANCED = 5e-3
 _CLOSED = 1e-6
 _MOST_ROWS = 10_000
@@ -39,7 +39,7 @@ _TRIES, _SETTLED = 50, 1e-15
 
 
 class _Shaft(NamedTuple):
-    """What diagrams need to know: stated speed of the shaft and method. [rad/s]"""
+    """Stated speed of the shaft, and method. [rad/s]"""
 
     stated: float
     method: Method
@@ -61,7 +61,7 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
     speed = stated or largest or _mean_of_speeds(flywheel)
     if speed is None and not reader.doubts("crank.speed", "flywheel.speeds"):
         reader.complain("crank.speed", Refusal("missing", advice=('speed = "100 rpm"',)))
-    drive = read_wheel(flywheel, read_drive(values, reader), stated, reader, pi=method.pi)
+    drive = read_flywheel(flywheel, read_drive(values, reader), stated, reader, pi=method.pi)
     drive = replace(drive, inertia=drive.inertia + crank.si("inertia"))
     if reader.problems or speed is None:
         return None
@@ -85,16 +85,16 @@ def build_turning(values: Values, reader: Reader) -> Machine | None:
 
 
 def _check_rows(turning: Turning, values: Values, reader: Reader) -> None:
-    """Complain of a table that would be longer than anybody reads."""
+    """Report a step that gives too many rows of a table."""
     rows = turning.cycle / values["table"].si("step")
     if rows > _MOST_ROWS:
         reader.complain("table.step", Refusal("transient_rows", rows=rows, most=_MOST_ROWS))
 
 
 def _slowed(machine: Machine, turning: Turning, values: Values, reader: Reader) -> Machine | None:
-    """Return the machine with the mean speed that its largest one leaves, or None after a complaint.
+    """Return the machine with the mean speed that follows from its largest speed, or None after a complaint.
 
-    What is stated by time or by power changes its angle or torque with the speed.
+    Angles stated by time and torques stated by power change with the speed.
     """
     if not machine.drive.inertia:
         reader.complain("crank.largest_speed", Refusal("largest_speed_alone"))
@@ -116,22 +116,22 @@ def _slowed(machine: Machine, turning: Turning, values: Values, reader: Reader) 
 
 
 def _mean_of_speeds(flywheel: Values) -> float | None:
-    """Return the mean of the extreme speeds that a flywheel shall keep to."""
-    speeds = [one.value for one in flywheel["speeds"] if one]
+    """Return the mean of the speed limits of a flywheel."""
+    speeds = [speed.value for speed in flywheel["speeds"] if speed]
     return sum(speeds) / 2 if len(speeds) == 2 else None
 
 
 def _turning(values: Values, shaft: _Shaft) -> Turning | None:
-    """Return what drives a shaft and what it drives."""
+    """Return the torques that drive and load a shaft."""
     reader, given = shaft.reader, [name for name in _TABLES if name in values]
     periods = {name: _period(values[name], shaft) for name in given}
-    known = [one for one in periods.values() if one is not None]
+    known = [period for period in periods.values() if period is not None]
     if not known:
         for name in given:
             reader.complain(f"{name}.period", Refusal("missing", advice=('period = "360 deg"', 'rate = "30 1/min"')))
         return None
     made = {name: _diagram(values[name], name, periods[name] or known[0], shaft) for name in given}
-    of_energy = [name for name in given if any(one in values[name] for one in _OF_ENERGY)]
+    of_energy = [name for name in given if any(form in values[name] for form in _OF_ENERGY)]
     if of_energy and len(given) > 1:
         reader.complain(of_energy[0], Refusal("diagram_alone"))
     cycle = common_period(known[0], known[-1])
@@ -146,20 +146,20 @@ def _turning(values: Values, shaft: _Shaft) -> Turning | None:
 
 
 def _period(values: Values, shaft: _Shaft) -> float | None:
-    """Return the angle after which a torque repeats, None where it is not stated. [rad]"""
+    """Return the period of a torque, None if it is not stated. [rad]"""
     if "rate" in values:
         return math.tau * shaft.speed / float(values["rate"].value)
     return None if "period" not in values else _angle(values["period"], shaft)
 
 
-def _angle(given: Measure, shaft: _Shaft) -> float:
-    """Return an angle, or that of a time at mean speed. [rad]"""
+def _angle(given: MeasuredValue, shaft: _Shaft) -> float:
+    """Return an angle, or the angle turned in a time at mean speed. [rad]"""
     return given.value * shaft.speed if given.dimension == "time" else given.value
 
 
 def _diagram(values: Values, table: str, period: float, shaft: _Shaft) -> TorqueDiagram:
-    """Return a torque over its period; complain of what cannot be."""
-    if not any(one in values for one in (*FORMS, "constant", "power")):
+    """Return a torque over its period; report mistakes."""
+    if not any(form in values for form in (*FORMS, "constant", "power")):
         shaft.reader.complain(table, Refusal("diagram_empty"))
     constant = values.si("power") / shaft.speed if "power" in values else values.si("constant") or 0.0
     scale = _scale(values, table, shaft.reader)
@@ -169,8 +169,8 @@ def _diagram(values: Values, table: str, period: float, shaft: _Shaft) -> Torque
         points=_points(values, table, period, shaft.reader),
         harmonics=_harmonics(values, table, period, shaft.reader),
         strokes=tuple(
-            _stroke(one, f"{table}.strokes[{number}]", period, scale, shaft)
-            for number, one in enumerate(values["strokes"], start=1)
+            _stroke(stroke, f"{table}.strokes[{number}]", period, scale, shaft)
+            for number, stroke in enumerate(values["strokes"], start=1)
         ),
         delays=_delays(values, table, period, shaft.reader),
         loops=_loops(values, table, scale, shaft.reader),
@@ -179,7 +179,7 @@ def _diagram(values: Values, table: str, period: float, shaft: _Shaft) -> Torque
 
 
 def _scale(values: Values, table: str, reader: Reader) -> float:
-    """Return the work that a square metre of the drawing stands for; complain of areas without a scale. [J/m2]"""
+    """Return the work per area of the drawing; report an incomplete scale. [J/m2]"""
     scale = values["scale"]
     if "work" in scale:
         return float(scale["work"].value)
@@ -192,8 +192,8 @@ def _scale(values: Values, table: str, reader: Reader) -> float:
     return 0.0
 
 
-def _work(given: Measure, path: str, scale: float, reader: Reader) -> float:
-    """Return a work, or that of an area of the drawing. [J]"""
+def _work(given: MeasuredValue, path: str, scale: float, reader: Reader) -> float:
+    """Return a work, or the work of an area of the drawing. [J]"""
     if given.dimension == "energy":
         return given.value
     table = path.partition(".")[0]
@@ -203,42 +203,42 @@ def _work(given: Measure, path: str, scale: float, reader: Reader) -> float:
 
 
 def _points(values: Values, table: str, period: float, reader: Reader) -> tuple[tuple[float, float], ...]:
-    """Return the corners of a diagram; complain where angles descend, or lie beyond the period."""
+    """Return the corners of a diagram; report angles that descend or exceed the period."""
     if "torque" not in values or "at" not in values or None in (*values["at"], *values["torque"]):
         return ()
-    at, torque = ([one.value for one in values[name]] for name in ("at", "torque"))
-    if len(at) != len(torque):
-        reader.complain(f"{table}.at", Refusal("load_at_count", count=len(at), others=len(torque), column="torque"))
+    angles, torque = ([angle.value for angle in values[name]] for name in ("at", "torque"))
+    if len(angles) != len(torque):
+        reader.complain(f"{table}.at", Refusal("load_at_count", count=len(angles), others=len(torque), column="torque"))
         return ()
-    for number, (before, after) in enumerate(itertools.pairwise(at), start=2):
+    for number, (before, after) in enumerate(itertools.pairwise(angles), start=2):
         if after < before:
             reader.complain(f"{table}.at[{number}]", Refusal("points_descend"))
-        if number > 2 and before == after == at[number - 3]:
+        if number > 2 and before == after == angles[number - 3]:
             reader.complain(f"{table}.at[{number}]", Refusal("points_thrice"))
-    if at[-1] > period * (1 + _CLOSED):
-        beyond = next(number for number, one in enumerate(at, start=1) if one > period * (1 + _CLOSED))
+    if angles[-1] > period * (1 + _CLOSED):
+        beyond = next(number for number, angle in enumerate(angles, start=1) if angle > period * (1 + _CLOSED))
         reader.complain(f"{table}.at[{beyond}]", Refusal("points_beyond", period=math.degrees(period)))
-    if at[0] == at[-1]:
+    if angles[0] == angles[-1]:
         reader.complain(f"{table}.at", Refusal("points_descend"))
-    return tuple((min(one, period), other) for one, other in zip(at, torque, strict=True))
+    return tuple((min(angle, period), other) for angle, other in zip(angles, torque, strict=True))
 
 
 def _harmonics(values: Values, table: str, period: float, reader: Reader) -> tuple[Harmonic, ...]:
-    """Return the orders of a torque; complain of one that does not close over the period."""
-    found = []
-    for number, one in enumerate(values["harmonics"], start=1):
-        if not one or "order" not in one:
+    """Return the orders of a torque; report orders that are not periodic in the period."""
+    harmonics = []
+    for number, harmonic in enumerate(values["harmonics"], start=1):
+        if not harmonic or "order" not in harmonic:
             continue
-        times = one["order"] * period / math.tau
+        times = harmonic["order"] * period / math.tau
         if abs(times - round(times)) > _CLOSED * times or not round(times):
             path = f"{table}.harmonics[{number}].order"
-            reader.complain(path, Refusal("order_open", order=one["order"], period=math.degrees(period)))
-        found.append(Harmonic(one["order"], one.si("sin"), one.si("cos")))
-    return tuple(found)
+            reader.complain(path, Refusal("order_open", order=harmonic["order"], period=math.degrees(period)))
+        harmonics.append(Harmonic(harmonic["order"], harmonic.si("sin"), harmonic.si("cos")))
+    return tuple(harmonics)
 
 
 def _stroke(values: Values | None, path: str, period: float, scale: float, shaft: _Shaft) -> Stroke:
-    """Return work in a stretch; complain of a stretch longer than the period."""
+    """Return work over an interval; report an interval longer than the period."""
     if values is None or not {"work", "shear_energy", "shear_strength"} & set(values):
         return Stroke(0.0, 0.0, 0.0)
     work, reader = 0.0, shaft.reader
@@ -256,8 +256,8 @@ def _stroke(values: Values | None, path: str, period: float, scale: float, shaft
         )
     over = _over(values, period, shaft)
     if over > period * (1 + _CLOSED):
-        told = Refusal("stretch_long", over=math.degrees(over), period=math.degrees(period))
-        reader.complain(f"{path}.over" if "over" in values else f"{path}.punch_stroke", told)
+        message = Refusal("stretch_long", over=math.degrees(over), period=math.degrees(period))
+        reader.complain(f"{path}.over" if "over" in values else f"{path}.punch_stroke", message)
     start = values.si("from")
     if start > period * (1 + _CLOSED):
         reader.complain(f"{path}.from", Refusal("points_beyond", period=math.degrees(period)))
@@ -272,35 +272,35 @@ def _sheared_area(values: Values, pi: float) -> float:
 
 
 def _over(values: Values, period: float, shaft: _Shaft) -> float:
-    """Return over which angle work is done, zero where it is done at once. [rad]"""
+    """Return the angle over which work is done, zero for an impulse. [rad]"""
     if "punch_stroke" in values and "thickness" in values:
         return float(angle_in_plate(values.si("thickness"), period, values.si("punch_stroke")))
     over = values.get("over", 0.0)
-    if isinstance(over, Measure):
+    if isinstance(over, MeasuredValue):
         return _angle(over, shaft)
     return float(over * period)
 
 
 def _delays(values: Values, table: str, period: float, reader: Reader) -> tuple[float, ...]:
-    """Return by how much the torque of each cylinder comes later. [rad]"""
+    """Return the delay of the torque of each cylinder. [rad]"""
     if "cylinders" in values:
         count = int(values["cylinders"])
-        return tuple(period * at / count for at in range(count))
+        return tuple(period * index / count for index in range(count))
     if "delays" not in values or None in values["delays"]:
         return (0.0,)
-    found = tuple(one.value for one in values["delays"])
-    for number, one in enumerate(found, start=1):
-        if one > period * (1 + _CLOSED):
+    delays = tuple(delay.value for delay in values["delays"])
+    for number, delay in enumerate(delays, start=1):
+        if delay > period * (1 + _CLOSED):
             reader.complain(f"{table}.delays[{number}]", Refusal("points_beyond", period=math.degrees(period)))
-    return found
+    return delays
 
 
 def _loops(values: Values, table: str, scale: float, reader: Reader) -> tuple[float, ...]:
-    """Return the works of loops about the mean; complain if they leave something."""
+    """Return the works of loops about the mean; report a sum that is not zero."""
     if "areas" not in values or None in values["areas"]:
         return ()
     works = tuple(
-        _work(one, f"{table}.areas[{number}]", scale, reader) for number, one in enumerate(values["areas"], start=1)
+        _work(area, f"{table}.areas[{number}]", scale, reader) for number, area in enumerate(values["areas"], start=1)
     )
     left, size = sum(works), max(map(abs, works))
     if abs(left) > _BALANCED * size and not reader.doubts(table):
@@ -309,7 +309,7 @@ def _loops(values: Values, table: str, scale: float, reader: Reader) -> tuple[fl
 
 
 def _excess(values: Values, table: str, work: float, scale: float, reader: Reader) -> float | None:
-    """Return the fluctuation of the energy, stated as it is or over the work of a period. [J]"""
+    """Return the fluctuation of the energy, stated in J or as a share of the work of a period. [J]"""
     if "excess_work" in values:
         return _work(values["excess_work"], f"{table}.excess_work", scale, reader)
     if "energy_fluctuation" not in values:
@@ -320,10 +320,10 @@ def _excess(values: Values, table: str, work: float, scale: float, reader: Reade
 
 
 def _check_balance(turning: Turning, reader: Reader) -> None:
-    """Complain of a torque that does more work, or less, than its load takes."""
+    """Report a torque whose work differs from that of its load."""
     if turning.torque is None or turning.load is None:
         return
-    driven, taken = (one.work * turning.cycle / one.period for one in (turning.torque, turning.load))
+    driven, taken = (diagram.work * turning.cycle / diagram.period for diagram in (turning.torque, turning.load))
     if abs(driven - taken) > _BALANCED * max(abs(driven), abs(taken)):
         mean = driven / turning.cycle
         reader.complain("load", Refusal("work_unbalanced", driven=driven, taken=taken, left=driven - taken, mean=mean))

@@ -1,4 +1,4 @@
-"""From the table of a flywheel to what is known of it and wanted of it, in any kind of machine file."""
+"""From the table of a flywheel to its given and required properties, in any kind of machine file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WANTED = ("fluctuation", "percent", "speeds")
 _SAME = 5e-3
 
 
-def read_wheel(values: Values, drive: Drive, speed: float | None, reader: Reader, *, pi: float = math.pi) -> Drive:
+def read_flywheel(values: Values, drive: Drive, speed: float | None, reader: Reader, *, pi: float = math.pi) -> Drive:
     """Return a drive with the flywheel of a table. `speed`: of the crank, where the description states it. [rad/s]"""
     rim = values["rim"]
     wheel = Wheel(
@@ -39,13 +39,13 @@ def read_wheel(values: Values, drive: Drive, speed: float | None, reader: Reader
 
 
 def is_given(values: Values) -> bool:
-    """Return whether a table states a flywheel, and not only what is wanted of it."""
+    """Return whether a table states a flywheel, not only its required fluctuation."""
     rim = values["rim"]
     return bool(values.si("inertia")) or "mass" in values or {"diameter", "width", "thickness", "density"} <= set(rim)
 
 
 def _inertia(values: Values, wheel: Wheel, pi: float) -> float:
-    """Return the moment of inertia that is given, zero where one is to be found. [kg m2]"""
+    """Return the given moment of inertia, zero if it is to be determined. [kg m2]"""
     rim = wheel.rim
     if wheel.mass is not None and wheel.gyration_radius is not None:
         return float(inertia_of_wheel(wheel.mass, wheel.gyration_radius))
@@ -54,18 +54,18 @@ def _inertia(values: Values, wheel: Wheel, pi: float) -> float:
     if rim is not None and not values.si("inertia") and is_given(values):
         mass = float(mass_of_rim(rim.density, pi, rim.diameter, rim.width, rim.thickness))
         return float(inertia_of_rim(mass, rim.diameter)) / rim.share
-    found: float = values.si("inertia") or 0.0
-    return found
+    inertia: float = values.si("inertia") or 0.0
+    return inertia
 
 
 def _fluctuation(values: Values, speed: float | None, reader: Reader) -> float | None:
-    """Return the fluctuation that is wanted, however it is stated."""
+    """Return the required fluctuation, in any form it is stated."""
     if "percent" in values:
         return float(2 * values["percent"] / 100)
     if "speeds" not in values:
-        found: float | None = values["fluctuation"]
-        return found
-    high, low = (one.value if one else math.nan for one in values["speeds"])
+        fluctuation: float | None = values["fluctuation"]
+        return fluctuation
+    high, low = (limit.value if limit else math.nan for limit in values["speeds"])
     mean = (high + low) / 2
     if not high > low and not reader.doubts("flywheel.speeds", "flywheel.speeds[1]", "flywheel.speeds[2]"):
         reader.complain("flywheel.speeds", Refusal("wheel_speeds_order"))

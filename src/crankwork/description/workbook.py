@@ -1,8 +1,9 @@
-"""The cells of a sheet of an Excel workbook as lines of text, columns apart by tabs."""
+"""The cells of a sheet of an Excel workbook as lines of text, columns separated by tabs."""
 
 from __future__ import annotations
 
 import io
+import posixpath
 import re
 import zipfile
 import zlib
@@ -14,7 +15,7 @@ from crankwork.locale import Refusal
 
 START = b"PK\x03\x04"
 _LARGEST = 4 * files.MAX_DATA_FILE
-# what a part that is cut short, altered, encrypted or packed otherwise raises
+# errors of damaged, encrypted or differently packed parts
 _BROKEN = (zipfile.BadZipFile, zlib.error, ET.ParseError, LookupError, EOFError, RuntimeError, OSError)
 _MOST_ROWS, _MOST_COLUMNS = 1_048_576, 16_384
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
@@ -23,10 +24,7 @@ _CELL = re.compile(r"([A-Z]{1,3})([0-9]{1,7})")
 
 
 def workbook_text(data: bytes, sheet: str | None = None) -> str:
-    """Return the text of a sheet: that of a name, or the only one with anything in it.
-
-    ValueError with what is wrong, and the names there are.
-    """
+    """Return the text of a sheet, by name or the only sheet with content; ValueError with the names of sheets."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as book:
             _check_size(book)
@@ -36,18 +34,18 @@ def workbook_text(data: bytes, sheet: str | None = None) -> str:
 
 
 def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
-    related = {one.get("Id", ""): one.get("Target", "") for one in _root(book, "xl/_rels/workbook.xml.rels")}
+    related = {link.get("Id", ""): link.get("Target", "") for link in _root(book, "xl/_rels/workbook.xml.rels")}
     sheets = {
-        one.get("name", ""): _member(related[one.get(_ID, "")])
-        for one in _root(book, "xl/workbook.xml").iter(f"{_MAIN}sheet")
+        sheet_element.get("name", ""): posixpath.join("xl", related[sheet_element.get(_ID, "")]).lstrip("/")
+        for sheet_element in _root(book, "xl/workbook.xml").iter(f"{_MAIN}sheet")
     }
     filled = [name for name, member in sheets.items() if b"<v>" in _read(book, member)]
     if wanted not in sheets and (wanted is not None or len(filled) != 1):
-        known = tuple(f'"{one[:60]}"' for one in list(sheets)[:12])
+        known = tuple(f'"{title[:60]}"' for title in list(sheets)[:12])
         raise ValueError(Refusal("workbook_sheet", known=known, example=f'"{(filled or list(sheets))[0][:60]}"'))
     words = []
     if "xl/sharedStrings.xml" in book.namelist():
-        words = [_words(one) for one in _root(book, "xl/sharedStrings.xml").iter(f"{_MAIN}si")]
+        words = [_words(item) for item in _root(book, "xl/sharedStrings.xml").iter(f"{_MAIN}si")]
     lines: list[str] = []
     for number, row in _rows(_read(book, sheets[filled[0] if wanted is None else wanted]), words):
         lines += [""] * (number - 1 - len(lines))
@@ -55,18 +53,14 @@ def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
     return "\n".join(lines)
 
 
-def _member(target: str) -> str:
-    return target.lstrip("/") if target.startswith("/") else f"xl/{target}"
-
-
 def _check_size(book: zipfile.ZipFile) -> None:
-    """Raise if there is more in a workbook than is read; no part gives more than it says."""
-    if sum(one.file_size for one in book.infolist()) > _LARGEST:
+    """Raise if the parts of a workbook are too large."""
+    if sum(member.file_size for member in book.infolist()) > _LARGEST:
         raise ValueError(Refusal("workbook_large", size=_LARGEST >> 20))
 
 
 def _read(book: zipfile.ZipFile, name: str) -> bytes:
-    """Return a part of a workbook, which is to refer to nothing."""
+    """Return a part of a workbook; raise if it has external references."""
     data = book.read(name)
     if b"<!DOCTYPE" in data or b"\0" in data:
         raise ValueError(Refusal("workbook_none"))
@@ -78,7 +72,7 @@ def _root(book: zipfile.ZipFile, name: str) -> ET.Element:
 
 
 def _words(element: ET.Element) -> str:
-    return " ".join("".join(one.text or "" for one in element.iter(f"{_MAIN}t")).split())
+    return " ".join("".join(text.text or "" for text in element.iter(f"{_MAIN}t")).split())
 
 
 def _rows(data: bytes, words: list[str]) -> Iterator[tuple[int, list[str]]]:
@@ -90,18 +84,18 @@ def _rows(data: bytes, words: list[str]) -> Iterator[tuple[int, list[str]]]:
         stated = row.get("r", "")
         number = max(number + 1, min(int(stated), _MOST_ROWS)) if stated.isdecimal() else number + 1
         cells: list[str] = []
-        for one in row.iter(f"{_MAIN}c"):
-            found = _CELL.fullmatch(one.get("r", ""))
-            cells += [""] * (min(_column(found[1]), _MOST_COLUMNS) - 1 - len(cells)) if found else []
-            cells.append(_shown(one, words))
+        for cell in row.iter(f"{_MAIN}c"):
+            match = _CELL.fullmatch(cell.get("r", ""))
+            cells += [""] * (min(_column(match[1]), _MOST_COLUMNS) - 1 - len(cells)) if match else []
+            cells.append(_shown(cell, words))
         row.clear()
         yield number, cells
 
 
 def _column(letters: str) -> int:
     number = 0
-    for one in letters:
-        number = 26 * number + ord(one) - 64
+    for letter in letters:
+        number = 26 * number + ord(letter) - 64
     return number
 
 

@@ -335,7 +335,7 @@ def plain_wrenches(running: Running) -> dict[str, tuple[Array, Array, Array]]:
     loads, frames = plain_loads(running), running.motion.frames
     found = {link: [np.zeros_like(running.motion.grid.angle) for _ in range(3)] for link in frames}
     for force in loads.forces:
-        (origin_x, origin_y), (at_x, at_y) = frames[force.link].origin, force.at
+        (origin_x, origin_y), (at_x, at_y) = frames[force.link].origin, force.point
         x, y = at_x.position - origin_x.position, at_y.position - origin_y.position
         on = found[force.link]
         on[0], on[1], on[2] = on[0] + force.x, on[1] + force.y, on[2] + (x * force.y - y * force.x)

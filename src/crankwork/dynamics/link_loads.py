@@ -122,7 +122,7 @@ def link_wrenches(running: Running) -> Wrenches:
     wrenches, still = Wrenches(motion), nothing(motion.grid)
     names = distinct(f"{force.link}.load" for force in loads.forces)
     for name, force in zip(names, loads.forces, strict=True):
-        moment = moment_of(arm(motion.frames[force.link].origin, force.at), (force.x, force.y), name)
+        moment = moment_of(arm(motion.frames[force.link].origin, force.point), (force.x, force.y), name)
         wrenches.add(force.link, Wrench(force.x, force.y, moment))
     for one in loads.torques:
         wrenches.add(one.link, Wrench(still, still, one.torque))

@@ -105,7 +105,7 @@ def reduced_torque(motion: Motion, loads: AppliedLoads) -> Value:
 def _parts(loads: AppliedLoads) -> Iterable[Value]:
     names = iter(distinct([*(one.link for one in loads.forces), *(one.link for one in loads.torques)]))
     for force in loads.forces:
-        part = reduced_torque_of_force(force.x, force.at.x.position_1, force.y, force.at.y.position_1)
+        part = reduced_torque_of_force(force.x, force.point.x.position_1, force.y, force.point.y.position_1)
         yield named(part, f"reduced_torque.{next(names)}")
     for one in loads.torques:
         yield named(reduced_torque_of_torque(one.torque, one.angle_1), f"reduced_torque.{next(names)}")

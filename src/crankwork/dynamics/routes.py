@@ -41,7 +41,7 @@ def zhukovsky_torque(running: Running) -> Array:
     motion, loads = running.motion, plain_loads(running)
     moment = np.zeros_like(motion.grid.angle)
     for force in loads.forces:
-        moment += cross((force.at.y.position_1, -force.at.x.position_1), (force.x, force.y))
+        moment += cross((force.point.y.position_1, -force.point.x.position_1), (force.x, force.y))
     for one in loads.torques:
         frame = motion.frames[one.link]
         x, y = frame.origin.x.position_1, frame.origin.y.position_1
@@ -59,7 +59,7 @@ def virtual_work_torque(running: Running) -> Array:
     loads = plain_loads(running)
     power = np.zeros_like(running.motion.grid.angle)
     for force in loads.forces:
-        power += force.x * force.at.x.position_1 + force.y * force.at.y.position_1
+        power += force.x * force.point.x.position_1 + force.y * force.point.y.position_1
     for one in loads.torques:
         power += one.torque * one.angle_1
     return -power

@@ -1,1 +1,1 @@
-"""What pushes: gas in the cylinder, calculated or measured."""
+"""Loads of a mechanism: gas in the cylinder, calculated or measured, springs, dampers, weights and processes."""

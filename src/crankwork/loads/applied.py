@@ -1,4 +1,4 @@
-"""What pushes a mechanism, ready for the dynamics: forces at moving points and torques on links."""
+"""Loads of a mechanism, ready for the dynamics: forces at moving points and torques on links."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class AppliedForce(NamedTuple):
     """A force on a link, where it acts, and its components along the fixed axes, arrays of shape (n,). [m], [N]"""
 
     link: str
-    at: PointMotion
+    point: PointMotion
     x: Value
     y: Value
 
@@ -43,15 +43,15 @@ class AppliedLoads:
     torques: tuple[AppliedTorque, ...] = ()
 
     def also(self, other: AppliedLoads) -> AppliedLoads:
-        """Return these loads and others together."""
+        """Return the sum of two sets of loads."""
         return AppliedLoads(self.forces + other.forces, self.torques + other.torques)
 
 
 NO_LOADS = AppliedLoads()
 
 
-def together(parts: Iterable[AppliedLoads]) -> AppliedLoads:
-    """Return all loads as one."""
+def combine_loads(parts: Iterable[AppliedLoads]) -> AppliedLoads:
+    """Return several sets of loads as one."""
     parts = list(parts)
     return AppliedLoads(
         tuple(force for part in parts for force in part.forces),
@@ -60,7 +60,7 @@ def together(parts: Iterable[AppliedLoads]) -> AppliedLoads:
 
 
 def check_name(what: str, name: str, known: Iterable[str]) -> None:
-    """Refuse the name of a point, link or sliding piece that does not exist."""
+    """Raise GeometryError if a point, link or sliding piece does not exist."""
     known = list(known)
     if name not in known:
         raise GeometryError(f"there is no {what} {name} to load; choose from {', '.join(known)}")
@@ -69,16 +69,16 @@ def check_name(what: str, name: str, known: Iterable[str]) -> None:
 def force_at(
     mechanism: Mechanism, motion: Motion, point: str, force: tuple[Value, Value], link: str = ""
 ) -> AppliedLoads:
-    """Return a force at a named point; nothing if the point is fixed.
+    """Return a force at a named point; no load if the point is fixed.
 
-    `link`: the link it acts on; empty for the first one of those that meet there.
+    `link`: the link it acts on; empty for the first of the links that meet there.
     """
-    bearer = bearers(mechanism)
-    check_name("point", point, bearer)
-    link = link or bearer[point]
+    owners = bearers(mechanism)
+    check_name("point", point, owners)
+    link = link or owners[point]
     if link == GROUND:
         return NO_LOADS
-    x, y = (everywhere(one, motion.grid) for one in force)
+    x, y = (everywhere(component, motion.grid) for component in force)
     return AppliedLoads((AppliedForce(link, motion.points[point], x, y),))
 
 
@@ -91,10 +91,10 @@ def force_between(
 ) -> AppliedLoads:
     """Return a pull on the first of two points towards the second, and its opposite on the second.
 
-    `pull`: components along the fixed axes [N]; `links`: those that the points are of, as `force_at` takes them.
+    `pull`: components along the fixed axes [N]; `links`: as in `force_at`.
     """
     name = ".".join(points)
-    x, y = (named(one, f"load_{axis}.{name}") for axis, one in zip("xy", pull, strict=True))
+    x, y = (named(component, f"load_{axis}.{name}") for axis, component in zip("xy", pull, strict=True))
     back = named(-x, f"load_x.{name}.end"), named(-y, f"load_y.{name}.end")
     return force_at(mechanism, motion, points[0], (x, y), links[0]).also(
         force_at(mechanism, motion, points[1], back, links[1])
@@ -104,8 +104,7 @@ def force_between(
 def force_along_guide(motion: Motion, slider: str, force: Value, own: str = "") -> AppliedForce:
     """Return a force on a sliding piece, along its guide and through the origin of its frame.
 
-    `force`: positive in the direction in which the distance of the piece counts [N]; `own`: what follows the name of
-    the piece in that of the force.
+    `force`: positive in the direction of growing distance [N]; `own`: suffix of the key of the force.
     """
     frame = motion.frames[slider]
     x, y = named(force * frame.cos, f"load_x.{slider}{own}"), named(force * frame.sin, f"load_y.{slider}{own}")
@@ -117,38 +116,31 @@ def force_on_slider(
 ) -> AppliedLoads:
     """Return a force along its guide on a sliding piece, and its reaction on the link that carries the guide.
 
-    On a carrier the force acts at the point of it where the piece is: it moves with the carrier, not with the piece.
-    `own`, `other`: what follows the name of the piece, and that of the carrier, in the names of the forces.
+    The reaction acts at the point of the carrier where the piece is now; that point moves with the carrier.
+    `own`, `other`: suffixes of the keys of the force and of its reaction.
     """
     push = force_along_guide(motion, slider, force, own)
-    slides = {one.link: one.other for one in joints(mechanism) if isinstance(one, SlidingJoint)}
+    slides = {joint.link: joint.other for joint in joints(mechanism) if isinstance(joint, SlidingJoint)}
     if mechanism.halves:
-        barrel, rod = (one.link for one in mechanism.halves)
+        barrel, rod = (half.link for half in mechanism.halves)
         slides[rod] = barrel
     carrier = slides[slider]
     if carrier == GROUND:
         return AppliedLoads((push,))
     x, y = named(-push.x, f"load_x.{carrier}{other or own}"), named(-push.y, f"load_y.{carrier}{other or own}")
-    return AppliedLoads((push, AppliedForce(carrier, carried_point(motion.frames[carrier], push.at), x, y)))
+    return AppliedLoads((push, AppliedForce(carrier, carried_point(motion.frames[carrier], push.point), x, y)))
 
 
 def torque_on(motion: Motion, link: str, torque: Value) -> AppliedLoads:
     """Return a torque on a link."""
     check_name("link", link, {**motion.links, **motion.frames})
-    rate = everywhere(_rate(motion, link), motion.grid)
-    return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), rate),))
+    frame: LinkMotion | None = motion.frames.get(link)
+    rate = motion.links[link].position_1 if frame is None else frame.angle_1
+    return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), everywhere(rate, motion.grid)),))
 
 
 def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
-    """Return the motion of the point of a link that is, at each angle, where another point passes. [m]
-
-    The place of the one, with the transfer functions of the other.
-    """
+    """Return the motion of the point of a link that coincides with another point at each angle. [m]"""
     place = point.x.position, point.y.position
     x, y = carried(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)
     return PointMotion(x._replace(position=place[0]), y._replace(position=place[1]))
-
-
-def _rate(motion: Motion, link: str) -> Value:
-    frame: LinkMotion | None = motion.frames.get(link)
-    return motion.links[link].position_1 if frame is None else frame.angle_1

@@ -19,17 +19,17 @@ from crankwork.locale import Refusal
 from crankwork.mechanism.dyads import Branch
 
 _TURN = 360.0
-# share of the largest below which a volume is nothing
-NOTHING = 1e-12
+# share of the largest volume below which a volume counts as zero
+ZERO_TOLERANCE = 1e-12
 
 
 class PressureOfHeat(Protocol):
-    """A release of heat, waiting for the volume of a chamber."""
+    """A release of heat that needs the volume of a chamber to give a pressure."""
 
     def diagram_in(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
     ) -> tuple[IndicatorDiagram, tuple[tuple[str, Mapping[str, float | str]], ...]]:
-        """Return the diagram in absolute pressure, and what the reader should know of it."""
+        """Return the diagram in absolute pressure, and notices about it."""
 
 
 @dataclass(frozen=True)
@@ -52,18 +52,18 @@ class Chamber:
     """
 
     faces: tuple[Face, ...]
-    # One of them where the volume itself matters; without, the volume counts from the least
+    # One of the two gives the volume; without them the volume counts from its minimum
     clearance_volume: float | None = None
     compression_ratio: float | None = None
-    ambient: float = 0.0  # Pressure on the other side of its faces, counted as its own is
+    ambient: float = 0.0  # Pressure on the other side of its faces, absolute if its own pressure is
     names_ambient: bool = True  # Whether the description gives it
     cycle: float = 360.0  # Crank angle after which its pressure repeats, 360 or 720
     pressure: float | None = None
     points: Mapping[str, DiagramPoint] = field(default_factory=dict)
     pieces: tuple[Piece, ...] = ()
-    valves: Valves | None = None  # What points and pieces follow from; they count from the least volume
+    valves: Valves | None = None  # Give points and pieces, from the smallest volume on
     measured: MeasuredPressure | None = None
-    delay: float = 0.0  # Crank angle by which its diagram comes later [deg]
+    delay: float = 0.0  # Crank angle by which its diagram is delayed [deg]
     factor: float = 1.0  # Of the gauge pressure
     released: PressureOfHeat | None = None  # A release of heat that gives its pressure
     # Added to measured angles; step at which they are resampled
@@ -100,55 +100,52 @@ class Charge:
 
 def cycle_of(chambers: Mapping[str, Chamber]) -> float:
     """Return the crank angle after which every pressure repeats. [deg]"""
-    return max((one.cycle for one in chambers.values()), default=_TURN)
+    return max((chamber.cycle for chamber in chambers.values()), default=_TURN)
 
 
 def least_common(cycle: float, period: float) -> float:
-    """Return the crank angle after which both what has one period and what has another repeat. [deg]"""
+    """Return the least common multiple of two crank angles that are whole numbers of turns. [deg]"""
     return _TURN * math.lcm(round(cycle / _TURN), round(period / _TURN))
 
 
 def own_cycle(chamber: Chamber, period: float) -> float:
-    """Return the crank angle of the indicated work of a chamber: when pressure and volume repeat together. [deg]
-
-    `period`: that of the motion.
-    """
+    """Return the crank angle after which pressure and volume of a chamber repeat; `period`: of the motion. [deg]"""
     return least_common(chamber.cycle, period)
 
 
-def face_owners(name: str, chamber: Chamber) -> tuple[str, ...]:
-    """Return what the faces of a chamber are called in keys: as it is if there is one, else with their pieces."""
+def face_names(name: str, chamber: Chamber) -> tuple[str, ...]:
+    """Return the names of the faces of a chamber in keys: that of the chamber, with several faces also the piece."""
     if len(chamber.faces) == 1:
         return (name,)
-    return tuple(f"{name}.{one.slider}" for one in chamber.faces)
+    return tuple(f"{name}.{face.slider}" for face in chamber.faces)
 
 
-def charge_mass(name: str, charge: Charge, whole: Known, constant: Known, period: float) -> Known:
+def charge_mass(name: str, charge: Charge, volume: Known, constant: Known, period: float) -> Known:
     """Return the mass of a charge whose parts keep their temperatures."""
     key = f"gas_mass.{name}"
     if charge.mass is not None:
         return given(key, charge.mass, f"charges.{name}.mass")
-    over = _course(name, whole, period)
+    over = _volume_over_cycle(name, volume, period)
     if charge.mean_pressure is None:
-        start = at_angle(whole, charge.angle, f"reduced_volume.{name}.start")
+        start = at_angle(volume, charge.angle, f"reduced_volume.{name}.start")
     else:
         mean = math.radians(period) / over.integral("inverse")
-        start = Known(Found(mean, "harmonic_mean", (whole,)), f"reduced_volume.{name}.mean")
+        start = Known(Found(mean, "harmonic_mean", (volume,)), f"reduced_volume.{name}.mean")
     return gas.charge_mass(_stated(name, charge), start, constant).named(key)  # type: ignore[no-any-return]
 
 
-def charge_pressure(name: str, charge: Charge, whole: Known, exponent: Known, period: float) -> Known:
+def charge_pressure(name: str, charge: Charge, volume: Known, exponent: Known, period: float) -> Known:
     """Return the pressure of a charge that follows a polytrope."""
-    over, stated = _course(name, whole, period), _stated(name, charge)
+    over, stated = _volume_over_cycle(name, volume, period), _stated(name, charge)
     if charge.mean_pressure is None:
-        start = at_angle(whole, charge.angle, f"cylinder_volume.{name}.start")
+        start = at_angle(volume, charge.angle, f"cylinder_volume.{name}.start")
     else:
-        by = over.extremes("")["_min_angle"] * (180 / math.pi)
-        start = at_angle(whole, by.value, f"cylinder_volume.{name}.start", by)
-        trial = gas.polytropic_pressure(stated, start, whole, exponent)
+        angle = over.extremes("")["_min_angle"] * (180 / math.pi)
+        start = at_angle(volume, angle.value, f"cylinder_volume.{name}.start", angle)
+        trial = gas.polytropic_pressure(stated, start, volume, exponent)
         mean = OverCycle({"": trial}, CrankGrid.from_degrees, period).mean("", f"diagram_pressure.{name}.trial")
         stated = (stated * (stated / mean)).named(f"diagram_pressure.{name}.start")
-    return gas.polytropic_pressure(stated, start, whole, exponent)  # type: ignore[no-any-return]
+    return gas.polytropic_pressure(stated, start, volume, exponent)  # type: ignore[no-any-return]
 
 
 def _stated(name: str, charge: Charge) -> Known:
@@ -157,10 +154,9 @@ def _stated(name: str, charge: Charge) -> Known:
     return given(f"diagram_pressure.{name}.start", charge.pressure or math.nan, f"charges.{name}.pressure")
 
 
-def _course(name: str, whole: Known, period: float) -> OverCycle:
-    """Follow the whole volume of a charge, and its inverse; refuse one that vanishes."""
-    over = OverCycle({"": whole}, CrankGrid.from_degrees, period)
-    largest, least = over.largest_and_least[""]
-    if least.value <= NOTHING * largest.value:
+def _volume_over_cycle(name: str, volume: Known, period: float) -> OverCycle:
+    """Return the volume of a charge and its inverse over the cycle; raise if the volume vanishes."""
+    largest, least = OverCycle({"": volume}, CrankGrid.from_degrees, period).largest_and_least[""]
+    if least.value <= ZERO_TOLERANCE * largest.value:
         raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=least.at))
-    return OverCycle({"": whole, "inverse": 1 / whole}, CrankGrid.from_degrees, period)
+    return OverCycle({"": volume, "inverse": 1 / volume}, CrankGrid.from_degrees, period)

@@ -32,7 +32,7 @@ class Damper:
 
 @dataclass(frozen=True)
 class SliderDamper:
-    """A damper along a guide, between a sliding piece and what carries the guide."""
+    """A damper along a guide, between a sliding piece and the link of the guide."""
 
     slider: str  # The sliding piece
     damping: float  # Force over the velocity along the guide [N s/m]
@@ -57,9 +57,9 @@ def point_damper(load: Damper, mechanism: Mechanism, motion: Motion, speed: Valu
     start, end = motion.points[load.start], motion.points[load.end]
     name = f"{load.start}.{load.end}"
     x, x_1, y, y_1 = (
-        there - here
-        for one, other in zip(start, end, strict=True)
-        for here, there in zip(one[:2], other[:2], strict=True)
+        end_value - start_value
+        for start_axis, end_axis in zip(start, end, strict=True)
+        for start_value, end_value in zip(start_axis[:2], end_axis[:2], strict=True)
     )
     length = named(spring_length(x, y), f"damper_length.{name}")
     if not is_known(length) and np.any(length == 0):
@@ -78,8 +78,7 @@ def slider_damper(
     """Return the forces of a damper on a sliding piece and on the link that carries its guide."""
     check_name("sliding piece", load.slider, motion.sliders)
     rate = named(slider_velocity(motion.sliders[load.slider].position_1, speed), f"slider_velocity.{load.slider}")
-    damping = _damping(load, load.slider, rate, path)
-    force = -named(damper_force(damping, rate), f"damper_force.{load.slider}")
+    force = -named(damper_force(_damping(load, load.slider, rate, path), rate), f"damper_force.{load.slider}")
     return force_on_slider(mechanism, motion, load.slider, force, ".damper")
 
 

@@ -81,7 +81,7 @@ def face_area(A: Value, A_r: Value) -> Value:
 
 @formula("face_volume", "kolchin_demidov_2008, ch. 5")
 def face_volume(sigma: Value, A: Value, s_x: Value, s_x0: Value) -> Value:
-    """What a sliding piece has added to a chamber on its way from where the chamber is least."""
+    """Volume that a sliding piece adds to a chamber, from its position at the smallest volume on."""
     return sigma * A * (s_x - s_x0)
 
 

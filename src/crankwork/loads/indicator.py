@@ -1,8 +1,7 @@
 """The indicator diagram: gas pressure over the crank angle, piece by piece, closed over the cycle.
 
-The description is named points and the laws between them. Solving it against the volume of the cylinder
-gives segments that know their pressure at any angle. A segment owns its end and not its start, so at a
-vertical line the pressure before the jump is the one that counts.
+The description is named points and the laws between them. Solving it against the volume of the cylinder gives
+segments with a pressure at any angle. A segment owns its end, not its start: at a jump the pressure before it counts.
 """
 
 from __future__ import annotations
@@ -31,18 +30,18 @@ VolumeAt = Callable[[Array], Array]
 _CLOSING = 1e-3
 # pieces that end nearer than this to where the next begins leave no gap [deg]
 _SAME_ANGLE = 1e-5
-# parts of pieces that are shorter are rounding [deg]
+# parts of pieces that are shorter come from rounding [deg]
 _SAME_ROUNDED = 1e-9
 # share of the stroke by which a volume may miss that of a dead centre
 _SAME_PLACE = 1e-12
-# places at which a volume is looked at that does not seem to change
-_LOOKS = 5
-# share of the largest volume that is as good as none
+# samples of a volume that may be constant
+_SAMPLES = 5
+# share of the largest volume that counts as zero
 _EMPTY = 1e-7
 
 
 class DiagramError(CrankworkError):
-    """A diagram that does not hang together; `key` is the part of the description at fault."""
+    """An inconsistent diagram; `key` is the part of the description at fault."""
 
     def __init__(self, key: str, message: str) -> None:
         super().__init__(message)
@@ -53,8 +52,8 @@ class DiagramError(CrankworkError):
 class DiagramPoint:
     """A named point: crank angle [deg] and pressure [Pa]; either may be left to the law that ends there.
 
-    `volume` replaces the volume of the cylinder at that angle where a document prints its own [m3]. Without an angle
-    the point is where the volume next comes to it, or to a share of the stroke. [-]
+    `volume` replaces the computed volume of the cylinder at that angle [m3]. Without an angle the point is where the
+    volume next reaches it, or `stroke`, a share of the stroke. [-]
     """
 
     angle: float | None = None
@@ -67,7 +66,7 @@ class DiagramPoint:
 class Piece:
     """A law between two named points, through more of them if it is rounded.
 
-    `reference` names the state a polytrope passes through, the first point unless said otherwise.
+    `reference` names the state a polytrope passes through, by default the first point.
     """
 
     law: Law
@@ -77,9 +76,9 @@ class Piece:
 
 
 class DeadCentres(NamedTuple):
-    """Crank angles where a volume turns back before it repeats, and after which angle it does. [deg]"""
+    """Crank angles of the extremes of a volume within its period. [deg]"""
 
-    at: tuple[float, ...]
+    angles: tuple[float, ...]
     period: float = 360.0
 
 
@@ -87,10 +86,10 @@ class DeadCentres(NamedTuple):
 class Segment:
     """A solved piece from `start` to `end` [deg]: knots of a curve [deg], [Pa], or a polytrope's state.
 
-    `origin` is the named point whose state or pressure that is, if it has a name; `piece` the number of the piece in
-    the description; `places` where that, or a file of measurements, states the pressures at the knots. `of` is what a
-    calculated pressure was made from: of a constant its pressure, of a polytrope pressure, exponent and what else its
-    volume follows from, of a curve what its equation takes.
+    `origin` is the named point of that state or pressure; `piece` the number of the piece in the description; `places`
+    where the description or a file of measurements states the pressures at the knots. `operands` of a calculated
+    pressure: the pressure of a constant; pressure, exponent and operands of the volume of a polytrope; those of the
+    equation of a curve.
     """
 
     start: float
@@ -103,12 +102,12 @@ class Segment:
     origin: str = ""
     piece: int = 0
     places: tuple[str, ...] = field(default=(), compare=False)
-    of: tuple[Known, ...] = field(default=(), compare=False)
+    operands: tuple[Known, ...] = field(default=(), compare=False)
 
     @property
     def is_measured(self) -> bool:
         """Whether its knots are samples of a file."""
-        return any(":" in one or ".measured." in one for one in self.places)
+        return any(":" in place or ".measured." in place for place in self.places)
 
     def rounded(self, degrees: Array) -> Array:
         """Return the pressure on the curve through the knots, shape (n,). [Pa]"""
@@ -126,8 +125,7 @@ class Segment:
     def work(self, volume_at: VolumeAt, volume: Array | None = None) -> float:
         """Return the integral of pressure by volume over the segment (heywood_1988, sec. 2.4). [J]
 
-        Work; closed form for constants and polytropes, by parts for curves. `volume`: that at both ends, where it is
-        known already [m3], shape (2,).
+        Closed form for constants and polytropes, by parts for curves. `volume`: at both ends if known [m3], (2,).
         """
         ends = np.array([self.start, self.end])
         volume = volume_at(ends) if volume is None else volume
@@ -138,7 +136,7 @@ class Segment:
             # p1 V1 ((V2/V1)^(1-n) - 1) / (1-n), in a form that keeps its digits as n goes to 1
             growth, less = np.log(volume[1] / volume[0]), 1 - self.state[2]
             return float(pressure[0] * volume[0] * (np.expm1(less * growth) / less if less else growth))
-        # of a curve that the end of the cycle cuts only what lies in between
+        # the end of the cycle may cut a curve
         nodes, weights = quadrature(np.clip(self.knots, self.start, self.end))
         slope = hermite_slope(self.knots, self.pressures, self.slopes, nodes)
         change = weights @ (volume_at(nodes) * np.degrees(slope))
@@ -149,8 +147,7 @@ class Segment:
 class IndicatorDiagram:
     """A solved diagram: segments in order, from 0 to the end of the cycle.
 
-    `jumps` lists angle [deg] and pressure step [Pa] wherever two segments meet at different pressures
-    although the description names one point there.
+    `jumps` lists angle [deg] and pressure step [Pa] where two segments meet at one named point at different pressures.
     """
 
     segments: tuple[Segment, ...]
@@ -168,27 +165,26 @@ class IndicatorDiagram:
 
         Source: heywood_1988, sec. 2.4.
         """
-        ends = volume_at(np.array([(one.start, one.end) for one in self.segments]).ravel()).reshape(-1, 2)
-        return sum(one.work(volume_at, volume) for one, volume in zip(self.segments, ends, strict=True))
+        ends = volume_at(np.array([(segment.start, segment.end) for segment in self.segments]).ravel()).reshape(-1, 2)
+        return sum(segment.work(volume_at, volume) for segment, volume in zip(self.segments, ends, strict=True))
 
-    def later(self, by: float) -> IndicatorDiagram:
-        """Return the diagram of which every pressure comes later by a crank angle, the cycle closed. [deg]"""
+    def later(self, shift: float) -> IndicatorDiagram:
+        """Return the diagram shifted to later crank angles, closed over the cycle. [deg]"""
         cycle = self.segments[-1].end
-        by %= cycle
+        shift %= cycle
         moved = []
-        for turn, one in itertools.product((by - cycle, by), self.segments):
-            start, end = max(one.start + turn, 0.0), min(one.end + turn, cycle)
+        for turn, segment in itertools.product((shift - cycle, shift), self.segments):
+            start, end = max(segment.start + turn, 0.0), min(segment.end + turn, cycle)
             if end - start > _SAME_ROUNDED:
-                moved.append(replace(one, start=start, end=end, knots=one.knots + turn))
+                moved.append(replace(segment, start=start, end=end, knots=segment.knots + turn))
         moved[-1] = replace(moved[-1], end=cycle)
-        named = {name: ((angle + by) % cycle, pressure) for name, (angle, pressure) in self.named.items()}
-        jumps = tuple((name, (angle + by) % cycle, step) for name, angle, step in self.jumps)
-        return IndicatorDiagram(tuple(moved), named, jumps) if by else self
+        named = {name: ((angle + shift) % cycle, pressure) for name, (angle, pressure) in self.named.items()}
+        jumps = tuple((name, (angle + shift) % cycle, step) for name, angle, step in self.jumps)
+        return IndicatorDiagram(tuple(moved), named, jumps) if shift else self
 
     def pressure(self, degrees: Array, volume: Array) -> Array:
         """Return the pressure at ascending crank angles within one cycle. [Pa]"""
-        ends = [segment.end for segment in self.segments]
-        edges = [0, *np.searchsorted(degrees, ends, side="right")]
+        edges = [0, *np.searchsorted(degrees, [segment.end for segment in self.segments], side="right")]
         edges[-1] = len(degrees)
         result = np.empty_like(degrees)
         for segment, (first, last) in zip(self.segments, itertools.pairwise(edges), strict=True):
@@ -214,11 +210,13 @@ def solve_diagram(
     if not isinstance(dead_centres, DeadCentres):
         dead_centres = DeadCentres(dead_centres)
     solver = _Solver(points, volume_at, dead_centres, cycle, path)
-    segments = [replace(solver.segment(at, piece), piece=at + 1) for at, piece in enumerate(pieces)]
+    segments = [replace(solver.segment(index, piece), piece=index + 1) for index, piece in enumerate(pieces)]
     segments += solver.held(segments[-1])
     _check_chain(segments, cycle, solver.named, path)
     _check_closed(segments, solver.named[pieces[-1].points[-1]][1], path)
-    return IndicatorDiagram(tuple(one for one in segments if one.end > one.start), solver.named, tuple(solver.jumps))
+    return IndicatorDiagram(
+        tuple(segment for segment in segments if segment.end > segment.start), solver.named, tuple(solver.jumps)
+    )
 
 
 class _Solver:
@@ -259,7 +257,7 @@ class _Solver:
         """Return the rest of the cycle, in which the pressure stays as it is, where the volume does not change then."""
         if not self.cycle - last.end > _SAME_ANGLE:
             return []
-        volumes = self.volume_at(np.linspace(last.end, self.cycle, _LOOKS))
+        volumes = self.volume_at(np.linspace(last.end, self.cycle, _SAMPLES))
         low, high = self._reach
         if float(np.ptp(volumes)) > _SAME_PLACE * (high - low):
             return []
@@ -276,7 +274,9 @@ class _Solver:
         if name in self.named or point.angle is not None or not self._is_by_volume(point):
             return self.angle(key, name, end)
         low, high = self._reach
-        is_here = abs(float(self.volume_at(np.array([end]))[0]) - self._wanted(point)) <= _SAME_PLACE * (high - low)
+        is_here = abs(float(self.volume_at(np.array([end]))[0]) - self._point_volume(point)) <= _SAME_PLACE * (
+            high - low
+        )
         return end if is_here else self.angle(key, name, end)
 
     def angle(self, key: str, name: str, after: float) -> float:
@@ -300,7 +300,7 @@ class _Solver:
         volumes = self.volume_at(np.array(self.dead_centres))
         return float(np.min(volumes)), float(np.max(volumes))
 
-    def _wanted(self, point: DiagramPoint) -> float:
+    def _point_volume(self, point: DiagramPoint) -> float:
         """Return the volume that places a point. [m3]"""
         low, high = self._reach
         return low + point.stroke * (high - low) if point.stroke is not None else point.volume or 0.0
@@ -308,20 +308,20 @@ class _Solver:
     def _centres_after(self, start: float) -> Array:
         """Return the dead centres behind a crank angle, those of the next period among them. [deg]"""
         turns = np.arange(0.0, max(self.cycle, start) + 2 * self.period, self.period)
-        centres = np.sort(np.concatenate([turns + one for one in self.dead_centres]))
+        centres = np.sort(np.concatenate([turns + angle for angle in self.dead_centres]))
         return np.asarray(centres[np.searchsorted(centres, start + 1e-9) :])
 
     def _angle_of_volume(self, name: str, after: float) -> float:
         """Return where the volume next comes to that of a point. [deg]"""
-        wanted, (low, high) = self._wanted(self.points[name]), self._reach
+        target, (low, high) = self._point_volume(self.points[name]), self._reach
         edges = np.array([after, *self._centres_after(after)])
-        apart = self.volume_at(edges) - wanted
-        apart[np.abs(apart) <= _SAME_PLACE * (high - low)] = 0.0
-        for at in range(len(edges) - 1):
-            if apart[at + 1] == 0:
-                return float(edges[at + 1])
-            if apart[at] * apart[at + 1] < 0:
-                return reached(self.volume_at, wanted, float(edges[at]), float(edges[at + 1]))
+        differences = self.volume_at(edges) - target
+        differences[np.abs(differences) <= _SAME_PLACE * (high - low)] = 0.0
+        for index in range(len(edges) - 1):
+            if differences[index + 1] == 0:
+                return float(edges[index + 1])
+            if differences[index] * differences[index + 1] < 0:
+                return reached(self.volume_at, target, float(edges[index]), float(edges[index + 1]))
         key = "volume" if self.points[name].stroke is None else "stroke"
         raise DiagramError(
             f"{self.path}.points.{name}.{key}", Refusal("point_volume_far", low=low * 1e6, high=high * 1e6)
@@ -387,15 +387,15 @@ class _Solver:
         if min(self._reach[0], reference) > _EMPTY * self._reach[1]:
             return
         centres = self._centres_after(start)
-        at = np.array([start, *centres[centres < end], end])
-        volumes = self.volume_at(at)
+        degrees = np.array([start, *centres[centres < end], end])
+        volumes = self.volume_at(degrees)
         if min(float(np.min(volumes)), reference) <= _EMPTY * self._reach[1]:
-            raise DiagramError(key, Refusal("polytrope_empty", angle=float(at[np.argmin(volumes)])))
+            raise DiagramError(key, Refusal("polytrope_empty", angle=float(degrees[np.argmin(volumes)])))
 
     def _angle_of_pressure(self, key: str, start: float, last: str, state: tuple[float, float, float]) -> float:
         """Return where the polytrope reaches the pressure of its end point, before the next dead centre."""
-        wanted = self.points[last].pressure
-        if wanted is None or wanted <= 0:
+        target = self.points[last].pressure
+        if target is None or target <= 0:
             raise DiagramError(key, Refusal("polytrope_end", name=last))
         low, high = start, float(self._centres_after(start)[0])
 
@@ -404,18 +404,10 @@ class _Solver:
             with np.errstate(divide="ignore"):
                 return np.asarray(polytropic_pressure(*state[:2], self.volume_at(degrees), state[2]))
 
-        ends = pressure(np.array([low, high])) - wanted
+        ends = pressure(np.array([low, high])) - target
         if ends[0] * ends[1] > 0:
-            raise DiagramError(
-                key,
-                Refusal(
-                    "polytrope_far",
-                    name=last,
-                    angle=high,
-                    centres=tuple(self.dead_centres),
-                ),
-            )
-        return reached(pressure, wanted, low, high)
+            raise DiagramError(key, Refusal("polytrope_far", name=last, angle=high, centres=tuple(self.dead_centres)))
+        return reached(pressure, target, low, high)
 
     def _rounded(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:
@@ -446,8 +438,7 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
             raise DiagramError(f"{path}.pieces[{number}]", Refusal(name, start=segment.start, end=end))
         if segment.end < segment.start:
             raise DiagramError(
-                f"{path}.pieces[{number}]",
-                Refusal("piece_backwards", start=segment.start, end=segment.end),
+                f"{path}.pieces[{number}]", Refusal("piece_backwards", start=segment.start, end=segment.end)
             )
         end = segment.end
     if abs(end - cycle) > _SAME_ANGLE:
@@ -458,10 +449,7 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
 def _check_closed(segments: list[Segment], stated: float, path: str) -> None:
     """Raise unless the pressure stated at the last point, or that of the law which ends there, is that of the first."""
     first = float(segments[0].pressures[0])
-    last = min(stated, float(segments[-1].pressures[-1]), key=lambda one: abs(one - first))
+    last = min(stated, float(segments[-1].pressures[-1]), key=lambda pressure: abs(pressure - first))
     highest = max(float(np.max(np.abs(segment.pressures))) for segment in segments)
     if abs(first - last) > 0.02 * highest:
-        raise DiagramError(
-            f"{path}.pieces",
-            Refusal("diagram_open", first=first / 1e6, last=last / 1e6),
-        )
+        raise DiagramError(f"{path}.pieces", Refusal("diagram_open", first=first / 1e6, last=last / 1e6))

@@ -7,16 +7,9 @@ from typing import Protocol, runtime_checkable
 
 from crankwork.formula.expression import Value
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedLoads, force_at, together
+from crankwork.loads.applied import AppliedLoads, combine_loads, force_at
 from crankwork.loads.damper import Damper, SliderDamper, point_damper, slider_damper
-from crankwork.loads.process import (
-    ForceOnPoint,
-    ProcessForce,
-    TorqueOnLink,
-    constant_force,
-    link_torque,
-    process_force,
-)
+from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink, constant_force, link_torque, process_force
 from crankwork.loads.spring import SliderSpring, Spring, point_spring, slider_spring
 from crankwork.loads.weight import Weight, weight
 from crankwork.mechanism.mechanism import Mechanism
@@ -68,7 +61,7 @@ def applied_loads(mechanism: Mechanism, motion: Motion, loads: Iterable[Load], s
 
     `speed`: rate of the driver's coordinate, which dampers follow [rad/s] or [m/s].
     """
-    return together(
+    return combine_loads(
         _applied(load, mechanism, motion, speed, f"loads[{number}]") for number, load in enumerate(loads, start=1)
     )
 

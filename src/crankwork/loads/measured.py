@@ -1,4 +1,4 @@
-"""Measured cylinder pressure: from rows of angle and pressure to the cycles that they hold, and a closed diagram."""
+"""Measured cylinder pressure: from rows of angle and pressure to cycles and a closed diagram."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from crankwork.locale import Refusal
 _GAP_FACTOR = 4.0
 _SAME_ANGLE = 1e-6
 _WRAP = 0.05
-# how programs count the angles of a cycle otherwise [deg]
+# other angles after which programs restart their count within a cycle [deg]
 _OFTEN = {720.0: (360.0,), 360.0: (720.0,)}
-# of the range of pressures, what those of cycles are nearer to each other than
-_ALIKE = 0.5
+# share of the range of pressures by which equal cycles differ at most
+_EQUAL_CYCLES = 0.5
 # samples of one cycle
 _FEWEST, _MOST = 8, 50_000
-# least part of a cycle that is one where the rest is stated [deg]
+# shortest recorded part of a cycle if the rest is stated [deg]
 _CLOSED = 60.0
-# what no gas comes to [Pa]
+# larger than any gas pressure [Pa]
 _HIGHEST = 1e9
 
-# what the reader should know: the code of a notice and its values
-Told = tuple[str, Mapping[str, float | str]]
+# code of a notice and its values
+NoticeData = tuple[str, Mapping[str, float | str]]
 
 
 class Pegging(NamedTuple):
-    """The pressure that one is to be at an angle, or the exponent that it is to follow between two. [deg], [Pa]"""
+    """Reference of gauge pressures: a pressure at an angle, or an exponent between two angles. [deg], [Pa]"""
 
     angle: float = 0.0
     pressure: float = 0.0
@@ -42,57 +42,58 @@ class Pegging(NamedTuple):
     end: float = 0.0
 
 
-class Treatment(NamedTuple):
-    """What is done to samples because a description says so; nothing by itself. [deg], [Pa]"""
+class Preprocessing(NamedTuple):
+    """Requested treatment of samples, none by default. [deg], [Pa]"""
 
     cycle: str | int | None = None  # Which of several cycles, or their mean
-    rest: float | None = None  # The pressure where a cycle was not recorded
+    rest: float | None = None  # The pressure in the part of a cycle that was not recorded
     peg: Pegging | None = None
     smooth: float | None = None
-    loss_angle: float | None = None  # That of a motored cycle, from its peak to top dead centre
+    loss_angle: float | None = None  # Of a motored cycle, from its peak to top dead centre
     absolute: bool = False  # Whether pressures are absolute
 
 
-AS_RECORDED = Treatment()
+AS_RECORDED = Preprocessing()
 
 
 @dataclass(frozen=True)
 class MeasuredPressure:
     """Pressure samples of one or more cycles, as recorded."""
 
-    # Crank angles, running on or beginning anew with every cycle, shape (n,) [deg], and pressures, shape (n,), or
+    # Crank angles, continuous or restarting with every cycle, shape (n,) [deg], and pressures, shape (n,), or
     # (n, cycles) for cycles side by side [Pa]
     degrees: Array
     pressure: Array
     rows: Sequence[int]  # Line numbers of the samples in their file, for messages
     file: str = ""  # Name of that file, without its folder
-    told: tuple[Told, ...] = ()  # How the file was read
-    treatment: Treatment = AS_RECORDED
+    notices: tuple[NoticeData, ...] = ()  # How the file was read
+    treatment: Preprocessing = AS_RECORDED
     reference: str = ""  # Whether the file says that its pressures are absolute, or gauge
 
 
-class Recorded(NamedTuple):
+class RecordedCycles(NamedTuple):
     """The cycles of a recording at the same crank angles, those of the file, shape (n,) and (cycles, n). [deg], [Pa]
 
-    `rows` are the lines of the samples of the only cycle, none for others; `wrap` is the pressure one cycle after the
-    first sample less that of the first; `told` is how the file was read.
+    `rows` are the lines of the samples if there is one cycle; `wrap` is the pressure one cycle after the first sample
+    less that of the first; `notices` say how the file was read.
     """
 
     degrees: Array
     cycles: Array
     rows: Sequence[int]
     wrap: float
-    told: tuple[Told, ...] = ()
+    notices: tuple[NoticeData, ...] = ()
 
 
-def recorded_cycles(measured: MeasuredPressure, cycle: float, *, step: float | None = None, path: str) -> Recorded:
+def recorded_cycles(
+    measured: MeasuredPressure, cycle: float, *, step: float | None = None, path: str
+) -> RecordedCycles:
     """Return the cycles of a recording, at the angles of the first or at every `step`. [deg]
 
     `path`: where a description states them.
     """
     key = f"{path}.measured"
-    columns = measured.pressure.reshape(len(measured.degrees), -1)
-    _check_size(measured, columns, key)
+    _check_size(measured, measured.pressure.reshape(len(measured.degrees), -1), key)
     running = _running_on(measured, cycle, key)
     _check_angles(running, cycle, key)
     degrees = running.degrees
@@ -103,14 +104,14 @@ def recorded_cycles(measured: MeasuredPressure, cycle: float, *, step: float | N
     offsets = first if step is None else np.asarray(step * np.arange(np.ceil(cycle / step - 1e-6)), float)
     if len(offsets) > _MOST:
         raise DiagramError(key, Refusal("samples_many", count=len(offsets)))
-    found = [one for column in running.pressure.T for one in _of_column(degrees, column, (cycle, count), offsets)]
-    # what is resampled stands on no line
-    rows = running.rows[: len(offsets)] if len(found) == 1 and step is None else ()
-    return Recorded(offsets + start, np.array(found), rows, _wrap_step(running, cycle), running.told)
+    cycles = [row for column in running.pressure.T for row in _of_column(degrees, column, (cycle, count), offsets)]
+    # resampled values are on no line
+    rows = running.rows[: len(offsets)] if len(cycles) == 1 and step is None else ()
+    return RecordedCycles(offsets + start, np.array(cycles), rows, _wrap_step(running, cycle), running.notices)
 
 
 def _of_column(degrees: Array, pressure: Array, cycles: tuple[float, int], offsets: Array) -> Iterator[Array]:
-    """Yield the pressures of each of so many cycles of a column at angles from its start. [Pa]"""
+    """Yield the pressures of each cycle of a column [Pa]; `cycles`: length, count; `offsets`: angles from its start."""
     (cycle, count), start = cycles, degrees[0]
     # a cycle recorded without its last angle is closed by its first sample
     keep = np.append(degrees < start + cycle * count - 1e-9, True)
@@ -131,57 +132,59 @@ def _check_size(measured: MeasuredPressure, columns: Array, key: str) -> None:
 
 
 def _running_on(measured: MeasuredPressure, cycle: float, key: str) -> MeasuredPressure:
-    """Return samples whose angles run on, where those of a file begin anew with every cycle, and its rest if stated."""
+    """Return samples with continuous angles and, if stated, the pressure of the part that was not recorded."""
     degrees, rows, rest = measured.degrees, np.asarray(measured.rows), measured.treatment.rest
     pressure = measured.pressure.reshape(len(degrees), -1)
     steps = np.diff(degrees)
     typical = float(np.median(steps))
-    # a recording of a part of every cycle goes back by most of this part
-    by, anew = (cycle, -steps > 0.5 * np.ptp(degrees)) if rest is not None else _anew(steps, cycle)
-    told = measured.told
-    turns = np.concatenate([[0], np.cumsum(anew)])
-    if by < cycle and anew.any():
-        if _are_alike(degrees, pressure, turns):
+    # angles of a recorded part of every cycle go back by most of this part
+    shift, restarts = (cycle, -steps > 0.5 * np.ptp(degrees)) if rest is not None else _restarts(steps, cycle)
+    notices = measured.notices
+    turns = np.concatenate([[0], np.cumsum(restarts)])
+    if shift < cycle and restarts.any():
+        if _are_equal_turns(degrees, pressure, turns):
             raise DiagramError(key, Refusal("samples_turns", line=int(rows[np.argmax(turns > 0)])))
-        told = (*told, ("measured_turns", {"file": measured.file, "name": key}))
-    degrees = degrees + by * turns
-    # a sample at the end of a cycle that is taken again at the beginning of the next
-    keep = np.append(~(anew & (np.diff(degrees) < _SAME_ANGLE)), True)
+        notices = (*notices, ("measured_turns", {"file": measured.file, "name": key}))
+    degrees = degrees + shift * turns
+    # drop a sample at the end of a cycle that is repeated at the beginning of the next
+    keep = np.append(~(restarts & (np.diff(degrees) < _SAME_ANGLE)), True)
     degrees, pressure, rows, turns = degrees[keep], pressure[keep], rows[keep], turns[keep]
     if rest is not None:
         blocks = [turns == number for number in range(int(turns[-1]) + 1)]
-        ends = [_with_rest(degrees[one], (cycle, typical)) for one in blocks]
+        ends = [_with_rest(degrees[block], (cycle, typical)) for block in blocks]
         added = np.concatenate(ends)
-        if min(float(np.ptp(degrees[one])) for one in blocks) < _CLOSED or not len(added):
+        if min(float(np.ptp(degrees[block])) for block in blocks) < _CLOSED or not len(added):
             raise DiagramError(key, Refusal("samples_rest", covered=float(np.ptp(degrees[blocks[0]])), cycle=cycle))
         degrees = np.concatenate([degrees, added])
         pressure = np.concatenate([pressure, np.full((len(added), pressure.shape[1]), rest)])
-        last = [rows[one][-1] for one, more in zip(blocks, ends, strict=True) for _ in more]
+        last = [rows[block][-1] for block, more in zip(blocks, ends, strict=True) for _ in more]
         rows = np.concatenate([rows, np.array(last, dtype=rows.dtype)])
         order = np.argsort(degrees, kind="stable")
         degrees, pressure, rows = degrees[order], pressure[order], rows[order]
-    return replace(measured, degrees=degrees, pressure=pressure, rows=rows.tolist(), told=told)
+    return replace(measured, degrees=degrees, pressure=pressure, rows=rows.tolist(), notices=notices)
 
 
-def _anew(steps: Array, cycle: float) -> tuple[float, NDArray[np.bool_]]:
-    """Return by how much angles begin anew, and after which steps: with every cycle, its turns, or two cycles. [deg]"""
+def _restarts(steps: Array, cycle: float) -> tuple[float, NDArray[np.bool_]]:
+    """Return after which angle the count restarts (cycle, turn or two cycles), and after which steps. [deg]"""
     typical = float(np.median(steps))
-    for by in (cycle, *_OFTEN.get(cycle, ())):
-        anew = (-steps > by - 3 * typical) & (-steps < by + typical / 2)
-        if anew.any():
-            return by, anew
+    for shift in (cycle, *_OFTEN.get(cycle, ())):
+        restarts = (-steps > shift - 3 * typical) & (-steps < shift + typical / 2)
+        if restarts.any():
+            return shift, restarts
     return cycle, np.zeros(len(steps), dtype=bool)
 
 
-def _are_alike(degrees: Array, pressure: Array, turns: NDArray[np.intp]) -> bool:
-    """Return whether the first two turns are as alike as cycles of one turn are, and the strokes of four are not."""
-    (at, one), (there, other) = ((degrees[turns == number], pressure[turns == number, 0]) for number in (0, 1))
-    apart = np.abs(np.interp(at, there, other) - one)
-    return float(apart.max()) < _ALIKE * float(np.ptp(pressure[:, 0]))
+def _are_equal_turns(degrees: Array, pressure: Array, turns: NDArray[np.intp]) -> bool:
+    """Return whether the first two turns are equal cycles, not the two turns of four strokes."""
+    (angles, pressures), (other_angles, other_pressures) = (
+        (degrees[turns == number], pressure[turns == number, 0]) for number in (0, 1)
+    )
+    differences = np.abs(np.interp(angles, other_angles, other_pressures) - pressures)
+    return float(differences.max()) < _EQUAL_CYCLES * float(np.ptp(pressure[:, 0]))
 
 
 def _with_rest(degrees: Array, steps: tuple[float, float]) -> Array:
-    """Return the angles at which the rest of a cycle begins and ends, none where it was recorded whole. [deg]"""
+    """Return angles in the part of a cycle that was not recorded; `steps`: cycle and typical step. [deg]"""
     cycle, typical = steps
     left = degrees[0] + cycle - degrees[-1]
     return (
@@ -194,7 +197,7 @@ def closed_diagram(
 ) -> IndicatorDiagram:
     """Return a diagram from 0 to `cycle` through samples at any angles of one period. [deg], [Pa]
 
-    `stated`: the line of each sample, and what states them all.
+    `stated`: the source of each sample, and that of interpolated values.
     """
     places, file = stated
     degrees = np.asarray(np.round(np.mod(degrees, cycle), 9) % cycle)
@@ -207,8 +210,8 @@ def closed_diagram(
     curve = (around, values, slopes)
     inside = np.concatenate([[0.0], around[(around > 0) & (around < cycle)], [cycle]])
     values, slopes = hermite(*curve, inside), hermite_slope(*curve, inside)
-    lines = {degree: places[at] for degree, at in zip(degrees.tolist(), order.tolist(), strict=True)}
-    names = tuple(lines.get(one % cycle, file) for one in inside.tolist())
+    lines = {degree: places[index] for degree, index in zip(degrees.tolist(), order.tolist(), strict=True)}
+    names = tuple(lines.get(angle % cycle, file) for angle in inside.tolist())
     return IndicatorDiagram((Segment(0.0, cycle, "rounded", inside, values, slopes, places=names),), {})
 
 
@@ -218,28 +221,17 @@ def _check_angles(measured: MeasuredPressure, cycle: float, key: str) -> None:
     if np.any(steps <= 0):
         worst = int(np.argmax(steps <= 0))
         raise DiagramError(
-            key,
-            Refusal("samples_backwards", line=rows[worst + 1], first=degrees[worst], second=degrees[worst + 1]),
+            key, Refusal("samples_backwards", line=rows[worst + 1], first=degrees[worst], second=degrees[worst + 1])
         )
     typical = float(np.median(steps))
     if np.max(steps) > _GAP_FACTOR * typical:
         worst = int(np.argmax(steps))
         raise DiagramError(
             key,
-            Refusal(
-                "samples_gap",
-                line=rows[worst + 1],
-                first=degrees[worst],
-                second=degrees[worst + 1],
-                step=typical,
-            ),
+            Refusal("samples_gap", line=rows[worst + 1], first=degrees[worst], second=degrees[worst + 1], step=typical),
         )
-    covered = float(degrees[-1] - degrees[0]) + 1.5 * typical
-    if covered < cycle:
-        raise DiagramError(
-            key,
-            Refusal("samples_short", covered=degrees[-1] - degrees[0], cycle=cycle),
-        )
+    if float(degrees[-1] - degrees[0]) + 1.5 * typical < cycle:
+        raise DiagramError(key, Refusal("samples_short", covered=degrees[-1] - degrees[0], cycle=cycle))
 
 
 def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
@@ -249,7 +241,7 @@ def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
     if degrees[-1] >= end:
         after = float(np.interp(end, degrees, pressure))
     else:
-        # the last row of a cycle is often left out; carry on as the samples before it go
+        # the last row of a cycle is often left out: extrapolate
         slope = (pressure[-1] - pressure[-2]) / (degrees[-1] - degrees[-2])
         after = float(pressure[-1] + slope * (end - degrees[-1]))
     return after - float(pressure[0])
@@ -257,5 +249,4 @@ def _wrap_step(measured: MeasuredPressure, cycle: float) -> float:
 
 def wrap_is_rough(diagram: IndicatorDiagram, wrap: float) -> bool:
     """Return whether the step between end and start of the cycle is worth a warning."""
-    pressures = diagram.segments[0].pressures
-    return abs(wrap) > _WRAP * float(np.ptp(pressures))
+    return abs(wrap) > _WRAP * float(np.ptp(diagram.segments[0].pressures))

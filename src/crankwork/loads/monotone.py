@@ -16,11 +16,11 @@ from crankwork.loads.between import cubic_between
 
 
 def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
-    """Return slopes at the points such that the cubic Hermite curve never overshoots them; of knowns too. [Pa/deg]
+    """Return slopes at the points such that the cubic Hermite curve never overshoots them. [Pa/deg]
 
-    Slopes; zero at local extremes. `x` and `y`: ascending abscissas and ordinates; with `periodic` the last point
-    repeats the first one period on [deg], [Pa]; `periodic`: whether slopes at both ends are those of one closed
-    curve. Source: fritsch_butland_1984, weighted harmonic mean; three-point end slopes.
+    Zero at local extremes. `x` and `y`: ascending abscissas and ordinates, numbers or traced [deg], [Pa]; `periodic`:
+    the last point repeats the first, and both have one slope.
+    Source: fritsch_butland_1984, weighted harmonic mean; three-point end slopes.
     """
     if periodic:
         x = np.concatenate([[x[0] - (x[-1] - x[-2])], x, [x[-1] + x[1] - x[0]]])
@@ -45,30 +45,25 @@ def _end_slope(near: Any, far: Any, delta_near: Any, delta_far: Any) -> Any:  # 
     return chosen(slope * delta_near, chosen(delta_near * delta_far, slope, turning), 0.0)
 
 
-def hermite(x: Array, y: Array, slopes: Array, at: Array) -> Array:
+def hermite(x: Array, y: Array, slopes: Array, abscissas: Array) -> Array:
     """Return the piecewise cubic with given ordinates and slopes (fritsch_carlson_1980, eq. 2). [Pa]
 
-    `x`, `y` and `slopes`: points and slopes [deg], [Pa], [Pa/deg]; `at`: abscissas between the first and the last
-    point [deg].
+    `abscissas`: between the first and the last point [deg]; the others: points and slopes [deg], [Pa], [Pa/deg].
     """
-    i = _interval(x, at)
+    i = _interval(x, abscissas)
     h = x[i + 1] - x[i]
-    return cubic_between((y[i], y[i + 1]), (slopes[i] * h, slopes[i + 1] * h), (at - x[i]) / h)  # type: ignore[no-any-return]
+    return cubic_between((y[i], y[i + 1]), (slopes[i] * h, slopes[i + 1] * h), (abscissas - x[i]) / h)  # type: ignore[no-any-return]
 
 
-def hermite_slope(x: Array, y: Array, slopes: Array, at: Array) -> Array:
-    """Return the derivative of the piecewise cubic with given ordinates and slopes. [Pa/deg]
-
-    `x`, `y` and `slopes`: points and slopes [deg], [Pa], [Pa/deg]; `at`: abscissas between the first and the last
-    point [deg]. Source: fritsch_carlson_1980, eq. 2.
-    """
-    i = _interval(x, at)
+def hermite_slope(x: Array, y: Array, slopes: Array, abscissas: Array) -> Array:
+    """Return the derivative of `hermite`. [Pa/deg]"""
+    i = _interval(x, abscissas)
     h = x[i + 1] - x[i]
-    t = (at - x[i]) / h
+    t = (abscissas - x[i]) / h
     rise = (y[i + 1] - y[i]) / h
     return np.asarray(6 * t * (1 - t) * rise + slopes[i] * (1 - t) * (1 - 3 * t) + slopes[i + 1] * t * (3 * t - 2))
 
 
-def _interval(x: Array, at: Array) -> NDArray[np.intp]:
-    numbers = np.array([plain(one) for one in x], dtype=float) if x.dtype == object else x
-    return np.asarray(np.clip(np.searchsorted(numbers, at, side="right") - 1, 0, len(x) - 2))
+def _interval(x: Array, abscissas: Array) -> NDArray[np.intp]:
+    numbers = np.array([plain(value) for value in x], dtype=float) if x.dtype == object else x
+    return np.asarray(np.clip(np.searchsorted(numbers, abscissas, side="right") - 1, 0, len(x) - 2))

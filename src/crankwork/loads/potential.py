@@ -1,4 +1,4 @@
-"""The potential energy of what pushes a mechanism: springs, weights and constant forces."""
+"""The potential energy of loads: springs, weights and constant forces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The pressure of an indicator diagram over the crank angle, remembered piece by piece."""
+"""The pressure of an indicator diagram over the crank angle, traced piece by piece."""
 
 from __future__ import annotations
 
@@ -15,17 +15,16 @@ from crankwork.loads.between import CurvePoint, curve_between
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import IndicatorDiagram, Segment
 
-# What a document prints for a volume may be the computed one but for rounding.
+# A stated volume within this tolerance is the computed volume.
 _SAME_VOLUME = 1e-12
 
 
 def remembered_pressure(
     diagram: IndicatorDiagram, volume: Known, path: str = "gas", retold: Callable[[], Known] | None = None
 ) -> Known:
-    """Return the pressure of a diagram as the laws that follow one another; `retold` gives it of nothing but knowns.
+    """Return the pressure of a diagram as a sequence of laws; `retold`: its form that holds for all inputs.
 
-    `path`: where a description states the diagram, `chambers.NAME` that of a chamber, `gas` and what follows of a
-    cylinder.
+    `path`: of the diagram in the description, `chambers.NAME` or `gas`.
     """
     laws = tuple(_law(diagram, segment, volume, path) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
@@ -35,13 +34,13 @@ def remembered_pressure(
 def _of(key: str, path: str, name: str = "") -> str:
     """Return the key of a column, or of its value at a named point, with the chamber it belongs to."""
     owner = path.removeprefix("chambers.") if path.startswith("chambers.") else ""
-    return ".".join((key, *(one for one in (owner, name) if one)))
+    return ".".join((key, *(part for part in (owner, name) if part)))
 
 
-def at_angle(column: Known, degrees: float, key: str, by: Known | None = None) -> Known:
-    """Return what a column amounts to at one crank angle, under a name of its own; `by`: that angle, if it follows."""
+def at_angle(column: Known, degrees: float, key: str, angle: Known | None = None) -> Known:
+    """Return the value of a column at one crank angle under a key; `angle`: that angle if it is traced."""
     value = float(replay(column, CrankGrid.from_degrees([degrees]))[0])
-    return Known(Found(value, "at", (column,), degrees, by), key)
+    return Known(Found(value, "at", (column,), degrees, angle), key)
 
 
 def polytrope_origin(
@@ -50,15 +49,15 @@ def polytrope_origin(
     """Return pressure and volume of the state that a polytrope passes through, and its exponent."""
     pressure, state_volume, exponent = segment.state
     name = segment.origin
-    if segment.of:
-        p_1, n_p, *others = segment.of
+    if segment.operands:
+        p_1, n_p, *remaining = segment.operands
         if name == "z" and isinstance(volume.node, Use):
-            # where burning ends the gas has the clearance volume times the cut-off
-            burnt = (others[0] * volume.node.operands[0]).named(f"cylinder_volume.{name}")
+            # at the end of combustion the volume is the clearance volume times the cut-off ratio
+            burnt = (remaining[0] * volume.node.operands[0]).named(f"cylinder_volume.{name}")
             if math.isclose(burnt.value, state_volume, rel_tol=_SAME_VOLUME):
                 return p_1, burnt, n_p
-        at = diagram.named.get(name, (None, 0.0))[0]
-        return p_1, Known(Found(state_volume, "at", (volume, *others), at), f"cylinder_volume.{name}"), n_p
+        angle = diagram.named.get(name, (None, 0.0))[0]
+        return p_1, Known(Found(state_volume, "at", (volume, *remaining), angle), f"cylinder_volume.{name}"), n_p
     keys = [_of(key, path, name) if name else "" for key in ("diagram_pressure", "cylinder_volume")]
     place = f"{path}.points.{_stated(name)}"
     p_1 = given(keys[0], pressure, f"{place}.pressure")
@@ -72,7 +71,7 @@ def polytrope_origin(
 
 
 def _stated(name: str) -> str:
-    """Return the name of a point as it is stated, without the marks of later cycles."""
+    """Return the name of a point as stated, without the primes of later cycles."""
     return name.rstrip("′")
 
 
@@ -81,12 +80,12 @@ def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str) 
         case "constant":
             name, pressure = segment.origin, float(segment.pressures[0])
             stated = given(_of("diagram_pressure", path, name), pressure, f"{path}.points.{_stated(name)}.pressure")
-            return segment.of[0] if segment.of else stated
+            return segment.operands[0] if segment.operands else stated
         case "polytropic":
             p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path)
             return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]
-    word = "first_law" if segment.of else "measured" if segment.is_measured else "curve"
-    return Known(Table(PressureCurve(segment), word, segment.knots.tolist(), segment.of), "diagram_pressure")
+    word = "first_law" if segment.operands else "measured" if segment.is_measured else "curve"
+    return Known(Table(PressureCurve(segment), word, segment.knots.tolist(), segment.operands), "diagram_pressure")
 
 
 @dataclass(frozen=True)
@@ -99,18 +98,18 @@ class PressureCurve:
         """Return the pressure at crank angles."""
         return self.segment.rounded(degrees)
 
-    def between(self, degrees: float, by: Known) -> Known:
-        """Return the pressure at one crank angle, of the knots that it lies between."""
+    def between(self, degrees: float, angle: Known) -> Known:
+        """Return the pressure at one crank angle, interpolated between two knots."""
         knots = self.segment.knots
-        at = int(np.clip(np.searchsorted(knots, degrees, side="right") - 1, 0, len(knots) - 2))
-        return curve_between("diagram_pressure", by, self._knot(at), self._knot(at + 1))
+        index = int(np.clip(np.searchsorted(knots, degrees, side="right") - 1, 0, len(knots) - 2))
+        return curve_between("diagram_pressure", angle, self._knot(index), self._knot(index + 1))
 
-    def _knot(self, at: int) -> CurvePoint:
-        one = self.segment
-        degrees, pressure, slope = (float(part[at]) for part in (one.knots, one.pressures, one.slopes))
-        if one.of:
-            found = Known(Found(pressure, "first_law", one.of))
-            return CurvePoint(Known(Found(math.radians(degrees), "step")), found, math.degrees(slope))
-        path = one.places[at] if one.places else "cycle.timing"
+    def _knot(self, index: int) -> CurvePoint:
+        segment = self.segment
+        degrees, pressure, slope = (float(part[index]) for part in (segment.knots, segment.pressures, segment.slopes))
+        if segment.operands:
+            value = Known(Found(pressure, "first_law", segment.operands))
+            return CurvePoint(Known(Found(math.radians(degrees), "step")), value, math.degrees(slope))
+        path = segment.places[index] if segment.places else "cycle.timing"
         angle = given("", math.radians(degrees), path.replace(".pressure", ".angle"))
         return CurvePoint(angle, given("", pressure, path), math.degrees(slope))

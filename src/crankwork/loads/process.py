@@ -14,12 +14,12 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.memory import angle_of, course_of
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, check_name, force_along_guide, force_at, torque_on
-from crankwork.loads.remembered import by_angle, by_column
+from crankwork.loads.remembered import curve_over_angle, curve_over_column
 from crankwork.loads.table import Curve
 from crankwork.mechanism.dyads import Branch
 from crankwork.mechanism.mechanism import Mechanism
 
-# share of the largest speed below which a piece counts as at rest, and about how far that is from there [deg]
+# share of the largest speed below which a piece is at rest, and the angle that it takes to reach that [deg]
 _REST = 1e-12
 _AT_REST = 1e-11
 _DECIMALS = 9
@@ -31,11 +31,11 @@ class ProcessForce:
 
     slider: str  # The sliding piece
     force: Curve  # Force, positive against the forward stroke, at the stroke or the crank angle; a `Table` is one [N]
-    # What `force` is given by: the way from `start`, or the crank angle [m], [rad]
+    # Argument of `force`: distance from `start`, or crank angle [m], [rad]
     against: Literal["stroke", "angle"] = "stroke"
     forward: Branch = 1  # 1 if the distance of the piece along its guide grows on the working stroke, -1 if it falls
     start: float = 0.0  # That distance where the working stroke begins [m]
-    # On the working stroke only, or on the way back too, with the same direction
+    # On the working stroke only, or on the return stroke too, with the same direction
     acts: Literal["forward", "both"] = "forward"
 
 
@@ -47,7 +47,7 @@ class ForceOnPoint:
     # Its components along the fixed axes [N]
     x: float
     y: float
-    link: str = ""  # The link it acts on; empty for the first one of those that meet there
+    link: str = ""  # The link it acts on; empty for the first of the links that meet there
 
 
 @dataclass(frozen=True)
@@ -58,8 +58,8 @@ class TorqueOnLink:
     torque: float | Curve  # Positive anticlockwise; a callable takes the crank angle in radians [N m]
 
 
-class _Way(NamedTuple):
-    """How far a piece or point has come on its forward stroke, and its speed there. [m], [m]"""
+class _Travel(NamedTuple):
+    """Distance of a piece from the start of its working stroke, and its derivative. [m], [m]"""
 
     position: Value
     position_1: Value
@@ -72,40 +72,36 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
     start: Value = load.start
     if is_known(slide.position):
         start = given(f"slider_displacement.{load.slider}.start", start, f"{path}.start")
-    way = slide.position - start, _in_time(slide.position_1, motion)
-    way = _Way(*(way if load.forward == 1 else (-way[0], -way[1])))
-    force = _force(load, way, motion, (load.slider, path))
+    # a rate with the sign of the velocity: the driver's coordinate may decrease
+    rate = slide.position_1 if motion.driver is None else slide.position_1 * motion.driver.position_1
+    travel = slide.position - start, rate
+    travel = _Travel(*(travel if load.forward == 1 else (-travel[0], -travel[1])))
+    force = _force(load, travel, motion, (load.slider, path))
     return AppliedLoads((force_along_guide(motion, load.slider, -force if load.forward == 1 else force),))
 
 
-def _in_time(rate: Value, motion: Motion) -> Value:
-    """Return a rate that has the sign of the velocity: by the driver's coordinate, which may go back."""
-    return rate if motion.driver is None else rate * motion.driver.position_1
-
-
-def _force(load: ProcessForce, way: _Way, motion: Motion, named_at: tuple[str, str]) -> Value:
-    if is_known(way.position):
-        return _remembered(load, way, motion, *named_at)
-    force = np.asarray(load.force(way.position if load.against == "stroke" else motion.grid.angle), dtype=float)
+def _force(load: ProcessForce, travel: _Travel, motion: Motion, named_at: tuple[str, str]) -> Value:
+    if is_known(travel.position):
+        return _remembered(load, travel, motion, *named_at)
+    force = np.asarray(load.force(travel.position if load.against == "stroke" else motion.grid.angle), dtype=float)
     if load.acts == "both":
         return force
-    forward = way.position_1 >= -_REST * np.max(np.abs(way.position_1))
-    return np.where(forward, force, 0.0)
+    return np.where(travel.position_1 >= -_REST * np.max(np.abs(travel.position_1)), force, 0.0)
 
 
-def _remembered(load: ProcessForce, way: _Way, motion: Motion, name: str, path: str) -> Known:
-    """Return the force as a table read at the way or the crank angle, in pieces where it acts one way only."""
-    key, course = f"process_force.{name}", course_of(motion.grid)
-    way = way._replace(position=named(way.position, f"working_stroke.{name}"))
+def _remembered(load: ProcessForce, travel: _Travel, motion: Motion, name: str, path: str) -> Known:
+    """Return the force as a curve over travel or crank angle, piecewise if it acts on the working stroke only."""
+    key, interpolator = f"process_force.{name}", course_of(motion.grid)
+    travel = travel._replace(position=named(travel.position, f"working_stroke.{name}"))
     if load.against == "stroke":
-        force = by_column(load.force, way.position, course, key, f"{path}.force")
+        force = curve_over_column(load.force, travel.position, interpolator, key, f"{path}.force")
     else:
-        force = by_angle(load.force, angle_of(motion.grid), key, f"{path}.force")
+        force = curve_over_angle(load.force, angle_of(motion.grid), key, f"{path}.force")
     if load.acts == "both":
         return force
-    over = course({"": way.position_1})
+    over = interpolator({"": travel.position_1})
     (*ends, last), is_back = over.stretches("")
-    # at rest it acts: a stretch on the way back does not own its end
+    # the force acts at rest: an interval of the return stroke does not own its end
     ends = [_rounded(end, over.breaks, back=back) for end, back in zip(ends, is_back, strict=False)]
     if is_back[-1] and not is_back[0]:
         ends, is_back = [*ends, math.nextafter(last, 0.0)], [*is_back, False]
@@ -113,10 +109,7 @@ def _remembered(load: ProcessForce, way: _Way, motion: Motion, name: str, path: 
 
 
 def _rounded(end: float, breaks: Array, *, back: bool) -> float:
-    """Return where a stretch ends, a decimal where rounding alone keeps it from being one. [deg]
-
-    Where the law of the driver breaks, force and acceleration belong to the same side of it.
-    """
+    """Return the end of an interval, rounded to a close breakpoint of the driver's law or to decimals. [deg]"""
     law = float(breaks[np.argmin(np.abs(breaks - end))])
     if abs(law - end) < _AT_REST:
         return law
@@ -140,7 +133,7 @@ def link_torque(load: TorqueOnLink, motion: Motion, path: str = "") -> AppliedLo
     if is_known(motion.grid.angle):
         key = f"link_torque.{load.link}"
         if callable(load.torque):
-            torque = by_angle(load.torque, angle_of(motion.grid), key, f"{path}.torque")
+            torque = curve_over_angle(load.torque, angle_of(motion.grid), key, f"{path}.torque")
         else:
             torque = given(key, load.torque, f"{path}.torque")
     else:

@@ -1,4 +1,4 @@
-"""Loads given as curves, as columns that remember where they are not smooth."""
+"""Loads given as curves, as traced columns with their corners."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from crankwork.loads.monotone import monotone_slopes
 from crankwork.loads.table import Curve
 from crankwork.loads.table import Table as LoadTable
 
-_SPARE = 1e-12
+_MARGIN = 1e-12
 
-Course = Callable[[Mapping[str, Known]], OverCycle]
+Interpolator = Callable[[Mapping[str, Known]], OverCycle]
 
 
 @dataclass(frozen=True)
 class StatedTable:
-    """A table of loads as a column, level beyond its ends, which rounding may pass.
+    """A table of loads as a column, constant beyond its ends, which rounding may pass.
 
     `path`: where a description states the load.
     """
@@ -32,21 +32,21 @@ class StatedTable:
     key: str
     path: str
 
-    def __call__(self, at: Array) -> Array:
+    def __call__(self, abscissas: Array) -> Array:
         """Return the values at some abscissas."""
-        return self.table(at if self.table.period else np.clip(at, self.table.at[0], self.table.at[-1]))
+        return self.table(abscissas if self.table.period else np.clip(abscissas, self.table.at[0], self.table.at[-1]))
 
-    def between(self, at: float, by: Known) -> Known:
-        """Return the value at one abscissa, of the points that it lies between."""
+    def between(self, abscissa: float, argument: Known) -> Known:
+        """Return the value at one abscissa, interpolated between two points."""
         x, y, period = np.array(self.table.at), np.array(self.table.values), self.table.period
         turn = 0.0
         if period:
-            turn = period * math.floor((at - x[0]) / period)
-            if x[-1] - x[0] < period * (1 - _SPARE):
+            turn = period * math.floor((abscissa - x[0]) / period)
+            if x[-1] - x[0] < period * (1 - _MARGIN):
                 x, y = np.append(x, x[0] + period), np.append(y, y[0])
         is_straight = self.table.interpolation == "linear"
         slopes = np.zeros_like(y) if is_straight else monotone_slopes(x, y, periodic=bool(period))
-        first = int(np.clip(np.searchsorted(x, at - turn, side="right") - 1, 0, len(x) - 2))
+        first = int(np.clip(np.searchsorted(x, abscissa - turn, side="right") - 1, 0, len(x) - 2))
 
         def point(k: int) -> CurvePoint:
             number = k % len(self.table.at) + 1
@@ -55,40 +55,39 @@ class StatedTable:
             value = given("", float(y[k]), f"{self.path}[{number}]")
             return CurvePoint(given("", float(x[k]) + turn, stated), value, float(slopes[k]))
 
-        return curve_between(self.key, by, point(first), point(first + 1), is_straight=is_straight)
+        return curve_between(self.key, argument, point(first), point(first + 1), is_straight=is_straight)
 
 
-def by_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Known:
+def curve_over_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Known:
     """Return a curve over the crank angle. [rad]
 
-    `curve`: what is given; a table says where it has corners, and so does whatever has `corners` [rad].
+    `curve`: a table, or a function that may have `corners` [rad].
     """
-    corners = [math.degrees(one) for one in _corners(curve)]
+    corners = [math.degrees(corner) for corner in _corners(curve)]
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], f"{path}[1]")
     function = StatedTable(curve, key, path) if isinstance(curve, LoadTable) else curve
     return Known(Table(function, "given", corners, by=angle), key)
 
 
-def by_column(curve: Curve, column: Known, course: Course, key: str, path: str = "") -> Known:
+def curve_over_column(curve: Curve, column: Known, interpolator: Interpolator, key: str, path: str = "") -> Known:
     """Return a curve over a column, with its corners at the crank angles where the column passes them."""
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], f"{path}[1]")
-    over, corners = course({"": column}), _corners(curve)
-    passed = [one for corner in corners for one in over.crossings("", corner).tolist()]
+    over, corners = interpolator({"": column}), _corners(curve)
+    passed = [angle for corner in corners for angle in over.crossings("", corner).tolist()]
     if not isinstance(curve, LoadTable):
         return Known(Table(curve, "given", passed, by=column), key)
     low, high = curve.at[0], curve.at[-1]
     law = Known(Table(StatedTable(curve, key, path), "given", passed, by=column), key)
-    spare = _SPARE * max(abs(low), abs(high))
-    ends = sorted([*over.crossings("", low - spare).tolist(), *over.crossings("", high + spare).tolist()])
+    margin = _MARGIN * max(abs(low), abs(high))
+    ends = sorted([*over.crossings("", low - margin).tolist(), *over.crossings("", high + margin).tolist()])
     ends = [*ends, float(over.edges[-1])]
-    middles = (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2
-    at = over.at("", middles)
-    is_inside = (at > low - spare) & (at < high + spare)
+    values = over.at("", (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
+    is_inside = (values > low - margin) & (values < high + margin)
     if is_inside.all():
         return law
-    return Known(Pieces(ends, tuple(law if one else absent(key) for one in is_inside)), key)
+    return Known(Pieces(ends, tuple(law if inside else absent(key) for inside in is_inside)), key)
 
 
 def _corners(curve: Curve) -> tuple[float, ...]:

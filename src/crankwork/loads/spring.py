@@ -25,14 +25,14 @@ class Spring:
     stiffness: float  # Force per length [N/m]
     free_length: float  # Length at which it pulls with the preload only [m]
     preload: float = 0.0  # Pull at the free length [N]
-    # Links it is fixed to; empty for the first ones of those that meet there
+    # Links it is fixed to; empty for the first of the links that meet there
     start_link: str = ""
     end_link: str = ""
 
 
 @dataclass(frozen=True)
 class SliderSpring:
-    """A spring along a guide, between a sliding piece and what carries the guide."""
+    """A spring along a guide, between a sliding piece and the link of the guide."""
 
     slider: str  # The sliding piece
     stiffness: float  # Force per length [N/m]
@@ -56,7 +56,7 @@ def spring_length(dx: Value, dy: Value) -> Value:
 def _stated(
     load: Spring | SliderSpring, free: float, name: str, length: Value, path: str
 ) -> tuple[Value, Value, Value]:
-    """Return what a spring is like, as given values where its length is remembered."""
+    """Return stiffness, free length and preload of a spring, traced if its length is traced."""
     if not is_known(length):
         return load.stiffness, free, load.preload
     pull, at_free = load.preload, given(f"spring_length.{name}.free", free, f"{path}.free_length")

@@ -38,7 +38,7 @@ class Table:
     def __post_init__(self) -> None:
         if len(self.at) != len(self.values) or len(self.at) < 2:
             raise ValueError(Refusal("load_table_short", at=len(self.at), values=len(self.values)))
-        if not all(math.isfinite(one) for one in (*self.at, *self.values)):
+        if not all(math.isfinite(number) for number in (*self.at, *self.values)):
             raise ValueError(Refusal("load_table_finite"))
         jumps = self.interpolation == "linear"
         if any(after < before or (after == before and not jumps) for before, after in pairwise(self.at)) or (
@@ -48,16 +48,16 @@ class Table:
         if self.period and self.at[-1] - self.at[0] > self.period * (1 + 1e-12):
             raise ValueError(Refusal("load_table_period"))
 
-    def __call__(self, at: Array) -> Array:
+    def __call__(self, abscissas: Array) -> Array:
         """Return the values at some abscissas."""
         x, y = np.array(self.at), np.array(self.values)
         if self.period:
-            at = x[0] + np.mod(at - x[0], self.period)
+            abscissas = x[0] + np.mod(abscissas - x[0], self.period)
             if x[-1] - x[0] < self.period * (1 - 1e-12):
                 x, y = np.append(x, x[0] + self.period), np.append(y, y[0])
-        inside = (at >= x[0]) & (at <= x[-1])
+        inside = (abscissas >= x[0]) & (abscissas <= x[-1])
         if self.interpolation == "linear":
-            value = np.interp(at, x, y)
+            value = np.interp(abscissas, x, y)
         else:
-            value = hermite(x, y, monotone_slopes(x, y, periodic=bool(self.period)), np.clip(at, x[0], x[-1]))
+            value = hermite(x, y, monotone_slopes(x, y, periodic=bool(self.period)), np.clip(abscissas, x[0], x[-1]))
         return np.where(inside, value, 0.0)

@@ -1,4 +1,4 @@
-"""Measured pressure as a description wants it: which cycle, pegged, smoothed; and what the data contradict."""
+"""Measured pressure treated as requested: choice of the cycle, pegging, smoothing; and checks of the data."""
 
 from __future__ import annotations
 
@@ -12,82 +12,82 @@ from crankwork.loads.dead_centre import contradictions
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, VolumeAt
 from crankwork.loads.measured import (
     MeasuredPressure,
+    NoticeData,
     Pegging,
-    Told,
     closed_diagram,
     recorded_cycles,
     wrap_is_rough,
 )
 from crankwork.locale import Refusal
 
-# what gauge pressures lie above wherever people live [Pa]
+# lower than any gauge pressure [Pa]
 _VACUUM = -110e3
 _EVEN = 1e-3
-# share of the largest volume below which the least one is without that of the clearance
+# share of the largest volume below which the smallest volume has no clearance
 _NO_CLEARANCE = 1e-3
 _FEWEST = 5
-# share of all pressures by which one sample alone may miss its neighbours, and their own share of it
+# share of the range by which a single sample may differ from its neighbours, and share by which these may differ
 _SPIKE, _NEIGHBOURS = 0.25, 0.2
-# of a low pressure the share by which one may miss it, the least of all pressures, and how many times the usual
+# at low pressure: share of the pressure, least share of the range, multiple of the median difference
 _LOW, _LEAST, _RARE = 0.5, 0.01, 50.0
 
 
-class Around(NamedTuple):
-    """What the samples are held against: the volume at crank angles of the machine, and top dead centre if known."""
+class PressureReference(NamedTuple):
+    """Reference of the samples: volume at crank angles of the machine, and top dead centre if known."""
 
     volume_at: VolumeAt  # [deg] -> [m3]
     top: float | None = None  # [deg]
 
 
 def measured_diagram(
-    measured: MeasuredPressure, cycle: float, around: Around, *, shift: float, step: float | None, path: str
-) -> tuple[IndicatorDiagram, list[Told]]:
-    """Return the closed diagram of measured pressure, and what the reader should know of it. [Pa]
+    measured: MeasuredPressure, cycle: float, around: PressureReference, *, shift: float, step: float | None, path: str
+) -> tuple[IndicatorDiagram, list[NoticeData]]:
+    """Return the closed diagram of measured pressure, and notices about it. [Pa]
 
     `shift` is added to every angle, so that zero is top dead centre [deg]; without a `step` to resample at, the samples
     of the first cycle set the angles [deg]. `path`: where a description states the diagram.
     """
     treatment, key = measured.treatment, f"{path}.measured"
     recorded = recorded_cycles(measured, cycle, step=step, path=path)
-    told = [*recorded.told, *_spikes(measured)]
+    notices = [*recorded.notices, *_spikes(measured)]
     degrees = recorded.degrees + shift
     volume = around.volume_at(np.mod(degrees, cycle))
     cycles = recorded.cycles
     if treatment.peg is not None:
         offsets = _offsets(cycles, degrees, volume, treatment.peg, (cycle, f"{key}.peg"))
         cycles = cycles + offsets[:, None]
-        told.append(("pressure_pegged", {"step": float(offsets.mean())}))
-    told += _spread(cycles, volume)
-    pressure = _chosen(cycles, treatment.cycle, f"{key}.cycle", told)
+        notices.append(("pressure_pegged", {"step": float(offsets.mean())}))
+    notices += _spread(cycles, volume)
+    pressure = _chosen(cycles, treatment.cycle, f"{key}.cycle", notices)
     stated = f"{key}.cycle" if len(cycles) > 1 else f"{key}.peg" if treatment.peg else f"{key}.file"
     if treatment.smooth is not None:
         before, pressure = pressure, _smooth(degrees, pressure, (cycle, treatment.smooth), f"{key}.smooth")
         stated = f"{key}.smooth"
         window, peaks = treatment.smooth, (float(before.max()) / 1e6, float(pressure.max()) / 1e6)
-        told.append(("pressure_smoothed", {"window": window, "before": peaks[0], "after": peaks[1]}))
+        notices.append(("pressure_smoothed", {"window": window, "before": peaks[0], "after": peaks[1]}))
     _check_vacuum(pressure, measured, key)
     is_raw = stated.endswith("file") and len(recorded.rows) > 0
     places = [f"{measured.file}:{row}" for row in recorded.rows] if is_raw else [stated] * len(degrees)
     diagram = closed_diagram(degrees, pressure, cycle, (places, stated))
     if treatment.rest is None and wrap_is_rough(diagram, recorded.wrap):
-        told.append(("wrap", {"step": recorded.wrap}))
+        notices.append(("wrap", {"step": recorded.wrap}))
     if around.top is not None:
         absolute = pressure if treatment.absolute else pressure + 101325.0
         against = contradictions(
             (degrees, absolute), around.volume_at, (cycle, around.top), shift=shift, loss_angle=treatment.loss_angle
         )
-        told += [(code, {**values, "name": key}) for code, values in against]
-    return diagram, told
+        notices += [(code, {**values, "name": key}) for code, values in against]
+    return diagram, notices
 
 
-def _spikes(measured: MeasuredPressure) -> Iterator[Told]:
-    """Yield the samples that stand alone among their neighbours, the worst of each column."""
+def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
+    """Yield notices of samples that differ from both neighbours, the worst of each column."""
     for pressure in measured.pressure.reshape(len(measured.degrees), -1).T:
         middle = np.median(np.stack([pressure[:-2], pressure[1:-1], pressure[2:]]), axis=0)
         off = np.abs(pressure[1:-1] - (pressure[:-2] + pressure[2:]) / 2)
-        beside = np.abs(pressure[:-2] + pressure[2:]) / 2
-        # where pressures are low, beside these and beside what samples miss their neighbours by elsewhere
-        low = (off > _LOW * beside) & (off > _LEAST * np.ptp(middle)) & (off > _RARE * np.median(off))
+        neighbours = np.abs(pressure[:-2] + pressure[2:]) / 2
+        # at low pressure, compared with the pressure and with the usual difference
+        low = (off > _LOW * neighbours) & (off > _LEAST * np.ptp(middle)) & (off > _RARE * np.median(off))
         alone = ((off > _SPIKE * np.ptp(middle)) | low) & (np.abs(pressure[2:] - pressure[:-2]) < _NEIGHBOURS * off)
         if np.any(alone):
             worst = int(np.argmax(np.where(alone, off, 0.0)))
@@ -95,13 +95,12 @@ def _spikes(measured: MeasuredPressure) -> Iterator[Told]:
             yield "pressure_spike", {"line": str(line), "step": step, "count": count}
 
 
-def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, by: tuple[float, str]) -> Array:
-    """Return what is added to each cycle for it to have the pressure or the exponent that is stated. [Pa]"""
-    cycle, key = by
+def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, cycle_and_key: tuple[float, str]) -> Array:
+    """Return the offset of each cycle that gives it the stated pressure or exponent. [Pa]"""
+    cycle, key = cycle_and_key
     if peg.exponent is None:
-        at = np.mod(degrees, cycle)
-        there = [np.interp(peg.angle % cycle, at, one, period=cycle) for one in cycles]
-        return peg.pressure - np.array(there)
+        angles = np.mod(degrees, cycle)
+        return peg.pressure - np.array([np.interp(peg.angle % cycle, angles, row, period=cycle) for row in cycles])
     if np.min(volume) < _NO_CLEARANCE * np.max(volume):
         raise DiagramError(key, Refusal("gas_volume"))
     inside = np.mod(degrees - peg.start, cycle) <= peg.end - peg.start
@@ -113,43 +112,43 @@ def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, by: tup
     return np.asarray(np.linalg.lstsq(system, cycles[:, inside].T)[0][1])
 
 
-def _spread(cycles: Array, volume: Array) -> Iterator[Told]:
+def _spread(cycles: Array, volume: Array) -> Iterator[NoticeData]:
     """Yield how much peak pressure and work differ from cycle to cycle. [%]"""
     if len(cycles) < 2:
         return
     peaks = cycles.max(axis=1)
     closed = np.concatenate([cycles, cycles[:, :1]], axis=1)
     work = (closed[:, 1:] + closed[:, :-1]) @ np.diff(np.append(volume, volume[0])) / 2
-    means = [float(abs(np.mean(one))) for one in (peaks, work)]
+    means = [float(abs(np.mean(values))) for values in (peaks, work)]
     shares = [
-        float(np.std(one, ddof=1)) / mean if mean else 0.0 for one, mean in zip((peaks, work), means, strict=True)
+        float(np.std(values, ddof=1)) / mean if mean else 0.0 for values, mean in zip((peaks, work), means, strict=True)
     ]
-    varies = [round(100 * one, 6) for one in shares]
+    varies = [round(100 * share, 6) for share in shares]
     yield "cycles_spread", {"cycles": float(len(cycles)), "peak": varies[0], "work": varies[1]}
 
 
-def _chosen(cycles: Array, which: str | int | None, key: str, told: list[Told]) -> Array:
+def _chosen(cycles: Array, which: str | int | None, key: str, notices: list[NoticeData]) -> Array:
     """Return one of the cycles, or their mean, as stated. [Pa]"""
     count = len(cycles)
     if which is None and count > 1:
         raise DiagramError(key.removesuffix(".cycle"), Refusal("samples_cycles", cycles=str(count)))
     if which == "mean" and count > 1:
-        told.append(("cycles_averaged", {"cycles": count}))
+        notices.append(("cycles_averaged", {"cycles": count}))
         return np.asarray(np.mean(cycles, axis=0))
     peaks = cycles.max(axis=1)
-    at = {"least peak": int(peaks.argmin()), "greatest peak": int(peaks.argmax())}.get(str(which), 0)
+    index = {"least peak": int(peaks.argmin()), "greatest peak": int(peaks.argmax())}.get(str(which), 0)
     if isinstance(which, int):
         if which > count:
             raise DiagramError(key, Refusal("samples_cycle", number=str(which), cycles=str(count)))
-        at = which - 1
+        index = which - 1
     if count > 1:
-        told.append(("cycle_chosen", {"number": float(at + 1), "cycles": float(count)}))
-    return np.asarray(cycles[at])
+        notices.append(("cycle_chosen", {"number": float(index + 1), "cycles": float(count)}))
+    return np.asarray(cycles[index])
 
 
-def _smooth(degrees: Array, pressure: Array, by: tuple[float, float], key: str) -> Array:
-    """Return samples with a cubic through each window put in their place as Savitzky and Golay do. [Pa]"""
-    cycle, window = by
+def _smooth(degrees: Array, pressure: Array, cycle_and_window: tuple[float, float], key: str) -> Array:
+    """Return samples smoothed by the cubic filter of Savitzky and Golay. [Pa]"""
+    cycle, window = cycle_and_window
     steps = np.diff(np.append(degrees, degrees[0] + cycle))
     typical = float(np.median(steps))
     if np.max(np.abs(steps - typical)) > _EVEN * typical:

@@ -1,4 +1,4 @@
-"""Valves that open by themselves: the diagram of a compressor or pump between two pressures, and what it delivers."""
+"""Automatic valves: the diagram of a compressor or pump between two pressures, and its delivery."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def exponent_of_temperatures(p_dis: Value, p_suc: Value, T_dis: Value, T_suc: Va
 
 @formula("isothermal_power", _TEXT)
 def isothermal_power(p_suc: Value, Q_in: Value, p_dis: Value) -> Value:
-    """Least power that compresses what is drawn in: at the temperature that it has there."""
+    """Least power that compresses the gas drawn in: at constant temperature."""
     return p_suc * Q_in * np.log(p_dis / p_suc)
 
 
@@ -117,16 +117,16 @@ class Pipe:
 
 @dataclass(frozen=True)
 class Valves:
-    """What opens them, and what passes. [Pa], [K], [J/(kg K)], [m3/s], [kg/m3]
+    """Opening pressures of valves, and the fluid that passes. [Pa], [K], [J/(kg K)], [m3/s], [kg/m3]
 
-    A gas has an exponent of compression or a temperature behind it; what has neither is a liquid.
+    A gas has an exponent of compression or a discharge temperature, a liquid has neither.
     """
 
     suction: float
     discharge: float
     compression_exponent: float | None = None
-    expansion_exponent: float | None = None  # As that of the compression if not given
-    temperature: float | None = None  # Of what is drawn in
+    expansion_exponent: float | None = None  # By default that of the compression
+    temperature: float | None = None  # Of suction
     discharge_temperature: float | None = None
     gas_constant: float | None = None
     free_pressure: float | None = None
@@ -145,12 +145,12 @@ class Valves:
     @property
     def exponents(self) -> tuple[float, float] | None:
         """Exponents of compression and expansion, of a gas."""
-        one = self.compression_exponent
+        exponent = self.compression_exponent
         if self.discharge_temperature is not None and self.temperature is not None:
-            one = float(
+            exponent = float(
                 exponent_of_temperatures(self.discharge, self.suction, self.discharge_temperature, self.temperature)
             )
-        return None if one is None else (one, self.expansion_exponent or one)
+        return None if exponent is None else (exponent, self.expansion_exponent or exponent)
 
     def diagram(self, *, has_clearance: bool) -> tuple[dict[str, DiagramPoint], tuple[Piece, ...]]:
         """Return points and laws of the cycle from the least volume: expansion, suction, compression, discharge."""
@@ -170,7 +170,7 @@ class Valves:
         )
         if exponents is not None and has_clearance:
             return points, pieces
-        # nothing is left that could expand: the pressure falls at once where the piston turns back
+        # without clearance the pressure falls at once where the piston turns back
         points = {**points, "d": DiagramPoint(stroke=0.0, pressure=low), "f": DiagramPoint(stroke=0.0, pressure=low)}
         del points["e"]
         drawn = Piece("constant", ("d", "a"))
@@ -180,7 +180,7 @@ class Valves:
 
 
 class Flow(NamedTuple):
-    """How a volume changes: its derivatives by the driver's coordinate, speed and acceleration of that, and pi."""
+    """Derivatives of a volume by the driver's coordinate, speed and acceleration of that coordinate, and pi."""
 
     rate: Known
     rate_2: Known
@@ -191,7 +191,7 @@ class Flow(NamedTuple):
 
 @dataclass(frozen=True)
 class StatedValves:
-    """Valves as a description states them: at a path, for what ends in `own`, `.head` or nothing of one cylinder."""
+    """Valves with their path in the description; `own`: suffix of their keys, such as `.head`, or empty."""
 
     valves: Valves
     path: str
@@ -207,17 +207,17 @@ class StatedValves:
         return self._given("suction_pressure", "suction"), self._given("discharge_pressure", "discharge")
 
     def at_points(self, points: Mapping[str, DiagramPoint]) -> dict[str, Known]:
-        """Return the pressures of points that have one."""
+        """Return the pressures of points with a stated pressure."""
         low, high = self.pressures
         return {
-            name: high if one.pressure == self.valves.discharge else low
-            for name, one in points.items()
-            if one.pressure is not None
+            name: high if point.pressure == self.valves.discharge else low
+            for name, point in points.items()
+            if point.pressure is not None
         }
 
     @property
     def temperature(self) -> Known:
-        """Temperature of what is drawn in. [K]"""
+        """Temperature of suction. [K]"""
         return self._given("suction_temperature", "temperature")
 
     @property
@@ -227,43 +227,47 @@ class StatedValves:
             return None
         low, high = self.pressures
         if self.valves.discharge_temperature is None:
-            one = self._given("compression_exponent", "compression_exponent")
+            compression = self._given("compression_exponent", "compression_exponent")
         else:
             after = self._given("discharge_temperature", "discharge_temperature")
-            one = exponent_of_temperatures(high, low, after, self.temperature)
-            one = one.named(f"polytropic_exponent{self.own}")
-        other = self._given("expansion_exponent", "expansion_exponent")
-        return one, one if other.is_absent else other
+            compression = exponent_of_temperatures(high, low, after, self.temperature)
+            compression = compression.named(f"polytropic_exponent{self.own}")
+        expansion = self._given("expansion_exponent", "expansion_exponent")
+        return compression, compression if expansion.is_absent else expansion
 
     def check(self, clearance: float, swept: float) -> None:
-        """Refuse a clearance out of which or into which the gas would only be squeezed. [m3]"""
+        """Raise if the clearance is so large that the discharge pressure is never reached. [m3]"""
         exponents = self.valves.exponents
         if exponents is None or not clearance:
             return
-        most = self.valves.suction * min((1 + swept / clearance) ** one for one in exponents)
+        most = self.valves.suction * min((1 + swept / clearance) ** exponent for exponent in exponents)
         if self.valves.discharge >= most:
             raise DiagramError(f"{self.path}.discharge", Refusal("valves_closed", most=most / 1e6))
 
     def remembered(self, diagram: IndicatorDiagram) -> IndicatorDiagram:
-        """Return the diagram whose laws remember pressures and exponents as they are stated."""
+        """Return the diagram with traced pressures and exponents as operands of its laws."""
         exponents, (low, high) = self.exponents, self.pressures
         compression, expansion = exponents or (None, None)
         laws: dict[str, dict[str, tuple[Known | None, ...]]] = {
             "polytropic": {"d": (high, expansion), "a": (low, compression)},
             "constant": {"d": (low,), "e": (low,), "c": (high,)},
         }
-        of = [[known for known in laws[one.law][one.origin] if known is not None] for one in diagram.segments]
-        segments = tuple(replace(one, of=tuple(some)) for one, some in zip(diagram.segments, of, strict=True))
+        operands = [
+            [known for known in laws[segment.law][segment.origin] if known is not None] for segment in diagram.segments
+        ]
+        segments = tuple(
+            replace(segment, operands=tuple(values)) for segment, values in zip(diagram.segments, operands, strict=True)
+        )
         return replace(diagram, segments=segments, jumps=())
 
     def through_pipes(self, pressure: Known, diagram: IndicatorDiagram, flow: Flow) -> Known:
-        """Return the pressure in the chamber, of that before its pipes over the strokes of a diagram."""
-        laws = tuple(self._taken(one.origin == "d", flow) for one in diagram.segments)
-        taken = Pieces([one.end for one in diagram.segments], laws, diagram.breaks.tolist())
+        """Return the pressure in the chamber; `pressure`: outside its pipes, `diagram`: its strokes."""
+        laws = tuple(self._pipe_pressure(segment.origin == "d", flow) for segment in diagram.segments)
+        taken = Pieces([segment.end for segment in diagram.segments], laws, diagram.breaks.tolist())
         return (pressure - Known(taken, f"pipe_pressure{self.own}")).named(pressure.key)
 
-    def _taken(self, is_suction: bool, flow: Flow) -> Known:  # noqa: FBT001 - which of two strokes
-        """Return what a pipe takes of the pressure before it, nothing without a pipe."""
+    def _pipe_pressure(self, is_suction: bool, flow: Flow) -> Known:  # noqa: FBT001 - which of two strokes
+        """Return the pressure loss in a pipe, zero without a pipe."""
         name = "suction_pipe" if is_suction else "discharge_pipe"
         pipe = getattr(self.valves, name)
         if pipe is None:
@@ -273,37 +277,37 @@ class StatedValves:
         length = given(f"pipe_length{own}", pipe.length, f"{path}.length")
         diameter = given(f"pipe_diameter{own}", pipe.diameter, f"{path}.diameter")
         area = piston_area(flow.pi, diameter).named(f"pipe_area{own}")
-        taken: Known = acceleration_pressure(density, length, area, flow.rate_2, flow.speed, flow.rate, flow.change)
-        taken = taken.named(f"acceleration_pressure{own}")
+        pressure: Known = acceleration_pressure(density, length, area, flow.rate_2, flow.speed, flow.rate, flow.change)
+        pressure = pressure.named(f"acceleration_pressure{own}")
         if not pipe.friction:
-            return taken
+            return pressure
         factor = given(f"pipe_friction{own}", pipe.friction, f"{path}.friction")
         lost: Known = friction_pressure(factor, length, diameter, density, flow.rate, flow.speed, area)
         lost = lost.named(f"friction_pressure{own}")
-        return taken + lost if is_suction else taken - lost
+        return pressure + lost if is_suction else pressure - lost
 
     def delivery(
         self, clearance: Known, swept: Known, power: Known, per_time: Callable[[Known], Known]
     ) -> dict[str, Known]:
-        """Return what passes the valves, by key; `per_time`: from a volume of a cycle to a flow."""
-        found = self.drawn(clearance, swept)
-        return found | self.passed(per_time(found[f"induced_volume{self.own}"]), power)
+        """Return the delivery of the valves by key; `per_time`: from a volume of a cycle to a flow."""
+        values = self.drawn(clearance, swept)
+        return values | self.passed(per_time(values[f"induced_volume{self.own}"]), power)
 
     def drawn(self, clearance: Known, swept: Known) -> dict[str, Known]:
-        """Return what is drawn in during a cycle, and what expands before, by key."""
+        """Return the volume drawn in during a cycle, and the expanded clearance volume, by key."""
         own, exponents, (low, high) = self.own, self.exponents, self.pressures
-        volume, found = swept.named(f"induced_volume{own}"), list[Known]()
+        volume, volumes = swept.named(f"induced_volume{own}"), list[Known]()
         if exponents is not None and not clearance.is_absent:
             left = expanded_volume(clearance, high, low, exponents[1]).named(f"expanded_volume{own}")
             volume = induced_volume(swept, clearance, left).named(volume.key)
-            found.append(left)
+            volumes.append(left)
         share = drawn_share(volume, swept).named(f"clearance_volumetric_efficiency{own}")
-        return {one.key: one for one in (*found, volume, share)}
+        return {value.key: value for value in (*volumes, volume, share)}
 
     def passed(self, flow: Known, power: Known) -> dict[str, Known]:
-        """Return what passes per unit of time, by key, of the flow that is drawn in and the power of its gas."""
-        found = {one.key: one for one in self._passed(flow.named(f"inlet_flow{self.own}"), power)}
-        return {key: one for key, one in found.items() if not one.is_absent}
+        """Return flows, temperature and isothermal power by key, from the inlet flow and the power of the gas."""
+        values = {value.key: value for value in self._passed(flow.named(f"inlet_flow{self.own}"), power)}
+        return {key: value for key, value in values.items() if not value.is_absent}
 
     def _passed(self, flow: Known, power: Known) -> Iterator[Known]:
         own, exponents, (low, high) = self.own, self.exponents, self.pressures
@@ -319,27 +323,26 @@ class StatedValves:
         before, constant = self.temperature, self._given("specific_gas_constant", "gas_constant")
         if not before.is_absent:
             if self.valves.discharge_temperature is None:
-                after = discharge_temperature(before, high, low, exponents[0])
-                yield after.named(f"discharge_temperature{own}")
+                yield discharge_temperature(before, high, low, exponents[0]).named(f"discharge_temperature{own}")
             if not constant.is_absent:
                 yield mass_flow(low, flow, constant, before).named(f"gas_mass_flow{own}")
             free = self._given("free_air_pressure", "free_pressure")
             if not free.is_absent:
-                there = self._given("free_air_temperature", "free_temperature")
-                yield free_air_delivery(flow, low, before, free, there).named(f"free_air_delivery{own}")
+                free_temperature = self._given("free_air_temperature", "free_temperature")
+                yield free_air_delivery(flow, low, before, free, free_temperature).named(f"free_air_delivery{own}")
         least = isothermal_power(low, flow, high).named(f"isothermal_power{own}")
         yield least
         if power.value:
             yield isothermal_efficiency(least, power).named(f"isothermal_efficiency{own}")
 
     def work(self, clearance: float, swept: float) -> float:
-        """Return the work of the gas in a cycle by pressures alone, the second way to it. [J]"""
+        """Return the work of the gas in a cycle by its pressures, as an independent check. [J]"""
         low, high, exponents = self.valves.suction, self.valves.discharge, self.valves.exponents
         if exponents is None:
             return (low - high) * swept
 
         def compressed(volume: float, exponent: float) -> float:
-            # n/(n-1) p V (r^((n-1)/n) - 1), in a form that keeps its digits as n goes to 1
+            # n/(n-1) p V (r^((n-1)/n) - 1), accurate as n approaches 1
             growth, share = math.log(high / low), (exponent - 1) / exponent
             return low * volume * (math.expm1(share * growth) / share if share else growth)
 

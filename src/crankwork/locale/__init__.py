@@ -1,7 +1,7 @@
-r"""Every word that crankwork prints: one key, one text per language, in `locale/LANGUAGE/ROOM.toml`.
+r"""All texts that crankwork prints, in `locale/LANGUAGE/ROOM.toml`; the key of a text is `room.name`.
 
-A key is `room.name`, and the room is the name of its file. A file is read when its first text is asked for. It is TOML,
-but a text stands on one line, `name = "text"`, a quotation mark as \": so read, a thousand take 0.3 ms, by tomllib 10.
+A file is read when its first text is needed. It is TOML with each text on one line, `name = "text"`, a quotation mark
+as \", and read by a regular expression, which is 30 times faster than tomllib.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ _LINE = re.compile(r'^"?([^"#=\s]+)"? = "(.*)"$', re.MULTILINE)
 
 @functools.cache
 def texts(room: str, language: Language) -> MappingProxyType[str, str]:
-    """Return all texts of a room by name."""
+    """Return all texts of a file by name."""
     written = read_resource("locale", language, f"{room}.toml")
-    found = dict(_LINE.findall(written))
+    room_texts = dict(_LINE.findall(written))
     if "\\" in written:
-        found = {name: words.replace('\\"', '"') for name, words in found.items()}
-    return MappingProxyType(found)
+        room_texts = {name: words.replace('\\"', '"') for name, words in room_texts.items()}
+    return MappingProxyType(room_texts)
 
 
 def say(key: str, language: Language, **values: object) -> str:
-    """Return a text, with values put in where it has braces; without values it is returned as it stands.
+    """Return a text with values inserted at its braces; without values the text is not formatted.
 
     Examples
     --------
@@ -38,8 +38,8 @@ def say(key: str, language: Language, **values: object) -> str:
     'мм'
     """
     room, _, name = key.partition(".")
-    found = texts(room, language)[name]
-    return found.format(**values) if values else found
+    text = texts(room, language)[name]
+    return text.format(**values) if values else text
 
 
 def decimal(text: str, language: Language) -> str:
@@ -54,13 +54,13 @@ def decimal(text: str, language: Language) -> str:
 
 
 def has_text(key: str) -> bool:
-    """Return whether there is a text of that key."""
+    """Return whether a key has a text."""
     room, _, name = key.partition(".")
     return name in texts(room, "en")
 
 
 def capital(words: str) -> str:
-    """Return words with a capital letter first, as headings and titles of columns have it.
+    """Return words with a capital first letter, for headings and titles of columns.
 
     Examples
     --------
@@ -71,11 +71,11 @@ def capital(words: str) -> str:
 
 
 class Refusal(str):
-    """What is refused, in English; it keeps its key and values, so that `told` can say it in another language.
+    """An error message in English that keeps its key and values, so that `told` can translate it.
 
-    The name is that of a text in the room `refusals`, or `room.name`. Of the values entries of a tuple are joined by
-    "or", those of a list by "and". A number is printed as the text says, `{heat:.4g}`, or else with up to six digits,
-    with the decimal mark of the language; what somebody typed, or is to type, is text.
+    The name is that of a text in the file `refusals`, or `room.name`. Entries of a tuple are joined by "or", those of a
+    list by "and". A number is formatted as in the text, `{heat:.4g}`, by default with up to six digits, and with the
+    decimal mark of the language; user input and advice are passed as text.
 
     Examples
     --------
@@ -97,12 +97,12 @@ class Refusal(str):
         return functools.partial(Refusal, self.name, **self.values), ()
 
     def cleaned(self, clean: Callable[[str], str]) -> Refusal:
-        """Return the sentence with something done to every text that is put in."""
-        return Refusal(self.name, **{name: _each(one, clean) for name, one in self.values.items()})
+        """Return the message with a function applied to every text inserted in it."""
+        return Refusal(self.name, **{name: _each(value, clean) for name, value in self.values.items()})
 
 
 def told(message: str, language: Language) -> str:
-    """Return a refusal in a language; other text stays as it is.
+    """Return an error message in a language; other text is unchanged.
 
     Examples
     --------
@@ -119,8 +119,8 @@ def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
         match value:
             case tuple() | list():
                 word = known["or" if isinstance(value, tuple) else "and"]
-                *others, last = [format(joined(one)) for one in value] or [""]
-                return f"{', '.join(others)} {word} {last}" if others else last
+                *leading, last = [format(joined(item)) for item in value] or [""]
+                return f"{', '.join(leading)} {word} {last}" if leading else last
             case float():
                 return _Printed(value, language)
             case str():
@@ -134,7 +134,7 @@ def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
 
 
 class _Printed(NamedTuple):
-    """A number that goes into a text."""
+    """A number to be inserted in a text of a language."""
 
     value: float
     language: Language
@@ -150,6 +150,6 @@ def _each(value: object, clean: Callable[[str], str]) -> object:
         case float():
             return value
         case tuple() | list():
-            return type(value)(_each(one, clean) for one in value)
+            return type(value)(_each(item, clean) for item in value)
         case _:
             return clean(str(value))

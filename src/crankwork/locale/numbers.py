@@ -1,4 +1,4 @@
-"""How a language prints numbers and units."""
+"""Format of numbers and units in a language."""
 
 from __future__ import annotations
 
@@ -27,6 +27,6 @@ def number(value: float, language: Language, *, digits: int = 6) -> str:
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Return cells in columns, a little to the right."""
-    width = [max(len(row[at]) for row in rows) for at in range(len(rows[0]))] if rows else []
+    """Return rows of cells as indented lines with aligned columns."""
+    width = [max(len(row[index]) for row in rows) for index in range(len(rows[0]))] if rows else []
     return ["  " + "  ".join(cell.ljust(size) for cell, size in zip(row, width, strict=True)).rstrip() for row in rows]

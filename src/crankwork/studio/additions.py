@@ -11,10 +11,10 @@ import numpy as np
 
 from crankwork.analysis import Results
 from crankwork.description.document import Description
-from crankwork.description.kinds import Measure, Quantity, Reader
+from crankwork.description.kinds import MeasuredValue, Quantity, Reader
 from crankwork.description.machine_file import file_keys, parse, template, template_names
-from crankwork.description.schema import Table
-from crankwork.description.written import with_entry
+from crankwork.description.schema import TableSpec
+from crankwork.description.written import with_table_entry
 from crankwork.locale import Language, say
 from crankwork.studio.form import first_value
 from crankwork.units import from_si
@@ -64,7 +64,7 @@ def with_addition(description: Description, addition: Addition) -> Description:
     text = description.dump()
     for key, value in addition.fields.items():
         if key.endswith("[]"):
-            text = with_entry(text, key[:-2], value)
+            text = with_table_entry(text, key[:-2], value)
         else:
             changed = Description(text, description.name, folder=description.folder)
             changed[key] = value
@@ -205,12 +205,12 @@ def _templates() -> list[Mapping[str, Any]]:
     return [parse(template(name), name) for name in template_names()]
 
 
-def _of_template(keys: Table, name: str) -> Mapping[str, Any]:
+def _of_template(keys: TableSpec, name: str) -> Mapping[str, Any]:
     return next((values[name] for values in _templates() if file_keys(values) is keys and name in values), {})
 
 
 def _required(kind: object) -> dict[str, Any]:
-    if not isinstance(kind, Table):
+    if not isinstance(kind, TableSpec):
         return {}
     return {name: first_value(field.kind) for name, field in kind.keys.items() if field.required is True}
 
@@ -284,7 +284,7 @@ def _size(crank: Mapping[str, Any]) -> tuple[float, str]:
     return _si(stated) or 0.1, _unit(stated)
 
 
-def _read(stated: object, dimension: str) -> Measure | None:
+def _read(stated: object, dimension: str) -> MeasuredValue | None:
     return Quantity((dimension,), -1e6, 1e6).read(stated, "", Reader(decimal_comma=True))
 
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from crankwork.description.document import Description
-from crankwork.description.kinds import Choice, Flag, Measure, Number, Quantity, Reader, Text
+from crankwork.description.kinds import Choice, Flag, MeasuredValue, Number, Quantity, Reader, Text
 from crankwork.description.machine_file import entry_at, file_keys, steps_of
-from crankwork.description.schema import By, Key, ListOf, NameOr, NumberOr, Table, WordOr
+from crankwork.description.schema import DefaultBy, KeySpec, ListOf, NameOr, NumberOr, TableSpec, WordOr
 from crankwork.description.written import toml
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language
@@ -37,12 +37,12 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
         group["rows"].append(_row(description, key, table, entry, language))
     for path, group in groups.items():
         table, stated = _kind(kinds, path), _stated(values, path)
-        if isinstance(table, Table):
+        if isinstance(table, TableSpec):
             group["more"] = list(_more(table, path, stated, language))
     return list(groups.values())
 
 
-def _keys(description: Description, kinds: Table) -> Iterator[str]:
+def _keys(description: Description, kinds: TableSpec) -> Iterator[str]:
     """Yield the keys of the fields of the machine; a point has one for each coordinate."""
     for key in description:
         match _kind(kinds, key), description[key]:
@@ -54,14 +54,14 @@ def _keys(description: Description, kinds: Table) -> Iterator[str]:
                 yield key
 
 
-def _place(kinds: Table, key: str) -> tuple[str, object, Key | None]:
+def _place(kinds: TableSpec, key: str) -> tuple[str, object, KeySpec | None]:
     """Return the table of a key, its specification, and that of the key."""
     path, _, name = key.rpartition(".")
     table = _kind(kinds, path)
-    return path, table, table.keys.get(name) if isinstance(table, Table) else None
+    return path, table, table.keys.get(name) if isinstance(table, TableSpec) else None
 
 
-def _kind(kinds: Table, path: str) -> object:
+def _kind(kinds: TableSpec, path: str) -> object:
     kind: object = kinds
     for step in steps_of(path) if path else ():
         kind = entry_at(kind, step)
@@ -75,18 +75,20 @@ def _stated(values: Mapping[str, Any], path: str) -> Mapping[str, Any]:
     return table if isinstance(table, Mapping) else {}
 
 
-def _meaning(kinds: Table, path: str, language: Language) -> str:
+def _meaning(kinds: TableSpec, path: str, language: Language) -> str:
     around, _, name = path.rpartition(".")
     table = _kind(kinds, around)
-    return table.meaning(name, language) if path and isinstance(table, Table) else ""
+    return table.meaning(name, language) if path and isinstance(table, TableSpec) else ""
 
 
-def _row(description: Description, key: str, table: object, entry: Key | None, language: Language) -> dict[str, Any]:
+def _row(
+    description: Description, key: str, table: object, entry: KeySpec | None, language: Language
+) -> dict[str, Any]:
     """Return a field: key, name, meaning, value and how it can be changed."""
     name, stated = key.rpartition(".")[2], description[key]
     kind = entry.kind if entry else _kind(file_keys(description.values), key)
     name, bracket, number = name.partition("[")
-    means = table.meaning(name, language) if isinstance(table, Table) else ""
+    means = table.meaning(name, language) if isinstance(table, TableSpec) else ""
     axis = f", {_AXES[number]}" if bracket else ""
     label = _label(name, means, language)
     row: dict[str, Any] = {"key": key, "name": name + axis, "label": label + axis, "value": _written(kind, stated)}
@@ -116,7 +118,7 @@ def _slid(kind: object, stated: object) -> dict[str, Any]:
     match single_kind(kind, stated), stated:
         case Quantity() as numeric, str():
             measure = numeric.read(stated, "", Reader())
-            if isinstance(measure, Measure):
+            if isinstance(measure, MeasuredValue):
                 low, high = (float(from_si(end, measure.unit)) for end in (numeric.low, numeric.high))
                 return {"number": float(from_si(measure.value, measure.unit)), "unit": measure.unit,
                         "after": _after(stated), "low": low, "high": high}  # fmt: skip
@@ -138,14 +140,16 @@ def _after(stated: str) -> str:
     return f" {stated[match.end() :]}" if match else ""
 
 
-def _more(table: Table, path: str, stated: Mapping[str, Any], language: Language) -> Iterator[dict[str, Any]]:
+def _more(table: TableSpec, path: str, stated: Mapping[str, Any], language: Language) -> Iterator[dict[str, Any]]:
     """Yield the fields that may be added to a table, each with an initial value."""
     for name, entry in table.keys.items():
         excluded = any(other in stated for other in entry.instead_of)
         fits = all(stated.get(key) in allowed if allowed else key in stated for key, allowed in entry.only.items())
         if name in stated or excluded or not fits or not isinstance(entry.kind, _LEAVES):
             continue
-        first = first_value(entry.kind) if entry.default is None or isinstance(entry.default, By) else entry.default
+        first = (
+            first_value(entry.kind) if entry.default is None or isinstance(entry.default, DefaultBy) else entry.default
+        )
         written, means = first if isinstance(first, str) else toml(first), table.meaning(name, language)
         row: dict[str, Any] = {"key": f"{path}.{name}".lstrip("."), "name": name, "value": written,
                                "means": means, "label": _label(name, means, language)}  # fmt: skip

@@ -15,7 +15,7 @@ from itertools import takewhile
 from typing import Any, NamedTuple
 from urllib.parse import unquote
 
-from crankwork.description.written import with_entry
+from crankwork.description.written import with_table_entry
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language, Refusal, say
 from crankwork.studio.sketch import Pin, along_across, linkage, with_branch_positions
@@ -120,7 +120,7 @@ def _machine(word: str, language: Language) -> str:
     head = f"# {say('studio.pmks_turning', language, names=turning)}\n" if turning else ""
     text = with_branch_positions({"title": say("studio.pmks", language)} | values)
     for force in forces:
-        text = with_entry(text, "loads", _load(force, force_unit))
+        text = with_table_entry(text, "loads", _load(force, force_unit))
     return head + text
 
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from crankwork import units
 from crankwork.description.document import stated_value
-from crankwork.description.kinds import Measure, Number, Quantity, Reader, shown
+from crankwork.description.kinds import MeasuredValue, Number, Quantity, Reader, shown
 from crankwork.description.machine_file import entry_at, file_keys, steps_of
-from crankwork.description.schema import ListOf, NameOr, NumberOr, Table, nearest_name
+from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, nearest_name
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
@@ -72,7 +72,7 @@ def numeric_field(values: dict[str, Any], key: str) -> NumericField:
         case Quantity(dimensions, low, high):
             read = None if now is None else kind.read(now, key, reader)
             unit = units.EXAMPLES[dimensions[0]].split()[1]
-            if not isinstance(read, Measure):
+            if not isinstance(read, MeasuredValue):
                 return NumericField(key, low, high, unit, dimensions[0])
             return NumericField(key, low, high, read.unit or unit, read.dimension, read.value)
         case Number(low, high, whole=False):
@@ -95,7 +95,7 @@ def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has 
 
 def _unknown(key: str, around: object, step: str | int) -> Refusal:
     """Return the error of a key that no file has."""
-    if isinstance(around, Table) and isinstance(step, str):
+    if isinstance(around, TableSpec) and isinstance(step, str):
         nearest = nearest_name(step, tuple(around.keys))
         message = Refusal("unknown_key_near", nearest=nearest) if nearest else None
         return message or Refusal("unknown_key", known=", ".join(around.keys))

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple, get_args
 from crankwork import __version__, files
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description, load, stated_value
-from crankwork.description.kinds import Choice, Flag, Measure, Number, Reader, Text, shown
+from crankwork.description.kinds import Choice, Flag, MeasuredValue, Number, Reader, Text, shown
 from crankwork.description.machine_file import Setting, input_error, parse, schema_text
-from crankwork.description.schema import Key, Named, OneOrMore, Table, Values
+from crankwork.description.schema import KeySpec, MapOf, OneOrMore, TableSpec, Values
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language, Refusal
 from crankwork.report.language import key_unit
@@ -57,7 +57,7 @@ class As(NamedTuple):
     """A value read later by the type of the field or result that it concerns; here only JSON types, or a table."""
 
     types: tuple[str, ...]
-    entry: Table | None = None
+    entry: TableSpec | None = None
 
     def read(self, value: object, _: str, __: Reader) -> object:
         """Return the value as stated."""
@@ -70,38 +70,38 @@ class As(NamedTuple):
 
 
 _VALUE = As(("string", "number"))
-_RANGE = Table("range", {
-    "from": Key(_VALUE, instead_of=("uniform",)),
-    "to": Key(_VALUE, instead_of=("uniform",)),
-    "steps": Key(Number(1, _MAX_VALUES, whole=True), only={"from": ()}),
-    "spacing": Key(Choice(("even", "ratios")), default="even", only={"from": ()}),
-    "uniform": Key(As(("string",)), instead_of=("from", "to")),
+_RANGE = TableSpec("range", {
+    "from": KeySpec(_VALUE, instead_of=("uniform",)),
+    "to": KeySpec(_VALUE, instead_of=("uniform",)),
+    "steps": KeySpec(Number(1, _MAX_VALUES, whole=True), only={"from": ()}),
+    "spacing": KeySpec(Choice(("even", "ratios")), default="even", only={"from": ()}),
+    "uniform": KeySpec(As(("string",)), instead_of=("from", "to")),
 })  # fmt: skip
-_DESIGNS = Table("designs", {
-    "drawing": Key(Choice((GRID, LIST, *DRAWN)), required=True),
-    "count": Key(Count(), required=True, only={"drawing": DRAWN}),
-    "seed": Key(Number(0, 2**31, whole=True), default=0, only={"drawing": DRAWN}),
-    "angles": Key(Number(36, 72_000, whole=True)),
-    "best": Key(Number(1, 1000, whole=True), default=10),
-    "rows": Key(Flag(), default=False),
-    "chunk": Key(Number(1, 2**17, whole=True)),
+_DESIGNS = TableSpec("designs", {
+    "drawing": KeySpec(Choice((GRID, LIST, *DRAWN)), required=True),
+    "count": KeySpec(Count(), required=True, only={"drawing": DRAWN}),
+    "seed": KeySpec(Number(0, 2**31, whole=True), default=0, only={"drawing": DRAWN}),
+    "angles": KeySpec(Number(36, 72_000, whole=True)),
+    "best": KeySpec(Number(1, 1000, whole=True), default=10),
+    "rows": KeySpec(Flag(), default=False),
+    "chunk": KeySpec(Number(1, 2**17, whole=True)),
 })  # fmt: skip
-_SEARCH = Table("search", {
-    "way": Key(Choice(get_args(SearchMethod)), default="slsqp"),
-    "starts": Key(Number(1, 1000, whole=True)),
-    "seed": Key(Number(0, 2**31, whole=True), default=0),
+_SEARCH = TableSpec("search", {
+    "way": KeySpec(Choice(get_args(SearchMethod)), default="slsqp"),
+    "starts": KeySpec(Number(1, 1000, whole=True)),
+    "seed": KeySpec(Number(0, 2**31, whole=True), default=0),
 })  # fmt: skip
-_OF_VALUE = Table("limits", {name: Key(_VALUE) for name in _LIMITS})
+_OF_VALUE = TableSpec("limits", {name: KeySpec(_VALUE) for name in _LIMITS})
 _KEY = Text(80)
-STUDY_FILE = Table("study", {
-    "title": Key(Text()),
-    "machine": Key(Text(), required=True),
-    "designs": Key(_DESIGNS),
-    "vary": Key(Named(As(("array", "string"), _RANGE), _MAX_FIELDS, _MAX_DEPTH), required=True),
-    "objectives": Key(Named(Choice(tuple(_SIGNS)), 8, _MAX_DEPTH)),
-    "limits": Key(Named(_OF_VALUE, _MAX_FIELDS, _MAX_DEPTH)),
-    "values": Key(OneOrMore(_KEY, most=100)),
-    "search": Key(_SEARCH),
+STUDY_FILE = TableSpec("study", {
+    "title": KeySpec(Text()),
+    "machine": KeySpec(Text(), required=True),
+    "designs": KeySpec(_DESIGNS),
+    "vary": KeySpec(MapOf(As(("array", "string"), _RANGE), _MAX_FIELDS, _MAX_DEPTH), required=True),
+    "objectives": KeySpec(MapOf(Choice(tuple(_SIGNS)), 8, _MAX_DEPTH)),
+    "limits": KeySpec(MapOf(_OF_VALUE, _MAX_FIELDS, _MAX_DEPTH)),
+    "values": KeySpec(OneOrMore(_KEY, most=100)),
+    "search": KeySpec(_SEARCH),
 })  # fmt: skip
 
 
@@ -259,7 +259,7 @@ def _flat_fields(table: object, stated: dict[str, Any], path: str = "") -> Any: 
 
 def _is_table(stated: dict[str, Any], key: str) -> bool:
     try:
-        return isinstance(kind_of(stated, key), Table | Named)
+        return isinstance(kind_of(stated, key), TableSpec | MapOf)
     except CrankworkError:
         return False
 
@@ -387,7 +387,7 @@ class _Field:
 
     def _read(self, value: object, suffix: str) -> Any:  # noqa: ANN401 - any TOML value
         result = self._kind.read(value, f"{self._path}{suffix}", self._reader)
-        return result.value if isinstance(result, Measure) else result
+        return result.value if isinstance(result, MeasuredValue) else result
 
     def _add_error(self, suffix: str, message: Refusal) -> None:
         self._reader.complain(f"{self._path}{suffix}", message)

@@ -39,7 +39,7 @@ def constant_pressure(start: float, end: float, pressure: Known) -> Segment:
     `start` and `end`: crank angles [deg].
     """
     return Segment(
-        start, end, "constant", np.array([start, end]), np.full(2, pressure.value), np.zeros(2), of=(pressure,)
+        start, end, "constant", np.array([start, end]), np.full(2, pressure.value), np.zeros(2), operands=(pressure,)
     )
 
 

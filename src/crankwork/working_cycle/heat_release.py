@@ -111,7 +111,7 @@ def _solved(gas: ClosedGas, periods: list[Stage], inputs: tuple[Known, ...]) -> 
             if abs(segment.work(gas.volume_at) - final[1]) <= _AGREEMENT * scale:
                 break
             count *= 2
-        results.append((replace(segment, of=inputs), final - start))
+        results.append((replace(segment, operands=inputs), final - start))
         pressure = float(final[0])
     return results
 

@@ -94,9 +94,9 @@ def _with_traced_segments(diagram: IndicatorDiagram, corners: Corners) -> Indica
     def with_inputs(segment: Segment) -> Segment:
         if segment.law == "polytropic":
             origin = _ORIGINS.get(segment.origin, segment.origin)
-            return replace(segment, origin=origin, of=lines[origin])
+            return replace(segment, origin=origin, operands=lines[origin])
         inputs = constants.get(segment.pressures[0], ()) if segment.law == "constant" else ()
-        return replace(segment, places=(), of=inputs)
+        return replace(segment, places=(), operands=inputs)
 
     return replace(diagram, segments=tuple(with_inputs(segment) for segment in diagram.segments))
 
