@@ -36,9 +36,9 @@ from crankwork.formula.known import Component, Found, Known, Pieces, Root, absen
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics import transfer as rates
-from crankwork.kinematics.bodies import everywhere
+from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import course_of
+from crankwork.kinematics.memory import interpolant_of
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, force_on_slider, torque_on
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, names_of_pivots
@@ -139,13 +139,13 @@ def _places(solved: SolvedLinkage) -> Iterator[_Place]:
 
 def _span(motion: Motion) -> tuple[float, float]:
     """Return the first and the last crank angle that is reached. [deg]"""
-    over = course_of(motion.grid)({})
+    over = interpolant_of(motion.grid)({})
     return float(over.edges[0]), float(over.edges[-1])
 
 
 def _velocity(motion: Motion, place: _Place, w: Known) -> Known:
     """Return how fast one link of a joint turns or slides in the other."""
-    rate = everywhere(relative_rate(motion, place.joint), motion.grid)
+    rate = broadcast(relative_rate(motion, place.joint), motion.grid)
     if isinstance(place.joint, Pin):
         velocity: Known = rates.link_angular_velocity(rate, w).named(f"relative_speed.{place.name}")
     else:
@@ -156,7 +156,7 @@ def _velocity(motion: Motion, place: _Place, w: Known) -> Known:
 def _senses(motion: Motion, velocities: Mapping[Friction, Known]) -> dict[Friction, Steps]:
     """Return the direction of the friction of each joint: against the velocity, none where a law dwells."""
     varying = {str(at): one for at, one in enumerate(velocities.values()) if one.varies}
-    over = course_of(motion.grid)(varying)
+    over = interpolant_of(motion.grid)(varying)
     end, found = float(over.edges[-1]), []
     middles = (over.edges[1:] + over.edges[:-1]) / 2
     size = {

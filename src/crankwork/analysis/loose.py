@@ -22,7 +22,7 @@ from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, absent, breaks_of, given, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.loops import ChainPath
-from crankwork.kinematics.memory import given_mechanism, remembered_motion
+from crankwork.kinematics.memory import remembered_motion, traced_mechanism
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.transfer import Transfer
 from crankwork.loads.applied import AppliedLoads
@@ -203,7 +203,7 @@ class Loose:
         machine, wanted = self.machine, self.wanted
         if self.chart.pieces[0].turns_back or machine.friction or machine.drive.motor or self.is_two_sided:
             return ()
-        mechanism = given_mechanism(machine.mechanism, machine.linkage)
+        mechanism = traced_mechanism(machine.mechanism, machine.linkage)
         beside = [turning_inertia(machine, "reduced_inertia.drive"), *([] if flywheel is None else [flywheel])]
         dampers = [one for one in machine.loads if isinstance(one, Damper | SliderDamper)]
         others = [one for one in machine.loads if one not in dampers]

@@ -194,7 +194,7 @@ def limits_of(found: Travel, memory: Mapping[str, Known]) -> dict[str, Known]:
         for name, (column, coordinate) in each.items():
             if column not in memory or (kind == "link_swing" and name in sliders):
                 continue
-            on_branch, whole = circuit.extents(coordinate, found.branch, circuit.whole)
+            on_branch, whole = circuit.extents(coordinate, found.branch, circuit.full_part)
             turns = kind == "link_swing" and circuit.turns(name) != 0
             for key, extent, word in ((kind, on_branch, "branch"), (f"{kind}_circuit", whole, "circuit")):
                 if not (kind == "link_swing" and _is_full(extent)) and not (turns and extent is whole):

@@ -15,7 +15,7 @@ from crankwork.dynamics.reaction import JointForces, gathered
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.kinematics.bodies import everywhere
+from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.driver import Cylinder
@@ -192,7 +192,7 @@ def rubbing_joints(
             raise MethodError(f"there is no joint {name} to rub; choose from {names}")
         if joint in found:
             raise MethodError(f"joint {name} has two frictions; give one")
-        rate = np.asarray(everywhere(relative_rate(motion, joint), motion.grid))
+        rate = np.asarray(broadcast(relative_rate(motion, joint), motion.grid))
         velocity = np.asarray(rate * running.speed)
         moves = np.abs(velocity) > _REST * np.nanmax(np.abs(velocity), initial=0.0)
         sense = np.where(moves, -np.sign(velocity), 0.0) if senses is None else senses[one]

@@ -15,7 +15,7 @@ from crankwork.dynamics.dyad_forces import force_along_x, force_along_y
 from crankwork.dynamics.link_loads import Wrenches
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Known, Pieces, is_known, named
-from crankwork.kinematics.memory import course_of
+from crankwork.kinematics.memory import interpolant_of
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.driver import GearedCrank
 from crankwork.mechanism.mechanism import Crank
@@ -104,7 +104,7 @@ def _apart(across: Value, one: GearedCrank, motion: Motion) -> Value:
     push, pull = named(separating_force(across, angle), key), named(separating_force(-across, angle), key)
     if not across.varies:
         return push if across.value >= 0 else pull
-    ends, is_pull = course_of(motion.grid)({"": across}).stretches("")
+    ends, is_pull = interpolant_of(motion.grid)({"": across}).stretches("")
     return Known(Pieces(ends, tuple(pull if one else push for one in is_pull)), key)
 
 

@@ -9,9 +9,9 @@ from typing import NamedTuple
 from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, is_known, named
-from crankwork.kinematics.bodies import body_motions, nothing, summed
+from crankwork.kinematics.bodies import body_motions, sum_columns, zero_column
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import is_nothing
+from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
@@ -40,7 +40,7 @@ class Wrenches:
         """Return the sum of what acts on a link so far."""
         sides = zip(*self._parts[link], strict=True) if self._parts[link] else ((), (), ())
         keys = (f"{key}.{link}" for key in ("link_force_x", "link_force_y", "link_moment"))
-        return Wrench(*(summed(key, side, self._grid) for key, side in zip(keys, sides, strict=True)))
+        return Wrench(*(sum_columns(key, side, self._grid) for key, side in zip(keys, sides, strict=True)))
 
 
 @formula("link_moment", "artobolevsky_1988, ch. 13")
@@ -79,13 +79,13 @@ def inertia_loads(running: Running) -> AppliedLoads:
     forces, torques = [], []
     bodies = body_motions(running.mechanism, running.motion)
     for name, (body, centre, angle_1, angle_2) in zip(distinct(one.body.link for one in bodies), bodies, strict=True):
-        if not is_nothing(body.mass):
+        if not is_zero(body.mass):
             x, y = (
                 _inertia_force(body.mass, centre_acceleration(one.position_2, w, one.position_1, eps), f"{name}.{axis}")
                 for axis, one in zip("xy", centre, strict=True)
             )
             forces.append(AppliedForce(body.link, centre, x, y))
-        if not is_nothing(body.inertia):
+        if not is_zero(body.inertia):
             turning = link_angular_acceleration(angle_2, w, angle_1, eps)
             turning = named(turning, f"link_angular_acceleration.{name}")
             torque = named(link_inertia_torque(body.inertia, turning), f"link_inertia_torque.{name}")
@@ -119,7 +119,7 @@ def link_wrenches(running: Running) -> Wrenches:
     Force [N] and moment about the origin of the frame of each link [N m].
     """
     motion, loads = running.motion, all_loads(running)
-    wrenches, still = Wrenches(motion), nothing(motion.grid)
+    wrenches, still = Wrenches(motion), zero_column(motion.grid)
     names = distinct(f"{force.link}.load" for force in loads.forces)
     for name, force in zip(names, loads.forces, strict=True):
         moment = moment_of(arm(motion.frames[force.link].origin, force.at), (force.x, force.y), name)

@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.dynamics.link_loads import Wrench, arm, moment_of
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import is_known, named
-from crankwork.kinematics.bodies import nothing
+from crankwork.kinematics.bodies import zero_column
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
@@ -73,7 +73,7 @@ def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
     joint = reaction.joint
     match reaction:
         case PinForce(_, x, y):
-            couple = nothing(motion.grid)
+            couple = zero_column(motion.grid)
         case GuideForce(_, normal, couple):
             guide = motion.frames[joint.link]
             x, y = -guide.sin * normal, guide.cos * normal

@@ -9,8 +9,8 @@ from crankwork.dynamics.link_loads import distinct
 from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import named
-from crankwork.kinematics.bodies import body_motions, everywhere, summed
-from crankwork.kinematics.dyads import is_nothing
+from crankwork.kinematics.bodies import body_motions, broadcast, sum_columns
+from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
@@ -88,10 +88,10 @@ def reduced_inertia(mechanism: Mechanism, motion: Motion, beside: Value = 0.0) -
         )
         inertia.append(named(part, f"reduced_inertia.{name}"))
         inertia_1.append(named(part_1, f"reduced_inertia_1.{name}"))
-    if not is_nothing(beside):
-        inertia.append(everywhere(beside, motion.grid))
-    whole = summed("reduced_inertia", inertia, motion.grid)
-    return ReducedInertia(whole, summed("reduced_inertia_1", inertia_1, motion.grid))
+    if not is_zero(beside):
+        inertia.append(broadcast(beside, motion.grid))
+    whole = sum_columns("reduced_inertia", inertia, motion.grid)
+    return ReducedInertia(whole, sum_columns("reduced_inertia_1", inertia_1, motion.grid))
 
 
 def reduced_torque(motion: Motion, loads: AppliedLoads) -> Value:
@@ -99,7 +99,7 @@ def reduced_torque(motion: Motion, loads: AppliedLoads) -> Value:
 
     Torque, positive with the rotation.
     """
-    return summed("reduced_torque", _parts(loads), motion.grid)
+    return sum_columns("reduced_torque", _parts(loads), motion.grid)
 
 
 def _parts(loads: AppliedLoads) -> Iterable[Value]:

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value
 from crankwork.formula.known import named
-from crankwork.kinematics.bodies import everywhere
-from crankwork.kinematics.dyads import LinkMotion, carried
+from crankwork.kinematics.bodies import broadcast
+from crankwork.kinematics.dyads import LinkMotion, point_of_link
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.joints import SlidingJoint, bearers, joints
@@ -78,7 +78,7 @@ def force_at(
     link = link or bearer[point]
     if link == GROUND:
         return NO_LOADS
-    x, y = (everywhere(one, motion.grid) for one in force)
+    x, y = (broadcast(one, motion.grid) for one in force)
     return AppliedLoads((AppliedForce(link, motion.points[point], x, y),))
 
 
@@ -135,8 +135,8 @@ def force_on_slider(
 def torque_on(motion: Motion, link: str, torque: Value) -> AppliedLoads:
     """Return a torque on a link."""
     check_name("link", link, {**motion.links, **motion.frames})
-    rate = everywhere(_rate(motion, link), motion.grid)
-    return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), rate),))
+    rate = broadcast(_rate(motion, link), motion.grid)
+    return AppliedLoads(torques=(AppliedTorque(link, broadcast(torque, motion.grid), rate),))
 
 
 def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
@@ -145,7 +145,7 @@ def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
     The place of the one, with the transfer functions of the other.
     """
     place = point.x.position, point.y.position
-    x, y = carried(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)
+    x, y = point_of_link(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)
     return PointMotion(x._replace(position=place[0]), y._replace(position=place[1]))
 
 

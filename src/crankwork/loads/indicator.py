@@ -18,7 +18,7 @@ import numpy as np
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Known
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.extremes import reached
+from crankwork.kinematics.extremes import solve_monotone
 from crankwork.loads.cycle import quadrature
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
@@ -321,7 +321,7 @@ class _Solver:
             if apart[at + 1] == 0:
                 return float(edges[at + 1])
             if apart[at] * apart[at + 1] < 0:
-                return reached(self.volume_at, wanted, float(edges[at]), float(edges[at + 1]))
+                return solve_monotone(self.volume_at, wanted, float(edges[at]), float(edges[at + 1]))
         key = "volume" if self.points[name].stroke is None else "stroke"
         raise DiagramError(
             f"{self.path}.points.{name}.{key}", Refusal("point_volume_far", low=low * 1e6, high=high * 1e6)
@@ -415,7 +415,7 @@ class _Solver:
                     centres=tuple(self.dead_centres),
                 ),
             )
-        return reached(pressure, wanted, low, high)
+        return solve_monotone(pressure, wanted, low, high)
 
     def _rounded(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:

@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, Pieces, absent, given, is_known, named
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.memory import angle_of, course_of
+from crankwork.kinematics.memory import angle_of, interpolant_of
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, check_name, force_along_guide, force_at, torque_on
 from crankwork.loads.remembered import by_angle, by_column
@@ -95,7 +95,7 @@ def _force(load: ProcessForce, way: _Way, motion: Motion, named_at: tuple[str, s
 
 def _remembered(load: ProcessForce, way: _Way, motion: Motion, name: str, path: str) -> Known:
     """Return the force as a table read at the way or the crank angle, in pieces where it acts one way only."""
-    key, course = f"process_force.{name}", course_of(motion.grid)
+    key, course = f"process_force.{name}", interpolant_of(motion.grid)
     way = way._replace(position=named(way.position, f"working_stroke.{name}"))
     if load.against == "stroke":
         force = by_column(load.force, way.position, course, key, f"{path}.force")
