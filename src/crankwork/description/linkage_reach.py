@@ -28,7 +28,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
-from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
+from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 
 _STEP = 1.0
 
@@ -168,7 +168,7 @@ def _check_let_go(machine: Machine, reached: Reached, reader: Reader) -> None:
     if not inertia > 0:
         reader.complain("transient", Refusal("transient_massless"))
     driver = machine.mechanism.driver
-    geared = (one for one in driver.geared if not turns_of(one.ratio)) if isinstance(driver, Crank) else ()
+    geared = (one for one in driver.geared if not period_in_turns(one.ratio)) if isinstance(driver, Crank) else ()
     for one in geared:
         reader.complain("transient", Refusal("transient_geared", name=one.link))
     if wanted is not None and way is not None and not way.start < math.degrees(wanted.start) < way.end:

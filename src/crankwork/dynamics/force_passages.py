@@ -11,7 +11,7 @@ from crankwork.formula.replay import Program
 from crankwork.kinematics.bridges import BEYOND
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.mechanism.joints import Joint
-from crankwork.mechanism.passage import Bridge, Passage, Polynomial
+from crankwork.mechanism.passage import ChangePointFit, ChangePointPassage, Polynomial
 
 _DEGREE, _NODES = 12, 40
 # forces lose one digit more than the motion that they follow: they are taken a little farther off
@@ -21,7 +21,7 @@ _SMOOTH = 1e-8
 _ITSELF = 1e-6
 
 
-def bridged_forces(reactions: dict[Joint, Reaction], passage: Passage) -> dict[Joint, Reaction]:
+def bridged_forces(reactions: dict[Joint, Reaction], passage: ChangePointPassage) -> dict[Joint, Reaction]:
     """Return remembered reactions of a dyad that passes change points; numbers stay as they are."""
     if not all(isinstance(value, Known) for one in reactions.values() for value in one[1:]):
         return reactions
@@ -56,7 +56,7 @@ def bridged_forces(reactions: dict[Joint, Reaction], passage: Passage) -> dict[J
     return result
 
 
-def _nodes(bridge: Bridge) -> Array:
+def _nodes(bridge: ChangePointFit) -> Array:
     """Return angles on both sides of a change point, less it. [deg]"""
     near, far = _NEAREST * bridge.width, _REACH * bridge.width
     nodes = np.cos(np.pi * (2 * np.arange(_NODES // 2) + 1) / _NODES)

@@ -27,7 +27,7 @@ from crankwork.formula.known import named
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, Half, LinkMotor
+from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
 from crankwork.mechanism.linkage import GROUND
@@ -113,7 +113,7 @@ def _at_base(
     return found
 
 
-def _on_cylinder(half: Half, driver: Driver, motion: Motion, own: Wrench) -> Wrench:
+def _on_cylinder(half: CylinderPart, driver: Driver, motion: Motion, own: Wrench) -> Wrench:
     """Return what acts on the barrel or the rod of a cylinder as it acts on both together."""
     way = arm(motion.frames[driver.link].origin, motion.frames[half.link].origin)
     moved = moment_of(way, (own.x, own.y), f"{driver.link}.{half.link}")

@@ -9,14 +9,14 @@ import numpy as np
 from crankwork.formula.known import Known, Pieces, Table, absent, given, is_known
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dyads import Through
-from crankwork.mechanism.passage import Passage
+from crankwork.mechanism.passage import ChangePointPassage
 
 # beyond every angle, and a multiple of a turn so that no column has a breakpoint there
 BEYOND = 360e3
 _OFFSET = 1e-3
 
 
-def branch_sign(passage: Passage, branch: Any, grid: CrankGrid) -> Any:  # noqa: ANN401 - a known or a number
+def branch_sign(passage: ChangePointPassage, branch: Any, grid: CrankGrid) -> Any:  # noqa: ANN401 - a known or a number
     """Return the branch of a dyad at crank angles; it changes at each change point."""
     if not is_known(branch):
         return branch * passage.signs(grid.degrees)
@@ -28,7 +28,7 @@ def branch_sign(passage: Passage, branch: Any, grid: CrankGrid) -> Any:  # noqa:
     return Known(Pieces(ends.tolist(), tuple(laws)), "branch")
 
 
-def change_point_replacement(passage: Passage, grid: CrankGrid) -> Through:
+def change_point_replacement(passage: ChangePointPassage, grid: CrankGrid) -> Through:
     """Return the function that replaces quantities of a dyad near its change points by polynomials."""
 
     def through(key: str, value: Any) -> Any:  # noqa: ANN401 - a known or a number
@@ -43,7 +43,7 @@ def change_point_replacement(passage: Passage, grid: CrankGrid) -> Through:
     return through
 
 
-def _remembered(passage: Passage, key: str, known: Known) -> Known:
+def _remembered(passage: ChangePointPassage, key: str, known: Known) -> Known:
     """Return a traced quantity: polynomials near change points, the formula elsewhere."""
     ends, laws = [], []
     for bridge in passage.bridges:

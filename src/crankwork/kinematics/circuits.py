@@ -28,7 +28,7 @@ from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point
-from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
+from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 
 _BRANCHES: tuple[Branch, Branch] = (1, -1)
 _BETWEEN_KNOTS = 4
@@ -298,7 +298,7 @@ def _sweep(mechanism: Mechanism) -> _Sweep:
     """Return the sweep of a driver's coordinate; one that does not turn is the tangent of part of an angle."""
     driver = mechanism.driver
     if isinstance(driver, Crank):
-        geared = [turns_of(crank.ratio) or 1 for crank in driver.geared]
+        geared = [period_in_turns(crank.ratio) or 1 for crank in driver.geared]
         return _Sweep(0.0, 360.0 * math.lcm(*geared), CrankGrid.from_degrees, turns=True)
     if driver.turns:
         return _Sweep(0.0, 360.0, CrankGrid.from_degrees, turns=True)

@@ -18,7 +18,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.placement import place
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
-from crankwork.mechanism.passage import Bridge, Passage, Polynomial
+from crankwork.mechanism.passage import ChangePointFit, ChangePointPassage, Polynomial
 
 _TOUCHES = 1e-7
 _DEGREE = 12
@@ -46,10 +46,12 @@ def with_passages(
             continue
         touched = tuple(change for change in changes if _touches(mechanism, index, change))
         if touched:
-            passed = replace(mechanism, passages={**mechanism.passages, index: Passage(touched, stated, period)})
+            passed = replace(
+                mechanism, passages={**mechanism.passages, index: ChangePointPassage(touched, stated, period)}
+            )
             bridges = tuple(_bridge(passed, index, change, changes, ends) for change in touched)
             mechanism = replace(
-                mechanism, passages={**mechanism.passages, index: Passage(touched, stated, period, bridges)}
+                mechanism, passages={**mechanism.passages, index: ChangePointPassage(touched, stated, period, bridges)}
             )
     return mechanism
 
@@ -62,7 +64,7 @@ def _touches(mechanism: Mechanism, index: int, degrees: float) -> bool:
 
 def _bridge(
     mechanism: Mechanism, index: int, degrees: float, changes: Sequence[float], ends: tuple[float, float]
-) -> Bridge:
+) -> ChangePointFit:
     """Return the polynomials of a dyad near a change point, those that lose the fewest digits."""
     limits = [abs(change - degrees) / 2 for change in changes if change != degrees]
     if not math.isfinite(mechanism.passages[index].period):
@@ -73,7 +75,7 @@ def _bridge(
     fits = [_fitted(part, index, degrees, reach) for reach in reaches]
     enough = _ENOUGH * max(min(left for _, _, left in fits), _ROUNDING)
     reach, columns = next((reach, columns) for reach, columns, left in fits if left <= enough)
-    return Bridge(degrees, _USED * reach, columns)
+    return ChangePointFit(degrees, _USED * reach, columns)
 
 
 def _fitted(part: Mechanism, index: int, degrees: float, reach: float) -> tuple[float, Mapping[str, Polynomial], float]:

@@ -46,7 +46,7 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide
 from crankwork.mechanism.joints import group_links, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
-from crankwork.mechanism.passage import Passage
+from crankwork.mechanism.passage import ChangePointPassage
 
 _REST_TOLERANCE = 1e-12
 # positions of a driver at which a linkage with a motion law is checked; intervals between them are checked too
@@ -164,7 +164,7 @@ def _place_driver(driver: Driver, placed: Placed) -> None:
             placed.lengths[link] = third_side_motion(driver, grid)
 
 
-def _bridged(closure: Closure, passage: Passage | None, grid: CrankGrid) -> Closure:
+def _bridged(closure: Closure, passage: ChangePointPassage | None, grid: CrankGrid) -> Closure:
     """Return the closure of a group; near change points, where polynomials are used, that of a group that closes."""
     if passage is None or not passage.bridges:
         return closure

@@ -13,7 +13,7 @@ from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.dyads import LinkMotion, point_of_link
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
-from crankwork.mechanism.joints import SlidingJoint, bearers, joints
+from crankwork.mechanism.joints import SlidingJoint, joints, links_of_points
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -73,7 +73,7 @@ def force_at(
 
     `link`: the link it acts on; empty for the first one of those that meet there.
     """
-    bearer = bearers(mechanism)
+    bearer = links_of_points(mechanism)
     check_name("point", point, bearer)
     link = link or bearer[point]
     if link == GROUND:
