@@ -9,7 +9,7 @@ import pytest
 import driven
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_wrenches
-from crankwork.dynamics.routes import ROUTES, by_groups
+from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
 from crankwork.dynamics.running import Running
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -72,8 +72,8 @@ def running(mechanism, link, grid=GRID):
 @for_each(("mechanism", "link"), EVERY.values(), ids=EVERY)
 def test_every_route_gives_the_same(mechanism, link):
     at_work = running(mechanism, link)
-    found = by_groups(at_work)
-    for name, route in ROUTES.items():
+    found = torque_by_groups(at_work)
+    for name, route in TORQUE_METHODS.items():
         assert route(at_work) == pytest.approx(found, rel=1e-10, abs=1e-9), name
 
 

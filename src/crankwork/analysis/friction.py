@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis.friction_course import Balance, Course, Steps
 from crankwork.analysis.solved import Notice, SolvedLinkage, apart
-from crankwork.dynamics.force_system import whole_of
+from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import (
     CONVERGED,
     Friction,
@@ -30,7 +30,7 @@ from crankwork.dynamics.friction import (
 )
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reaction import JointForces
-from crankwork.dynamics.routes import energy
+from crankwork.dynamics.routes import torque_by_energy
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Component, Found, Known, Pieces, Root, absent, given, total
 from crankwork.formula.over_cycle import OverCycle
@@ -129,7 +129,7 @@ def mean_values(over: OverCycle) -> Iterator[Known]:
 
 def _places(solved: SolvedLinkage) -> Iterator[_Place]:
     """Yield the joints that rub."""
-    machine, held = solved.machine, whole_of(solved.machine.mechanism)[1]
+    machine, held = solved.machine, all_links_and_joints(solved.machine.mechanism)[1]
     for law in machine.friction:
         kind, name = (SlidingJoint, law.slider) if isinstance(law, GuideFriction) else (Pin, law.joint)
         joint = next(one for one in held if isinstance(one, kind) and one.name == name)
@@ -329,7 +329,7 @@ def _checks(balance: Balance, course: Course, columns: Mapping[str, Known], root
     sizes = [*found.pressing.values(), *(np.asarray(one.resultant) for one in found.joint_forces.pins.values())]
     largest = max(float(np.max(one)) for one in sizes)
     return {
-        "friction_power": apart(running.speed * energy(running) + loss, power),
+        "friction_power": apart(running.speed * torque_by_energy(running) + loss, power),
         "friction_forces": max(
             apart(torque, np.asarray(found.joint_forces.balancing_torque)),
             float(np.max(np.abs(missed))) / largest if largest else 0.0,
