@@ -48,12 +48,7 @@ class CylinderPosition(NamedTuple):
 
 
 def build_layout(
-    banks: Banks,
-    order: Sequence[int],
-    *,
-    strokes: int = 4,
-    throws: Sequence[float] | None = None,
-    uneven: bool = False,
+    banks: Banks, order: Sequence[int], *, strokes: int = 4, throws: Sequence[float] | None = None, uneven: bool = False
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
     """Return the layout of any arrangement: W engines, narrow V engines and those without a name.
 
@@ -113,10 +108,7 @@ def _seats(banks: Banks) -> list[CylinderPosition]:
 def _pins_of_throws(seats: Sequence[CylinderPosition], throws: Sequence[float]) -> list[float]:
     count = max(seat.throw for seat in seats) + 1
     if len(throws) != count:
-        raise LayoutError(
-            "engine.throws",
-            Refusal("throws_count", given=len(throws), count=count),
-        )
+        raise LayoutError("engine.throws", Refusal("throws_count", given=len(throws), count=count))
     # the first throw is that of cylinder 1, from whose crankpin the others are measured
     return [wrap_angle(throws[seat.throw] - throws[0] + seat.pin_offset) for seat in seats]
 

@@ -252,9 +252,8 @@ def _system(mechanism: Mechanism, placed: Placed) -> tuple[PositionEquations, Ar
     links = tuple(ChainLink(name, frames[name][:2], frames[name][2], own) for name, own in points.items())
     full_chain = Chain(links, tuple(slides), frozenset(named & ground.keys()), gears=tuple(gears))
     around = Placed(placed.grid, {name: fixed_point(position) for name, position in ground.items()})
-    return PositionEquations(LoopClosure(full_chain, 1), around), np.array(
-        [coordinate for name in points for coordinate in frames[name]]
-    )
+    coordinates = np.array([coordinate for name in points for coordinate in frames[name]])
+    return PositionEquations(LoopClosure(full_chain, 1), around), coordinates
 
 
 def _place_of(point: PointMotion) -> tuple[float, float]:

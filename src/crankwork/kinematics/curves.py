@@ -359,19 +359,11 @@ class _Follower:
         """Return an open curve: the one traced backwards, then this one."""
         back, ahead = behind.curve(), self.curve()
         arc = np.concatenate([back.arc[-1] - back.arc[::-1], back.arc[-1] + ahead.arc[1:]])
-        knots, tangents = (
-            np.concatenate([back.knots[::-1], ahead.knots[1:]]),
-            np.concatenate([-back.tangents[::-1], ahead.tangents[1:]]),
-        )
+        knots = np.concatenate([back.knots[::-1], ahead.knots[1:]])
+        tangents = np.concatenate([-back.tangents[::-1], ahead.tangents[1:]])
         crossings = np.concatenate([len(back.arc) - 1 - back.crossings[::-1], len(back.arc) - 1 + ahead.crossings])
-        both = back.near_crossings + ahead.near_crossings
+        near = back.near_crossings + ahead.near_crossings
+        start = float(back.arc[-1])
         return ConfigurationCurve(
-            self.system,
-            arc,
-            knots,
-            tangents,
-            is_closed=False,
-            crossings=crossings,
-            near_crossings=both,
-            stated=float(back.arc[-1]),
+            self.system, arc, knots, tangents, is_closed=False, crossings=crossings, near_crossings=near, stated=start
         )

@@ -242,16 +242,12 @@ def _dyad(dyad: Dyad, paths: _Paths) -> Dyad:
             )
         case RPR():
             return replace(
-                dyad,
-                slot=_slot(dyad.block, dyad.slot, paths.guide(dyad.block)),
-                branch=_branch(dyad.link, dyad.branch),
+                dyad, slot=_slot(dyad.block, dyad.slot, paths.guide(dyad.block)), branch=_branch(dyad.link, dyad.branch)
             )
         case PRP():
             a, b = dyad.block_a, dyad.block_b
             return replace(
-                dyad,
-                guide_a=_guide(a, dyad.guide_a, paths.guide(a)),
-                guide_b=_guide(b, dyad.guide_b, paths.guide(b)),
+                dyad, guide_a=_guide(a, dyad.guide_a, paths.guide(a)), guide_b=_guide(b, dyad.guide_b, paths.guide(b))
             )
         case RPP():
             return replace(

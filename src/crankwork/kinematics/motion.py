@@ -10,9 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.dyads import (
-    LinkMotion,
-)
+from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.placement import assembled

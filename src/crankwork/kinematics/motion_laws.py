@@ -390,8 +390,7 @@ def extent(law: Law) -> tuple[float, float]:
                 share = np.polynomial.Polynomial(piece.coefficients)
                 stops = share.deriv().trim().roots()
                 extremes = stops[np.isreal(stops)].real
-                passed += (
-                    placed.origin + placed.travel * share(extremes[(extremes > begin) & (extremes < piece.end)])
-                ).tolist()
+                inside = extremes[(extremes > begin) & (extremes < piece.end)]
+                passed += (placed.origin + placed.travel * share(inside)).tolist()
                 begin = piece.end
     return min(passed), max(passed)

@@ -109,11 +109,7 @@ def coordinates(driver: Driver, grid: CrankGrid) -> CrankGrid:
 
 
 def place_at(
-    mechanism: Mechanism,
-    grid: CrankGrid,
-    *,
-    plain: Mechanism | None = None,
-    paths: dict[int, ChainPath] | None = None,
+    mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None, paths: dict[int, ChainPath] | None = None
 ) -> Placed:
     """Return the positions at values of the driver's coordinate.
 
@@ -213,10 +209,7 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
                 opened = opened_pair(driver, dyad, links[driver.link], placed.lengths[driver.link])
             rrr = rrr_motion(dyad, *joints, placed.lengths, through, opened)
             points[dyad.point] = named_point(rrr.point, dyad.point)
-            for link, line, joint in (
-                (dyad.link_a, rrr.link_a, dyad.joint_a),
-                (dyad.link_b, rrr.link_b, dyad.joint_b),
-            ):
+            for link, line, joint in ((dyad.link_a, rrr.link_a, dyad.joint_a), (dyad.link_b, rrr.link_b, dyad.joint_b)):
                 links[link] = placed.frame(mechanism.bars.get(link), link, line, (joint, dyad.point))
             return rrr.closure
         case RRP() as dyad:

@@ -174,13 +174,7 @@ def check_slider_crank(slider_crank: SliderCrank) -> None:
         raise GeometryError(Refusal("lengths_zero"))
     if not turns_fully(slider_crank):
         raise GeometryError(
-            Refusal(
-                "rod_too_short",
-                length=l * 1e3,
-                radius=r * 1e3,
-                offset=e * 1e3,
-                missing=(r + e - l) * 1e3,
-            )
+            Refusal("rod_too_short", length=l * 1e3, radius=r * 1e3, offset=e * 1e3, missing=(r + e - l) * 1e3)
         )
 
 

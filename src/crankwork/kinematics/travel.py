@@ -88,9 +88,8 @@ def travel(mechanism: Mechanism, known: Travel | None = None) -> Travel:
     period = 360.0 * turns
     once = np.mod(passed, period)
     once = np.where(np.minimum(once, period - once) < _AT_END, 0.0, once)
-    changes = sorted(
-        {round(float(change), 9) for change in [*once, *(once[once < _SAME] + period)] if change <= period}
-    )
+    angles = [*once, *(once[once < _SAME] + period)]
+    changes = sorted({round(float(change), 9) for change in angles if change <= period})
     return Travel(circuit, branch, 0.0, period, turns, tuple(changes), stated)
 
 

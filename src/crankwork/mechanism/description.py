@@ -407,8 +407,7 @@ class _Reader:
         for name, guide in linkage.guides.items():
             if guide.link and guide.link not in names:
                 self._problem(
-                    f"guides.{name}.link",
-                    Refusal("carrier_unknown", name=guide.link, known=", ".join(sorted(names))),
+                    f"guides.{name}.link", Refusal("carrier_unknown", name=guide.link, known=", ".join(sorted(names)))
                 )
         placed = {linkage.driver.pin} if isinstance(linkage.driver, Crank) else set(linkage.driving.points)
         for name in linkage.positions:
