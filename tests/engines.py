@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.cylinders.arrangement import arranged
+from crankwork.cylinders.arrangement import build_layout
 from crankwork.cylinders.layout import Banks
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.piston import piston_motion
@@ -21,7 +21,7 @@ def standard_layout(standard, *, spacing=0.0):
     banks = Banks(
         standard.kind, standard.cylinders, standard.axes, pitch, stagger, standard.pin_offset, standard.numbering, own
     )
-    return arranged(banks, standard.order, strokes=standard.strokes, throws=standard.throws)
+    return build_layout(banks, standard.order, strokes=standard.strokes, throws=standard.throws)
 
 
 def cylinder_angle(degrees, place, cycle):

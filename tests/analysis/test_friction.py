@@ -9,7 +9,7 @@ import pytest
 
 import crankwork
 from crankwork.analysis.friction import COLUMNS
-from crankwork.dynamics.force_system import whole_of
+from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.mechanism.joints import Pin, names_of_pivots
 
 ROOT = Path(__file__).parents[2]
@@ -20,7 +20,7 @@ def rubbing_everywhere(name: str) -> tuple[crankwork.Results, crankwork.Results]
     """Return the results of a machine as it is, and with friction in all its joints."""
     text = (ROOT / f"tests/machines/{name}.toml").read_text("utf-8")
     machine = crankwork.read_machine(text)
-    shown, held = names_of_pivots(machine.mechanism), whole_of(machine.mechanism)[1]
+    shown, held = names_of_pivots(machine.mechanism), all_links_and_joints(machine.mechanism)[1]
     text += "\n[friction.pins]\n"
     for joint in held:
         if isinstance(joint, Pin):

@@ -11,7 +11,7 @@ import pytest
 
 from crankwork import analyse, figures, read, read_machine, template
 from crankwork.analysis.linkage import running_at
-from crankwork.dynamics.routes import ROUTES, by_groups
+from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
 from crankwork.formula.expression import FORMULAS
 from crankwork.formula.known import in_order
 from crankwork.formula.lines import Moment
@@ -57,10 +57,10 @@ def test_columns_and_single_values_are_those_of_the_memory_and_checks_share_no_f
                 wrong[name, key] = again[key], column
         assert {key: results.memory[key].value for key in results.summary} == dict(results.summary), name
         running = running_at(results.solved, linkage_motion(results.machine.mechanism, results.grid))
-        forces = called(by_groups, running)
+        forces = called(torque_by_groups, running)
         assert len(forces) >= 3, name
-        wrong |= {(name, key): one for key, route in ROUTES.items() if (one := called(route, running) & forces)}
-        assert len(called(ROUTES["energy"], running)) >= 3, name
+        wrong |= {(name, key): one for key, route in TORQUE_METHODS.items() if (one := called(route, running) & forces)}
+        assert len(called(TORQUE_METHODS["energy"], running)) >= 3, name
     assert wrong == {}
 
 

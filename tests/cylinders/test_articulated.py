@@ -8,8 +8,13 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from crankwork.cylinders.articulated import ArticulatedRod, articulated_motion, check_articulated_rod, slave_stroke
-from crankwork.cylinders.articulated_forces import slave_forces
+from crankwork.cylinders.articulated import (
+    ArticulatedRod,
+    articulated_motion,
+    articulated_stroke,
+    check_articulated_rod,
+)
+from crankwork.cylinders.articulated_forces import articulated_forces
 from crankwork.cylinders.engines import radial
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -54,7 +59,7 @@ def _distance(lengths, rod, psi):
 
 
 def _top(lengths, rod):
-    near = math.radians(slave_stroke(lengths, rod).top_angle)
+    near = math.radians(articulated_stroke(lengths, rod).top_angle)
     at = mpmath.findroot(lambda psi: mpmath.diff(lambda one: _distance(lengths, rod, one), psi), near)
     return at, _distance(lengths, rod, at)
 
@@ -92,7 +97,7 @@ def test_the_rod_angle_and_its_derivatives_belong_together(geometry, psi):
 @given(geometries())
 def test_dead_centres_are_those_of_thirty_digits(geometry):
     lengths, rod = geometry
-    slave = slave_stroke(lengths, rod)
+    slave = articulated_stroke(lengths, rod)
     with mpmath.workdps(40):
         at, top = _top(lengths, rod)
     assert math.radians(slave.top_angle) == pytest.approx(float(at), abs=1e-7)
@@ -138,7 +143,7 @@ def test_an_engine_seen_in_the_mirror_moves_the_same():
 def test_the_torque_is_the_virtual_work_of_the_piston_force(geometry, P):
     lengths, rod = geometry
     motion = articulated_motion(lengths, rod, ANGLES)
-    forces = slave_forces(np.full(len(ANGLES), P), lengths, rod, ANGLES, motion)
+    forces = articulated_forces(np.full(len(ANGLES), P), lengths, rod, ANGLES, motion)
     torque = forces.tangential * lengths.crank_radius
     largest = np.hypot(forces.radial, forces.tangential).max() + np.abs(forces.master_side).max()
     assert torque == pytest.approx(P * motion.piston.position_1, abs=1e-12 * largest * lengths.crank_radius + 1e-300)
@@ -151,11 +156,11 @@ def test_the_forces_are_those_of_two_rigid_rods_in_equilibrium(geometry, degrees
     lengths, rod = geometry
     grid, P = CrankGrid.from_degrees(np.array([degrees])), 1000.0
     motion = articulated_motion(lengths, rod, grid)
-    got = slave_forces(np.array([P]), lengths, rod, grid, motion)
+    got = articulated_forces(np.array([P]), lengths, rod, grid, motion)
     lean = math.radians(rod.axis)
     crankpin = lengths.crank_radius * np.exp(1j * (math.radians(degrees)))
     knuckle = complex(motion.knuckle.x.position[0], motion.knuckle.y.position[0])
-    top = slave_stroke(lengths, rod).top
+    top = articulated_stroke(lengths, rod).top
     slave_pin = complex(top - motion.piston.position[0], rod.offset)
     in_master = crankpin * np.exp(1j * lean)
     master_pin = complex(
@@ -183,7 +188,7 @@ def test_the_forces_are_those_of_two_rigid_rods_in_equilibrium(geometry, degrees
 def test_without_knuckle_radius_the_master_rod_feels_nothing():
     rod = ArticulatedRod(0.3, 0.0, 77.0, 40.0)
     P = np.linspace(-1e4, 1e4, len(ANGLES))
-    forces = slave_forces(P, MASTER, rod, ANGLES, articulated_motion(MASTER, rod, ANGLES))
+    forces = articulated_forces(P, MASTER, rod, ANGLES, articulated_motion(MASTER, rod, ANGLES))
     assert not forces.couple.any()
     assert not forces.master_side.any()
     plain = piston_motion(SliderCrank(MASTER.crank_radius, 0.3), ANGLES)

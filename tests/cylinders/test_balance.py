@@ -16,7 +16,7 @@ from crankwork.cylinders.balance import (
     sampled_harmonics,
 )
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors, vector_sum
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, piston_transfer_2, rod_swing
@@ -33,7 +33,7 @@ CENTRAL, OFFSET = SliderCrank(0.04, 0.14), SliderCrank(0.04, 0.14, 0.012)
 def _layout(pins, axes=None, positions=None) -> Layout:
     axes = [0.0] * len(pins) if axes is None else axes
     positions = np.arange(len(pins)) - (len(pins) - 1) / 2 if positions is None else positions
-    places = [Place(k + 1, axes[k], k, k, pins[k], float(positions[k]), 0.0) for k in range(len(pins))]
+    places = [CylinderPlace(k + 1, axes[k], k, k, pins[k], float(positions[k]), 0.0) for k in range(len(pins))]
     return Layout("any", tuple(places), 720.0, tuple(range(1, len(pins) + 1)))
 
 

@@ -15,7 +15,7 @@ from crankwork.cylinders.counterweights import (
     turning_forces,
 )
 from crankwork.cylinders.ellipse import OrderBalance, balance_sum
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.slider_crank import SliderCrank
 from each import for_each
@@ -31,7 +31,7 @@ def _layout(pins, axes=(0.0,), pitch=0.1) -> Layout:
     """Return cylinders of several banks on the same crankpins."""
     middle = (len(pins) - 1) / 2
     places = [
-        Place(1 + k + len(pins) * row, axis, k, k, pin, (k - middle) * pitch, 0.0)
+        CylinderPlace(1 + k + len(pins) * row, axis, k, k, pin, (k - middle) * pitch, 0.0)
         for row, axis in enumerate(axes)
         for k, pin in enumerate(pins)
     ]
@@ -98,7 +98,7 @@ def test_there_is_one_counterweight_for_each_crankpin() -> None:
 
 
 def test_a_counterweight_stands_midway_between_the_masses_of_its_crankpin() -> None:
-    places = (Place(1, -45.0, 0, 0, 0.0, -0.01, 0.0), Place(2, 45.0, 0, 0, 0.0, 0.01, 0.0))
+    places = (CylinderPlace(1, -45.0, 0, 0, 0.0, -0.01, 0.0), CylinderPlace(2, 45.0, 0, 0, 0.0, 0.01, 0.0))
     layout = Layout("V", places, 720.0, (1, 2))
     (heavier,) = throw_counterweights(layout, [0.3, 0.9], 0.0, R)
     assert heavier.position == pytest.approx(0.005)

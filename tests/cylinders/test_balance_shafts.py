@@ -7,7 +7,7 @@ from crankwork.cylinders.balance import free_forces, inertia_harmonics, layout_f
 from crankwork.cylinders.balance_shafts import ShaftWeight, balance_shafts, shaft_forces
 from crankwork.cylinders.counterweights import rotating_unbalances, throw_counterweights, turning_forces
 from crankwork.cylinders.ellipse import balance_sum
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.kinematics.slider_crank import SliderCrank
 from each import for_each
 
@@ -21,7 +21,7 @@ ONE = M_REC * R * W**2
 
 def _layout(pins, axis=0.0) -> Layout:
     middle = (len(pins) - 1) / 2
-    places = [Place(k + 1, axis, k, k, pin, (k - middle) * 0.1, 0.0) for k, pin in enumerate(pins)]
+    places = [CylinderPlace(k + 1, axis, k, k, pin, (k - middle) * 0.1, 0.0) for k, pin in enumerate(pins)]
     return Layout("inline", tuple(places), 720.0, tuple(range(1, len(pins) + 1)))
 
 

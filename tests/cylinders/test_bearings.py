@@ -16,7 +16,7 @@ from hypothesis.extra.numpy import arrays
 
 import crankwork
 from crankwork.cylinders import bearings
-from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
+from crankwork.cylinders.load_vectors import BearingLoad, rotated, rotated_by
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank, rod_swing
 from each import for_each
@@ -54,8 +54,8 @@ def test_a_load_has_one_size_in_every_frame(radial, tangential, inertia, ratio, 
     scale = 1e-13 * (1 + np.max(load.resultant))
     frames = (
         bearings.big_end_bearing_load(load, _swing(ratio)),
-        turned(load, GRID.sin, GRID.cos),
-        turned_by(load, angle),
+        rotated(load, GRID.sin, GRID.cos),
+        rotated_by(load, angle),
     )
     for other in frames:
         assert np.max(np.abs(other.resultant - load.resultant)) <= scale
@@ -64,13 +64,13 @@ def test_a_load_has_one_size_in_every_frame(radial, tangential, inertia, ratio, 
 
 def test_quarter_turns_are_exact():
     load = BearingLoad(np.array([3.0]), np.array([4.0]))
-    assert turned_by(load, 90.0) == (np.array([-4.0]), np.array([3.0]))
-    assert turned_by(load, 720.0) == load
+    assert rotated_by(load, 90.0) == (np.array([-4.0]), np.array([3.0]))
+    assert rotated_by(load, 720.0) == load
 
 
 @given(size=st.floats(1e-3, 1e6), angle=st.floats(0, 359.999))
 def test_the_direction_is_the_angle_of_the_vector(size, angle):
-    load = turned_by(BearingLoad(np.array([size]), np.array([0.0])), angle)
+    load = rotated_by(BearingLoad(np.array([size]), np.array([0.0])), angle)
     assert load.resultant == pytest.approx(size, rel=1e-14)
     assert abs((load.direction[0] - angle + 180) % 360 - 180) < 1e-11
     assert 0 <= load.direction[0] < 360

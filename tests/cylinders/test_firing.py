@@ -16,7 +16,7 @@ from crankwork.cylinders.firing import (
     is_even,
     order_text,
     possible_order,
-    wrapped,
+    wrap_angle,
 )
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS, radial_order, standard_orders
 from each import for_each
@@ -96,12 +96,12 @@ def test_a_flat_four_cylinder_crank_has_two_even_orders():
 
 @given(st.integers(-(10**7), 10**7), st.sampled_from([360.0, 720.0]))
 def test_wrapped_decimals_stay_decimals(hundredths, cycle):
-    assert wrapped(hundredths / 100, cycle) == (hundredths % (cycle * 100)) / 100
+    assert wrap_angle(hundredths / 100, cycle) == (hundredths % (cycle * 100)) / 100
 
 
 def test_wrapping_leaves_what_is_no_decimal_as_it_is():
-    assert wrapped(720 / 7, 720.0) == 720 / 7
-    assert wrapped(-1e-14, 360.0) == 0.0
+    assert wrap_angle(720 / 7, 720.0) == 720 / 7
+    assert wrap_angle(-1e-14, 360.0) == 0.0
 
 
 # --- orders that are none
@@ -137,7 +137,9 @@ def test_a_standard_crank_allows_its_order(standard):
     layout, _ = standard_layout(standard)
     for place in layout.places:
         pin = place.firing_angle + layout.places[0].axis + place.pin_angle
-        assert abs(wrapped(pin - place.axis + 180) - 180) < 1e-9, "the piston is not at top dead centre when it fires"
+        assert abs(wrap_angle(pin - place.axis + 180) - 180) < 1e-9, (
+            "the piston is not at top dead centre when it fires"
+        )
     angles = [layout.places[number - 1].firing_angle for number in layout.firing_order]
     assert angles == sorted(angles)
     assert layout.firing_order == standard.order

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from crankwork.cylinders.counterweights import Unbalance
 from crankwork.cylinders.journal_loads import journal_share, main_journal_loads
-from crankwork.cylinders.layout import Layout, Place
-from crankwork.cylinders.load_vectors import BearingLoad, turned_by
+from crankwork.cylinders.layout import CylinderPlace, Layout
+from crankwork.cylinders.load_vectors import BearingLoad, rotated_by
 from crankwork.errors import CrankworkError
 
 pytestmark = pytest.mark.elsewhere
@@ -20,7 +20,7 @@ SPEED = 200.0
 
 def _layout(throws, rods=1):
     places = [
-        Place(1 + k * rods + i, 90.0 * i, k, k, 137.0 * k, 0.1 * k + 0.02 * (i - (rods - 1) / 2), 0.0)
+        CylinderPlace(1 + k * rods + i, 90.0 * i, k, k, 137.0 * k, 0.1 * k + 0.02 * (i - (rods - 1) / 2), 0.0)
         for k in range(throws)
         for i in range(rods)
     ]
@@ -39,7 +39,7 @@ def _shafts(draw):
         for _ in range(draw(st.integers(1, 3))):
             position = generator.uniform(journals[throw], journals[throw + 1])
             angle = generator.uniform(0, 360)
-            places.append(Place(len(places) + 1, 0.0, len(places), throw, angle, position, 0.0))
+            places.append(CylinderPlace(len(places) + 1, 0.0, len(places), throw, angle, position, 0.0))
     loads = [BearingLoad(*generator.normal(0, 1e4, (2, 7))) for _ in places]
     reach = (journals[0] - 0.05, journals[-1] + 0.05)
     masses = [
@@ -78,7 +78,7 @@ def test_forces_in_the_middle_of_throws_give_minus_half_the_vector_sum():
     layout = _layout(3)
     loads = [BearingLoad(np.array([1000.0 * k, 50.0]), np.array([-300.0, 70.0 * k])) for k in (1, 2, 3)]
     found = main_journal_loads(layout, loads, (), SPEED)
-    in_shaft = [turned_by(load, 137.0 * k) for k, load in enumerate(loads)]
+    in_shaft = [rotated_by(load, 137.0 * k) for k, load in enumerate(loads)]
     for journal, (left, right) in enumerate(zip([None, *in_shaft], [*in_shaft, None], strict=True)):
         both = [one for one in (left, right) if one is not None]
         assert found[journal].x == pytest.approx(-sum(one.x for one in both) / 2)

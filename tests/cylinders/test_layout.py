@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crankwork.cylinders.arrangement import arranged
+from crankwork.cylinders.arrangement import build_layout
 from crankwork.cylinders.engines import boxer, inline, radial, vee
-from crankwork.cylinders.firing import LayoutError, order_text, wrapped
+from crankwork.cylinders.firing import LayoutError, order_text, wrap_angle
 from crankwork.cylinders.layout import Banks
 from crankwork.cylinders.standard_orders import STANDARD_ORDERS
 from each import for_each
@@ -36,18 +36,18 @@ def test_an_inline_engine_of_any_order_gets_the_crank_it_needs(order, strokes):
     for at, number in enumerate(order):
         place = layout.places[number - 1]
         assert place.firing_angle == at * layout.cycle / len(order)
-        assert abs(wrapped(place.firing_angle + place.pin_angle + 180) - 180) < 1e-9
+        assert abs(wrap_angle(place.firing_angle + place.pin_angle + 180) - 180) < 1e-9
 
 
 @given(orders(st.sampled_from([2, 4, 6, 8])), st.integers(-170, 170))
 def test_a_boxer_or_narrow_v_with_own_throws_gets_the_crank_it_needs(order, lean):
     banks = Banks("V", len(order), (-lean / 2, lean / 2), own_throws=True)
-    layout, notices = arranged(banks, order)
+    layout, notices = build_layout(banks, order)
     first = layout.places[0]
     assert notices == ()
     for place in layout.places:
         pin = place.firing_angle + first.axis + place.pin_angle
-        assert abs(wrapped(pin - place.axis + 180) - 180) < 1e-9
+        assert abs(wrap_angle(pin - place.axis + 180) - 180) < 1e-9
 
 
 @for_each("standard", [one for one in STANDARD_ORDERS if not standard_layout(one)[1]])
@@ -57,7 +57,7 @@ def test_the_order_alone_gives_the_crank_of_every_even_standard(standard):
     banks = Banks(
         standard.kind, standard.cylinders, standard.axes, 0, 0, standard.pin_offset, standard.numbering, own_throws=own
     )
-    derived, _ = arranged(banks, standard.order, strokes=standard.strokes)
+    derived, _ = build_layout(banks, standard.order, strokes=standard.strokes)
     assert derived == layout
 
 
@@ -86,7 +86,7 @@ def test_a_flat_engine_with_common_pins_is_a_v_of_180_degrees_and_no_boxer():
 
 
 def test_a_v_of_15_degrees_has_throws_of_its_own():
-    layout, notices = arranged(Banks("W", 6, (-7.5, 7.5), numbering="pairs", own_throws=True), (1, 5, 3, 6, 2, 4))
+    layout, notices = build_layout(Banks("W", 6, (-7.5, 7.5), numbering="pairs", own_throws=True), (1, 5, 3, 6, 2, 4))
     assert notices == ()
     assert _pins(layout) == [0, 255, 120, 135, 240, 15]
     assert [place.throw for place in layout.places] == [0, 1, 2, 3, 4, 5]
@@ -190,9 +190,9 @@ def test_the_second_bank_of_a_v_may_hang_on_the_first():
         (lambda: inline(4, (1, 3, 4, 2), throws=(0, 180)), "engine.throws", ["2 angles", "4 throws"]),
         (lambda: vee(7, (1, 2, 3, 4, 5, 6, 7), 90.0), "engine.cylinders", ["a multiple of 2"]),
         (lambda: vee(2, (1, 2), 0.0), "engine.bank_angle", ["same direction"]),
-        (lambda: arranged(Banks("W", 3, (-60, 0, 300)), (1, 2, 3)), "engine.bank_angles", ["same direction"]),
+        (lambda: build_layout(Banks("W", 3, (-60, 0, 300)), (1, 2, 3)), "engine.bank_angles", ["same direction"]),
         (
-            lambda: arranged(Banks("W", 6, (-60, 0, 60)), (1, 2, 3, 4, 5, 6)),
+            lambda: build_layout(Banks("W", 6, (-60, 0, 60)), (1, 2, 3, 4, 5, 6)),
             "engine.firing_order",
             ["cylinders 1 and 3 are on one throw"],
         ),

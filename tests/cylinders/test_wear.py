@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from crankwork.cylinders.load_vectors import BearingLoad, turned_by
+from crankwork.cylinders.load_vectors import BearingLoad, rotated_by
 from crankwork.cylinders.wear import oil_hole, ray_angles, wear_sums, wear_table
 from crankwork.errors import CrankworkError
 from each import for_each
@@ -19,7 +19,7 @@ RAYS = st.sampled_from([12, 24, 36])
 
 def _load(size, direction):
     size = np.asarray(size, dtype=float)
-    return turned_by(BearingLoad(size, 0 * size), direction)
+    return rotated_by(BearingLoad(size, 0 * size), direction)
 
 
 @pytest.mark.slow
@@ -37,7 +37,7 @@ def test_every_force_is_on_as_many_rays_as_its_arc_covers(size, direction, rays)
 @given(size=SIZES, direction=DIRECTIONS, rays=RAYS, steps=st.integers(0, 40))
 def test_the_diagram_turns_with_the_loads(size, direction, rays, steps):
     load = _load(size, direction)
-    further = turned_by(load, steps * 360 / rays)
+    further = rotated_by(load, steps * 360 / rays)
     assert np.allclose(wear_sums(further, rays=rays), np.roll(wear_sums(load, rays=rays), steps), rtol=1e-12)
 
 

@@ -9,11 +9,11 @@ import pytest
 import driven
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_wrenches
-from crankwork.dynamics.routes import ROUTES, by_groups
+from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
 from crankwork.dynamics.running import Running
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import given_mechanism, remembered_motion
+from crankwork.kinematics.memory import remembered_motion, traced_mechanism
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.loads.load import applied_loads
@@ -72,15 +72,15 @@ def running(mechanism, link, grid=GRID):
 @for_each(("mechanism", "link"), EVERY.values(), ids=EVERY)
 def test_every_route_gives_the_same(mechanism, link):
     at_work = running(mechanism, link)
-    found = by_groups(at_work)
-    for name, route in ROUTES.items():
+    found = torque_by_groups(at_work)
+    for name, route in TORQUE_METHODS.items():
         assert route(at_work) == pytest.approx(found, rel=1e-10, abs=1e-9), name
 
 
 @for_each(("mechanism", "link"), EVERY.values(), ids=EVERY)
 def test_the_memory_replayed_is_the_number(mechanism, link):
     motion = remembered_motion(mechanism, linkage_motion(mechanism, DENSE))
-    own = given_mechanism(mechanism)
+    own = traced_mechanism(mechanism)
     _, rate, second = motion.driver
     loads = applied_loads(own, motion, (Weight(9.81), TorqueOnLink(link, 3.0)))
     remembered = joint_forces(Running(own, motion, rate, loads, second))

@@ -70,7 +70,7 @@ def test_every_position_of_a_turning_crank_is_on_its_circuit(linkage):
     circuit = circuit_through(linkage)
     driver = driver_coordinate(linkage)
     assert abs(circuit.turns(linkage.crank.link)) == 1
-    assert circuit.branches(driver) == [circuit.whole]
+    assert circuit.branches(driver) == [circuit.full_part]
     arcs = np.linspace(0, circuit.curve.length, 37)
     there, degrees = circuit.stretch(arcs), np.degrees(circuit.values(driver, arcs))
     moved = linkage_motion(linkage, CrankGrid.from_degrees(degrees))
@@ -142,7 +142,7 @@ def test_an_isosceles_slider_crank_passes_the_shaft():
 def test_lengths_that_differ_by_little_are_equal_or_told(longer, passes):
     circuit = circuit_through(four_bar(0.3, 1.0 + longer, 0.3, 1.0), 40.0)
     assert bool(circuit.curve.crossings.size) == passes
-    told = [one.miss for one in circuit.curve.nearly]
+    told = [one.miss for one in circuit.curve.near_crossings]
     assert told == pytest.approx([longer] * len(told), rel=0.02)
     assert bool(told) == (1e-9 < longer < 1e-6)
     # where they do not cross, the crank turns back just before the change point, and goes on crossed

@@ -10,10 +10,10 @@ from crankwork.kinematics.dyads import (
     crank_motion,
     fixed_guide,
     fixed_point,
+    in_link_frame,
     pin_on_crank,
     rrp_motion,
     rrr_motion,
-    seen_from,
 )
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.catalog import scotch_yoke
@@ -55,7 +55,7 @@ def test_coriolis_of_a_block_on_a_turning_lever(linkages):
 
 def test_seen_from_its_own_lever_the_pin_only_slides(linkages):
     solved = linkage_motion(linkages["crank shaper"], GRID)
-    along, across = seen_from(solved.frames["lever"], solved.points["crank_pin"])
+    along, across = in_link_frame(solved.frames["lever"], solved.points["crank_pin"])
     for order in range(3):
         assert along[order] == pytest.approx(solved.sliders["block"][order], abs=1e-14)
         assert across[order] == pytest.approx(0.0, abs=1e-14)

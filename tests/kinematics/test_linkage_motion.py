@@ -46,7 +46,7 @@ def test_transfer_functions_are_the_spectral_derivatives(linkage):
 def test_the_rate_of_a_link_turns_its_direction(linkage):
     solved = linkage_motion(linkage, TURN)
     for link in solved.frames.values():
-        if link.turns:
+        if link.rotates:
             assert spectral(link.cos) == pytest.approx(-link.sin * link.angle_1, abs=1e-10)
 
 

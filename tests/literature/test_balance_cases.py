@@ -21,7 +21,7 @@ from crankwork.cylinders.counterweights import (
 )
 from crankwork.cylinders.ellipse import OrderBalance, balance_sum, unit_vectors, vector_sum
 from crankwork.cylinders.journal_loads import unbalance_force
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import TEXTBOOK
 from each import for_each
@@ -67,7 +67,8 @@ def _layout(pins, axes=(0.0,), pitch=1.0) -> Layout:
     pins, axes = (list(one) * (count // len(one)) for one in (pins, axes))
     first = -(count - 1) / 2 * pitch
     places = [
-        Place(k + 1, float(axes[k]), k if pitch else 0, k, float(pins[k]), first + k * pitch, 0.0) for k in range(count)
+        CylinderPlace(k + 1, float(axes[k]), k if pitch else 0, k, float(pins[k]), first + k * pitch, 0.0)
+        for k in range(count)
     ]
     return Layout("any", tuple(places), 720.0, tuple(range(1, count + 1)))
 
@@ -150,7 +151,9 @@ class TestBevan:
         """2000 rpm, 6 lb, crank 3 in, rod 11 in; twice and six times the force of one, as rows at 60 degrees have."""
         pins, axes = (0, 180, 180, 0), (-60, 0, 60)
         places = [
-            Place(1 + k + 4 * row, axis, k, k, pins[k], k - 1.5, 0.0) for row, axis in enumerate(axes) for k in range(4)
+            CylinderPlace(1 + k + 4 * row, axis, k, k, pins[k], k - 1.5, 0.0)
+            for row, axis in enumerate(axes)
+            for k in range(4)
         ]
         layout = Layout("W", tuple(places), 720.0, tuple(range(1, 13)))
         rod = inertia_harmonics(SliderCrank(3.0, 11.0), (1, 2), TEXTBOOK)

@@ -11,7 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 from crankwork.dynamics.reduction import reduced_torque
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import given_mechanism, remembered_motion
+from crankwork.kinematics.memory import remembered_motion, traced_mechanism
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face
 from crankwork.loads.filling import solve_chambers
@@ -130,7 +130,7 @@ class TestDoubleActing:
         mechanism = slider_crank(RADIUS, LENGTH)
         motion = linkage_motion(mechanism, GRID)
         knowns = remembered_motion(mechanism, linkage_motion(mechanism, TURN))
-        remembered = steam.loads(given_mechanism(mechanism), knowns).forces
+        remembered = steam.loads(traced_mechanism(mechanism), knowns).forces
         assert [one.x.key for one in remembered] == ["load_x.piston_pin.head", "load_x.piston_pin.crank"]
         for one, other in zip(remembered, steam.loads(mechanism, motion).forces, strict=True):
             assert Program({"": one.x})(GRID)[""] == pytest.approx(other.x, rel=1e-14)

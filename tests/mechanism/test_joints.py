@@ -1,6 +1,6 @@
 from crankwork.mechanism.catalog import crank_shaper, four_bar, scotch_yoke, slotted_press, watt_six_bar
 from crankwork.mechanism.dyads import RRP
-from crankwork.mechanism.joints import Pin, SlidingJoint, bearers, group_links, joints
+from crankwork.mechanism.joints import Pin, SlidingJoint, group_links, joints, links_of_points
 from crankwork.mechanism.mechanism import Mechanism, slider_crank
 
 
@@ -46,7 +46,7 @@ def test_two_links_on_one_pin_have_names_of_their_own():
 
 
 def test_a_shared_point_belongs_to_what_is_placed_first():
-    bearer = bearers(watt_six_bar(four_bar(1, 3, 3, 3), (2, 1), 3, 3, (6, 0)))
+    bearer = links_of_points(watt_six_bar(four_bar(1, 3, 3, 3), (2, 1), 3, 3, (6, 0)))
     assert bearer["crank_pin"] == "crank"
     assert bearer["rocker_pivot"] == "ground"
     assert bearer["coupler_pin"] == "coupler"

@@ -27,7 +27,7 @@ from crankwork.cylinders.counterweights import (
     turning_forces,
 )
 from crankwork.cylinders.ellipse import OrderBalance, balance_sum, unit_vectors
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
 
@@ -60,7 +60,7 @@ class Drawn(NamedTuple):
 def engines(draw: st.DrawFn) -> Drawn:
     count = draw(st.integers(1, 9))
     places = tuple(
-        Place(k + 1, draw(angles), k, k, draw(angles) if k else 0.0, draw(positions), 0.0) for k in range(count)
+        CylinderPlace(k + 1, draw(angles), k, k, draw(angles) if k else 0.0, draw(positions), 0.0) for k in range(count)
     )
     r = draw(st.floats(0.01, 1.0))
     offset = draw(st.floats(-0.4, 0.4)) * r
@@ -135,7 +135,7 @@ def test_harmonics_of_each_cylinder_sampled_by_its_own_angle_give_the_same(drawn
 def test_a_leaning_engine_has_leaning_forces(drawn: Drawn, turned: float) -> None:
     places = drawn.layout.places
     leaning = tuple(
-        Place(one.number, one.axis + turned, one.crankpin, one.throw, one.pin_angle, one.position, 0.0)
+        CylinderPlace(one.number, one.axis + turned, one.crankpin, one.throw, one.pin_angle, one.position, 0.0)
         for one in places
     )
     found = _free(drawn._replace(layout=Layout("any", leaning, 720.0, drawn.layout.firing_order)))
@@ -147,7 +147,7 @@ def test_a_leaning_engine_has_leaning_forces(drawn: Drawn, turned: float) -> Non
 @given(count=st.integers(2, 15), order=st.integers(1, 20))
 def test_a_radial_engine_keeps_the_orders_next_to_its_number_of_cylinders(count: int, order: int) -> None:
     """Of n cylinders, order q turns forwards where n divides q - 1, backwards where it divides q + 1."""
-    places = tuple(Place(k + 1, k * 360 / count, 0, 0, 0.0, 0.0, 0.0) for k in range(count))
+    places = tuple(CylinderPlace(k + 1, k * 360 / count, 0, 0, 0.0, 0.0, 0.0) for k in range(count))
     (found,) = layout_factors(Layout("radial", places, 720.0, tuple(range(1, count + 1))), (order,))
     forward, backward = (count / 2 if (order + step) % count == 0 else 0 for step in (-1, 1))
     assert found.force == pytest.approx((forward, backward), abs=1e-12)

@@ -15,7 +15,7 @@ from crankwork.formula.known import Known, absent, breaks_of, given, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.memory import given_mechanism
+from crankwork.kinematics.memory import traced_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.chamber import Chamber, own_cycle
@@ -130,7 +130,7 @@ def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
     machine, filling = solved.machine, solved.filling
     if not filling.forces:
         return {}
-    mechanism = given_mechanism(machine.mechanism, machine.linkage)
+    mechanism = traced_mechanism(machine.mechanism, machine.linkage)
     torque: Known = reduced_torque(motion, filling.loads(mechanism, motion))
     if machine.mechanism.driver.law is not None:
         torque = torque * rate_by_angle(motion, machine.mechanism.driver.law)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from crankwork.analysis.solved import SolvedCylinder, solve, solve_slave
 from crankwork.cylinders.articulated import ArticulatedRod
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.formula.known import Known, delayed
 from crankwork.formula.replay import Program
@@ -86,7 +86,7 @@ class WholeEngine:
         return tuple(one.machine.masses or CrankGearMasses() for one in self.cylinders)
 
     @property
-    def on_pin(self) -> dict[int, tuple[Place, ...]]:
+    def on_pin(self) -> dict[int, tuple[CylinderPlace, ...]]:
         """The cylinders of each crankpin."""
         pins = sorted({place.crankpin for place in self.layout.places})
         return {pin: tuple(one for one in self.layout.places if one.crankpin == pin) for pin in pins}

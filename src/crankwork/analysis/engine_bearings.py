@@ -16,7 +16,7 @@ from crankwork.analysis.results import Listing
 from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.cylinders.load_statistics import reversal, reversal_of_polynomials
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import OilHoleOfPolynomials, oil_hole, ray_angles, wear_sums
@@ -84,7 +84,7 @@ def _of_shaft(node: Node) -> tuple[Known, ...]:
     return () if is_of_rod or isinstance(node, Delayed) else node.operands
 
 
-def _of_rod(whole: WholeEngine, place: Place, inertia: Known) -> tuple[Known, Known]:
+def _of_rod(whole: WholeEngine, place: CylinderPlace, inertia: Known) -> tuple[Known, Known]:
     """Return the load of a rod on its crankpin along and across the crank arm, of its forces and its mass there."""
     name = f"{place.crankpin + 1}.{place.number}" if len(whole.on_pin[place.crankpin]) > 1 else f"{place.crankpin + 1}"
     memory = whole.cylinders[place.number - 1].memory
@@ -272,7 +272,7 @@ def _counterweight(whole: WholeEngine, pin: int) -> Known:
     return total(key, terms)
 
 
-def rotating_mass_of(whole: WholeEngine, place: Place) -> Known:
+def rotating_mass_of(whole: WholeEngine, place: CylinderPlace) -> Known:
     """Return the rotating mass of a cylinder, that of a shared throw divided among its cylinders."""
     on_throw = [one.throw for one in whole.layout.places].count(place.throw)
     memory = whole.master.memory

@@ -17,9 +17,9 @@ from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated_forces import (
     KnuckleMass,
+    articulated_forces,
     knuckle_acceleration_across,
     knuckle_acceleration_along,
-    slave_forces,
 )
 from crankwork.cylinders.bearings import (
     big_end_inertia_force,
@@ -241,7 +241,7 @@ def _slave_forces(solved: SolvedCylinder, moving: MovingCylinder) -> Iterator[Kn
     lean_cos, lean_sin = origins.inclination(solved.machine, solved.lean)
     dN, across = couple[-1] if couple else absent("side_force.couple"), memory.get("transverse_weight", absent(""))
     held = KnuckleMass(mass, accelerations[0], accelerations[1], g, lean_cos, lean_sin, dN, across)
-    found = slave_forces(memory["piston_force"], moving.lengths, solved.slave, moving.angle, rod, held)
+    found = articulated_forces(memory["piston_force"], moving.lengths, solved.slave, moving.angle, rod, held)
     yield from (found.side.named("side_force"), found.along.named("rod_force"), *found.knuckle)
     yield from (found.radial.named("radial_force"), found.tangential.named("tangential_force"))
     yield from (found.couple.named("knuckle_couple"), found.master_side.named("knuckle_side_force"))

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis.friction_course import Balance, Course, Steps
 from crankwork.analysis.solved import Notice, SolvedLinkage, apart
-from crankwork.dynamics.force_system import whole_of
+from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import (
     CONVERGED,
     Friction,
@@ -30,15 +30,15 @@ from crankwork.dynamics.friction import (
 )
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reaction import JointForces
-from crankwork.dynamics.routes import energy
+from crankwork.dynamics.routes import torque_by_energy
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Component, Found, Known, Pieces, Root, absent, given, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics import transfer as rates
-from crankwork.kinematics.bodies import everywhere
+from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import course_of
+from crankwork.kinematics.memory import interpolant_of
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, force_on_slider, torque_on
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, names_of_pivots
@@ -129,7 +129,7 @@ def mean_values(over: OverCycle) -> Iterator[Known]:
 
 def _places(solved: SolvedLinkage) -> Iterator[_Place]:
     """Yield the joints that rub."""
-    machine, held = solved.machine, whole_of(solved.machine.mechanism)[1]
+    machine, held = solved.machine, all_links_and_joints(solved.machine.mechanism)[1]
     for law in machine.friction:
         kind, name = (SlidingJoint, law.slider) if isinstance(law, GuideFriction) else (Pin, law.joint)
         joint = next(one for one in held if isinstance(one, kind) and one.name == name)
@@ -139,13 +139,13 @@ def _places(solved: SolvedLinkage) -> Iterator[_Place]:
 
 def _span(motion: Motion) -> tuple[float, float]:
     """Return the first and the last crank angle that is reached. [deg]"""
-    over = course_of(motion.grid)({})
+    over = interpolant_of(motion.grid)({})
     return float(over.edges[0]), float(over.edges[-1])
 
 
 def _velocity(motion: Motion, place: _Place, w: Known) -> Known:
     """Return how fast one link of a joint turns or slides in the other."""
-    rate = everywhere(relative_rate(motion, place.joint), motion.grid)
+    rate = broadcast(relative_rate(motion, place.joint), motion.grid)
     if isinstance(place.joint, Pin):
         velocity: Known = rates.link_angular_velocity(rate, w).named(f"relative_speed.{place.name}")
     else:
@@ -156,7 +156,7 @@ def _velocity(motion: Motion, place: _Place, w: Known) -> Known:
 def _senses(motion: Motion, velocities: Mapping[Friction, Known]) -> dict[Friction, Steps]:
     """Return the direction of the friction of each joint: against the velocity, none where a law dwells."""
     varying = {str(at): one for at, one in enumerate(velocities.values()) if one.varies}
-    over = course_of(motion.grid)(varying)
+    over = interpolant_of(motion.grid)(varying)
     end, found = float(over.edges[-1]), []
     middles = (over.edges[1:] + over.edges[:-1]) / 2
     size = {
@@ -329,7 +329,7 @@ def _checks(balance: Balance, course: Course, columns: Mapping[str, Known], root
     sizes = [*found.pressing.values(), *(np.asarray(one.resultant) for one in found.joint_forces.pins.values())]
     largest = max(float(np.max(one)) for one in sizes)
     return {
-        "friction_power": apart(running.speed * energy(running) + loss, power),
+        "friction_power": apart(running.speed * torque_by_energy(running) + loss, power),
         "friction_forces": max(
             apart(torque, np.asarray(found.joint_forces.balancing_torque)),
             float(np.max(np.abs(missed))) / largest if largest else 0.0,

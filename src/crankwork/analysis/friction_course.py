@@ -18,8 +18,8 @@ from crankwork.dynamics.friction import (
     GuideFriction,
     PinFriction,
     Truth,
-    rubbed,
-    rubbing_joints,
+    friction_joints,
+    solve_with_friction,
 )
 from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -71,7 +71,9 @@ class Balance:
         """Return forces, torque and status at crank angles. [deg]"""
         running = self.running(CrankGrid.from_degrees(degrees))
         senses = {one: steps(degrees) for one, steps in self.senses.items()}
-        return rubbed(running, rubbing_joints(running, self.solved.machine.friction, senses), thorough=thorough)
+        return solve_with_friction(
+            running, friction_joints(running, self.solved.machine.friction, senses), thorough=thorough
+        )
 
     def __call__(self, grid: CrankGrid) -> Array:
         """Return the forces that make the friction, shape (joints, n). [N]"""

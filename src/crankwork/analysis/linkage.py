@@ -44,7 +44,7 @@ from crankwork.analysis.speed import (
 from crankwork.analysis.tabulated import DYNAMICS
 from crankwork.analysis.transient import let_go
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.routes import ROUTES, by_groups
+from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Found, Known, absent, given
 from crankwork.formula.over_cycle import OverCycle
@@ -255,7 +255,7 @@ def _of_machine(machine: Machine) -> Iterator[Notice]:
             yield Notice("redundant_unshared", {"name": one.member.name, "mobility": freedom})
         else:
             yield Notice(
-                "redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.of}
+                "redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.reference}
             )
     driver = machine.mechanism.driver
     if isinstance(driver, Crank) and any(one.pressure_angle is None for one in driver.geared):
@@ -396,7 +396,7 @@ def _checks(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
     scale = max(float(np.max(np.abs(reference))), turning) or 1.0
     apart = {
         name: route(part) - reference[some] if name == "whole_system" else route(running) - reference
-        for name, route in ROUTES.items()
+        for name, route in TORQUE_METHODS.items()
     }
     return {name: float(np.max(np.abs(one))) / scale for name, one in apart.items()}
 
@@ -429,7 +429,9 @@ def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
     sides = []
     for side in (1.0, -1.0) if aside.any() else (0.0,):
         running = running_at(solved, linkage_motion(mechanism, CrankGrid.from_degrees(asked + side * aside)))
-        sides.append({"by_groups": by_groups(running), **{name: route(running) for name, route in ROUTES.items()}})
+        sides.append(
+            {"by_groups": torque_by_groups(running), **{name: route(running) for name, route in TORQUE_METHODS.items()}}
+        )
     torques = {name: np.mean([one[name] for one in sides], axis=0) for name in sides[0]}
     return TorqueByRoutes(torques, differences(list(torques.values())))
 

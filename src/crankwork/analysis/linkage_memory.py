@@ -25,9 +25,9 @@ from crankwork.dynamics.reduction import (
 from crankwork.dynamics.running import Running
 from crankwork.formula.known import Found, Known, Pieces, absent, given
 from crankwork.kinematics import transfer as rates
-from crankwork.kinematics.dyads import is_nothing
+from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.instant_centres import instant_centres
-from crankwork.kinematics.memory import angle_of, course_of, given_mechanism
+from crankwork.kinematics.memory import angle_of, interpolant_of, traced_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.motion_laws import clock
 from crankwork.kinematics.transfer import PointMotion, Transfer
@@ -46,7 +46,7 @@ def remembered_running(solved: SolvedLinkage, motion: Motion) -> Running:
     """Return a linkage at work, with its loads, remembered."""
     machine = solved.machine
     w, eps = turning_of(machine, motion)
-    mechanism = given_mechanism(machine.mechanism, machine.linkage)
+    mechanism = traced_mechanism(machine.mechanism, machine.linkage)
     loads = applied_loads(mechanism, motion, machine.loads, w).also(solved.filling.loads(mechanism, motion))
     return Running(mechanism, motion, w, loads, eps)
 
@@ -173,7 +173,7 @@ def _at_work(solved: SolvedLinkage, running: Running) -> dict[str, Known]:
         "driving_torque": _driving(static, dynamic, balancing, machine.drive, motion),
         **_forces(solved, running)[1],
     }
-    if any(not is_nothing(one.mass) for one in mechanism.bodies):
+    if any(not is_zero(one.mass) for one in mechanism.bodies):
         columns |= shaking(running)
     return columns if reduced.is_absent else columns | {"reduced_torque": reduced}
 
@@ -184,7 +184,7 @@ def _driving(static: Known, dynamic: Known, balancing: Known, drive: Drive, moti
     motor: Known = driving_torque_as_motor(static, dynamic, eta)
     if eta.is_absent or not balancing.varies:
         return motor
-    ends, is_brake = course_of(motion.grid)({"": balancing}).stretches("")
+    ends, is_brake = interpolant_of(motion.grid)({"": balancing}).stretches("")
     brake: Known = driving_torque_as_brake(static, dynamic, eta)
     return Known(Pieces(ends, tuple(brake if one else motor for one in is_brake)), "driving_torque")
 

@@ -12,8 +12,8 @@ import numpy as np
 from crankwork.analysis.charts import Chart, Piece
 from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.solved import SolvedLinkage
-from crankwork.dynamics.force_system import whole_system
-from crankwork.dynamics.friction import Rubbing, rubbing_joints
+from crankwork.dynamics.force_system import full_equilibrium
+from crankwork.dynamics.friction import FrictionJoint, friction_joints
 from crankwork.dynamics.link_loads import link_wrenches
 from crankwork.dynamics.reduction import reduced_inertia, reduced_torque
 from crankwork.dynamics.running import Running
@@ -22,7 +22,7 @@ from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, absent, breaks_of, given, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.loops import ChainPath
-from crankwork.kinematics.memory import given_mechanism, remembered_motion
+from crankwork.kinematics.memory import remembered_motion, traced_mechanism
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.transfer import Transfer
 from crankwork.loads.applied import AppliedLoads
@@ -111,11 +111,11 @@ class Loose:
         return found
 
     @cached_property
-    def _joints(self) -> tuple[Rubbing, ...]:
+    def _joints(self) -> tuple[FrictionJoint, ...]:
         """The joints that rub."""
         piece = self.chart.pieces[0]
         middle = np.array([(piece.first + piece.last) / 2])
-        return rubbing_joints(Running(piece.mechanism, self.moved(piece, middle)), self.machine.friction)
+        return friction_joints(Running(piece.mechanism, self.moved(piece, middle)), self.machine.friction)
 
     @property
     def _slipping(self) -> Slipping | None:
@@ -136,7 +136,7 @@ class Loose:
     def _rubbing(self, piece: Piece, motion: Motion, crank: Transfer) -> Array:
         """Return the rows of `Slipping`: rates of the joints, and their unknowns for each cause, shape (rows, n)."""
         still = Running(piece.mechanism, motion)
-        system, back = whole_system(still), _backwards(motion)
+        system, back = full_equilibrium(still), _backwards(motion)
         dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
         ways = (motion, back) if piece.last >= piece.first else (back, motion)
         causes = [
@@ -153,7 +153,7 @@ class Loose:
         _, q_1, q_2 = (one[:, None] for one in crank)
         by_cause = [grows, falls, square * q_1**2 + acceleration * q_2, rate * q_1, acceleration * q_1, *own]
         rows = []
-        for one in rubbing_joints(still, self.machine.friction):
+        for one in friction_joints(still, self.machine.friction):
             at = 2 * system.joints.index(one.joint)
             rows += [one.rate * crank.position_1, *(each[:, at + k] for each in by_cause[:5] for k in range(2))]
             rows += [each[:, at + k] for k in range(2) for each in by_cause[5:]]
@@ -203,7 +203,7 @@ class Loose:
         machine, wanted = self.machine, self.wanted
         if self.chart.pieces[0].turns_back or machine.friction or machine.drive.motor or self.is_two_sided:
             return ()
-        mechanism = given_mechanism(machine.mechanism, machine.linkage)
+        mechanism = traced_mechanism(machine.mechanism, machine.linkage)
         beside = [turning_inertia(machine, "reduced_inertia.drive"), *([] if flywheel is None else [flywheel])]
         dampers = [one for one in machine.loads if isinstance(one, Damper | SliderDamper)]
         others = [one for one in machine.loads if one not in dampers]

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis.moving import moving
 from crankwork.analysis.results import Results
-from crankwork.cylinders.layout import Layout, Place
+from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.kinematics.crank_grid import Array
 from crankwork.machine import Engine, Machine
@@ -24,7 +24,7 @@ FORCES = ("piston_force", "side_force", "rod_force", "tangential_force")
 class CylinderMoving(NamedTuple):
     """A cylinder over frames, seen along the shaft, which turns clockwise; the crankshaft is the origin."""
 
-    place: Place
+    place: CylinderPlace
     offset: float  # Of its axis, positive towards the crankpin at 90 degrees [m]
     pin: Array  # Crankpin, shape (n, 2) [m]
     joint: Array  # What its rod turns on, the crankpin or a knuckle pin, shape (n, 2) [m]
@@ -87,7 +87,7 @@ def _alone(machine: Machine) -> Engine | None:
     """Return a machine with one cylinder as an engine."""
     if machine.cylinder is None:
         return None
-    place = Place(1, math.degrees(machine.inclination), 0, 0, pin_angle=0.0, position=0.0, firing_angle=0.0)
+    place = CylinderPlace(1, math.degrees(machine.inclination), 0, 0, pin_angle=0.0, position=0.0, firing_angle=0.0)
     return Engine(Layout("inline", (place,), machine.cycle, (1,)))
 
 
@@ -108,7 +108,7 @@ def _columns(results: Results | None, degrees: Array) -> dict[str, Array]:
     return {key: whole.each(key, at) for key in keys if len(whole.has(key)) == len(whole.cylinders)}
 
 
-def _fires(machine: Machine, engine: Engine, place: Place) -> float | None:
+def _fires(machine: Machine, engine: Engine, place: CylinderPlace) -> float | None:
     """Return when a cylinder fires, in four strokes a turn after it breathes: at its dead centre, or ignited. [deg]"""
     gas = engine.gases[place.number - 1] if engine.gases else machine.gas
     # without a calculated cycle two strokes may be those of a compressor

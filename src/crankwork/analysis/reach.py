@@ -26,7 +26,7 @@ from crankwork.locale import Refusal
 from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import RPR, RRP, RRR
-from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
+from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 
 # how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
 _NEAREST, _AT_MOST = 0.005, 0.25
@@ -128,7 +128,7 @@ def _told(mechanism: Mechanism, found: Travel | None) -> Iterator[Notice]:
         yield Notice("two_turns", {"turns": round(mechanism.period / _TURN)})
     geared = mechanism.driver.geared if isinstance(mechanism.driver, Crank) and found is None else ()
     for one in geared:
-        if not turns_of(one.ratio):
+        if not period_in_turns(one.ratio):
             yield Notice("no_cycle", {"name": one.link, "ratio": one.ratio})
     for degrees, miss in near_changes(found.circuit) if found else ():
         yield Notice("nearly_change_point", {"angle": degrees, "miss": miss})
@@ -194,7 +194,7 @@ def limits_of(found: Travel, memory: Mapping[str, Known]) -> dict[str, Known]:
         for name, (column, coordinate) in each.items():
             if column not in memory or (kind == "link_swing" and name in sliders):
                 continue
-            on_branch, whole = circuit.extents(coordinate, found.branch, circuit.whole)
+            on_branch, whole = circuit.extents(coordinate, found.branch, circuit.full_part)
             turns = kind == "link_swing" and circuit.turns(name) != 0
             for key, extent, word in ((kind, on_branch, "branch"), (f"{kind}_circuit", whole, "circuit")):
                 if not (kind == "link_swing" and _is_full(extent)) and not (turns and extent is whole):

@@ -121,9 +121,9 @@ class SolvedCylinder(Solved):
         """Stroke [m], and the crank angles of top and bottom dead centre [deg]."""
         if self.slave is None:
             return (self.lengths.stroke, *dead_centres(self.lengths))
-        from crankwork.cylinders.articulated import slave_stroke  # noqa: PLC0415 - few engines have such rods
+        from crankwork.cylinders.articulated import articulated_stroke  # noqa: PLC0415 - few engines have such rods
 
-        found = slave_stroke(self.lengths, self.slave)
+        found = articulated_stroke(self.lengths, self.slave)
         return found.stroke, found.top_angle, found.bottom_angle
 
 

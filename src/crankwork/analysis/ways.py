@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.errors import CrankworkError, GeometryError
-from crankwork.kinematics.circuits import Circuit, Part, all_circuits, circuit_at
+from crankwork.kinematics.circuits import Circuit, CircuitPart, all_circuits, circuit_at
 from crankwork.kinematics.coordinates import driver_coordinate, link_angle, rod_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.travel import has_steady_crank, travel
@@ -101,7 +101,7 @@ def _branches(circuit: Circuit, number: int, stated: Array | None) -> Iterator[W
         start, end = sorted(map(float, circuit.values(driver, np.array(part))))
         if not math.isfinite(start + end):
             raise GeometryError(Refusal("circuit_lost", links=circuit.curve.system.equations.names))
-        turns = round((end - start) / math.tau) if is_turning and part == circuit.whole else 0
+        turns = round((end - start) / math.tau) if is_turning and part == circuit.full_part else 0
         if turns:
             start, end = 0.0, math.tau * turns
         elif is_turning and not (is_stated and circuit.mechanism.driver.law):
@@ -114,6 +114,6 @@ def _branches(circuit: Circuit, number: int, stated: Array | None) -> Iterator[W
         yield Way(number, count, is_stated, start, end, turns, swings, strokes)
 
 
-def _holds(circuit: Circuit, part: Part, at: float) -> bool:
+def _holds(circuit: Circuit, part: CircuitPart, at: float) -> bool:
     length = circuit.curve.length
     return any(part.start <= at + shift <= part.end for shift in (-length, 0.0, length))

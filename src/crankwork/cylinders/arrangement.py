@@ -1,4 +1,4 @@
-"""From arrangement, crank and firing order to a layout, or to the sentence that says why they do not fit."""
+"""From arrangement, crank and firing order to a layout, or to an error that says why they do not fit."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from crankwork.cylinders.firing import (
     is_even,
     order_text,
     possible_order,
-    wrapped,
+    wrap_angle,
 )
-from crankwork.cylinders.layout import Banks, Layout, Place
+from crankwork.cylinders.layout import Banks, CylinderPlace, Layout
 from crankwork.locale import Refusal
 
 
-class Seat(NamedTuple):
-    """Where a cylinder sits: number, bank and throw from 0, axis and split of its crankpin [deg], position [m].
+class CylinderPosition(NamedTuple):
+    """Position of a cylinder: number, bank and throw from 0, axis and split of its crankpin [deg], place [m].
 
     `top`: its own crank angle at top dead centre, from its axis [deg].
     """
@@ -43,19 +43,14 @@ class Seat(NamedTuple):
 
     @property
     def dead_centre(self) -> float:
-        """Where its crankpin stands at its top dead centre. [deg]"""
+        """Direction of its crankpin at its top dead centre. [deg]"""
         return self.axis + self.top
 
 
-def arranged(
-    banks: Banks,
-    order: Sequence[int],
-    *,
-    strokes: int = 4,
-    throws: Sequence[float] | None = None,
-    uneven: bool = False,
+def build_layout(
+    banks: Banks, order: Sequence[int], *, strokes: int = 4, throws: Sequence[float] | None = None, uneven: bool = False
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return the layout of any arrangement: W engines, narrow V engines and whatever has no name.
+    """Return the layout of any arrangement: W engines, narrow V engines and those without a name.
 
     Throws are angles along the shaft ahead of the first, positive with the rotation [deg]; without them they follow
     from even firing. Uneven intervals that are not `uneven` on purpose are a notice.
@@ -75,24 +70,24 @@ def arranged(
     firing = _firing(seats, pins, order, cycle)
     steps = intervals([firing[number - 1] for number in order], cycle)
     if is_even(steps):
-        # the very angles k * cycle / n, whatever rounding the angles of banks and pins brought in
+        # exact multiples of cycle / n, without the rounding of bank and pin angles
         firing = even_angles(order, cycle)
         notices: tuple[LayoutNotice, ...] = ()
     else:
         values = {"order": order_text(order), "intervals": angle_list(steps)}
         notices = () if uneven else (LayoutNotice("uneven_intervals", values),)
-    own = [wrapped(angle + seats[0].top - seat.top, cycle) for angle, seat in zip(firing, seats, strict=True)]
+    own = [wrap_angle(angle + seats[0].top - seat.top, cycle) for angle, seat in zip(firing, seats, strict=True)]
     layout = Layout(banks.kind, _places(banks, seats, pins, own), cycle, order, _journals(seats, banks.spacing))
     return layout, notices
 
 
-def _seats(banks: Banks) -> list[Seat]:
-    """Return the seats by number, the throws in the order along the shaft."""
+def _seats(banks: Banks) -> list[CylinderPosition]:
+    """Return the cylinder positions by number, with throws in their order along the shaft."""
     count, rows = banks.cylinders, len(banks.axes)
     if count < 1 or count % rows:
-        told = Refusal("cylinders_uneven" if rows > 1 else "cylinders_none", count=count, rows=rows)
-        raise LayoutError("engine.cylinders", told)
-    directions = {wrapped(axis) for axis in banks.axes}
+        message = Refusal("cylinders_uneven" if rows > 1 else "cylinders_none", count=count, rows=rows)
+        raise LayoutError("engine.cylinders", message)
+    directions = {wrap_angle(axis) for axis in banks.axes}
     if len(directions) < rows and not banks.own_throws:
         key = "engine.bank_angle" if rows == 2 else "engine.bank_angles"
         raise LayoutError(key, Refusal("banks_together"))
@@ -101,42 +96,39 @@ def _seats(banks: Banks) -> list[Seat]:
     per_bank = count // rows
     seats = []
     for bank, axis in enumerate(banks.axes):
-        for at in range(per_bank):
-            number = bank * per_bank + at + 1 if banks.numbering == "banks" else at * rows + bank + 1
-            throw = at * rows + bank if banks.own_throws else at
-            along = (at - (per_bank - 1) / 2) * banks.spacing + (bank - (rows - 1) / 2) * banks.stagger
+        for index in range(per_bank):
+            number = bank * per_bank + index + 1 if banks.numbering == "banks" else index * rows + bank + 1
+            throw = index * rows + bank if banks.own_throws else index
+            along = (index - (per_bank - 1) / 2) * banks.spacing + (bank - (rows - 1) / 2) * banks.stagger
             top = banks.tops[number - 1] if banks.tops else 0.0
-            seats.append(Seat(number, bank, throw, axis, bank * banks.pin_offset, along, top))
+            seats.append(CylinderPosition(number, bank, throw, axis, bank * banks.pin_offset, along, top))
     return sorted(seats)
 
 
-def _pins_of_throws(seats: Sequence[Seat], throws: Sequence[float]) -> list[float]:
+def _pins_of_throws(seats: Sequence[CylinderPosition], throws: Sequence[float]) -> list[float]:
     count = max(seat.throw for seat in seats) + 1
     if len(throws) != count:
-        raise LayoutError(
-            "engine.throws",
-            Refusal("throws_count", given=len(throws), count=count),
-        )
-    # the first throw belongs to cylinder 1, from whose crankpin all others count
-    return [wrapped(throws[seat.throw] - throws[0] + seat.pin_offset) for seat in seats]
+        raise LayoutError("engine.throws", Refusal("throws_count", given=len(throws), count=count))
+    # the first throw is that of cylinder 1, from whose crankpin the others are measured
+    return [wrap_angle(throws[seat.throw] - throws[0] + seat.pin_offset) for seat in seats]
 
 
 def _pins_of_even_firing(
-    banks: Banks, seats: Sequence[Seat], order: tuple[int, ...], cycle: float, *, uneven: bool
+    banks: Banks, seats: Sequence[CylinderPosition], order: tuple[int, ...], cycle: float, *, uneven: bool
 ) -> list[float]:
-    """Return the crankpins that even intervals need, or raise if those of one throw disagree with its pins."""
+    """Return the crankpins for even intervals; raise LayoutError if cylinders of one throw need different ones."""
     firing = even_angles(order, cycle)
-    pins = [wrapped(seat.dead_centre - seats[0].dead_centre - firing[seat.number - 1]) for seat in seats]
+    pins = [wrap_angle(seat.dead_centre - seats[0].dead_centre - firing[seat.number - 1]) for seat in seats]
     throws: dict[int, float] = {}
     for seat, pin in zip(seats, pins, strict=True):
         if seat.bank == 0 or banks.own_throws:
             throws[seat.throw] = pin
-    following = _pins_of_throws(seats, [throws[at] for at in range(len(throws))])
+    following = _pins_of_throws(seats, [throws[throw] for throw in range(len(throws))])
     off = {
-        seat.number: wrapped(pin - there + 180.0) - 180.0
-        for seat, pin, there in zip(seats, pins, following, strict=True)
+        seat.number: wrap_angle(pin - actual + 180.0) - 180.0
+        for seat, pin, actual in zip(seats, pins, following, strict=True)
     }
-    if max(abs(one) for one in off.values()) <= SAME_ANGLE:
+    if max(abs(angle) for angle in off.values()) <= SAME_ANGLE:
         return following
     if uneven:
         return following
@@ -145,70 +137,75 @@ def _pins_of_even_firing(
 
 def _disagreement(
     banks: Banks,
-    seats: Sequence[Seat],
+    seats: Sequence[CylinderPosition],
     pins: Sequence[float],
     order: tuple[int, ...],
     cycle: float,
     off: Mapping[int, float],
 ) -> LayoutError:
-    """Return what is wrong when the cylinders of a throw need other crankpins than it has, and what would help."""
-    number = next(one for one, angle in off.items() if abs(angle) > SAME_ANGLE)
+    """Return the error that cylinders of a throw need other crankpins than it has, with remedies."""
+    number = next(cylinder for cylinder, angle in off.items() if abs(angle) > SAME_ANGLE)
     seat = seats[number - 1]
-    partner = next(one.number for one in seats if one.throw == seat.throw and one.bank == 0)
-    split = wrapped(seat.pin_offset + off[number] + 180.0) - 180.0
-    first_bank = [abs(angle - off[number]) <= SAME_ANGLE for one, angle in off.items() if seats[one - 1].bank]
-    ways: list[str] = []
+    partner = next(candidate.number for candidate in seats if candidate.throw == seat.throw and candidate.bank == 0)
+    split = wrap_angle(seat.pin_offset + off[number] + 180.0) - 180.0
+    first_bank = [abs(angle - off[number]) <= SAME_ANGLE for cylinder, angle in off.items() if seats[cylinder - 1].bank]
+    remedies: list[str] = []
     if banks.kind == "V" and all(first_bank):
-        ways.append(Refusal("way_pin_offset", angle=f"{split:.7g}"))
+        remedies.append(Refusal("way_pin_offset", angle=f"{split:.7g}"))
         bank_angle = banks.axes[1] - banks.axes[0] - off[number]
         if 0 < abs(bank_angle) < 180:
-            ways.append(f"engine.bank_angle = {bank_angle:.7g}")
+            remedies.append(f"engine.bank_angle = {bank_angle:.7g}")
     dead_centres = _dead_centres(seats, pins)
     angles = firing_angles(order, dead_centres, cycle)
     if angles:
-        steps = intervals([angles[one - 1] for one in order], cycle)
-        ways.append(Refusal("way_uneven", intervals=angle_list(steps)))
-    ways += [f"engine.firing_order = {list(one)}" for one in even_orders(dead_centres, cycle, limit=2)]
-    if not ways:
-        ways.append(Refusal("way_throws"))
-    told = Refusal(
+        steps = intervals([angles[cylinder - 1] for cylinder in order], cycle)
+        remedies.append(Refusal("way_uneven", intervals=angle_list(steps)))
+    remedies += [f"engine.firing_order = {list(allowed)}" for allowed in even_orders(dead_centres, cycle, limit=2)]
+    if not remedies:
+        remedies.append(Refusal("way_throws"))
+    message = Refusal(
         "pins_ahead" if split > 0 else "pins_behind",
         partner=partner, number=number, order=order_text(order), angle=abs(split),
-        given=seat.pin_offset, ways=reduce(_or, ways),
+        given=seat.pin_offset, ways=reduce(_or, remedies),
     )  # fmt: skip
-    return LayoutError("engine.pin_offset" if banks.kind == "V" else "engine.firing_order", told)
+    return LayoutError("engine.pin_offset" if banks.kind == "V" else "engine.firing_order", message)
 
 
 def _or(first: str, other: str) -> Refusal:
     return Refusal("way_or", first=first, other=other)
 
 
-def _dead_centres(seats: Sequence[Seat], pins: Sequence[float]) -> list[float]:
-    return [wrapped(seat.dead_centre - seats[0].dead_centre - pin) for seat, pin in zip(seats, pins, strict=True)]
+def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> list[float]:
+    return [wrap_angle(seat.dead_centre - seats[0].dead_centre - pin) for seat, pin in zip(seats, pins, strict=True)]
 
 
-def _firing(seats: Sequence[Seat], pins: Sequence[float], order: tuple[int, ...], cycle: float) -> tuple[float, ...]:
-    """Return the firing angles of the order, or raise with an order that the crank allows and a crank for the order."""
+def _firing(
+    seats: Sequence[CylinderPosition], pins: Sequence[float], order: tuple[int, ...], cycle: float
+) -> tuple[float, ...]:
+    """Return the firing angles of the order; raise LayoutError with possible orders and a crank for this one."""
     dead_centres = _dead_centres(seats, pins)
     angles = firing_angles(order, dead_centres, cycle)
     if angles:
         return angles
-    ways = [order_text(one) for one in even_orders(dead_centres, cycle, limit=3)]
+    alternatives = [order_text(allowed) for allowed in even_orders(dead_centres, cycle, limit=3)]
     possible = possible_order(dead_centres, cycle)
-    if not ways and possible:
-        ways.append(order_text(possible))
-    told = {"order": order_text(order), "others": ", ".join(ways)}
+    if not alternatives and possible:
+        alternatives.append(order_text(possible))
+    values = {"order": order_text(order), "others": ", ".join(alternatives)}
     if len({seat.throw for seat in seats}) == len(seats):
         needed = even_angles(order, cycle)
         pairs = zip(seats, needed, strict=True)
-        throws = {seat.throw: wrapped(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
-        quoted = ", ".join(f'"{throws[at]:.7g} deg"' for at in sorted(throws))
-        name = "order_refused_both" if ways else "order_refused_throws"
-        raise LayoutError("engine.firing_order", Refusal(name, **told, throws=quoted))
-    raise LayoutError("engine.firing_order", Refusal("order_refused_others" if ways else "order_refused", **told))
+        throws = {seat.throw: wrap_angle(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
+        quoted = ", ".join(f'"{throws[throw]:.7g} deg"' for throw in sorted(throws))
+        name = "order_refused_both" if alternatives else "order_refused_throws"
+        raise LayoutError("engine.firing_order", Refusal(name, **values, throws=quoted))
+    name = "order_refused_others" if alternatives else "order_refused"
+    raise LayoutError("engine.firing_order", Refusal(name, **values))
 
 
-def _places(banks: Banks, seats: Sequence[Seat], pins: Sequence[float], firing: Sequence[float]) -> tuple[Place, ...]:
+def _places(
+    banks: Banks, seats: Sequence[CylinderPosition], pins: Sequence[float], firing: Sequence[float]
+) -> tuple[CylinderPlace, ...]:
     common = banks.pin_offset == 0
     masters = {seat.throw: seat.number for seat in reversed(seats) if seat.bank == 0}
     rows = len(banks.axes)
@@ -218,18 +215,22 @@ def _places(banks: Banks, seats: Sequence[Seat], pins: Sequence[float], firing: 
     for seat, pin, angle in zip(seats, pins, firing, strict=True):
         crankpin = seat.throw if common or banks.own_throws else seat.throw * rows + seat.bank
         master = masters[seat.throw] if banks.articulated and seat.bank else 0
-        places.append(Place(seat.number, seat.axis, crankpin, seat.throw, pin, seat.position, angle, master, seat.top))
+        position = seat.position
+        places.append(
+            CylinderPlace(seat.number, seat.axis, crankpin, seat.throw, pin, position, angle, master, seat.top)
+        )
     return tuple(places)
 
 
-def _journals(seats: Sequence[Seat], spacing: float) -> tuple[float, ...]:
-    """Return the main journals: midway between throws, and half a distance beyond the outer ones."""
+def _journals(seats: Sequence[CylinderPosition], spacing: float) -> tuple[float, ...]:
+    """Return the main journals: midway between throws, and half a spacing beyond the outer ones."""
     if not spacing:
         return ()
     throws = [
-        fmean(seat.position for seat in seats if seat.throw == at) for at in range(max(one.throw for one in seats) + 1)
+        fmean(seat.position for seat in seats if seat.throw == throw)
+        for throw in range(max(seat.throw for seat in seats) + 1)
     ]
     if len(throws) == 1:
         return (throws[0] - spacing / 2, throws[0] + spacing / 2)
-    between = [(one + other) / 2 for one, other in pairwise(throws)]
+    between = [(left + right) / 2 for left, right in pairwise(throws)]
     return (2 * throws[0] - between[0], *between, 2 * throws[-1] - between[-1])

@@ -30,13 +30,13 @@ from crankwork.kinematics.slider_crank import (
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 
-# Share of the rod length that adding up lengths may leave.
+# Rounding of sums of lengths, relative to the rod length.
 _ROUNDING = 1e-12
-# Equal steps of a turn in which each extreme is to stand alone.
+# Equal steps of a turn, each with one extreme at most.
 _SCAN = 180
 _MAX_STEPS = 60
 # An extreme is flat: a step as small as this changes nothing there. [deg]
-_SAME_ROOT = 1e-11
+_ROOT_TOLERANCE = 1e-11
 
 
 @formula("knuckle_x", "taylor_1985, ch. 8")
@@ -94,7 +94,7 @@ def articulated_rod_transfer_2(y_A2: Value, l_a: Value, beta_a1: Value, sin_beta
 
 
 class ArticulatedRod(NamedTuple):
-    """An articulated rod and where its knuckle pin and its cylinder are."""
+    """An articulated rod, with the positions of its knuckle pin and its cylinder."""
 
     # Between knuckle pin and piston pin; from the crankpin to the knuckle pin [m]
     length: float
@@ -110,7 +110,7 @@ class ArticulatedMotion(NamedTuple):
 
     `piston`, `rod` and `swing` are those of `kinematics.piston.PistonMotion`, counted from its own top dead centre [m];
     `knuckle` is the knuckle pin [m], `sin` and `cos` its direction from the crankpin, `master` the swing of the master
-    rod at the same instant [-]; `own` is its rod, remembered if the motion is, then with angles in radians.
+    rod at the same instant [-]; `own` is its rod, traced if the motion is, then with angles in radians.
     """
 
     piston: Transfer
@@ -123,8 +123,8 @@ class ArticulatedMotion(NamedTuple):
     own: ArticulatedRod
 
 
-class SlaveStroke(NamedTuple):
-    """Dead centres of an articulated rod: crank angles from its own axis [deg], and where its piston pin stands [m]."""
+class ArticulatedStroke(NamedTuple):
+    """Dead centres of an articulated rod: crank angles from its own axis [deg], and positions of its piston pin [m]."""
 
     top_angle: float
     bottom_angle: float
@@ -144,7 +144,7 @@ def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGri
     crank and master rod, with the offset of the master cylinder [m]; `grid`: crank angles from the axis of its own
     cylinder [rad]. Source: taylor_1985, ch. 8; artobolevsky_1988, ch. 4.
     """
-    top: Value = slave_stroke(SliderCrank(*map(plain, lengths)), rod).top
+    top: Value = articulated_stroke(SliderCrank(*map(plain, lengths)), rod).top
     if is_known(*lengths):
         top = Known(Found(top, "dead_centre", lengths), "pin_distance.top")
     motion = _motion(lengths, rod, grid)
@@ -180,13 +180,13 @@ def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> Artic
 
 
 def _remembered(rod: ArticulatedRod) -> ArticulatedRod:
-    """Return a rod of given values, its angles in radians."""
+    """Return a rod of inputs, its angles in radians."""
     table = "engine.articulated"
-    ahead, axis = math.radians(rod.knuckle_angle), math.radians(rod.axis)
+    angle, axis = math.radians(rod.knuckle_angle), math.radians(rod.axis)
     known: tuple[Any, ...] = (
         given("articulated_rod_length", rod.length, f"{table}.rod_length"),
         given("knuckle_radius", rod.knuckle_radius, f"{table}.knuckle_radius"),
-        given("knuckle_angle", ahead, f"{table}.knuckle_angles"),
+        given("knuckle_angle", angle, f"{table}.knuckle_angles"),
         given("articulated_axis", axis, "engine.layout"),
         given("offset.articulated", rod.offset, "engine") if rod.offset else absent("offset"),
     )
@@ -224,16 +224,16 @@ def _knuckle_direction(
 
 
 def sine_and_cosine(degrees: float, angle: Value, keys: tuple[str, str]) -> tuple[Value, Value]:
-    """Return sine and cosine of an angle that stands still, exact at multiples of 90 degrees, remembered if it is."""
-    at = CrankGrid.from_degrees(degrees)
-    sin, cos = float(at.sin), float(at.cos)
+    """Return sine and cosine of a constant angle, exact at multiples of 90 degrees, traced if the angle is."""
+    grid = CrankGrid.from_degrees(degrees)
+    sin, cos = float(grid.sin), float(grid.cos)
     if not is_known(angle):
         return sin, cos
     return Known(Found(sin, "sine", [angle]), keys[0]), Known(Found(cos, "cosine", [angle]), keys[1])
 
 
 @lru_cache(maxsize=256)
-def slave_stroke(lengths: SliderCrank, rod: ArticulatedRod) -> SlaveStroke:
+def articulated_stroke(lengths: SliderCrank, rod: ArticulatedRod) -> ArticulatedStroke:
     """Return the dead centres of an articulated rod.
 
     Angles of the dead centres from its own axis [deg] and distances of the piston pin there [m]. Source: taylor_1985,
@@ -243,11 +243,11 @@ def slave_stroke(lengths: SliderCrank, rod: ArticulatedRod) -> SlaveStroke:
     return _stroke(lengths, rod)
 
 
-def _stroke(lengths: SliderCrank, rod: ArticulatedRod) -> SlaveStroke:
+def _stroke(lengths: SliderCrank, rod: ArticulatedRod) -> ArticulatedStroke:
     angles = _extremes(lambda degrees: _motion(lengths, rod, CrankGrid.from_degrees(degrees)).piston, -90.0)
     distance = _motion(lengths, rod, CrankGrid.from_degrees(angles)).piston.position
     top, bottom = int(np.argmax(distance)), int(np.argmin(distance))
-    return SlaveStroke(float(angles[top]), float(angles[bottom]), float(distance[top]), float(distance[bottom]))
+    return ArticulatedStroke(float(angles[top]), float(angles[bottom]), float(distance[top]), float(distance[bottom]))
 
 
 def _extremes(motion: Callable[[Array], Transfer], start: float) -> Array:
@@ -256,18 +256,18 @@ def _extremes(motion: Callable[[Array], Transfer], start: float) -> Array:
     slope = motion(edges).position_1
     left = np.flatnonzero((slope[:-1] < 0) != (slope[1:] < 0))
     low, high, falls = edges[left], edges[left + 1], slope[left] >= 0
-    at = (low + high) / 2
+    angles = (low + high) / 2
     for _ in range(_MAX_STEPS):
-        _, first, second = motion(at)
+        _, first, second = motion(angles)
         before = (first >= 0) == falls
-        low, high = np.where(before, at, low), np.where(before, high, at)
+        low, high = np.where(before, angles, low), np.where(before, high, angles)
         # both derivatives change sign with the sense of x, their ratio does not
-        step = np.degrees(np.divide(first, np.abs(second), out=np.zeros_like(at), where=second != 0))
-        if np.all(np.abs(step) <= _SAME_ROOT):
+        step = np.degrees(np.divide(first, np.abs(second), out=np.zeros_like(angles), where=second != 0))
+        if np.all(np.abs(step) <= _ROOT_TOLERANCE):
             break
-        moved = at + np.where(falls, step, -step)
-        at = np.where((moved > low) & (moved < high), moved, (low + high) / 2)
-    return at
+        moved = angles + np.where(falls, step, -step)
+        angles = np.where((moved > low) & (moved < high), moved, (low + high) / 2)
+    return angles
 
 
 def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:

@@ -1,4 +1,4 @@
-"""What an articulated rod passes on: to its own wall, to the master rod and its piston, and to the crankpin."""
+"""Forces of an articulated rod: on its own wall, on the master rod and its piston, and on the crankpin."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ def side_force_on_master(M_a: Value, l: Value, cos_beta: Value) -> Value:  # noq
 
 
 class KnuckleMass(NamedTuple):
-    """What of an articulated rod does not move with its piston, and how its knuckle pin moves.
+    """The mass of an articulated rod at its knuckle pin, with the motion of that pin.
 
     `mass` at the knuckle pin [kg], its acceleration along and across the axis of the cylinder [m/s2]; `gravity` [m/s2]
-    with cosine and sine of the lean of the cylinder; `couple`, side force of the rod that is no two masses [N];
-    `transverse_weight` of what moves with the piston [N].
+    with cosine and sine of the inclination of the cylinder; `couple`, side force of a rod that is not two masses [N];
+    `transverse_weight` of the reciprocating mass [N].
     """
 
     mass: Value = 0.0
@@ -70,8 +70,8 @@ class KnuckleMass(NamedTuple):
 _MASSLESS = KnuckleMass()
 
 
-class SlaveForces(NamedTuple):
-    """What the piston force of an articulated rod does, arrays of shape (n,).
+class ArticulatedForces(NamedTuple):
+    """Forces due to the piston force of an articulated rod, arrays of shape (n,).
 
     `side` on its own wall and `along` its rod; `knuckle`, force on its knuckle pin along and across its axis; `couple`
     on the master rod about the crankpin; `master_side`, addition to the side force of the master piston; `x`, `y` on
@@ -90,14 +90,14 @@ class SlaveForces(NamedTuple):
     tangential: Value
 
 
-def slave_forces(
+def articulated_forces(
     P: Value,
     lengths: SliderCrank,
     rod: ArticulatedRod,
     grid: CrankGrid,
     motion: ArticulatedMotion,
     held: KnuckleMass = _MASSLESS,
-) -> SlaveForces:
+) -> ArticulatedForces:
     """Return the forces that an articulated rod passes to the master rod and with it to the crankpin. [N]
 
     Forces and couple; tangential force times crank radius is the torque. `P`: force on its piston pin along its
@@ -113,7 +113,7 @@ def slave_forces(
     # the wall of the master cylinder answers across the master's axis, which stands at -axis here
     axis_sin, axis_cos = sine_and_cosine(rod.axis, motion.own.axis, ("axis_sine", "axis_cosine"))
     x, y = wall * axis_sin + X, Y + wall * axis_cos
-    return SlaveForces(
+    return ArticulatedForces(
         side,
         rod_force(P, cos_rod, held.couple, sin_rod),
         (X, Y),

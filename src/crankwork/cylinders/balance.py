@@ -67,7 +67,7 @@ def inertia_harmonics(
     if method.kinematics == "textbook":
         offset = float(slider_crank.offset) / r
         two_terms = {1: complex(1.0, -ratio * offset), 2: complex(ratio)}
-        return InertiaHarmonics(tuple(orders), np.array([two_terms.get(one, 0j) for one in orders]))
+        return InertiaHarmonics(tuple(orders), np.array([two_terms.get(order, 0j) for order in orders]))
     cosine, sine = acceleration_harmonics(slider_crank, max(orders))
     chosen = np.array(orders) - 1
     coefficients = (cosine[chosen] - 1j * sine[chosen]) / r
@@ -101,7 +101,7 @@ def free_forces(
     *,
     about: float = 0.0,
 ) -> tuple[OrderBalance, ...]:
-    """Return force and moment [N], [N m] of each order that the reciprocating masses leave free.
+    """Return the free force and moment [N], [N m] of each order of the reciprocating masses.
 
     Masses and radii are of each cylinder where they differ, harmonics a row of each; moments are `about` a position
     along the shaft [m], by default the middle between the outermost cylinders. For other layouts taylor_1985, vol. 2,
@@ -113,18 +113,18 @@ def free_forces(
             f"harmonics of {len(harmonics.coefficients)} cylinders do not fit a layout of {len(places)}; "
             "give one row for each cylinder, or one for all"
         )
-    axes = np.array([one.axis for one in places])
-    lead = places[0].axis + np.array([one.pin_angle for one in places]) - axes
-    arms = np.array([one.position for one in places]) - about
+    axes = np.array([place.axis for place in places])
+    lead = places[0].axis + np.array([place.pin_angle for place in places]) - axes
+    arms = np.array([place.position for place in places]) - about
     size = np.asarray(mass) * np.asarray(crank_radius) * speed**2 / 2 * unit_vectors(axes)
     rows = np.broadcast_to(harmonics.coefficients, (len(places), len(harmonics.orders)))
-    found = []
+    result = []
     for order, coefficients in zip(harmonics.orders, rows.T, strict=True):
         turned = coefficients * unit_vectors(order * lead)
         forward, backward = size * turned, size * turned.conj()
         force = Ellipse(vector_sum(forward), vector_sum(backward))
-        found.append(OrderBalance(order, force, Ellipse(vector_sum(arms * forward), vector_sum(arms * backward))))
-    return tuple(found)
+        result.append(OrderBalance(order, force, Ellipse(vector_sum(arms * forward), vector_sum(arms * backward))))
+    return tuple(result)
 
 
 def layout_factors(layout: Layout, orders: Sequence[int] = ORDERS, pitch: float = 1.0) -> tuple[OrderBalance, ...]:
@@ -133,5 +133,5 @@ def layout_factors(layout: Layout, orders: Sequence[int] = ORDERS, pitch: float 
     Factors of m r w^2 A_q, and of that times the pitch. `pitch`: distance along the shaft that is the unit of the
     moments [m]. Source: den_hartog_1956, ch. 5.
     """
-    found = free_forces(layout, 1.0, 1.0, 1.0, InertiaHarmonics(tuple(orders), np.ones(len(orders), dtype=complex)))
-    return tuple(one._replace(moment=Ellipse(*(part / pitch for part in one.moment))) for one in found)
+    factors = free_forces(layout, 1.0, 1.0, 1.0, InertiaHarmonics(tuple(orders), np.ones(len(orders), dtype=complex)))
+    return tuple(balance._replace(moment=Ellipse(*(part / pitch for part in balance.moment))) for balance in factors)

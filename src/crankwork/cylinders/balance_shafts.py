@@ -1,4 +1,4 @@
-"""Shafts beside the crankshaft, turning with it or against it at a multiple of its speed, that carry weights.
+"""Balance shafts beside the crankshaft, with or against its rotation at a multiple of its speed.
 
 The forward part of an order takes a shaft that turns with the crankshaft, the backward part one that turns against it.
 Where the cylinders stand in one plane the two parts are equal, and the two shafts are the pair of Lanchester.
@@ -42,7 +42,7 @@ def balance_shafts(
     planes: tuple[float] | tuple[float, float] = (0.0,),
     places: tuple[ShaftPlace, ShaftPlace] = (ShaftPlace(), ShaftPlace()),
 ) -> tuple[ShaftWeight, ...]:
-    """Return the weights that take one order away (taylor_1985, vol. 2, ch. 8).
+    """Return the weights that balance one order (taylor_1985, vol. 2, ch. 8).
 
     As many weights as are needed; none for what is balanced already. `part`: what is free, its moment about the
     position zero [N], [N m]; `planes`: positions of the weights along the shafts: one takes the force, two take force
@@ -63,13 +63,13 @@ def shaft_forces(weights: Sequence[ShaftWeight], speed: float, *, about: float =
 
     To be added to those of the cylinders by `balance_sum` [N], [N m].
     """
-    found = []
-    for one in weights:
-        force = _force(one, speed)
-        forward, backward = (force, 0j) if one.sense > 0 else (0j, force)
-        arm = one.position - about
-        found.append(OrderBalance(one.order, Ellipse(forward, backward), Ellipse(arm * forward, arm * backward)))
-    return balance_sum(found)
+    forces = []
+    for weight in weights:
+        force = _force(weight, speed)
+        forward, backward = (force, 0j) if weight.sense > 0 else (0j, force)
+        arm = weight.position - about
+        forces.append(OrderBalance(weight.order, Ellipse(forward, backward), Ellipse(arm * forward, arm * backward)))
+    return balance_sum(forces)
 
 
 def _needed(force: complex, moment: complex, planes: tuple[float, ...]) -> tuple[complex, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from crankwork.cylinders.load_vectors import BearingLoad, turned
+from crankwork.cylinders.load_vectors import BearingLoad, rotated
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.slider_crank import RodSwing
 
@@ -82,7 +82,7 @@ def big_end_bearing_load(load: BearingLoad, swing: RodSwing) -> BearingLoad:
     as compression does. `load`: force of this rod alone on the crankpin, in the crank frame [N]. Source:
     kolchin_demidov_2008, ch. 7.
     """
-    return turned(load.opposite, swing.sin_sum, swing.cos_sum)
+    return rotated(load.opposite, swing.sin_sum, swing.cos_sum)
 
 
 def small_end_bearing_load(pin_force: Value, side: Value, swing: RodSwing) -> BearingLoad:
@@ -94,4 +94,4 @@ def small_end_bearing_load(pin_force: Value, side: Value, swing: RodSwing) -> Be
     The piston hands on axially what acts on it and sideways what the wall gives back, so the force on the rod
     needs no rod mass. It is the force along the rod plus the inertia force that moves the rod's small-end mass.
     """
-    return turned(BearingLoad(-pin_force, side), swing.sin, swing.cos)
+    return rotated(BearingLoad(-pin_force, side), swing.sin, swing.cos)

@@ -1,4 +1,4 @@
-"""Counterweights on the crankshaft: what they take away, and what they leave.
+"""Counterweights on the crankshaft: their effect, and the free forces that remain.
 
 A counterweight turns forwards, so it can remove the forward part of the first order and nothing else. Half of a
 reciprocating mass is that part, whatever the layout: the vector of a force that swings along a line is half a vector
@@ -33,21 +33,21 @@ class Unbalance(NamedTuple):
     mass_moment: Value  # Mass times distance of its centre of mass from the crankshaft axis [kg m]
     angle: float  # Its direction, ahead of the crankpin of cylinder 1 [deg]
     position: float  # Its place along the shaft, as those of the cylinders [m]
-    name: str = ""  # What it is: `throw.2`, `counterweights.3`
+    name: str = ""  # Its key: `throw.2`, `counterweights.3`
     # Its weight and what an angular acceleration takes, away from the shaft along its arm and with the rotation [N]
     held: BearingLoad | None = None
 
 
 def rotating_unbalances(layout: Layout, mass: ArrayLike, crank_radius: float) -> tuple[Unbalance, ...]:
-    """Return the rotating masses of the cylinders as they stand at the crankpins.
+    """Return the rotating masses of the cylinders at their crankpins.
 
     `mass`: rotating mass of each cylinder; of a crankpin that several share, the part of each [kg], shape
     (cylinders,).
     """
     masses = np.broadcast_to(np.asarray(mass, dtype=float), (len(layout.places),))
     return tuple(
-        Unbalance(float(m) * crank_radius, one.pin_angle, one.position)
-        for m, one in zip(masses, layout.places, strict=True)
+        Unbalance(float(m) * crank_radius, place.pin_angle, place.position)
+        for m, place in zip(masses, layout.places, strict=True)
     )
 
 
@@ -59,17 +59,17 @@ def turning_forces(
     Of the first order, nothing of it backwards [N], [N m]. `layout`: the cylinders, for the direction of the first.
     Source: den_hartog_1956, ch. 5.
     """
-    at_zero = layout.places[0].axis + np.array([one.angle for one in unbalances])
-    size = np.array([plain(one.mass_moment) for one in unbalances]) * speed**2
+    at_zero = layout.places[0].axis + np.array([unbalance.angle for unbalance in unbalances])
+    size = np.array([plain(unbalance.mass_moment) for unbalance in unbalances]) * speed**2
     forces = size * unit_vectors(at_zero)
-    arms = np.array([one.position for one in unbalances]) - about
+    arms = np.array([unbalance.position for unbalance in unbalances]) - about
     return OrderBalance(1, Ellipse(vector_sum(forces), 0j), Ellipse(vector_sum(arms * forces), 0j))
 
 
 def throw_counterweights(
     layout: Layout, reciprocating: ArrayLike, rotating: ArrayLike, crank_radius: float, share: float = 0.5
 ) -> tuple[Unbalance, ...]:
-    """Return one counterweight opposite each crankpin, for its rotating mass and a share of what reciprocates on it.
+    """Return one counterweight opposite each crankpin, for its rotating and a share of its reciprocating mass.
 
     It stands midway between the masses of its crankpin; of one that several cylinders share, each mass is the part of
     one. Half of the reciprocating mass removes all of the first order that turns forwards (kolchin_demidov_2008, ch. 8;

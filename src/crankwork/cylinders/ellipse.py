@@ -42,12 +42,12 @@ class Ellipse(NamedTuple):
 
     @property
     def largest(self) -> float:
-        """Longest the vector gets in a turn, the long half axis. [N or N m]"""
+        """Largest size of the vector in a turn, the long half axis. [N or N m]"""
         return abs(self.forward) + abs(self.backward)
 
     @property
     def least(self) -> float:
-        """Shortest the vector gets in a turn, the short half axis. [N or N m]"""
+        """Smallest size of the vector in a turn, the short half axis. [N or N m]"""
         return abs(abs(self.forward) - abs(self.backward))
 
     @property
@@ -67,7 +67,7 @@ class Ellipse(NamedTuple):
 
 
 class OrderBalance(NamedTuple):
-    """What one order leaves free: its force [N] and its moment along the shaft [N m]."""
+    """Free force [N] of one order, and its moment along the shaft [N m]."""
 
     order: int
     force: Ellipse
@@ -75,18 +75,18 @@ class OrderBalance(NamedTuple):
 
 
 def balance_sum(parts: Iterable[OrderBalance]) -> tuple[OrderBalance, ...]:
-    """Return forces and moments added up order by order, such as those of the cylinders and of counterweights.
+    """Return forces and moments added order by order, such as those of the cylinders and of counterweights.
 
-    `parts`: what acts together, of any orders, moments about the same position.
+    `parts`: of any orders, with moments about the same position.
     """
-    of_order: dict[int, list[OrderBalance]] = {}
-    for one in parts:
-        of_order.setdefault(one.order, []).append(one)
+    of_order: dict[int, list[tuple[Ellipse, Ellipse]]] = {}
+    for part in parts:
+        of_order.setdefault(part.order, []).append((part.force, part.moment))
     return tuple(
-        OrderBalance(order, _ellipse_sum([one.force for one in some]), _ellipse_sum([one.moment for one in some]))
-        for order, some in sorted(of_order.items())
+        OrderBalance(order, *(_ellipse_sum(ellipses) for ellipses in zip(*balances, strict=True)))
+        for order, balances in sorted(of_order.items())
     )
 
 
 def _ellipse_sum(parts: Sequence[Ellipse]) -> Ellipse:
-    return Ellipse(vector_sum([one.forward for one in parts]), vector_sum([one.backward for one in parts]))
+    return Ellipse(vector_sum([part.forward for part in parts]), vector_sum([part.backward for part in parts]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from crankwork.cylinders.arrangement import arranged
+from crankwork.cylinders.arrangement import build_layout
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.cylinders.standard_orders import radial_order
@@ -22,8 +22,8 @@ def inline(  # noqa: PLR0913 - each argument is a key of the description
     uneven: bool = False,
     tops: tuple[float, ...] = (),
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return an inline engine; throws [deg], uneven intervals and `tops` as for `arranged`."""
-    return arranged(
+    """Return an inline engine; throws [deg], uneven intervals and `tops` as for `build_layout`."""
+    return build_layout(
         Banks("inline", cylinders, spacing=spacing, tops=tops), order, strokes=strokes, throws=throws, uneven=uneven
     )
 
@@ -44,7 +44,7 @@ def vee(  # noqa: PLR0913 - each argument is a key of the description
     own_throws: bool = False,
     tops: tuple[float, ...] = (),
 ) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return a V engine, two cylinders to a throw or `own_throws`; throws [deg] and uneven intervals as for `arranged`.
+    """Return a V engine, two cylinders to a throw or `own_throws`; throws [deg], uneven as for `build_layout`.
 
     The bank angle goes from the bank of cylinder 1 to the other, positive with the rotation [deg], the pin offset is
     how far the crankpins of the other bank are ahead on the same throw [deg]. Numbering is by `banks`, 1 to n/2 in the
@@ -55,7 +55,7 @@ def vee(  # noqa: PLR0913 - each argument is a key of the description
         # cylinders of both banks take turns along the shaft
         spacing, bank_stagger = 2 * spacing, bank_stagger or spacing
     banks = Banks("V", cylinders, axes, spacing, bank_stagger, pin_offset, numbering, own_throws, articulated, tops)
-    return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
+    return build_layout(banks, order, strokes=strokes, throws=throws, uneven=uneven)
 
 
 def boxer(  # noqa: PLR0913 - each argument is a key of the description
@@ -79,7 +79,7 @@ def boxer(  # noqa: PLR0913 - each argument is a key of the description
     banks = Banks(
         "boxer", cylinders, (-90.0, 90.0), 2 * spacing, stagger, numbering=numbering, tops=tops, own_throws=True
     )
-    return arranged(banks, order, strokes=strokes, throws=throws, uneven=uneven)
+    return build_layout(banks, order, strokes=strokes, throws=throws, uneven=uneven)
 
 
 def radial(  # noqa: PLR0913 - each argument is a key of the description
@@ -100,8 +100,8 @@ def radial(  # noqa: PLR0913 - each argument is a key of the description
     """
     if not 0 <= master <= cylinders:
         raise LayoutError("engine.master", Refusal("master_absent", number=master, count=cylinders))
-    banks = Banks("radial", cylinders, tuple(at * 360 / cylinders for at in range(cylinders)), span, tops=tops)
+    banks = Banks("radial", cylinders, tuple(index * 360 / cylinders for index in range(cylinders)), span, tops=tops)
     order = radial_order(cylinders, strokes) if order is None else order
-    layout, notices = arranged(banks, order, strokes=strokes, throws=(0.0,), uneven=uneven)
-    places = tuple(replace(one, master=0 if one.number == master else master) for one in layout.places)
+    layout, notices = build_layout(banks, order, strokes=strokes, throws=(0.0,), uneven=uneven)
+    places = tuple(replace(place, master=0 if place.number == master else master) for place in layout.places)
     return replace(layout, places=places), notices

@@ -16,7 +16,7 @@ _TURN = 360.0
 
 
 class LayoutError(CrankworkError):
-    """Cylinders, crank and firing order that do not belong together; `key` is the part of the description at fault."""
+    """Cylinders, crank and firing order that do not fit together; `key` is the key of the description at fault."""
 
     def __init__(self, key: str, message: str) -> None:
         super().__init__(message)
@@ -30,14 +30,14 @@ class LayoutNotice(NamedTuple):
     values: Mapping[str, float | str]
 
 
-def wrapped(angle: float, cycle: float = _TURN) -> float:
-    """Return an angle less whole cycles, a decimal where rounding alone keeps it from being one. [deg]
+def wrap_angle(angle: float, cycle: float = _TURN) -> float:
+    """Return an angle without full cycles, rounded to decimals if that changes it by rounding only. [deg]
 
     At least 0 and less than the cycle. `angle` and `cycle`: the angle, and the length of the cycle [deg].
 
     Examples
     --------
-    >>> wrapped(-240.0), wrapped(0.1 + 0.2 + 720.0, 720.0)
+    >>> wrap_angle(-240.0), wrap_angle(0.1 + 0.2 + 720.0, 720.0)
     (120.0, 0.3)
     """
     rest = angle % cycle
@@ -49,7 +49,7 @@ def wrapped(angle: float, cycle: float = _TURN) -> float:
 
 def order_text(order: Sequence[int]) -> str:
     """Return a firing order as it is written, `1-3-4-2`."""
-    return "-".join(str(one) for one in order)
+    return "-".join(str(number) for number in order)
 
 
 def angle_list(angles: Sequence[float]) -> str:
@@ -57,24 +57,24 @@ def angle_list(angles: Sequence[float]) -> str:
 
     `angles`: the angles [deg].
     """
-    return ", ".join(f"{one:.7g}" for one in angles)
+    return ", ".join(f"{angle:.7g}" for angle in angles)
 
 
 def checked_order(order: Sequence[int], cylinders: int) -> tuple[int, ...]:
-    """Return a firing order turned so that it begins with cylinder 1."""
-    key, given = "engine.firing_order", [int(one) for one in order]
-    unknown = sorted({one for one in given if not 1 <= one <= cylinders})
+    """Return a firing order rotated to begin with cylinder 1."""
+    key, given = "engine.firing_order", [int(number) for number in order]
+    unknown = sorted({number for number in given if not 1 <= number <= cylinders})
     if unknown:
         raise LayoutError(key, Refusal("cylinder_absent", number=unknown[0], count=cylinders))
-    twice = sorted({one for one in given if given.count(one) > 1})
-    missing = [one for one in range(1, cylinders + 1) if one not in given]
+    twice = sorted({number for number in given if given.count(number) > 1})
+    missing = [number for number in range(1, cylinders + 1) if number not in given]
     if twice or missing:
-        told = {"order": order_text(given), "count": cylinders}
+        values = {"order": order_text(given), "count": cylinders}
         if not missing:
-            raise LayoutError(key, Refusal("order_twice", **told, twice=twice[0]))
+            raise LayoutError(key, Refusal("order_twice", **values, twice=twice[0]))
         if not twice:
-            raise LayoutError(key, Refusal("order_leaves_out", **told, missing=missing[0]))
-        raise LayoutError(key, Refusal("order_twice_leaves_out", **told, twice=twice[0], missing=missing[0]))
+            raise LayoutError(key, Refusal("order_leaves_out", **values, missing=missing[0]))
+        raise LayoutError(key, Refusal("order_twice_leaves_out", **values, twice=twice[0], missing=missing[0]))
     first = given.index(1)
     return tuple(given[first:] + given[:first])
 
@@ -84,7 +84,7 @@ def even_angles(order: Sequence[int], cycle: float) -> tuple[float, ...]:
 
     By number of the cylinder, from the firing of cylinder 1.
     """
-    index = {number: at for at, number in enumerate(order)}
+    index = {number: place for place, number in enumerate(order)}
     return tuple(index[number] * cycle / len(order) for number in sorted(index))
 
 
@@ -98,7 +98,7 @@ def firing_angles(order: Sequence[int], dead_centres: Sequence[float], cycle: fl
     best: tuple[float, tuple[float, ...]] | None = None
     # in the order, the cylinders of the first turn come before those of the second
     for first in range(len(order), 0, -1) if turns > 1 else (len(order),):
-        angles = tuple(dead_centres[number - 1] + _TURN * (at >= first) for at, number in enumerate(order))
+        angles = tuple(dead_centres[number - 1] + _TURN * (place >= first) for place, number in enumerate(order))
         steps = intervals(angles, cycle)
         if min(steps) > SAME_ANGLE:
             unevenness = sum(step * step for step in steps)
@@ -116,7 +116,7 @@ def intervals(angles: Sequence[float], cycle: float) -> tuple[float, ...]:
     `angles`: firing angles in the order of firing; an interval is negative where they descend [deg].
     """
     following = (*angles[1:], angles[0] + cycle)
-    return tuple(_decimal(later - one) for one, later in zip(angles, following, strict=True))
+    return tuple(_decimal(later - earlier) for earlier, later in zip(angles, following, strict=True))
 
 
 def _decimal(angle: float) -> float:
@@ -146,15 +146,17 @@ def even_orders(dead_centres: Sequence[float], cycle: float, *, limit: int = 100
 
 
 def _even_orders(dead_centres: Sequence[float], cycle: float) -> Iterator[tuple[int, ...]]:
-    """Give every way to put the cylinders of one dead centre into the firings that fall on it."""
+    """Yield every assignment of the cylinders of each dead centre to the firings at it."""
     count = len(dead_centres)
     slots: dict[float, list[int]] = {}
-    for at in range(count):
-        slots.setdefault(round(wrapped(at * cycle / count), 5) % _TURN, []).append(at)
+    for firing in range(count):
+        slots.setdefault(round(wrap_angle(firing * cycle / count), 5) % _TURN, []).append(firing)
     waiting: dict[float, list[int]] = {}
     for number, angle in enumerate(dead_centres, start=1):
-        waiting.setdefault(round(wrapped(angle), 5) % _TURN, []).append(number)
-    if {angle: len(at) for angle, at in slots.items()} != {angle: len(at) for angle, at in waiting.items()}:
+        waiting.setdefault(round(wrap_angle(angle), 5) % _TURN, []).append(number)
+    if {angle: len(members) for angle, members in slots.items()} != {
+        angle: len(members) for angle, members in waiting.items()
+    }:
         return
     for choice in product(*(permutations(waiting[angle]) for angle in slots)):
         order = [0] * count
@@ -171,7 +173,7 @@ def possible_order(dead_centres: Sequence[float], cycle: float) -> tuple[int, ..
     It starts with 1; in a cycle of 720 every other cylinder fires in the second turn.
     """
     turns = round(cycle / _TURN)
-    ranked = sorted(range(len(dead_centres)), key=lambda at: (dead_centres[at], at))
-    angles = {at + 1: dead_centres[at] + _TURN * (rank % turns) for rank, at in enumerate(ranked)}
+    ranked = sorted(range(len(dead_centres)), key=lambda index: (dead_centres[index], index))
+    angles = {index + 1: dead_centres[index] + _TURN * (rank % turns) for rank, index in enumerate(ranked)}
     order = tuple(sorted(angles, key=lambda number: angles[number]))
     return order if order[0] == 1 and firing_angles(order, dead_centres, cycle) else None

@@ -14,8 +14,8 @@ import numpy as np
 
 from crankwork.cylinders.articulated import sine_and_cosine
 from crankwork.cylinders.counterweights import Unbalance
-from crankwork.cylinders.layout import Layout, Place
-from crankwork.cylinders.load_vectors import BearingLoad, turned, turned_by
+from crankwork.cylinders.layout import CylinderPlace, Layout
+from crankwork.cylinders.load_vectors import BearingLoad, rotated, rotated_by
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import added, given, is_known, named
@@ -57,10 +57,10 @@ def main_journal_loads(
     """Return the force of every main bearing on its journal, in the frame of the crank of cylinder 1. [N]
 
     `loads` are the forces of each rod on its crankpin in the frame of its own crank, at the same instants, with the rod
-    masses in them; `unbalances` beyond the outermost journals overhang the end throw. `turned_by` gives the block
+    masses in them; `unbalances` beyond the outermost journals overhang the end throw. `rotated_by` gives the block
     frame.
 
-    Minus the sum of what the throws on both sides of the journal hand on, each by its lever. With every force in
+    Minus the sum of the shares of the throws on both sides of the journal, each by its lever. With every force in
     the middle of its throw it is minus one half of the vector sum of the two throws (kolchin_demidov_2008, ch. 7).
     """
     if len(loads) != len(layout.places):
@@ -70,33 +70,34 @@ def main_journal_loads(
     check_journals(layout)
     journals, places = layout.journal_positions, layout.places
     acting = [
-        _Acting(_in_shaft(load, one).named(str(one.number)), one.position, one.throw, str(one.number))
-        for one, load in zip(places, loads, strict=True)
+        _Acting(_in_shaft(load, place).named(str(place.number)), place.position, place.throw, str(place.number))
+        for place, load in zip(places, loads, strict=True)
     ]
     acting += [
-        _Acting(_of_mass(one, speed), one.position, _span(one.position, journals), one.name) for one in unbalances
+        _Acting(_of_mass(unbalance, speed), unbalance.position, _span(unbalance.position, journals), unbalance.name)
+        for unbalance in unbalances
     ]
     held: list[list[BearingLoad]] = [[] for _ in journals]
-    for one in acting:
-        far = _far_share(one, journals[one.throw : one.throw + 2])
-        for journal, share in ((one.throw, 1 - far), (one.throw + 1, far)):
+    for force in acting:
+        far = _far_share(force, journals[force.throw : force.throw + 2])
+        for journal, share in ((force.throw, 1 - far), (force.throw + 1, far)):
             minus = -share
-            part = BearingLoad(minus * one.load.x, minus * one.load.y)
-            held[journal].append(part.named(f"main_journal.{journal + 1}.{one.name}"))
-    return tuple(_sum(some, f"main_journal.{at}") for at, some in enumerate(held, start=1))
+            part = BearingLoad(minus * force.load.x, minus * force.load.y)
+            held[journal].append(part.named(f"main_journal.{journal + 1}.{force.name}"))
+    return tuple(_sum(parts, f"main_journal.{number}") for number, parts in enumerate(held, start=1))
 
 
-def _in_shaft(load: BearingLoad, place: Place) -> BearingLoad:
-    """Return a load on a crankpin in the frame of the shaft, its angle remembered if the load is."""
+def _in_shaft(load: BearingLoad, place: CylinderPlace) -> BearingLoad:
+    """Return a load on a crankpin in the frame of the shaft, with a traced angle if the load is traced."""
     if not is_known(load.x):
-        return turned_by(load, place.pin_angle)
+        return rotated_by(load, place.pin_angle)
     pin = place.crankpin + 1
     angle = given(f"crankpin_angle.{pin}", math.radians(place.pin_angle), "engine.layout")
-    return turned(load, *sine_and_cosine(place.pin_angle, angle, (f"crankpin_sine.{pin}", f"crankpin_cosine.{pin}")))
+    return rotated(load, *sine_and_cosine(place.pin_angle, angle, (f"crankpin_sine.{pin}", f"crankpin_cosine.{pin}")))
 
 
 class _Acting(NamedTuple):
-    """A force on the shaft in its frame, where it acts along it, on which throw, and what it is called."""
+    """A force on the shaft in its frame, with its position along the shaft, throw and name."""
 
     load: BearingLoad
     position: float
@@ -104,33 +105,35 @@ class _Acting(NamedTuple):
     name: str
 
 
-def _far_share(one: _Acting, ends: Sequence[float]) -> Value:
-    """Return the share of the further journal of a throw, remembered if the force is."""
-    if not is_known(*one.load):
-        return journal_share(one.position, *ends)
-    names = (one.name, *(f"main_journal.{one.throw + at}" for at in (1, 2)))
-    places = zip(names, (one.position, *ends), strict=True)
-    stated = (given(f"shaft_position.{name}", at, "engine.spacing") for name, at in places)
-    return named(journal_share(*stated), f"journal_share.{one.name}")
+def _far_share(force: _Acting, ends: Sequence[float]) -> Value:
+    """Return the share of the further journal of a throw, traced if the force is."""
+    if not is_known(*force.load):
+        return journal_share(force.position, *ends)
+    names = (force.name, *(f"main_journal.{force.throw + offset}" for offset in (1, 2)))
+    places = zip(names, (force.position, *ends), strict=True)
+    stated = (given(f"shaft_position.{name}", position, "engine.spacing") for name, position in places)
+    return named(journal_share(*stated), f"journal_share.{force.name}")
 
 
 def _sum(loads: Sequence[BearingLoad], owner: str) -> BearingLoad:
-    x = added(f"bearing_force_x.{owner}", [one.x for one in loads])
-    return BearingLoad(x, added(f"bearing_force_y.{owner}", [one.y for one in loads]))
+    x = added(f"bearing_force_x.{owner}", [load.x for load in loads])
+    return BearingLoad(x, added(f"bearing_force_y.{owner}", [load.y for load in loads]))
 
 
 def _span(position: float, journals: Sequence[float]) -> int:
-    """Return the throw on which a position lies, the first or last one for what overhangs."""
+    """Return the throw at a position, the first or the last one for overhanging positions."""
     return int(np.clip(np.searchsorted(journals, position, side="right") - 1, 0, len(journals) - 2))
 
 
-def _of_mass(one: Unbalance, speed: Value) -> BearingLoad:
+def _of_mass(unbalance: Unbalance, speed: Value) -> BearingLoad:
     """Return the force of a mass on the shaft in the frame of the shaft."""
-    grid = CrankGrid.from_degrees(one.angle)
-    force = named(unbalance_force(one.mass_moment, speed), f"unbalance_force.{one.name}")
-    if one.held is not None:
-        return turned_by(BearingLoad(force + one.held.x, one.held.y), one.angle).named(one.name)
-    return BearingLoad(force * float(grid.cos), force * float(grid.sin)).named(one.name)
+    grid = CrankGrid.from_degrees(unbalance.angle)
+    force = named(unbalance_force(unbalance.mass_moment, speed), f"unbalance_force.{unbalance.name}")
+    if unbalance.held is not None:
+        return rotated_by(BearingLoad(force + unbalance.held.x, unbalance.held.y), unbalance.angle).named(
+            unbalance.name
+        )
+    return BearingLoad(force * float(grid.cos), force * float(grid.sin)).named(unbalance.name)
 
 
 def check_journals(layout: Layout) -> None:

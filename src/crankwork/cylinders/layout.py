@@ -11,7 +11,7 @@ MOST_CYLINDERS = 28
 
 
 @dataclass(frozen=True)
-class Place:
+class CylinderPlace:
     """The place of one cylinder."""
 
     number: int  # Its number, from 1
@@ -37,7 +37,7 @@ class Layout:
     """All cylinders of an engine, in the order of their numbers."""
 
     kind: str  # inline, V, boxer, W, radial or opposed
-    places: tuple[Place, ...]  # The cylinders
+    places: tuple[CylinderPlace, ...]  # The cylinders
     cycle: float  # 720 or 360 [deg]
     firing_order: tuple[int, ...]  # Numbers of the cylinders as they fire, starting with 1
     # Main journals along the shaft, one more than throws, in the coordinate of `Place.position` [m]
@@ -49,11 +49,11 @@ class Banks:
     """How the cylinders of an engine are arranged, before its firing order is known."""
 
     kind: str  # inline, V, boxer, W or radial
-    cylinders: int  # How many there are
+    cylinders: int  # Number of cylinders
     # Direction of each bank from the crankshaft, positive with the rotation; the first holds cylinder 1 [deg]
     axes: tuple[float, ...] = (0.0,)
     spacing: float = 0.0  # Distance between neighbouring cylinders of a bank [m]
-    stagger: float = 0.0  # How much farther along the shaft each bank stands than the one before [m]
+    stagger: float = 0.0  # Offset of each bank along the shaft from the bank before [m]
     # Angle of the crankpin of each bank ahead of that of the bank before, on the same throw [deg]
     pin_offset: float = 0.0
     numbering: str = "banks"  # banks: along the first bank, then the next. pairs: across the banks, throw by throw

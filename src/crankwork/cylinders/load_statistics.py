@@ -1,4 +1,4 @@
-"""What a bearing load comes to over the cycle: mean and extremes, reversal, the polar diagram."""
+"""Statistics of a bearing load over the cycle: mean and extremes, reversal, the polar diagram."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from crankwork.shaft.curve import Curve
 
 
 class LoadReversal(NamedTuple):
-    """How long and how strongly a bearing is loaded along the rod in either direction."""
+    """Duration and size of the load on a bearing along the rod, in both directions."""
 
     # Longest unbroken stretch of the cycle in that direction [deg]
     compression: float
@@ -39,7 +39,7 @@ class LoadReversal(NamedTuple):
 def reversal(
     ends: Sequence[float], is_compression: Sequence[bool], peaks: tuple[float, float], *, start: float = 0.0
 ) -> LoadReversal:
-    """Return how a load along the rod changes its direction, from the stretches in which it does not.
+    """Return the reversal of a load along the rod, from its intervals of one direction.
 
     Stretches and peaks in both directions [deg], [N]. `ends`: where stretches of one direction end, the last at the
     end of the cycle [deg]; `is_compression`: whether each is one of compression, negative x; `start`: where the cycle
@@ -50,29 +50,29 @@ def reversal(
         # one stretch across the end of the cycle
         lengths[0] += lengths.pop()
     longest = {True: 0.0, False: 0.0}
-    for one, length in zip(is_compression, lengths, strict=False):
-        longest[one] = max(longest[one], length)
+    for direction, length in zip(is_compression, lengths, strict=False):
+        longest[direction] = max(longest[direction], length)
     return LoadReversal(longest[True], longest[False], max(-peaks[1], 0.0), max(peaks[0], 0.0))
 
 
 def reversal_of_polynomials(edges: Array, series: Array) -> tuple[float, float]:
-    """Return duration [rad] and ratio of the reversal of a load along the rod, of its polynomials over one cycle.
+    """Return duration [rad] and ratio of the reversal of a load along the rod, from its polynomials over one cycle.
 
     `edges`: ends of panels [rad]; `series`: Legendre coefficients of the load on them, shape (1, panels, k).
     """
     load = Curve.legendre(edges, series[0])
-    at = np.unique(np.concatenate([edges, load.zeros()]))
-    negative = load((at[1:] + at[:-1]) / 2) < 0
+    angles = np.unique(np.concatenate([edges, load.zeros()]))
+    negative = load((angles[1:] + angles[:-1]) / 2) < 0
     last = np.flatnonzero(np.append(negative[1:] != negative[:-1], True))
     reach = load.extremes()
-    peaks, start = (reach.largest, reach.least), math.degrees(at[0])
-    turned = reversal(np.degrees(at[1:][last]).tolist(), negative[last].tolist(), peaks, start=start)
+    peaks, start = (reach.largest, reach.least), math.degrees(angles[0])
+    turned = reversal(np.degrees(angles[1:][last]).tolist(), negative[last].tolist(), peaks, start=start)
     return math.radians(turned.duration), turned.ratio
 
 
-# steps of closer marks, and which share of the size of a diagram the curve goes from mark to mark there [deg]
+# steps of closer marks [deg], and the share of the size of a diagram between marks above which they are used
 _CLOSER = ((10.0, 0.45), (5.0, 0.15))
-# steps that are marked closer; of larger ones the diagrams are small [deg]
+# largest step that gets closer marks; diagrams with larger steps are small [deg]
 _CLOSE = 30.0
 
 
@@ -91,15 +91,15 @@ class PolarDiagram(NamedTuple):
 
 
 def _marks(across: Array, down: Array, degrees: Array, cycle: float, step: float) -> Array:
-    """Return multiples of a step, and of 10 and 5 degrees where the curve goes far between them. [deg]"""
+    """Return multiples of a step, and of 10 and 5 degrees where the curve is long between them. [deg]"""
     marks = np.arange(0.0, cycle - 1e-9 * cycle, step)
     size = float(np.hypot(np.ptp(across), np.ptp(down)))
-    way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(across), np.diff(down)))])
+    path_length = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(across), np.diff(down)))])
     for closer, far in _CLOSER if step <= _CLOSE else ():
         ends = np.append(marks, cycle)
-        gone = np.diff(np.interp(ends, degrees, way))
-        fast = (gone > far * size) & (np.diff(ends) <= 3 * closer)
-        between = [np.arange(ends[at] + closer, ends[at + 1] - 1e-9, closer) for at in np.flatnonzero(fast)]
+        lengths = np.diff(np.interp(ends, degrees, path_length))
+        fast = (lengths > far * size) & (np.diff(ends) <= 3 * closer)
+        between = [np.arange(ends[index] + closer, ends[index + 1] - 1e-9, closer) for index in np.flatnonzero(fast)]
         marks = np.sort(np.concatenate([marks, *between]))
     return marks
 
@@ -116,5 +116,5 @@ def polar_diagram(
     degrees = np.asarray(degrees, dtype=float)
     across, down = np.asarray(load.y, dtype=float), -np.asarray(load.x) - inertia
     marks = _marks(across, down, degrees, cycle, step)
-    marked = (np.interp(marks, degrees, one, period=cycle) for one in (across, down))
+    marked = (np.interp(marks, degrees, values, period=cycle) for values in (across, down))
     return PolarDiagram(across, down, degrees, (0.0, -inertia), marks, *marked)

@@ -1,4 +1,4 @@
-"""The load of a bearing as a vector, in the frame of whatever turns with it.
+"""The load of a bearing as a vector, in fixed and rotating frames.
 
 A load has two components in a frame: x along the reference direction of the frame, y a quarter turn further
 with the rotation. A vector is the same in every frame but for the angle by which the frame is turned:
@@ -59,16 +59,16 @@ class BearingLoad(NamedTuple):
         return np.asarray(np.where(turned == 360, 0.0, turned))
 
     def named(self, owner: str) -> BearingLoad:
-        """Return the load under the name of what it acts on, if it is remembered."""
+        """Return the load under the name of its owner, if it is traced."""
         return BearingLoad(named(self.x, f"bearing_force_x.{owner}"), named(self.y, f"bearing_force_y.{owner}"))
 
     @property
     def opposite(self) -> BearingLoad:
-        """The force with which what is loaded presses back."""
+        """The reaction to the load."""
         return BearingLoad(-self.x, -self.y)
 
 
-def turned(load: BearingLoad, sin: Value, cos: Value) -> BearingLoad:
+def rotated(load: BearingLoad, sin: Value, cos: Value) -> BearingLoad:
     """Return a load in a frame that its own frame is ahead of. [N]
 
     `sin` and `cos`: functions of the angle by which its own frame is ahead of the other, with the rotation.
@@ -76,12 +76,12 @@ def turned(load: BearingLoad, sin: Value, cos: Value) -> BearingLoad:
     return BearingLoad(turned_along(load.x, load.y, sin, cos), turned_across(load.x, load.y, sin, cos))
 
 
-def turned_by(load: BearingLoad, angle: ArrayLike) -> BearingLoad:
+def rotated_by(load: BearingLoad, angle: ArrayLike) -> BearingLoad:
     """Return a load in a frame that its own frame is ahead of by an angle, exactly at multiples of 90 degrees. [N]
 
     `load`: load in its own frame: of a crankpin, for the shaft frame; of the shaft, for the block frame [N]; `angle`:
     how far its own frame is ahead: `pin_angle`; the direction of crank 1 in the block [deg].
     """
     grid = CrankGrid.from_degrees(angle)
-    sin, cos = (float(one) if one.ndim == 0 else one for one in (grid.sin, grid.cos))
-    return turned(load, sin, cos)
+    sin, cos = (float(value) if value.ndim == 0 else value for value in (grid.sin, grid.cos))
+    return rotated(load, sin, cos)

@@ -24,7 +24,7 @@ class StandardOrder(NamedTuple):
 
     @property
     def cylinders(self) -> int:
-        """How many cylinders it has."""
+        """Number of cylinders."""
         return len(self.order)
 
 
@@ -37,8 +37,8 @@ def _row(  # noqa: PLR0913 - the columns of the table
     pin_offset: float = 0.0,
     numbering: str = "banks",
 ) -> StandardOrder:
-    numbers = tuple(int(one) for one in order.split("-"))
-    angles, axes = (tuple(float(one) for one in text.split()) for text in (throws, banks))
+    numbers = tuple(int(number) for number in order.split("-"))
+    angles, axes = (tuple(float(value) for value in text.split()) for text in (throws, banks))
     return StandardOrder(kind, strokes, numbers, angles, axes, pin_offset, numbering)
 
 
@@ -100,7 +100,7 @@ def radial_order(cylinders: int, strokes: int) -> tuple[int, ...]:
     if step == 2 and cylinders % 2 == 0 and cylinders:
         more = min(cylinders + 1, MOST_CYLINDERS - 1)
         raise LayoutError("engine.cylinders", Refusal("radial_even", count=cylinders, fewer=more - 2, more=more))
-    return tuple(at * step % cylinders + 1 for at in range(cylinders))
+    return tuple(index * step % cylinders + 1 for index in range(cylinders))
 
 
 def standard_orders(kind: str, cylinders: int, strokes: int = 4) -> tuple[StandardOrder, ...]:
@@ -108,7 +108,9 @@ def standard_orders(kind: str, cylinders: int, strokes: int = 4) -> tuple[Standa
     if kind == "radial":
         if strokes == 4 and cylinders % 2 == 0:
             return ()
-        axes = tuple(at * _TURN / cylinders for at in range(cylinders))
+        axes = tuple(index * _TURN / cylinders for index in range(cylinders))
         return (StandardOrder(kind, strokes, radial_order(cylinders, strokes), (0.0,), axes),)
     wanted = (kind, strokes, cylinders)
-    return tuple(one for one in STANDARD_ORDERS if (one.kind, one.strokes, one.cylinders) == wanted)
+    return tuple(
+        standard for standard in STANDARD_ORDERS if (standard.kind, standard.strokes, standard.cylinders) == wanted
+    )

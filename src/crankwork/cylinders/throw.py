@@ -1,4 +1,4 @@
-"""The crank gear of one throw as a mechanism: all rods that turn on one crankpin, or on the master rod there."""
+"""The crank mechanism of one throw: all rods on one crankpin, or on the master rod there."""
 
 from __future__ import annotations
 
@@ -17,36 +17,36 @@ _UP = math.pi / 2
 def throw_mechanism(
     layout: Layout,
     lengths: SliderCrank,
-    slaves: Sequence[ArticulatedRod | None] = (),
+    articulated_rods: Sequence[ArticulatedRod | None] = (),
     offsets: Sequence[float] = (),
     crankpin: int | None = None,
 ) -> Mechanism:
-    """Return the rods and pistons of a crankpin, that of cylinder 1 if none is named, the crank turning clockwise.
+    """Return the mechanism of a crankpin, by default that of cylinder 1, with the crank turning clockwise.
 
     Crankpin A, piston pins B1, B2 ... and knuckle pins C2, C3 ... by the numbers of the cylinders; at a crank angle
     of zero the crank of cylinder 1 lies along its axis. `lengths`: crank, rod and offset of every cylinder, of the
-    master where rods are articulated [m]; `slaves`: the articulated rod of each cylinder that has one; `offsets`: of
+    master for articulated rods [m]; `articulated_rods`: that of each cylinder that has one; `offsets`: of
     each cylinder, if they differ [m].
     """
     first = layout.places[0]
     wanted = first.crankpin if crankpin is None else crankpin
-    # a rod stands before those that it carries
-    places = sorted((one for one in layout.places if one.crankpin == wanted), key=lambda one: one.master > 0)
+    # a master rod comes before the rods that it carries
+    on_pin = (candidate for candidate in layout.places if candidate.crankpin == wanted)
+    places = sorted(on_pin, key=lambda candidate: candidate.master > 0)
     points, rods = [], []
     for place in places:
-        slave = slaves[place.number - 1] if slaves else None
+        articulated = articulated_rods[place.number - 1] if articulated_rods else None
         axis = math.radians(place.axis)
         joint, length = "A", lengths.rod_length
         offset = offsets[place.number - 1] if offsets else lengths.offset
-        if slave is not None:
-            angle = math.radians(slave.knuckle_angle)
-            joint, length, offset = f"C{place.number}", slave.length, slave.offset
-            along, across = slave.knuckle_radius * math.cos(angle), -slave.knuckle_radius * math.sin(angle)
+        if articulated is not None:
+            angle = math.radians(articulated.knuckle_angle)
+            joint, length, offset = f"C{place.number}", articulated.length, articulated.offset
+            along, across = articulated.knuckle_radius * math.cos(angle), -articulated.knuckle_radius * math.sin(angle)
             points.append(LinkPoint(joint, f"rod {place.master}", along, across))
-        beside = (offset * math.cos(axis), -offset * math.sin(axis))
-        rods.append(
-            RRP(joint, f"B{place.number}", f"rod {place.number}", length, guide_point=beside, guide_angle=_UP - axis)
-        )
+        guide_point = (offset * math.cos(axis), -offset * math.sin(axis))
+        pin, name = f"B{place.number}", f"rod {place.number}"
+        rods.append(RRP(joint, pin, name, length, guide_point=guide_point, guide_angle=_UP - axis))
     start = _UP - math.radians(first.axis + places[0].pin_angle)
     crank = Crank(lengths.crank_radius, start=start, direction=-1, pin="A")
     return Mechanism(crank, tuple(rods), points=tuple(points))

@@ -1,4 +1,4 @@
-"""Torque of many cylinders on one shaft: at which angle of its own each stands, sums, torque along the shaft."""
+"""Torque of many cylinders on one shaft: firing intervals, sums, torque along the shaft."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.cylinders.firing import intervals, wrapped
+from crankwork.cylinders.firing import intervals, wrap_angle
 from crankwork.cylinders.layout import Layout
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
@@ -39,9 +39,9 @@ def even_firing_interval(phi_c: Value, i_cyl: Value) -> Value:
 
 
 class TorquesAlongShaft(NamedTuple):
-    """What each part of the shaft passes on towards the output end behind the last throw, shape (n,) each. [N m]
+    """Torques transmitted by the parts of a shaft towards the output end behind the last throw, shape (n,) each. [N m]
 
-    There is one journal more than throws: the first passes nothing on, the last one the total.
+    There is one journal more than throws: the first transmits nothing, the last one the total.
     """
 
     throws: tuple[Value, ...]
@@ -59,20 +59,21 @@ def torques_along_shaft(torques: Sequence[Value], layout: Layout) -> TorquesAlon
     if len(torques) != len(layout.places):
         raise MethodError(f"torques must be one row per cylinder, {len(layout.places)} rows, not {len(torques)}")
     count = max(place.throw for place in layout.places) + 1
-    members = [[torques[one.number - 1] for one in layout.places if one.throw == at] for at in range(count)]
+    members = [[torques[place.number - 1] for place in layout.places if place.throw == index] for index in range(count)]
     throws = tuple(
-        some[0] if len(some) == 1 else added(f"throw_torque.{at}", some) for at, some in enumerate(members, start=1)
+        group[0] if len(group) == 1 else added(f"throw_torque.{index}", group)
+        for index, group in enumerate(members, start=1)
     )
     journals = [absent("journal_torque.1") if is_known(*torques) else np.zeros_like(throws[0])]
     crankpins = []
-    for at, throw in enumerate(throws, start=1):
-        crankpins.append(named(torque_of_crankpin(journals[-1], throw), f"crankpin_torque.{at}"))
-        journals.append(named(torque_behind_throw(journals[-1], throw), f"journal_torque.{at + 1}"))
+    for number, throw in enumerate(throws, start=1):
+        crankpins.append(named(torque_of_crankpin(journals[-1], throw), f"crankpin_torque.{number}"))
+        journals.append(named(torque_behind_throw(journals[-1], throw), f"journal_torque.{number + 1}"))
     return TorquesAlongShaft(throws, tuple(journals), tuple(crankpins))
 
 
 def firing_intervals(layout: Layout) -> tuple[float, ...]:
     """Return the angles from each firing to the next, in the firing order, each at its own top dead centre. [deg]"""
     first, cycle = layout.places[0].top, layout.cycle
-    fired = [wrapped(place.firing_angle + place.top - first, cycle) for place in layout.places]
+    fired = [wrap_angle(place.firing_angle + place.top - first, cycle) for place in layout.places]
     return intervals([fired[number - 1] for number in layout.firing_order], cycle)

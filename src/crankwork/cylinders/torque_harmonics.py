@@ -83,10 +83,10 @@ def curve_harmonics(curve: Curve, count: int) -> TorqueHarmonics:
     weighted = curve(angle) * half[:, None] * _WEIGHTS * (2 / cycle)
     first, turned = np.exp(1j * orders[0] * angle), np.ones_like(angle, dtype=complex)
     sums = np.empty(count, dtype=complex)
-    for at in range(count):
-        # the next order is turned once more by the first
+    for index in range(count):
+        # rotate to the next order
         turned = turned * first
-        sums[at] = np.vdot(turned, weighted)
+        sums[index] = np.vdot(turned, weighted)
     cosine, sine = sums.real, -sums.imag
     return _harmonics(curve.mean, orders, cosine, sine)
 

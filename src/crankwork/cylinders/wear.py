@@ -23,7 +23,7 @@ _SAME_ANGLE = 1e-9
 _SPREAD = 60.0
 # Sums closer than this share of the largest are the same.
 _SAME_SUM = 1e-9
-# of the largest force, what a polynomial may miss
+# error of a polynomial, relative to the largest force
 _ROUNDING = 1e-11
 
 
@@ -44,8 +44,8 @@ def wear_table(load: BearingLoad, rays: int = 12) -> Array:
     crank frame of a crankpin, shaft frame of a main journal [N]. The arc goes 60 degrees to either side of the point
     where the force presses, ends included (kolchin_demidov_2008, ch. 7).
     """
-    apart = np.abs((ray_angles(rays) - load.opposite.direction[:, np.newaxis] + 180) % 360 - 180)
-    within = apart <= _SPREAD + _SAME_ANGLE
+    distance = np.abs((ray_angles(rays) - load.opposite.direction[:, np.newaxis] + 180) % 360 - 180)
+    within = distance <= _SPREAD + _SAME_ANGLE
     return np.where(within, load.resultant[:, np.newaxis], 0.0)
 
 
@@ -59,9 +59,9 @@ def wear_sums(load: BearingLoad, *, rays: int = 12) -> Array:
 
 @dataclass(frozen=True)
 class OilHoleOfPolynomials:
-    """The oil hole of a crankpin, of polynomials of its load over one cycle.
+    """The oil hole of a crankpin, from polynomials of its load over one cycle.
 
-    `step`: between the loads that are added up [deg]; `rays` in the wear diagram.
+    `step`: between the loads that are added [deg]; `rays` in the wear diagram.
     """
 
     step: float
@@ -69,18 +69,18 @@ class OilHoleOfPolynomials:
 
     def __call__(self, edges: Array, series: Array) -> tuple[float]:
         """Return its angle from the crank [rad]; `series`: of the force of the rods, along the crank and across it."""
-        # an edge belongs to what ends there, and the end of the cycle is its start
-        at = np.arange(edges[-1], edges[0] + np.radians(self.step) / 2, -np.radians(self.step))
-        panel = np.searchsorted(edges, at - _SAME_ANGLE) - 1
-        u = (2 * at - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
-        forces = np.array([legendre.legval(u, one[panel].T, tensor=False) for one in series])
-        # along the crank where only rounding says otherwise: a ray at the end of an arc is told by that
+        # an edge belongs to the panel that ends there, and the end of the cycle is its start
+        angles = np.arange(edges[-1], edges[0] + np.radians(self.step) / 2, -np.radians(self.step))
+        panel = np.searchsorted(edges, angles - _SAME_ANGLE) - 1
+        u = (2 * angles - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
+        forces = np.array([legendre.legval(u, coefficients[panel].T, tensor=False) for coefficients in series])
+        # zero components that are rounding errors, which would decide about a ray at the end of an arc
         radial, tangential = np.where(np.abs(forces) > _ROUNDING * np.max(np.abs(forces)), forces, 0.0)
         return (float(np.radians(oil_hole(wear_sums(BearingLoad(-radial, tangential), rays=self.rays)).angle)),)
 
 
 class OilHole(NamedTuple):
-    """Where a journal is loaded least."""
+    """The least loaded position on a journal."""
 
     angle: float  # Middle of the least loaded arc, from the reference direction of the frame with the rotation [deg]
     # Width of that arc: one step of the rays for each ray on it. 360 if all rays are as good, and then the

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from crankwork.cylinders.arrangement import arranged
+from crankwork.cylinders.arrangement import build_layout
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
@@ -117,7 +117,7 @@ def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layou
     axes = tuple(table.degrees("bank_angles"))
     sizes = {"numbering": options.pop("numbering"), "tops": options.pop("tops")}
     banks = Banks("W", cylinders, axes, options.pop("spacing"), stagger or 0.0, **sizes)
-    return arranged(banks, order, throws=throws, **options)
+    return build_layout(banks, order, throws=throws, **options)
 
 
 def _no_order(table: Values, strokes: int) -> Refusal:

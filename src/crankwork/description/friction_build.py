@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
-from crankwork.dynamics.force_system import whole_of
+from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import Circle, Friction, GuideFriction, PinFriction
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
@@ -22,7 +22,7 @@ def build_friction(values: Values, linkage: Linkage, mechanism: Mechanism, reade
     table = values.get("friction")
     if table is None:
         return ()
-    held, shown = whole_of(mechanism)[1], names_of_pivots(mechanism)
+    held, shown = all_links_and_joints(mechanism)[1], names_of_pivots(mechanism)
     pins = {shown.get(joint.name, joint.name): joint.name for joint in held if isinstance(joint, Pin)}
     guides = {joint.name: joint.name for joint in held if not isinstance(joint, Pin)}
     circle: Circle = table["circle"] or "tangent"

@@ -36,7 +36,7 @@ from crankwork.locale import Refusal
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.driver import Law, LinkMotor
-from crankwork.mechanism.joints import bearers
+from crankwork.mechanism.joints import links_of_points
 from crankwork.mechanism.linkage import GROUND, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.method import Method
@@ -304,7 +304,7 @@ def _on_pins(
     loads: Iterable[Load], linkage: Linkage, mechanism: Mechanism
 ) -> Iterator[tuple[str, dict[str, float | str]]]:
     """Yield notices of loads at pins of several links if no link is named, with the link assumed."""
-    first_links = bearers(mechanism)
+    first_links = links_of_points(mechanism)
     # the third side of a triangle that a motor drives is not a link
     no_link = mechanism.driver.link if isinstance(mechanism.driver, LinkMotor) else ""
     for number, load in enumerate(loads, start=1):

@@ -28,7 +28,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
-from crankwork.mechanism.mechanism import Crank, Mechanism, turns_of
+from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 
 _STEP = 1.0
 
@@ -171,7 +171,7 @@ def _check_transient(machine: Machine, reached: Reached, reader: Reader) -> None
         reader.complain("transient", Refusal("transient_massless"))
     driver = machine.mechanism.driver
     for geared_crank in driver.geared if isinstance(driver, Crank) else ():
-        if not turns_of(geared_crank.ratio):
+        if not period_in_turns(geared_crank.ratio):
             reader.complain("transient", Refusal("transient_geared", name=geared_crank.link))
     if settings is not None and limits is not None and not limits.start < math.degrees(settings.start) < limits.end:
         reader.complain("transient.start", Refusal("transient_outside", low=limits.start, high=limits.end))

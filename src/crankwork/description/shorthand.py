@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 from crankwork.analysis import solve
 from crankwork.analysis.cylinders import whole_engine
 from crankwork.analysis.solved import SolvedCylinder
-from crankwork.cylinders.articulated import slave_stroke
-from crankwork.cylinders.layout import Place
+from crankwork.cylinders.articulated import articulated_stroke
+from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.engine_keys import HEAT_RELEASE
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.loads.indicator import DiagramPoint
@@ -22,7 +22,7 @@ from crankwork.working_cycle.pressures import MisfirePressure
 _DIAGRAM = ("points", "pieces", "measured", "valves")
 _COUNTED = ("pressures", "ambient")
 _OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
-_ALONE = Place(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
+_ALONE = CylinderPlace(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
 
 
 class CrankMechanism(NamedTuple):
@@ -33,7 +33,7 @@ class CrankMechanism(NamedTuple):
     """
 
     solved: SolvedCylinder
-    place: Place
+    place: CylinderPlace
     head: float
     own: str
     joint: str
@@ -57,7 +57,7 @@ class CrankMechanism(NamedTuple):
     def top(self) -> float:
         """Distance of its piston pin from the shaft along its axis at top dead centre. [m]"""
         if self.solved.slave is not None:
-            return slave_stroke(self.solved.lengths, self.solved.slave).top
+            return articulated_stroke(self.solved.lengths, self.solved.slave).top
         return math.sqrt((self.length + self.solved.lengths.crank_radius) ** 2 - self.offset**2)
 
     def at(self, along: float, across: float) -> complex:

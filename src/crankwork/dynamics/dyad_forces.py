@@ -1,7 +1,7 @@
 """Joint forces of the five dyads in closed form.
 
-Each takes what acts on its two links, moments about the origins of their frames, and gives the force in its
-inner joint and in the two outer ones, on the link that each joint holds (see `mechanism.joints`).
+Each takes the wrenches on its two links, with moments about the origins of their frames, and gives the force in its
+inner joint and in the two outer ones, on the first link of each joint (see `mechanism.joints`).
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def rrr_forces(a: Wrench, b: Wrench, u: Vector, v: Vector, name: str = "") -> tu
     """
     area = named(area_of_arms(u[0], v[1], u[1], v[0]), f"doubled_area.{name}.arms")
     inner = _vector(
-        name, (rrr_inner_force(a.moment, one, b.moment, other, area) for one, other in zip(v, u, strict=True))
+        name, (rrr_inner_force(a.moment, second, b.moment, first, area) for second, first in zip(v, u, strict=True))
     )
     return _minus(inner, a), inner, _balance(b, inner)
 

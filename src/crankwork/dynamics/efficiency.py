@@ -33,7 +33,7 @@ Chain = float | Series | Parallel
 def efficiency(chain: Chain) -> float:
     """Return the efficiency of a chain (artobolevsky_1988, ch. 14). [-]
 
-    Product of what is in series, weighted mean of what is parallel. `chain`: efficiencies of joints, from more than 0
+    Product of efficiencies in series, weighted mean of parallel ones. `chain`: efficiencies of joints, from more than 0
     to 1, in series and parallel.
 
     Examples
@@ -45,23 +45,24 @@ def efficiency(chain: Chain) -> float:
 
 
 def remembered_efficiency(chain: Chain, key: str = "efficiency", path: str = "efficiency.chain") -> Known:
-    """Return the efficiency of a chain as it is made up; its parts have the keys `key.1`, `key.2` and so on."""
+    """Return the traced efficiency of a chain; its parts have the keys `key.1`, `key.2` and so on."""
     match chain:
         case Series(parts):
-            found = [
-                remembered_efficiency(part, f"{key}.{at}", f"{path}[{at}]") for at, part in enumerate(parts, start=1)
+            factors = [
+                remembered_efficiency(part, f"{key}.{index}", f"{path}[{index}]")
+                for index, part in enumerate(parts, start=1)
             ]
-            return reduce(operator.mul, found).named(key)
+            return reduce(operator.mul, factors).named(key)
         case Parallel(parts, shares):
             shares = shares or (1 / len(parts),) * len(parts)
             if len(shares) != len(parts) or not math.isclose(sum(shares), 1.0) or min(shares) < 0:
                 raise ValueError(f"{len(parts)} parallel chains need as many shares, none negative, that sum to 1")
             terms = []
-            for at, (share, part) in enumerate(zip(shares, parts, strict=True), start=1):
-                # an efficiency of its own has the symbol of its place in the formula
-                own = "efficiency" if isinstance(part, float | int) else f"{key}.{at}.0"
-                inner = remembered_efficiency(part, own, f"{path}[{at}]")
-                terms.append(efficiency_share(share, inner).named(f"{key}.{at}"))
+            for number, (share, part) in enumerate(zip(shares, parts, strict=True), start=1):
+                # a single efficiency has a key of its own, so that its symbol in the formula has an index
+                own = "efficiency" if isinstance(part, float | int) else f"{key}.{number}.0"
+                inner = remembered_efficiency(part, own, f"{path}[{number}]")
+                terms.append(efficiency_share(share, inner).named(f"{key}.{number}"))
             return total(key, terms)
         case value:
             if not 0 < value <= 1:

@@ -1,4 +1,4 @@
-"""Parts of sums of forces and torques: what the correction couple adds, torques on the crank, differences."""
+"""Terms of sums of forces and torques, and differences of the reduced inertia."""
 
 from __future__ import annotations
 

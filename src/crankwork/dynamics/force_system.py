@@ -1,4 +1,4 @@
-"""Joint forces of several links, or of a whole mechanism, by one linear system."""
+"""Joint forces of several links, or of a full mechanism, by one linear system."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from crankwork.dynamics.dyad_forces import force_along
 from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, cross
-from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, gathered, joint_place
+from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, joint_place
 from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Component, Known, Root, added, is_known, total
@@ -36,13 +36,13 @@ class Equilibrium:
     """The equations of some links, three each, with two unknowns for each joint."""
 
     links: tuple[str, ...]  # The links, in order
-    joints: tuple[Joint, ...]  # The joints that hold them, in order
+    joints: tuple[Joint, ...]  # The joints of the links, in order
     # Force and moment on each link of a unit of each unknown; moments about the origins of the frames, shape (n, 3
     # links, unknowns) [- or m]
     matrix: Array
 
     def right_side(self, wrenches: Acting) -> Array:
-        """Return minus what acts on the links, shape (n, 3 links). [N], [N m]"""
+        """Return minus the wrenches on the links, shape (n, 3 links). [N], [N m]"""
         return -np.stack([part for link in self.links for part in wrenches[link]], axis=-1)
 
     def reactions(self, unknowns: Array) -> dict[Joint, Reaction]:
@@ -59,7 +59,7 @@ def equilibrium(
 ) -> Equilibrium:
     """Return the equations of equilibrium of some links.
 
-    `driver`: what gives the last unknown, its torque or force; that of a cylinder is in the forces at its ends.
+    `driver`: adds the last unknown, its torque or force; that of a cylinder is part of the forces at its ends.
     """
     row = {link: 3 * k for k, link in enumerate(links)}
     pushed = _pushed(driver, motion)
@@ -70,10 +70,10 @@ def equilibrium(
         for link, sign in ((joint.link, 1.0), (joint.other, -1.0)):
             if link not in row:
                 continue
-            i, way = row[link], arm(motion.frames[link].origin, place)
+            i, offset = row[link], arm(motion.frames[link].origin, place)
             for j, unit in enumerate(_FIXED_AXES if isinstance(joint, Pin) else _normal(frame), start=2 * k):
                 matrix[:, i, j], matrix[:, i + 1, j] = sign * unit[0], sign * unit[1]
-                matrix[:, i + 2, j] = sign * cross(way, unit)
+                matrix[:, i + 2, j] = sign * cross(offset, unit)
             if not isinstance(joint, Pin):
                 matrix[:, i + 2, 2 * k + 1] = sign
     for link, which, value in pushed:
@@ -84,44 +84,44 @@ def equilibrium(
 
 
 def _mesh(matrix: Array, driver: Crank, row: Mapping[str, int]) -> None:
-    """Write what gears put on the crank and on those that it turns: a torque, or a force between teeth."""
-    for k, one in enumerate(driver.geared):
-        if one.pressure_angle is None:
-            matrix[:, row[one.link] + 2, k] = 1.0
-            matrix[:, row[driver.link] + 2, k] = -one.ratio
+    """Set the effects of gears on the crank and the geared cranks: a torque, or a force between teeth."""
+    for k, geared in enumerate(driver.geared):
+        if geared.pressure_angle is None:
+            matrix[:, row[geared.link] + 2, k] = 1.0
+            matrix[:, row[driver.link] + 2, k] = -geared.ratio
             continue
-        # a unit force where both wheels move alike
-        (x, y), reach = _between(driver, one), one.ratio / (one.ratio - 1)
+        # a unit force where both wheels have the same velocity
+        (x, y), reach = _between(driver, geared), geared.ratio / (geared.ratio - 1)
         length = math.hypot(x, y)
-        for link, sign, lever in ((one.link, 1.0, (reach - 1) * length), (driver.link, -1.0, reach * length)):
+        for link, sign, lever in ((geared.link, 1.0, (reach - 1) * length), (driver.link, -1.0, reach * length)):
             matrix[:, row[link], k], matrix[:, row[link] + 1, k] = -sign * y / length, sign * x / length
             matrix[:, row[link] + 2, k] = sign * lever
 
 
-def _between(crank: Crank, one: GearedCrank) -> tuple[float, float]:
-    """Return the way from the axis of a crank to that of a geared one. [m]"""
-    return one.pivot[0] - crank.pivot[0], one.pivot[1] - crank.pivot[1]
+def _between(crank: Crank, geared: GearedCrank) -> tuple[float, float]:
+    """Return the vector from the axis of a crank to that of a geared one. [m]"""
+    return geared.pivot[0] - crank.pivot[0], geared.pivot[1] - crank.pivot[1]
 
 
 def _separated(wrenches: dict[str, Wrench], crank: Crank, forces: Array) -> dict[str, Wrench]:
-    """Return what acts on the links with the forces that push wheels apart, through their axes.
+    """Return the wrenches on the links with the forces that separate wheels, through their axes.
 
     `forces`: between teeth across the lines of centres, shape (n, geared cranks) [N].
     """
-    found = dict(wrenches)
-    for k, one in enumerate(crank.geared):
-        if one.pressure_angle:
-            x, y = _between(crank, one)
-            size = np.abs(forces[..., k]) * math.tan(one.pressure_angle) / math.hypot(x, y)
-            size = size if one.ratio < 0 else -size
-            for link, sign in ((one.link, 1.0), (crank.link, -1.0)):
-                own = found[link]
-                found[link] = Wrench(own.x + sign * size * x, own.y + sign * size * y, own.moment)
-    return found
+    result = dict(wrenches)
+    for k, geared in enumerate(crank.geared):
+        if geared.pressure_angle:
+            x, y = _between(crank, geared)
+            size = np.abs(forces[..., k]) * math.tan(geared.pressure_angle) / math.hypot(x, y)
+            size = size if geared.ratio < 0 else -size
+            for link, sign in ((geared.link, 1.0), (crank.link, -1.0)):
+                own = result[link]
+                result[link] = Wrench(own.x + sign * size * x, own.y + sign * size * y, own.moment)
+    return result
 
 
 def _pushed(driver: Driver | None, motion: Motion) -> list[tuple[str, int, Value]]:
-    """Return what one unit of the torque or force of a driver is on its links: along x, y, and turning."""
+    """Return the effect of a unit torque or force of a driver: link, row (x, y or moment) and value."""
     match driver:
         case Crank(link=link, direction=direction):
             return [(link, 2, float(direction))]
@@ -145,15 +145,15 @@ def solved_group(
 ) -> dict[Joint, Reaction]:
     """Return the reactions in the joints of one group (artobolevsky_1988, ch. 13)."""
     if is_known(motion.grid.angle):
-        return _remembered(motion, links, held, wrenches)
+        return _remembered_with(motion, links, held, wrenches, None)[0]
     system = equilibrium(motion, links, held)
     return system.reactions(solve_positions(system.matrix, system.right_side(wrenches)))
 
 
-def opened_group(
+def motor_group(
     motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, motor: LinkMotor
 ) -> tuple[dict[Joint, Reaction], Value]:
-    """Return the reactions in the joints of links that a motor opens, and its torque."""
+    """Return the reactions in the joints of links that a motor connects, and its torque."""
     if is_known(motion.grid.angle):
         return _remembered_with(motion, links, held, wrenches, motor)
     system = equilibrium(motion, links, held, driver=motor)
@@ -164,7 +164,7 @@ def opened_group(
 class GroupSolver:
     """Solves the equilibrium of a group from columns: entries of the matrix, then those of the right side.
 
-    `entries` are row, column and value; None where a column gives the value.
+    `entries`: row, column and value; None where a column gives the value.
     """
 
     def __init__(self, size: int, entries: tuple[tuple[int, int, float | None], ...]) -> None:
@@ -172,21 +172,17 @@ class GroupSolver:
 
     def __call__(self, columns: Sequence[Array | float]) -> Array:
         """Return the unknowns, shape (unknowns, n)."""
-        count = max(np.size(one) for one in columns)
-        whole, taken = np.zeros((count, self._size, self._size + 1)), iter(columns)
+        count = max(np.size(values) for values in columns)
+        augmented, remaining = np.zeros((count, self._size, self._size + 1)), iter(columns)
         for row, column, value in self._entries:
-            whole[:, row, column] = next(taken) if value is None else value
-        return solve_positions(whole[:, :, :-1], whole[:, :, -1]).T
-
-
-def _remembered(motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting) -> dict[Joint, Reaction]:
-    return _remembered_with(motion, links, held, wrenches, None)[0]
+            augmented[:, row, column] = next(remaining) if value is None else value
+        return solve_positions(augmented[:, :, :-1], augmented[:, :, -1]).T
 
 
 def _remembered_with(
     motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, driver: Driver | None
 ) -> tuple[dict[Joint, Reaction], Known]:
-    """Return the reactions as the root of the equations of equilibrium, and the last unknown."""
+    """Return the traced reactions, as a root of the equilibrium equations, and the last unknown."""
     row = {link: 3 * k for k, link in enumerate(links)}
     entries: list[tuple[int, int, Value]] = []
     for k, joint in enumerate(held):
@@ -198,17 +194,17 @@ def _remembered_with(
             units = ((1.0, 0.0), (0.0, 1.0)) if isinstance(joint, Pin) else ((-frame.sin, frame.cos),)
             for j, unit in enumerate(units, start=2 * k):
                 parts = (unit[0], unit[1], x * unit[1] - y * unit[0])
-                entries += [(i + at, j, one if sign == 1 else -one) for at, one in enumerate(parts)]
+                entries += [(i + offset, j, part if sign == 1 else -part) for offset, part in enumerate(parts)]
             if not isinstance(joint, Pin):
                 entries.append((i + 2, 2 * k + 1, float(sign)))
     size = 3 * len(row)
     entries += [(row[link] + which, size - 1, value) for link, which, value in _pushed(driver, motion)]
-    entries += [(i + at, size, -one) for link, i in row.items() for at, one in enumerate(wrenches[link])]
-    known = tuple(one for _, _, one in entries if is_known(one))
-    solver = GroupSolver(size, tuple((i, j, None if is_known(one) else one) for i, j, one in entries))
+    entries += [(i + offset, size, -part) for link, i in row.items() for offset, part in enumerate(wrenches[link])]
+    known = tuple(value for _, _, value in entries if is_known(value))
+    solver = GroupSolver(size, tuple((i, j, None if is_known(value) else value) for i, j, value in entries))
     root = Root(solver, known)
-    unknowns = [Known(Component(root, at)) for at in range(size)]
-    root.residuals = tuple(_left_over(entries, unknowns, i) for i in range(size))
+    unknowns = [Known(Component(root, index)) for index in range(size)]
+    root.residuals = tuple(_residual(entries, unknowns, i) for i in range(size))
     reactions: dict[Joint, Reaction] = {
         joint: (PinForce(joint, *pair) if isinstance(joint, Pin) else GuideForce(joint, *pair))
         for k, joint in enumerate(held)
@@ -220,21 +216,23 @@ def _remembered_with(
 def cylinder_force(
     mechanism: Mechanism, motion: Motion, reactions: Mapping[Joint, Reaction], wrenches: Acting
 ) -> Value:
-    """Return the force with which a cylinder pushes its ends apart, from that on its barrel. [N]"""
+    """Return the pushing force of a cylinder, from the reactions at its barrel. [N]"""
     driver = mechanism.driver
     if not isinstance(driver, Cylinder):
         raise TypeError(f"{driver.link} is no cylinder")
     on_barrel = [
-        (one.x, one.y) if joint.link == driver.link else (-one.x, -one.y)
-        for joint, one in reactions.items()
-        if isinstance(one, PinForce) and one.joint.point == driver.barrel and driver.link in (joint.link, joint.other)
+        (reaction.x, reaction.y) if joint.link == driver.link else (-reaction.x, -reaction.y)
+        for joint, reaction in reactions.items()
+        if isinstance(reaction, PinForce)
+        and reaction.joint.point == driver.barrel
+        and driver.link in (joint.link, joint.other)
     ]
     x, y = (
         added(f"link_force_{axis}.{driver.link}", side)
         for axis, side in zip("xy", zip(*on_barrel, strict=True), strict=True)
     )
     if driver.halves:
-        # what pushes the barrel back balances its own loads, too
+        # the loads on the barrel are part of its force
         barrel = wrenches[driver.halves[0].link]
         frame = motion.frames[driver.halves[0].link]
         return force_along(x + barrel.x, frame.cos, y + barrel.y, frame.sin)
@@ -243,9 +241,10 @@ def cylinder_force(
     return force if origin_of(mechanism, driver.link) == driver.barrel else -force
 
 
-def _left_over(entries: list[tuple[int, int, Value]], unknowns: Sequence[Known], row: int) -> Known:
-    """Return what one equation of equilibrium leaves over."""
-    terms = [one * unknowns[j] if j < len(unknowns) else -one for i, j, one in entries if i == row and _counts(one)]
+def _residual(entries: list[tuple[int, int, Value]], unknowns: Sequence[Known], row: int) -> Known:
+    """Return the residual of one equilibrium equation."""
+    in_row = ((j, entry) for i, j, entry in entries if i == row and _counts(entry))
+    terms = [entry * unknowns[j] if j < len(unknowns) else -entry for j, entry in in_row]
     return total(("link_force_x", "link_force_y", "link_moment")[row % 3], terms)
 
 
@@ -253,48 +252,48 @@ def _counts(entry: Value) -> bool:
     return is_known(entry) or bool(entry)
 
 
-def _named_pair(joint: Joint, one: Known, other: Known) -> tuple[Known, Known]:
+def _named_pair(joint: Joint, first: Known, second: Known) -> tuple[Known, Known]:
     kinds = ("joint_force_x", "joint_force_y") if isinstance(joint, Pin) else ("normal_force", "normal_moment")
-    return one.named(f"{kinds[0]}.{joint.name}"), other.named(f"{kinds[1]}.{joint.name}")
+    return first.named(f"{kinds[0]}.{joint.name}"), second.named(f"{kinds[1]}.{joint.name}")
 
 
 def system_joint_forces(running: Running) -> JointForces:
-    """Return what `joint_forces` gives group after group, from one linear system (norton_2012, ch. 11). [N], [N m]"""
-    system, mechanism = whole_system(running), running.mechanism
-    wrenches = {link: Wrench(*one) for link, one in plain_wrenches(running).items()}
+    """Return the joint forces from one linear system, a check of `joint_forces` (norton_2012, ch. 11). [N], [N m]"""
+    system, mechanism = full_equilibrium(running), running.mechanism
+    wrenches = {link: Wrench(*wrench) for link, wrench in numeric_wrenches(running).items()}
     unknowns = solve_positions(system.matrix, system.right_side(wrenches))
-    if isinstance(mechanism.driver, Crank) and any(one.pressure_angle for one in mechanism.driver.geared):
+    if isinstance(mechanism.driver, Crank) and any(geared.pressure_angle for geared in mechanism.driver.geared):
         between = unknowns[..., 2 * len(system.joints) : -1]
         wrenches = _separated(wrenches, mechanism.driver, between)
         unknowns = solve_positions(system.matrix, system.right_side(wrenches))
     reactions = system.reactions(unknowns)
     is_inside = isinstance(mechanism.driver, Cylinder) and not mechanism.driver.halves
     driven = cylinder_force(mechanism, running.motion, reactions, wrenches) if is_inside else unknowns[..., -1]
-    return gathered(reactions, system.joints, driven)
+    return collect_reactions(reactions, system.joints, driven)
 
 
-def whole_system(running: Running) -> Equilibrium:
-    """Return the equations of equilibrium of all links, the last unknown the torque or force of the driver."""
-    return equilibrium(running.motion, *whole_of(running.mechanism), driver=running.mechanism.driver)
+def full_equilibrium(running: Running) -> Equilibrium:
+    """Return the equilibrium equations of all links; the last unknown is the torque or force of the driver."""
+    return equilibrium(running.motion, *all_links_and_joints(running.mechanism), driver=running.mechanism.driver)
 
 
-def whole_of(mechanism: Mechanism) -> tuple[tuple[str, ...], tuple[Joint, ...]]:
-    """Return all links of a mechanism and the joints that hold them, a cylinder with masses as two links."""
+def all_links_and_joints(mechanism: Mechanism) -> tuple[tuple[str, ...], tuple[Joint, ...]]:
+    """Return all links of a mechanism and their joints; a cylinder with masses counts as two links."""
     held = joints(mechanism)
-    # a link of a chain may only hold others
+    # a link of a chain may be the second link of all its joints
     holding = (name for group in mechanism.dyads for name in group_links(group))
     links = dict.fromkeys([*(joint.link for joint in held), *holding])
     if mechanism.halves:
-        barrel, rod = (one.link for one in mechanism.halves)
-        held = (*(_on_half(one, mechanism.driver) for one in held), SlidingJoint(rod, rod, barrel))
-        links = dict.fromkeys([*(one for one in links if one != mechanism.driver.link), barrel, rod])
+        barrel, rod = (half.link for half in mechanism.halves)
+        held = (*(_on_half(joint, mechanism.driver) for joint in held), SlidingJoint(rod, rod, barrel))
+        links = dict.fromkeys([*(link for link in links if link != mechanism.driver.link), barrel, rod])
     if isinstance(mechanism.driver, LinkMotor):
         links.pop(mechanism.driver.link)
     return tuple(links), held
 
 
 def _on_half(joint: Joint, driver: Driver) -> Joint:
-    """Return a joint of a cylinder as that of its barrel or its rod, the two links that it is."""
+    """Return a joint of a cylinder as one of its barrel or its rod."""
     if not isinstance(joint, Pin) or not isinstance(driver, Cylinder) or driver.link not in (joint.link, joint.other):
         return joint
     half = driver.halves[0 if joint.point == driver.barrel else 1].link
@@ -302,7 +301,7 @@ def _on_half(joint: Joint, driver: Driver) -> Joint:
 
 
 def solve_positions(matrix: Array, right: Array) -> Array:
-    """Return the solutions of linear systems, NaN where the position is not known or singular.
+    """Return the solutions of linear systems, NaN where the position is unknown or singular.
 
     `matrix` and `right`: a system for each position [m], [N], shape (n, k, k).
     """
@@ -316,29 +315,29 @@ def solve_positions(matrix: Array, right: Array) -> Array:
     return solution
 
 
-def plain_loads(running: Running) -> AppliedLoads:
+def numeric_loads(running: Running) -> AppliedLoads:
     """Return the loads of a mechanism together with the inertia of its bodies after D'Alembert."""
     w, eps = running.speed, running.angular_acceleration
     forces, torques = list(running.loads.forces), list(running.loads.torques)
     for body, centre, angle_1, angle_2 in body_motions(running.mechanism, running.motion):
-        x, y = (-body.mass * (one.position_2 * w * w + one.position_1 * eps) for one in centre)
+        x, y = (-body.mass * (coordinate.position_2 * w * w + coordinate.position_1 * eps) for coordinate in centre)
         forces.append(AppliedForce(body.link, centre, x, y))
         torques.append(AppliedTorque(body.link, -body.inertia * (angle_2 * w * w + angle_1 * eps), angle_1))
     return AppliedLoads(tuple(forces), tuple(torques))
 
 
-def plain_wrenches(running: Running) -> dict[str, tuple[Array, Array, Array]]:
+def numeric_wrenches(running: Running) -> dict[str, tuple[Array, Array, Array]]:
     """Return force and moment about the origin of each link.
 
     Components [N], [N] and moment [N m] by link.
     """
-    loads, frames = plain_loads(running), running.motion.frames
-    found = {link: [np.zeros_like(running.motion.grid.angle) for _ in range(3)] for link in frames}
+    loads, frames = numeric_loads(running), running.motion.frames
+    totals = {link: [np.zeros_like(running.motion.grid.angle) for _ in range(3)] for link in frames}
     for force in loads.forces:
         (origin_x, origin_y), (at_x, at_y) = frames[force.link].origin, force.point
         x, y = at_x.position - origin_x.position, at_y.position - origin_y.position
-        on = found[force.link]
-        on[0], on[1], on[2] = on[0] + force.x, on[1] + force.y, on[2] + (x * force.y - y * force.x)
-    for one in loads.torques:
-        found[one.link][2] = found[one.link][2] + one.torque
-    return {link: (x, y, moment) for link, (x, y, moment) in found.items()}
+        parts = zip(totals[force.link], (force.x, force.y, x * force.y - y * force.x), strict=True)
+        totals[force.link] = [before + part for before, part in parts]
+    for torque in loads.torques:
+        totals[torque.link][2] = totals[torque.link][2] + torque.torque
+    return {link: (x, y, moment) for link, (x, y, moment) in totals.items()}

@@ -9,13 +9,19 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.dynamics.force_system import Equilibrium, cylinder_force, solve_positions, whole_of, whole_system
+from crankwork.dynamics.force_system import (
+    Equilibrium,
+    all_links_and_joints,
+    cylinder_force,
+    full_equilibrium,
+    solve_positions,
+)
 from crankwork.dynamics.link_loads import Wrenches, arm, cross, link_wrenches
-from crankwork.dynamics.reaction import JointForces, gathered
+from crankwork.dynamics.reaction import JointForces, collect_reactions
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.kinematics.bodies import everywhere
+from crankwork.kinematics.bodies import broadcast
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.driver import Cylinder
@@ -30,18 +36,18 @@ Rows = NDArray[np.intp] | slice
 CONVERGED, NOT_CONVERGED, SELF_LOCKING, NO_POSITION = 0, 1, 2, 3
 _TOLERANCE = 1e-13
 _ITERATIONS = 30
-# steps after which no other solution is expected
-_TRIED = 12
+# iterations after which no other solution is expected
+_MAX_TRIAL_STEPS = 12
 # a force below which no direction is known [N]
 _TINY = 1e-290
-# friction grows to its full value in steps, so that the solution is followed from that without friction
+# friction is increased to its full value in steps, starting from the solution without it
 _STEPS = (0.25, 0.5, 0.75, 1.0)
 # share of the largest relative speed below which two links count as at rest
 _REST = 1e-12
-# share of the forces by which another solution differs from the first
-_APART = 1e-6
-_NOTHING = 1e-12
-# share of the largest force that is a measure of what is missed in those that are smaller
+# relative difference by which another solution is told from the first
+_MIN_DIFFERENCE = 1e-6
+_ZERO_TOLERANCE = 1e-12
+# residuals of small forces are relative to this share of the largest force
 _SMALL = 1e-2
 
 
@@ -86,43 +92,43 @@ Friction = PinFriction | GuideFriction
 
 @dataclass(frozen=True)
 class FrictionForces:
-    """Joint forces with friction, and how far they are to be relied on."""
+    """Joint forces with friction, and their reliability."""
 
     joint_forces: JointForces  # Reactions and balancing torque with friction; NaN where `status` is not 0 [N], [N m]
     ideal_torque: Array  # Balancing torque without friction, shape (n,) [N m]
-    pressing: Mapping[Friction, Array]  # Of each joint, the force that makes the friction, shape (n,) [N]
+    pressing: Mapping[Friction, Array]  # Force that causes the friction of each joint, shape (n,) [N]
     # Of each joint, the friction moment on the link that a pin holds, or the friction force on a sliding piece along
     # its guide, shape (n,) [N m or N]
     friction: Mapping[Friction, Array]
-    power_loss: Array  # Power that all joints take, shape (n,) [W]
+    power_loss: Array  # Power lost in all joints, shape (n,) [W]
     # Torque without friction over torque with it where the crank drives, the reverse where the load does; zero or less
     # where the load alone could not move the mechanism, shape (n,) [-]
     efficiency: Array
-    residual: Array  # By what share of the forces on a link the equilibrium is missed, shape (n,) [-]
+    residual: Array  # Residual of the equilibrium over the forces on a link, shape (n,) [-]
     # 0 converged, 1 not converged, 2 self-locking, 3 no position, shape (n,) [-]
     status: Status
-    # Determinant of the equations over that without friction: towards zero the forces grow beyond all bounds,
+    # Determinant of the equations over that without friction; the forces become unbounded as it tends to zero,
     # shape (n,) [-]
     margin: Array
-    has_another: Truth  # Where the forces balance in another way as well, if that was asked for, shape (n,)
+    has_another: Truth  # Where another equilibrium was found, if one was looked for, shape (n,)
 
     @property
     def held(self) -> Truth:
-        """Where friction alone holds the load: without it the load would drive the crank, with it it does not."""
+        """Where friction alone holds the load: without friction the load would drive the crank."""
         ideal, torque = self.ideal_torque, self.joint_forces.balancing_torque
-        rounding = _NOTHING * np.nanmax(np.abs(np.stack([ideal, torque])), initial=0.0)
+        rounding = _ZERO_TOLERANCE * np.nanmax(np.abs(np.stack([ideal, torque])), initial=0.0)
         return np.asarray((ideal < -rounding) & (torque >= 0))
 
 
 @dataclass(frozen=True)
-class Rubbing:
-    """A joint with friction: how its links move in each other, and what it puts on the one that it holds."""
+class FrictionJoint:
+    """A joint with friction: the relative motion of its links, and the friction on the first one."""
 
     joint: Joint
     law: Friction
     rate: Array  # Relative rotation or sliding over the coordinate of the driver, shape (n,) [- or m]
     velocity: Array  # Relative angular velocity or velocity, shape (n,) [rad/s] or [m/s]
-    sense: Array  # Direction of the friction on the link that is held: 1, -1, or 0 at rest, shape (n,) [-]
+    sense: Array  # Direction of the friction on the first link: 1, -1, or 0 at rest, shape (n,) [-]
 
     @property
     def factor(self) -> float:
@@ -132,27 +138,27 @@ class Rubbing:
         circle = friction_radius if self.law.circle == "tangent" else friction_radius_of_angle
         return float(circle(self.law.coefficient, self.law.radius))
 
-    def pressing(self, one: Array, two: Array) -> tuple[Array, Array, Array]:
+    def pressing(self, first: Array, second: Array) -> tuple[Array, Array, Array]:
         """Return the pressing force and its derivatives by the two unknowns of the joint.
 
-        They are the components of the force of a pin, or normal force and moment of a guide.
+        The unknowns are the components of the force of a pin, or normal force and moment of a guide.
         """
         if isinstance(self.law, PinFriction):
-            force = np.hypot(one, two)
+            force = np.hypot(first, second)
             inverse = np.divide(1.0, force, out=np.zeros_like(force), where=force > _TINY)
-            return force, one * inverse, two * inverse
-        tilting = self.law.tilting(one, two)
+            return force, first * inverse, second * inverse
+        tilting = self.law.tilting(first, second)
         per_moment = 2 / self.law.length if self.law.length else 0.0
-        tilted = np.abs(tilting) > np.abs(one)
+        tilted = np.abs(tilting) > np.abs(first)
         by_moment = np.where(tilted, per_moment * np.sign(tilting), 0.0)
         return (
-            np.where(tilted, np.abs(tilting), np.abs(one)),
-            np.where(tilted, -self.law.middle[0] * by_moment, np.sign(one)),
+            np.where(tilted, np.abs(tilting), np.abs(first)),
+            np.where(tilted, -self.law.middle[0] * by_moment, np.sign(first)),
             by_moment,
         )
 
     def friction(self, pressing: Array) -> Array:
-        """Return the friction on the link that is held, its moment or its force along the guide. [N m] or [N]"""
+        """Return the friction on the first link, its moment or its force along the guide. [N m] or [N]"""
         if isinstance(self.law, PinFriction):
             constant, damping = self.law.moment, self.law.damping
             return np.asarray(friction_torque(self.sense, self.factor, pressing, constant, damping, self.velocity))
@@ -160,7 +166,7 @@ class Rubbing:
         return np.asarray(friction_force(self.sense, self.factor, pressing, constant, damping, self.velocity))
 
     def unit_effect(self, motion: Motion, system: Equilibrium) -> Array:
-        """Return what a unit of friction on the link that the joint holds does to all links, shape (n, 3 links)."""
+        """Return the effect of a unit of friction on all links, shape (n, 3 links)."""
         frame, effect = motion.frames[self.joint.link], np.zeros((len(motion.grid), 3 * len(system.links)))
         for link, sign in ((self.joint.link, 1.0), (self.joint.other, -1.0)):
             if link == GROUND:
@@ -171,39 +177,39 @@ class Rubbing:
             else:
                 along = frame.cos, frame.sin
                 effect[:, row], effect[:, row + 1] = sign * along[0], sign * along[1]
-                beside = cross(arm(motion.frames[link].origin, frame.origin), along)
-                effect[:, row + 2] = sign * (beside - self.law.middle[1])
+                lever = cross(arm(motion.frames[link].origin, frame.origin), along)
+                effect[:, row + 2] = sign * (lever - self.law.middle[1])
         return effect
 
 
-def rubbing_joints(
+def friction_joints(
     running: Running, friction: Sequence[Friction], senses: Mapping[Friction, Array] | None = None
-) -> tuple[Rubbing, ...]:
-    """Return the joints with friction of a mechanism at work.
+) -> tuple[FrictionJoint, ...]:
+    """Return the joints with friction of a mechanism in operation.
 
-    `senses`: direction of the friction of each; by default against the relative motion, none at rest.
+    `senses`: direction of each friction; by default against the relative motion, none at rest.
     """
-    held, motion, found = whole_of(running.mechanism)[1], running.motion, dict[Joint, Rubbing]()
-    for one in friction:
-        kind, name = (Pin, one.joint) if isinstance(one, PinFriction) else (SlidingJoint, one.slider)
+    held, motion, result = all_links_and_joints(running.mechanism)[1], running.motion, dict[Joint, FrictionJoint]()
+    for law in friction:
+        kind, name = (Pin, law.joint) if isinstance(law, PinFriction) else (SlidingJoint, law.slider)
         joint = next((joint for joint in held if isinstance(joint, kind) and joint.name == name), None)
         if joint is None:
             names = ", ".join(joint.name for joint in held if isinstance(joint, kind))
             raise MethodError(f"there is no joint {name} to rub; choose from {names}")
-        if joint in found:
+        if joint in result:
             raise MethodError(f"joint {name} has two frictions; give one")
-        rate = np.asarray(everywhere(relative_rate(motion, joint), motion.grid))
+        rate = np.asarray(broadcast(relative_rate(motion, joint), motion.grid))
         velocity = np.asarray(rate * running.speed)
         moves = np.abs(velocity) > _REST * np.nanmax(np.abs(velocity), initial=0.0)
-        sense = np.where(moves, -np.sign(velocity), 0.0) if senses is None else senses[one]
-        found[joint] = Rubbing(joint, one, rate, velocity, sense)
-    return tuple(found.values())
+        sense = np.where(moves, -np.sign(velocity), 0.0) if senses is None else senses[law]
+        result[joint] = FrictionJoint(joint, law, rate, velocity, sense)
+    return tuple(result.values())
 
 
 def relative_rate(motion: Motion, joint: Joint) -> Value:
-    """Return how fast one link of a joint turns or slides in the other, over the rate of the driver's coordinate."""
+    """Return the rate of rotation or sliding in a joint, over the rate of the driver's coordinate."""
     if isinstance(joint, SlidingJoint):
-        # the rod of a cylinder is out by the length of that
+        # the rod of a cylinder slides by the change of its length
         return motion.sliders[joint.link].position_1 if joint.link in motion.sliders else 1.0
     own = motion.frames[joint.link].angle_1
     return own if joint.other == GROUND else own - motion.frames[joint.other].angle_1
@@ -222,22 +228,22 @@ def friction_forces(running: Running, friction: Sequence[Friction], *, thorough:
     its sign there is one solution. Where it changes it, the torque has grown beyond all bounds before, or there is none
     that turns the crank: self-locking.
     """
-    return rubbed(running, rubbing_joints(running, friction), thorough=thorough)
+    return solve_with_friction(running, friction_joints(running, friction), thorough=thorough)
 
 
-def rubbed(running: Running, rubbing: Sequence[Rubbing], *, thorough: bool = False) -> FrictionForces:
-    """Return what `friction_forces` does of joints that move as they are said to, whatever pushes the mechanism."""
-    system, wrenches = whole_system(running), link_wrenches(running)
+def solve_with_friction(running: Running, joints: Sequence[FrictionJoint], *, thorough: bool = False) -> FrictionForces:
+    """Return the joint forces with friction for given relative motions in the joints."""
+    system, wrenches = full_equilibrium(running), link_wrenches(running)
     right = system.right_side(wrenches)
-    equations = _Equations(running, system, right, rubbing)
+    equations = _Equations(running, system, right, joints)
     ideal = solve_positions(system.matrix, right)
-    unknowns, residual, status = equations.followed(ideal)
+    unknowns, residual, status = equations.solve(ideal)
     pressing = equations.pressing(unknowns)
-    values = {one.law: one.friction(pressing[one.law]) for one in rubbing}
-    power = sum((-values[one.law] * one.velocity for one in rubbing), np.zeros_like(residual))
-    torque, without = (_driven(running, system, one, wrenches) for one in (unknowns, ideal))
+    values = {joint.law: joint.friction(pressing[joint.law]) for joint in joints}
+    power = sum((-values[joint.law] * joint.velocity for joint in joints), np.zeros_like(residual))
+    torque, without = (_driven(running, system, solution, wrenches) for solution in (unknowns, ideal))
     return FrictionForces(
-        gathered(system.reactions(unknowns), system.joints, torque),
+        collect_reactions(system.reactions(unknowns), system.joints, torque),
         without,
         pressing,
         values,
@@ -259,30 +265,30 @@ def _driven(running: Running, system: Equilibrium, unknowns: Array, wrenches: Wr
 
 
 class _Equations:
-    """The equations of equilibrium with friction, which depends on the forces that they ask for."""
+    """The equilibrium equations with friction, which depends on their unknown forces."""
 
-    def __init__(self, running: Running, system: Equilibrium, right: Array, rubbing: Sequence[Rubbing]) -> None:
+    def __init__(self, running: Running, system: Equilibrium, right: Array, joints: Sequence[FrictionJoint]) -> None:
         self.matrix, self.right = system.matrix, right.copy()
-        # of each joint the column of its first unknown, and what its pressing force does to the links
-        self._parts: list[tuple[Rubbing, int, Array]] = []
-        for one in rubbing:
-            unit = one.unit_effect(running.motion, system)
-            by_force = np.asarray(one.sense * one.factor)
-            self.right -= unit * one.friction(np.zeros_like(by_force))[:, None]
-            self._parts.append((one, 2 * system.joints.index(one.joint), unit * by_force[:, None]))
+        # of each joint: the column of its first unknown, and the effect of its pressing force on the links
+        self._parts: list[tuple[FrictionJoint, int, Array]] = []
+        for joint in joints:
+            unit = joint.unit_effect(running.motion, system)
+            by_force = np.asarray(joint.sense * joint.factor)
+            self.right -= unit * joint.friction(np.zeros_like(by_force))[:, None]
+            self._parts.append((joint, 2 * system.joints.index(joint.joint), unit * by_force[:, None]))
         self._sign = _orientation(self.matrix)
 
     def pressing(self, unknowns: Array) -> dict[Friction, Array]:
         """Return the pressing forces. [N]"""
-        return {one.law: one.pressing(*unknowns[:, at : at + 2].T)[0] for one, at, _ in self._parts}
+        return {joint.law: joint.pressing(*unknowns[:, column : column + 2].T)[0] for joint, column, _ in self._parts}
 
-    def followed(self, start: Array) -> tuple[Array, Array, Status]:
-        """Return the unknowns, the residual and the status, from a start without friction."""
-        unknowns, every = start.copy(), np.arange(len(start))
+    def solve(self, start: Array) -> tuple[Array, Array, Status]:
+        """Return unknowns, residual and status, from a solution without friction."""
+        unknowns, all_rows = start.copy(), np.arange(len(start))
         status = np.where(np.isfinite(start).all(axis=1), CONVERGED, NO_POSITION).astype(np.int8)
         turned, residual = np.zeros(len(start), dtype=bool), np.full(len(start), np.nan)
         for share in _STEPS:
-            rows, turns = every[status == CONVERGED], turned.copy()
+            rows, turns = all_rows[status == CONVERGED], turned.copy()
             for step in range(_ITERATIONS + 1):
                 missing, residual[rows], derivative = self._miss(unknowns[rows], share, rows)
                 turned[rows] = _orientation(derivative) != self._sign[rows]
@@ -296,8 +302,8 @@ class _Equations:
             lost = np.where(settled, turned, turns)
             status[open_yet & lost] = SELF_LOCKING
             status[open_yet & ~lost & ~settled] = NOT_CONVERGED
-        # one step more leaves nothing but rounding
-        rows = every[status == CONVERGED]
+        # after one more step only rounding is left
+        rows = all_rows[status == CONVERGED]
         missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
         unknowns[rows] -= solve_positions(derivative, missing)
         unknowns[status != CONVERGED] = np.nan
@@ -306,25 +312,25 @@ class _Equations:
     def margin(self, unknowns: Array) -> Array:
         """Return the determinant of the equations at a solution over that without friction. [-]"""
         sign, size = np.linalg.slogdet(np.nan_to_num(self._miss(unknowns, 1.0, slice(None))[2]))
-        of, whole = np.linalg.slogdet(np.nan_to_num(self.matrix))
-        ratio = sign * of * np.exp(size - np.where(np.isfinite(whole), whole, 0.0))
+        ideal_sign, ideal_size = np.linalg.slogdet(np.nan_to_num(self.matrix))
+        ratio = sign * ideal_sign * np.exp(size - np.where(np.isfinite(ideal_size), ideal_size, 0.0))
         return np.where(np.isfinite(unknowns).all(axis=1), ratio, np.nan)
 
     def has_another(self, unknowns: Array, ideal: Array) -> Truth:
-        """Return where another solution is found: from the opposite of all forces, or of those in one joint."""
-        found = np.zeros(len(ideal), dtype=bool)
-        for at in (slice(None), *(slice(one, one + 2) for _, one, _ in self._parts)):
+        """Return where another solution is found, from the opposite of all forces or of those in one joint."""
+        result = np.zeros(len(ideal), dtype=bool)
+        for columns in (slice(None), *(slice(column, column + 2) for _, column, _ in self._parts)):
             start = ideal.copy()
-            start[:, at] *= -1
+            start[:, columns] *= -1
             other = self._settled(start)
-            apart = np.max(np.abs(other - unknowns), axis=1, initial=0.0)
-            found |= apart > _APART * np.max(np.abs(unknowns), axis=1, initial=0.0)
-        return found
+            difference = np.max(np.abs(other - unknowns), axis=1, initial=0.0)
+            result |= difference > _MIN_DIFFERENCE * np.max(np.abs(unknowns), axis=1, initial=0.0)
+        return result
 
     def _settled(self, start: Array) -> Array:
-        """Return what Newton's method comes to with all the friction at once, NaN where it comes to nothing."""
+        """Return the result of Newton's method with full friction, NaN without convergence."""
         unknowns, rows, ratio = start, np.arange(len(start)), np.full(len(start), np.nan)
-        for _ in range(_TRIED):
+        for _ in range(_MAX_TRIAL_STEPS):
             missing, ratio[rows], derivative = self._miss(unknowns[rows], 1.0, rows)
             going = ~(ratio[rows] < _TOLERANCE) & np.isfinite(ratio[rows])
             rows = rows[going]
@@ -335,19 +341,19 @@ class _Equations:
         return unknowns
 
     def _miss(self, unknowns: Array, share: float, rows: Rows) -> tuple[Array, Array, Array]:
-        """Return by how much the equilibrium is missed at some positions, as a share of the forces, its derivative."""
+        """Return the residual of the equilibrium at some positions, the same over the forces, and its derivative."""
         matrix, right = self.matrix[rows], self.right[rows]
         missing = (matrix @ unknowns[..., None])[..., 0] - right
         size = (np.abs(matrix) @ np.abs(unknowns)[..., None])[..., 0] + np.abs(right)
         derivative = matrix.copy()
-        for one, at, every in self._parts:
-            effect = every[rows]
-            pressing, by_one, by_two = one.pressing(unknowns[:, at], unknowns[:, at + 1])
+        for joint, column, effects in self._parts:
+            effect = effects[rows]
+            pressing, by_first, by_second = joint.pressing(unknowns[:, column], unknowns[:, column + 1])
             missing += share * effect * pressing[:, None]
             size += np.abs(effect) * pressing[:, None]
-            derivative[:, :, at] += share * effect * by_one[:, None]
-            derivative[:, :, at + 1] += share * effect * by_two[:, None]
-        # of what carries nothing there is only rounding
+            derivative[:, :, column] += share * effect * by_first[:, None]
+            derivative[:, :, column + 1] += share * effect * by_second[:, None]
+        # links that carry nothing have rounding errors only
         size += _SMALL * np.abs(matrix).sum(axis=-1) * np.max(np.abs(unknowns), axis=1)[:, None]
         ratio = np.divide(np.abs(missing), size, out=np.zeros_like(size), where=size != 0)
         return missing, ratio.max(axis=1), derivative
@@ -361,9 +367,9 @@ def _orientation(matrix: Array) -> Array:
 def _efficiency(ideal: Array, actual: Array) -> Array:
     """Return the efficiency, of the crank as driver or of the load; NaN where no torque is needed."""
     forward, backward = (ideal > 0) & (actual != 0), ideal < 0
-    one = np.where(forward, ideal, np.where(backward, actual, np.nan))
-    other = np.where(forward, actual, np.where(backward, ideal, 1.0))
-    return np.asarray(instantaneous_efficiency(one, other))
+    output = np.where(forward, ideal, np.where(backward, actual, np.nan))
+    supplied = np.where(forward, actual, np.where(backward, ideal, 1.0))
+    return np.asarray(instantaneous_efficiency(output, supplied))
 
 
 @formula("friction_radius", "artobolevsky_1988, ch. 11")

@@ -1,4 +1,4 @@
-"""What acts on each link before its joints: loads, and the inertia of its bodies after D'Alembert."""
+"""Wrenches on each link without its joints: loads, and the inertia of its bodies after D'Alembert."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import NamedTuple
 from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, is_known, named
-from crankwork.kinematics.bodies import body_motions, nothing, summed
+from crankwork.kinematics.bodies import body_motions, sum_columns, zero_column
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.dyads import is_nothing
+from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
 
 
 class Wrench(NamedTuple):
-    """Force [N] and moment about the origin of a frame [N m], arrays of shape (n,) or knowns."""
+    """Force [N] and moment about the origin of a frame [N m], arrays of shape (n,) or traced values."""
 
     x: Value
     y: Value
@@ -26,7 +26,7 @@ class Wrench(NamedTuple):
 
 
 class Wrenches:
-    """What acts on each link, gathered until it is asked for."""
+    """Collects the wrenches on each link, which are added on access."""
 
     def __init__(self, motion: Motion) -> None:
         self._grid = motion.grid
@@ -37,10 +37,10 @@ class Wrenches:
         self._parts[link].append(wrench)
 
     def __getitem__(self, link: str) -> Wrench:
-        """Return the sum of what acts on a link so far."""
+        """Return the sum of the wrenches on a link so far."""
         sides = zip(*self._parts[link], strict=True) if self._parts[link] else ((), (), ())
         keys = (f"{key}.{link}" for key in ("link_force_x", "link_force_y", "link_moment"))
-        return Wrench(*(summed(key, side, self._grid) for key, side in zip(keys, sides, strict=True)))
+        return Wrench(*(sum_columns(key, side, self._grid) for key, side in zip(keys, sides, strict=True)))
 
 
 @formula("link_moment", "artobolevsky_1988, ch. 13")
@@ -78,14 +78,15 @@ def inertia_loads(running: Running) -> AppliedLoads:
     w, eps = running.speed, running.angular_acceleration
     forces, torques = [], []
     bodies = body_motions(running.mechanism, running.motion)
-    for name, (body, centre, angle_1, angle_2) in zip(distinct(one.body.link for one in bodies), bodies, strict=True):
-        if not is_nothing(body.mass):
+    names = distinct(moving.body.link for moving in bodies)
+    for name, (body, centre, angle_1, angle_2) in zip(names, bodies, strict=True):
+        if not is_zero(body.mass):
             x, y = (
-                _inertia_force(body.mass, centre_acceleration(one.position_2, w, one.position_1, eps), f"{name}.{axis}")
-                for axis, one in zip("xy", centre, strict=True)
+                _inertia_force(body.mass, centre_acceleration(q_2, w, q_1, eps), f"{name}.{axis}")
+                for axis, (_, q_1, q_2) in zip("xy", centre, strict=True)
             )
             forces.append(AppliedForce(body.link, centre, x, y))
-        if not is_nothing(body.inertia):
+        if not is_zero(body.inertia):
             turning = link_angular_acceleration(angle_2, w, angle_1, eps)
             turning = named(turning, f"link_angular_acceleration.{name}")
             torque = named(link_inertia_torque(body.inertia, turning), f"link_inertia_torque.{name}")
@@ -99,7 +100,7 @@ def _inertia_force(mass: Value, acceleration: Value, name: str) -> Value:
 
 
 def distinct(names: Iterable[str]) -> list[str]:
-    """Return names with a number from the second of the same name on."""
+    """Return names, numbered from the second occurrence of each."""
     seen: Counter[str] = Counter()
     result = []
     for name in names:
@@ -114,34 +115,34 @@ def all_loads(running: Running) -> AppliedLoads:
 
 
 def link_wrenches(running: Running) -> Wrenches:
-    """Return what loads and inertia put on each moving link.
+    """Return the wrenches of loads and inertia on each moving link.
 
     Force [N] and moment about the origin of the frame of each link [N m].
     """
     motion, loads = running.motion, all_loads(running)
-    wrenches, still = Wrenches(motion), nothing(motion.grid)
+    wrenches, still = Wrenches(motion), zero_column(motion.grid)
     names = distinct(f"{force.link}.load" for force in loads.forces)
     for name, force in zip(names, loads.forces, strict=True):
         moment = moment_of(arm(motion.frames[force.link].origin, force.point), (force.x, force.y), name)
         wrenches.add(force.link, Wrench(force.x, force.y, moment))
-    for one in loads.torques:
-        wrenches.add(one.link, Wrench(still, still, one.torque))
+    for torque in loads.torques:
+        wrenches.add(torque.link, Wrench(still, still, torque.torque))
     return wrenches
 
 
 def arm(origin: PointMotion, point: PointMotion) -> tuple[Value, Value]:
-    """Return the way from one point to another. [m]"""
+    """Return the vector from one point to another. [m]"""
     ends, starts = (point.x.position, point.y.position), (origin.x.position, origin.y.position)
-    if all(is_known(one, other) and one.node is other.node for one, other in zip(ends, starts, strict=True)):
+    if all(is_known(end, start) and end.node is start.node for end, start in zip(ends, starts, strict=True)):
         return absent("arm_x"), absent("arm_y")
     return ends[0] - starts[0], ends[1] - starts[1]
 
 
-def moment_of(way: tuple[Value, Value], force: tuple[Value, Value], name: str = "") -> Value:
+def moment_of(lever: tuple[Value, Value], force: tuple[Value, Value], name: str = "") -> Value:
     """Return the moment of a force with an arm; absent where it has none."""
-    if all(is_known(one) and one.is_absent for one in way):
+    if all(is_known(component) and component.is_absent for component in lever):
         return absent("link_moment")
-    return named(moment_about(way[0], force[1], way[1], force[0]), f"link_moment.{name}")
+    return named(moment_about(lever[0], force[1], lever[1], force[0]), f"link_moment.{name}")
 
 
 def cross(a: tuple[Array, Array], b: tuple[Array, Array]) -> Array:

@@ -1,4 +1,4 @@
-"""Masses of the crank gear: the rod as two masses, three masses or a rigid body; pendulum tests."""
+"""Masses of the crank mechanism: the rod as two masses, three masses or a rigid body; pendulum tests."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def rotating_mass(m_k: Value, m_2: Value) -> Value:
 
 @dataclass(frozen=True)
 class CrankGearMasses:
-    """Masses of one crank gear. [kg], [kg m2]"""
+    """Masses of one crank mechanism. [kg], [kg m2]"""
 
     # Piston group; unbalanced crank throw at the crankpin [kg]
     piston: float = 0.0
@@ -47,7 +47,7 @@ class CrankGearMasses:
     rod_small_end: float = 0.0
     rod_big_end: float = 0.0
     crank: float = 0.0
-    # Inertia of the rod beyond that of the two masses; zero where nothing more is known [kg m2]
+    # Inertia of the rod beyond that of the two masses; zero if it is unknown [kg m2]
     rod_inertia_excess: float = 0.0
 
     @property

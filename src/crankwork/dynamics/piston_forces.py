@@ -133,10 +133,10 @@ class RodForces(NamedTuple):
 
 
 def rod_forces(P: Value, grid: CrankGrid, swing: RodSwing, *, dN: Value = 0.0, F_wn: Value = 0.0) -> RodForces:
-    """Return the forces of a rod: of two masses, or with what the correction couple of the rigid rod adds. [N]
+    """Return the forces of a rod of two masses, with the effect of the correction couple of a rigid rod. [N]
 
     `P`: force on the piston pin along the cylinder axis [N]; `F_wn`: weight across the axis, which the wall carries
-    beside the rod [N]. Source: kolchin_demidov_2008, ch. 7; khurmi_gupta_2005, ch. 15, for the couple.
+    directly [N]. Source: kolchin_demidov_2008, ch. 7; khurmi_gupta_2005, ch. 15, for the couple.
     """
     return RodForces(
         side_force(P, swing.sin, swing.cos, dN, F_wn),

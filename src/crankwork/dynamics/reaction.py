@@ -1,4 +1,4 @@
-"""What a joint puts on the link that it holds: a force in a pin, a normal force and its moment on a guide."""
+"""Reactions of joints: a force in a pin, a normal force and its moment on a guide."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ import numpy as np
 from crankwork.dynamics.link_loads import Wrench, arm, moment_of
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import is_known, named
-from crankwork.kinematics.bodies import nothing
-from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.bodies import zero_column
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
@@ -44,7 +43,7 @@ class PinForce(NamedTuple):
 
 
 class GuideForce(NamedTuple):
-    """Normal force of a guide on its piece, to the left of the way it counts [N], and its moment there [N m].
+    """Normal force of a guide on its piece, to the left of the guide direction [N], and its moment there [N m].
 
     Both are arrays of shape (n,); the moment is about the origin of the piece, positive anticlockwise.
     """
@@ -58,22 +57,21 @@ Reaction = PinForce | GuideForce
 
 
 def joint_place(joint: Joint, motion: Motion) -> PointMotion:
-    """Return where a joint is: its pin, or the origin of its sliding piece."""
+    """Return the position of a joint: its pin, or the origin of its sliding piece."""
     if isinstance(joint, Pin) and joint.point:
         return motion.points[joint.point]
     return motion.frames[joint.link].origin
 
 
 def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
-    """Return what a joint puts on one of its two links.
+    """Return the wrench of a joint on one of its two links.
 
-    Force [N] and moment about the origin of the frame of `link` [N m]. `link`: the link that is held, or the other
-    one.
+    Force [N] and moment about the origin of the frame of `link` [N m].
     """
     joint = reaction.joint
     match reaction:
         case PinForce(_, x, y):
-            couple = nothing(motion.grid)
+            couple = zero_column(motion.grid)
         case GuideForce(_, normal, couple):
             guide = motion.frames[joint.link]
             x, y = -guide.sin * normal, guide.cos * normal
@@ -84,8 +82,8 @@ def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
     if link == joint.link:
         return Wrench(x, y, moment)
     x, y, moment = (
-        named(-one, f"{key}.{link}.from.{joint.name}")
-        for key, one in zip(("link_force_x", "link_force_y", "link_moment"), (x, y, moment), strict=True)
+        named(-value, f"{key}.{link}.from.{joint.name}")
+        for key, value in zip(("link_force_x", "link_force_y", "link_moment"), (x, y, moment), strict=True)
     )
     return Wrench(x, y, moment)
 
@@ -102,9 +100,9 @@ class JointForces:
     teeth: Mapping[str, tuple[Value, Value]] = field(default_factory=dict)
 
 
-def gathered(reactions: Mapping[Joint, Reaction], order: tuple[Joint, ...], balancing_torque: Array) -> JointForces:
+def collect_reactions(reactions: Mapping[Joint, Reaction], order: tuple[Joint, ...], torque: Value) -> JointForces:
     """Return reactions in the order of the joints."""
-    found = [reactions[joint] for joint in order]
-    pins = {one.joint.name: one for one in found if isinstance(one, PinForce)}
-    guides = {one.joint.name: one for one in found if isinstance(one, GuideForce)}
-    return JointForces(pins, guides, balancing_torque)
+    ordered = [reactions[joint] for joint in order]
+    pins = {reaction.joint.name: reaction for reaction in ordered if isinstance(reaction, PinForce)}
+    guides = {reaction.joint.name: reaction for reaction in ordered if isinstance(reaction, GuideForce)}
+    return JointForces(pins, guides, torque)

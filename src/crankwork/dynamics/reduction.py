@@ -1,4 +1,4 @@
-"""A whole mechanism as one turning mass: reduced inertia and its derivative, reduced torque, kinetic energy."""
+"""Reduction of a mechanism to one rotating mass: reduced inertia and its derivative, torque, kinetic energy."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from crankwork.dynamics.link_loads import distinct
 from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import named
-from crankwork.kinematics.bodies import body_motions, everywhere, summed
-from crankwork.kinematics.dyads import is_nothing
+from crankwork.kinematics.bodies import body_motions, broadcast, sum_columns
+from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
@@ -73,14 +73,15 @@ class ReducedInertia(NamedTuple):
     inertia_1: Value
 
 
-def reduced_inertia(mechanism: Mechanism, motion: Motion, beside: Value = 0.0) -> ReducedInertia:
+def reduced_inertia(mechanism: Mechanism, motion: Motion, additional: Value = 0.0) -> ReducedInertia:
     """Return the reduced moment of inertia of a mechanism and its exact derivative. [kg m2]
 
     J and dJ/dphi, zero without bodies. Source: artobolevsky_1988, ch. 15.
     """
     inertia, inertia_1 = [], []
     bodies = body_motions(mechanism, motion)
-    for name, (body, (x, y), angle_1, angle_2) in zip(distinct(one.body.link for one in bodies), bodies, strict=True):
+    names = distinct(moving.body.link for moving in bodies)
+    for name, (body, (x, y), angle_1, angle_2) in zip(names, bodies, strict=True):
         m, inertia_s = body.mass, body.inertia
         part = reduced_inertia_of_body(m, x.position_1, y.position_1, inertia_s, angle_1)
         part_1 = reduced_inertia_1_of_body(
@@ -88,10 +89,10 @@ def reduced_inertia(mechanism: Mechanism, motion: Motion, beside: Value = 0.0) -
         )
         inertia.append(named(part, f"reduced_inertia.{name}"))
         inertia_1.append(named(part_1, f"reduced_inertia_1.{name}"))
-    if not is_nothing(beside):
-        inertia.append(everywhere(beside, motion.grid))
-    whole = summed("reduced_inertia", inertia, motion.grid)
-    return ReducedInertia(whole, summed("reduced_inertia_1", inertia_1, motion.grid))
+    if not is_zero(additional):
+        inertia.append(broadcast(additional, motion.grid))
+    total = sum_columns("reduced_inertia", inertia, motion.grid)
+    return ReducedInertia(total, sum_columns("reduced_inertia_1", inertia_1, motion.grid))
 
 
 def reduced_torque(motion: Motion, loads: AppliedLoads) -> Value:
@@ -99,16 +100,16 @@ def reduced_torque(motion: Motion, loads: AppliedLoads) -> Value:
 
     Torque, positive with the rotation.
     """
-    return summed("reduced_torque", _parts(loads), motion.grid)
+    return sum_columns("reduced_torque", _parts(loads), motion.grid)
 
 
 def _parts(loads: AppliedLoads) -> Iterable[Value]:
-    names = iter(distinct([*(one.link for one in loads.forces), *(one.link for one in loads.torques)]))
+    names = iter(distinct([*(load.link for load in loads.forces), *(load.link for load in loads.torques)]))
     for force in loads.forces:
         part = reduced_torque_of_force(force.x, force.point.x.position_1, force.y, force.point.y.position_1)
         yield named(part, f"reduced_torque.{next(names)}")
-    for one in loads.torques:
-        yield named(reduced_torque_of_torque(one.torque, one.angle_1), f"reduced_torque.{next(names)}")
+    for torque in loads.torques:
+        yield named(reduced_torque_of_torque(torque.torque, torque.angle_1), f"reduced_torque.{next(names)}")
 
 
 class CrankTorque(NamedTuple):
@@ -122,12 +123,12 @@ class CrankTorque(NamedTuple):
 
     @property
     def driving(self) -> Value:
-        """The torque that the crank needs. [N m]"""
+        """The driving torque of the crank. [N m]"""
         return self.static + self.dynamic
 
 
 def crank_torque(running: Running) -> CrankTorque:
-    """Return the torque that the crank needs without friction, from energy (artobolevsky_1988, ch. 16). [N m]"""
+    """Return the torque needed at the crank without friction, from energy (artobolevsky_1988, ch. 16). [N m]"""
     inertia, inertia_1 = reduced_inertia(running.mechanism, running.motion)
     dynamic = dynamic_torque(running.speed, inertia_1, inertia, running.angular_acceleration)
     return CrankTorque(static_torque(reduced_torque(running.motion, running.loads)), dynamic)

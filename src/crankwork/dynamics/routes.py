@@ -1,4 +1,4 @@
-"""The routes to the torque on the crank: by the forces in joints, and four that share no formula with them."""
+"""Independent methods for the torque on the crank: from joint forces, and four that share no formula with them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from crankwork.dynamics.force_system import plain_loads, system_joint_forces
+from crankwork.dynamics.force_system import numeric_loads, system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import cross
 from crankwork.dynamics.reduction import crank_torque
@@ -15,37 +15,37 @@ from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import Array
 
 
-def by_groups(running: Running) -> Array:
-    """Return the torque that the forces in joints end in, group after group to the crank. [N m]"""
+def torque_by_groups(running: Running) -> Array:
+    """Return the torque from the joint forces, group after group to the crank. [N m]"""
     return np.asarray(joint_forces(running).balancing_torque)
 
 
-def whole_system(running: Running) -> Array:
+def torque_by_full_system(running: Running) -> Array:
     """Return the torque from one linear system of all links. [N m]"""
     return np.asarray(system_joint_forces(running).balancing_torque)
 
 
-def energy(running: Running) -> Array:
+def torque_by_energy(running: Running) -> Array:
     """Return the torque from the work of the loads and the change of the kinetic energy. [N m]"""
     return np.asarray(crank_torque(running).driving)
 
 
 def zhukovsky_torque(running: Running) -> Array:
-    """Return the balancing torque from the moments of all forces on the velocity plan turned by a right angle. [N m]
+    """Return the balancing torque from the moments of all forces on the rotated velocity polygon. [N m]
 
     Torque on the crank, positive with the rotation. Source: artobolevsky_1988, ch. 15.
 
-    The plan is drawn for an angular speed of 1 rad/s and turned clockwise; each force stands at the end of the
-    velocity of its point. A torque is a pair of forces, square to its link at its origin and a unit length along it.
+    The polygon is drawn for an angular speed of 1 rad/s and rotated clockwise by 90 degrees; each force acts at the tip
+    of the velocity of its point. A torque is a pair of forces, square to its link at its origin and a unit along it.
     """
-    motion, loads = running.motion, plain_loads(running)
+    motion, loads = running.motion, numeric_loads(running)
     moment = np.zeros_like(motion.grid.angle)
     for force in loads.forces:
         moment += cross((force.point.y.position_1, -force.point.x.position_1), (force.x, force.y))
-    for one in loads.torques:
-        frame = motion.frames[one.link]
+    for torque in loads.torques:
+        frame = motion.frames[torque.link]
         x, y = frame.origin.x.position_1, frame.origin.y.position_1
-        across = -frame.sin * one.torque, frame.cos * one.torque
+        across = -frame.sin * torque.torque, frame.cos * torque.torque
         end_x, end_y = x - frame.angle_1 * frame.sin, y + frame.angle_1 * frame.cos
         moment += cross((end_y, -end_x), across) - cross((y, -x), across)
     return -moment
@@ -56,15 +56,16 @@ def virtual_work_torque(running: Running) -> Array:
 
     Torque on the crank, positive with the rotation.
     """
-    loads = plain_loads(running)
+    loads = numeric_loads(running)
     power = np.zeros_like(running.motion.grid.angle)
     for force in loads.forces:
         power += force.x * force.point.x.position_1 + force.y * force.point.y.position_1
-    for one in loads.torques:
-        power += one.torque * one.angle_1
+    for torque in loads.torques:
+        power += torque.torque * torque.angle_1
     return -power
 
 
-ROUTES: Mapping[str, Callable[[Running], Array]] = MappingProxyType({
-    "whole_system": whole_system, "zhukovsky": zhukovsky_torque, "virtual_work": virtual_work_torque, "energy": energy,
+TORQUE_METHODS: Mapping[str, Callable[[Running], Array]] = MappingProxyType({
+    "whole_system": torque_by_full_system, "zhukovsky": zhukovsky_torque, "virtual_work": virtual_work_torque,
+    "energy": torque_by_energy,
 })  # fmt: skip

@@ -1,4 +1,4 @@
-"""A mechanism at work, as everything in this room takes it."""
+"""The operating state of a mechanism, the input of this package."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from crankwork.mechanism.mechanism import Mechanism
 
 @dataclass(frozen=True)
 class Running:
-    """A mechanism at work: what it is, how it moves, how fast it runs and what pushes it."""
+    """A mechanism in operation: links, motion, speed and loads."""
 
     mechanism: Mechanism  # Links, joints and bodies
     motion: Motion

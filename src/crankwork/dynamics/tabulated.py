@@ -38,8 +38,8 @@ def difference_derivative(crank_angle: ArrayLike, values: ArrayLike, scheme: Dif
 
     Differences are to the next angle, from the last to the next, or of the trigonometric polynomial through all values.
 
-    Forward and central differences are how documents are made. For a computed motion the exact derivative is at
-    hand, see `reduction.reduced_inertia`.
+    Forward and central differences are those of printed tables. For a computed motion the exact derivative is
+    available, see `reduction.reduced_inertia`.
     """
     angle, column = np.asarray(crank_angle, dtype=float), np.asarray(values, dtype=float)
     next_angle = np.append(angle[1:], angle[0] + 2 * np.pi)

@@ -1,4 +1,4 @@
-"""Whether a group can be assembled: where it cannot, by how much, and what would help."""
+"""Whether a group can be assembled; if not, by how much it fails, and advice."""
 
 from __future__ import annotations
 
@@ -15,15 +15,12 @@ from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 
-# square of the sine of the smallest angle between links whose transfer functions still mean something
+# square of the sine of the smallest angle between links at which transfer functions are still accurate
 _SINGULAR = 1e-13
 
 
 def unassembled(closure: Closure) -> NDArray[np.bool_] | None:
-    """Return where a group does not close or is singular, or None if it closes everywhere.
-
-    True where it does not.
-    """
+    """Return where a group does not close or is singular, or None if it closes everywhere."""
     value = closure.value
     limit = _SINGULAR * closure.scale
     if value.min() > limit:
@@ -31,60 +28,60 @@ def unassembled(closure: Closure) -> NDArray[np.bool_] | None:
     return ~(value > limit)
 
 
-def refusal(group: Dyad | Chain, closure: Closure, grid: CrankGrid, bad: NDArray[np.bool_]) -> GeometryError:
-    """Return the error that says where and by how much a group cannot be assembled, and what would help."""
+def assembly_error(group: Dyad | Chain, closure: Closure, grid: CrankGrid, bad: NDArray[np.bool_]) -> GeometryError:
+    """Return the error at the angle where assembly fails worst: the gap, and advice."""
     value = np.where(bad, np.nan_to_num(closure.value, nan=-np.inf), np.inf)
     worst = int(np.argmin(value))
     singular = abs(float(closure.value.flat[worst])) <= _SINGULAR * closure.scale
-    at = float(grid.degrees[worst])
-    told = _singular(group, at) if singular else _missing(group, float(closure.excess.flat[worst]), at)
-    return GeometryError(told)
+    angle = float(grid.degrees[worst])
+    message = _singular(group, angle) if singular else _missing(group, float(closure.excess.flat[worst]), angle)
+    return GeometryError(message)
 
 
-def _singular(group: Dyad | Chain, at: float) -> Refusal:
-    """Return what is singular, and what would help; `at`: the crank angle [deg]."""
+def _singular(group: Dyad | Chain, angle: float) -> Refusal:
+    """Return the message that a group is singular at a crank angle, with advice. [deg]"""
     match group:
         case RRR():
-            return Refusal("rrr_singular", first=group.link_a, second=group.link_b, angle=at)
+            return Refusal("rrr_singular", first=group.link_a, second=group.link_b, angle=angle)
         case RRP():
-            return Refusal("rrp_singular", link=group.link, slider=group.slider, angle=at)
+            return Refusal("rrp_singular", link=group.link, slider=group.slider, angle=angle)
         case RPR():
-            return Refusal("rpr_singular", pin=group.joint, link=group.link, angle=at)
+            return Refusal("rpr_singular", pin=group.joint, link=group.link, angle=angle)
         case PRP():
-            return Refusal("prp_singular", first=group.block_a, second=group.block_b, angle=at)
+            return Refusal("prp_singular", first=group.block_a, second=group.block_b, angle=angle)
         case RPP():
-            return Refusal("rpp_singular", link=group.link, angle=at)
+            return Refusal("rpp_singular", link=group.link, angle=angle)
         case Chain():
-            return Refusal("chain_singular", links=_names(group), angle=at)
+            return Refusal("chain_singular", links=_names(group), angle=angle)
 
 
-def _missing(group: Dyad | Chain, measure: float, at: float) -> Refusal:
-    """Return what does not meet, by how much, and what would help; `at`: the crank angle [deg]."""
+def _missing(group: Dyad | Chain, measure: float, angle: float) -> Refusal:
+    """Return the message that a group does not meet at a crank angle, by how much, with advice. [deg]"""
     match group:
         case RRR():
-            return _apart(group, measure, at)
+            return _gap_message(group, measure, angle)
         case RRP():
             short = (abs(measure) - group.length) * 1e3
-            return Refusal("rrp_short", link=group.link, slider=group.slider, missing=short, angle=at)
+            return Refusal("rrp_short", link=group.link, slider=group.slider, missing=short, angle=angle)
         case RPR():
             short = _slot_offset(group, measure) * 1e3
-            return Refusal("rpr_near", pin=group.joint, pivot=group.pivot, link=group.link, missing=short, angle=at)
+            return Refusal("rpr_near", pin=group.joint, pivot=group.pivot, link=group.link, missing=short, angle=angle)
         case PRP() | RPP():
-            return _singular(group, at)
+            return _singular(group, angle)
         case Chain():
             start = math.degrees(group.start)
-            return Refusal("chain_lost", links=_names(group), start=start, angle=at)
+            return Refusal("chain_lost", links=_names(group), start=start, angle=angle)
 
 
 def _names(chain: Chain) -> str:
     return ", ".join(link.name for link in chain.links)
 
 
-def _apart(group: RRR, square: float, at: float) -> Refusal:
+def _gap_message(group: RRR, square: float, angle: float) -> Refusal:
     p, q, distance = group.length_a, group.length_b, math.sqrt(square)
     names = {
         "first": group.link_a, "second": group.link_b, "point": group.point,
-        "joint": group.joint_a, "other": group.joint_b, "angle": at,
+        "joint": group.joint_a, "other": group.joint_b, "angle": angle,
     }  # fmt: skip
     if distance > p + q:
         return Refusal("rrr_short", **names, missing=(distance - p - q) * 1e3)
@@ -102,20 +99,20 @@ def singular_between(
 ) -> Iterator[tuple[int, float]]:
     """Yield the intervals between ascending angles in which a group does not close, and an angle in each. [rad]
 
-    Where a smooth function is least it is convex, and there the secants of its neighbours bound it from below.
-    Only an interval in which that bound is negative is looked at more closely. `singular`: what is as good as zero.
+    Near a minimum a smooth function is convex, and the secants of the neighbouring intervals bound it from below; only
+    intervals with a negative bound are refined. `singular`: tolerance of zero.
     """
     angle = grid.angle
     if angle.size < 3 or closure.value.size != angle.size:
         return
-    for index in suspects(angle, closure.value):
-        found = _narrowed(angle[index], angle[index + 1], closure.scale * singular, closure_at)
-        if found is not None:
-            yield int(index), found
+    for index in suspect_intervals(angle, closure.value):
+        singular_angle = _narrowed(angle[index], angle[index + 1], closure.scale * singular, closure_at)
+        if singular_angle is not None:
+            yield int(index), singular_angle
 
 
-def suspects(angle: Array, value: Array) -> NDArray[np.intp]:
-    """Return the intervals in which a locally convex function may reach zero, by the secants beside them."""
+def suspect_intervals(angle: Array, value: Array) -> NDArray[np.intp]:
+    """Return the intervals in which a locally convex function may reach zero, by the secants of their neighbours."""
     least = value.min()
     step, rise = angle[1:] - angle[:-1], value[1:] - value[:-1]
     shortest = step.min()
@@ -129,14 +126,14 @@ def suspects(angle: Array, value: Array) -> NDArray[np.intp]:
 
 
 def _narrowed(low: float, high: float, singular: float, closure_at: Callable[[CrankGrid], Closure]) -> float | None:
-    """Return an angle of a range at which a group does not close, or None, by looking ever closer."""
+    """Return an angle of an interval at which a group does not close, by repeated refinement, or None."""
     for _ in range(12):
         angle = np.linspace(low, high, 33)
         value = np.nan_to_num(closure_at(CrankGrid.from_radians(angle)).value, nan=-1.0)
         worst = int(np.argmin(value))
         if value[worst] <= singular:
             return float(angle[worst])
-        within = suspects(angle, value)
+        within = suspect_intervals(angle, value)
         if not within.size:
             return None
         low, high = angle[within[0]], angle[within[-1] + 1]

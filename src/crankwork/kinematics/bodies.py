@@ -17,7 +17,7 @@ from crankwork.mechanism.mechanism import Body, Mechanism
 
 
 class BodyMotion(NamedTuple):
-    """A moving mass: its centre [m] and its rates of turning [-], arrays of shape (n,); `body` says how heavy."""
+    """The motion of a body: its centre of mass [m] and its rates of rotation [-], arrays of shape (n,)."""
 
     body: Body
     centre: PointMotion
@@ -39,8 +39,8 @@ def centre_of_mass(body: Body, motion: Motion) -> PointMotion:
     if body.start == body.end or body.share == 0:
         return start
     x, y = (
-        Transfer(*(one + body.share * (other - one) for one, other in zip(mine, its, strict=True)))
-        for mine, its in zip(start, end, strict=True)
+        Transfer(*(a + body.share * (b - a) for a, b in zip(at_start, at_end, strict=True)))
+        for at_start, at_end in zip(start, end, strict=True)
     )
     return PointMotion(x, y)
 
@@ -48,31 +48,31 @@ def centre_of_mass(body: Body, motion: Motion) -> PointMotion:
 def _rates(body: Body, motion: Motion) -> tuple[Value, Value]:
     if body.link in motion.frames:
         frame = motion.frames[body.link]
-        return everywhere(frame.angle_1, motion.grid), everywhere(frame.angle_2, motion.grid)
+        return broadcast(frame.angle_1, motion.grid), broadcast(frame.angle_2, motion.grid)
     if body.link in motion.links:
         _, angle_1, angle_2 = motion.links[body.link]
-        return everywhere(angle_1, motion.grid), everywhere(angle_2, motion.grid)
+        return broadcast(angle_1, motion.grid), broadcast(angle_2, motion.grid)
     if body.inertia:
         raise GeometryError(
             f"body {body.link} has a moment of inertia, but the motion does not say how it turns; "
             "add its rotation, or set its inertia to zero if it only slides"
         )
-    return nothing(motion.grid), nothing(motion.grid)
+    return zero_column(motion.grid), zero_column(motion.grid)
 
 
-def nothing(grid: CrankGrid) -> Value:
-    """Return zero at every crank angle, or an absent value where columns are remembered."""
+def zero_column(grid: CrankGrid) -> Value:
+    """Return a column of zeros, an absent value for a traced motion."""
     return absent("") if is_known(grid.angle) else np.zeros_like(grid.angle)
 
 
-def everywhere(value: Value, grid: CrankGrid) -> Value:
-    """Return a value at every crank angle; a known is that already."""
+def broadcast(value: Value, grid: CrankGrid) -> Value:
+    """Return a value as a column over the crank angle; traced values stay as they are."""
     return value if is_known(value, grid.angle) else value + np.zeros_like(grid.angle)
 
 
-def summed(key: str, terms: Iterable[Value], grid: CrankGrid) -> Value:
-    """Return the sum of columns in their order; of none, nothing."""
+def sum_columns(key: str, terms: Iterable[Value], grid: CrankGrid) -> Value:
+    """Return the sum of columns in their order, zero for no columns."""
     if not is_known(grid.angle):
         return sum(terms, np.zeros_like(grid.angle))
-    stated = [one for one in terms if not (is_known(one) and one.is_absent)]
+    stated = [term for term in terms if not (is_known(term) and term.is_absent)]
     return total(key, stated) if stated else absent(key)

@@ -1,4 +1,4 @@
-"""The quantities of a dyad led over change points, as numbers and as knowns."""
+"""The quantities of a dyad across change points, as numbers and as traced values."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ import numpy as np
 from crankwork.formula.known import Known, Pieces, Table, absent, given, is_known
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dyads import Through
-from crankwork.mechanism.passage import Passage
+from crankwork.mechanism.passage import ChangePointPassage
 
-# beyond every angle, and the beginning of a turn so that no column breaks there
+# beyond every angle, and a multiple of a turn so that no column has a breakpoint there
 BEYOND = 360e3
-_BESIDE = 1e-3
+_OFFSET = 1e-3
 
 
-def passed_branch(passage: Passage, branch: Any, grid: CrankGrid) -> Any:  # noqa: ANN401 - a known or a number
-    """Return the branch of a dyad at crank angles: with each change point it changes."""
+def branch_sign(passage: ChangePointPassage, branch: Any, grid: CrankGrid) -> Any:  # noqa: ANN401 - a known or a number
+    """Return the branch of a dyad at crank angles; it changes at each change point."""
     if not is_known(branch):
         return branch * passage.signs(grid.degrees)
     ends = np.array([*passage.changes, BEYOND])
-    # each law is that of a place within its stretch
-    signs = passage.signs(np.array([*(one - _BESIDE for one in passage.changes), passage.changes[-1] + _BESIDE]))
+    # the sign of each interval is sampled inside it
+    signs = passage.signs(np.array([*(change - _OFFSET for change in passage.changes), passage.changes[-1] + _OFFSET]))
     signs = signs * branch.value
     laws = [absent("branch", 1.0) if sign > 0 else given("branch", -1.0) for sign in signs]
     return Known(Pieces(ends.tolist(), tuple(laws)), "branch")
 
 
-def over_bridges(passage: Passage, grid: CrankGrid) -> Through:
-    """Return what replaces the quantities of a dyad about its change points by polynomials."""
+def change_point_replacement(passage: ChangePointPassage, grid: CrankGrid) -> Through:
+    """Return the function that replaces quantities of a dyad near its change points by polynomials."""
 
     def through(key: str, value: Any) -> Any:  # noqa: ANN401 - a known or a number
         if is_known(value):
@@ -43,8 +43,8 @@ def over_bridges(passage: Passage, grid: CrankGrid) -> Through:
     return through
 
 
-def _remembered(passage: Passage, key: str, known: Known) -> Known:
-    """Return a quantity that follows its formula, and polynomials about change points."""
+def _remembered(passage: ChangePointPassage, key: str, known: Known) -> Known:
+    """Return a traced quantity: polynomials near change points, the formula elsewhere."""
     ends, laws = [], []
     for bridge in passage.bridges:
         ends += [bridge.degrees - bridge.width, bridge.degrees + bridge.width]

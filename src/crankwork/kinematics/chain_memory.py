@@ -1,19 +1,19 @@
-"""A chain that is solved numerically, remembered: its coordinates are the root of its closing equations."""
+"""Traced motion of a chain that is solved numerically: its coordinates are a root of the closure equations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from crankwork.formula.known import Component, Known, Root, absent, given
-from crankwork.kinematics.closing import Surroundings, is_stretched
+from crankwork.kinematics.closing import ChainBoundary, is_stretched
 from crankwork.kinematics.dyads import (
     LinkMotion,
     guide_on_link,
+    in_link_frame,
     named_link,
     named_point,
     point_on_guide,
     point_on_link,
-    seen_from,
 )
 from crankwork.kinematics.loops import ChainMotion
 from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
@@ -23,11 +23,10 @@ from crankwork.mechanism.chain import Chain, ChainLink
 _KEYS = ("point_x", "point_y", "link_angle")
 
 
-def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMotion:
-    """Return the motion of a chain of links as knowns.
+def remembered_chain(chain: Chain, boundary: ChainBoundary, root: Root) -> ChainMotion:
+    """Return the traced motion of a chain of links, with points, frames and distances by the formulas of any link.
 
-    Points, frames and distances by the same formulas as those of any link. `root`: gives the coordinates of all links
-    and their derivatives; its equations are noted here.
+    `root`: gives the coordinates of all links and their derivatives; its residuals are set here.
     """
     count = 3 * len(chain.links)
 
@@ -43,8 +42,8 @@ def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMot
         frames[link.name] = named_link(frame, link.name)
     places = {
         (link.name, name): named_point(
-            point_on_guide(frames[link.name], around.lengths[link.name])
-            if is_stretched(link, name, around)
+            point_on_guide(frames[link.name], boundary.lengths[link.name])
+            if is_stretched(link, name, boundary)
             else _point(frames[link.name], name, place, _path(chain, link, name)),
             name,
         )
@@ -55,23 +54,23 @@ def remembered_chain(chain: Chain, around: Surroundings, root: Root) -> ChainMot
     for (_, name), place in places.items():
         points.setdefault(name, place)
     lines = {
-        one.link: guide_on_link(frames[one.guide.link], one.guide)
-        if one.guide.link in frames
-        else around.guide(one.guide)
-        for one in chain.slides
+        slide.link: guide_on_link(frames[slide.guide.link], slide.guide)
+        if slide.guide.link in frames
+        else boundary.guide(slide.guide)
+        for slide in chain.slides
     }
     root.residuals = (
-        *_pins(chain, places, points | {name: around.points[name] for name in chain.known}),
+        *_pins(chain, places, points | {name: boundary.points[name] for name in chain.known}),
         *_slides(chain, frames, lines),
     )
-    sliders = {link: seen_from(line, frames[link].origin).x for link, line in lines.items()}
-    own = {name: one for name, one in points.items() if name not in chain.known}
+    sliders = {link: in_link_frame(line, frames[link].origin).x for link, line in lines.items()}
+    own = {name: point for name, point in points.items() if name not in chain.known}
     return ChainMotion(own, frames, sliders, None)
 
 
 def _path(chain: Chain, link: ChainLink, name: str) -> str:
-    """Return where a description states a point of a link, that of the second joint of a bar by its length."""
-    if any(one.link == link.name for one in chain.slides):
+    """Return the path of a point in a description; the second joint of a bar is stated by the length."""
+    if any(slide.link == link.name for slide in chain.slides):
         return f"sliders.{link.name}.points.{name}"
     return f"links.{link.name}.length" if [*link.points].index(name) == 1 else f"links.{link.name}.points.{name}"
 
@@ -88,7 +87,7 @@ def _point(frame: LinkMotion, name: str, place: tuple[float, float], path: str) 
 
 
 def _pins(chain: Chain, places: dict[tuple[str, str], PointMotion], anchors: dict[str, PointMotion]) -> Iterator[Known]:
-    """Yield what is left open at the pins, along x and y."""
+    """Yield the residuals of the pins, along x and y."""
     for (_, name), place in places.items():
         shared = name in chain.known or place is not anchors[name]
         for axis, end, anchor in zip("xy", place, anchors[name], strict=True):
@@ -97,8 +96,8 @@ def _pins(chain: Chain, places: dict[tuple[str, str], PointMotion], anchors: dic
 
 
 def _slides(chain: Chain, frames: dict[str, LinkMotion], lines: dict[str, LinkMotion]) -> Iterator[Known]:
-    """Yield how far pieces are from their guides, and the sines of the angles between them."""
-    for one in chain.slides:
-        frame, line = frames[one.link], lines[one.link]
-        yield seen_from(line, frame.origin).y.position.named(f"guide_across.{one.link}")
-        yield sine_of_turned(frame.sin, line.cos, -frame.cos, line.sin).named(f"guide_sine.{one.link}")
+    """Yield the residuals of the slides: distance from the guide, and the sine of the angle to it."""
+    for slide in chain.slides:
+        frame, line = frames[slide.link], lines[slide.link]
+        yield in_link_frame(line, frame.origin).y.position.named(f"guide_across.{slide.link}")
+        yield sine_of_turned(frame.sin, line.cos, -frame.cos, line.sin).named(f"guide_sine.{slide.link}")

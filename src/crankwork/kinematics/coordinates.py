@@ -1,34 +1,34 @@
-"""What is measured on positions of a linkage: angles, distances, places of sliders, the coordinate of a driver."""
+"""Coordinates of a linkage in a position: angles, distances, positions of sliders, the driver's coordinate."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import NamedTuple
 
-from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, seen_from
+from crankwork.kinematics.dyads import LinkMotion, fixed_guide, guide_on_link, in_link_frame
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import Guide
 from crankwork.mechanism.mechanism import Mechanism
 
 
-class Stretch(NamedTuple):
-    """Some positions of a circuit: directions and frames of all links, derivatives by the arc."""
+class Configurations(NamedTuple):
+    """Some positions on a circuit: directions and frames of all links, with derivatives by the arc."""
 
     angles: dict[str, Transfer]
     frames: dict[str, LinkMotion]
 
 
-Coordinate = Callable[[Stretch], Transfer]
+Coordinate = Callable[[Configurations], Transfer]
 
 
 def link_angle(name: str) -> Coordinate:
     """Return the direction of a link from the x axis. [rad]"""
-    return lambda there: there.angles[name]
+    return lambda poses: poses.angles[name]
 
 
 def driver_coordinate(mechanism: Mechanism) -> Coordinate:
-    """Return what drives: a crank angle or the angle between two links [rad], a distance or a length [m]."""
+    """Return the driver's coordinate: a crank angle or an angle between links [rad], a distance or a length [m]."""
     driver = mechanism.driver
     match driver:
         case DrivingSlider():
@@ -38,8 +38,8 @@ def driver_coordinate(mechanism: Mechanism) -> Coordinate:
         case LinkMotor():
             return relative_angle(*driver.links)
 
-    def coordinate(there: Stretch) -> Transfer:
-        angle = there.angles[driver.link]
+    def coordinate(poses: Configurations) -> Transfer:
+        angle = poses.angles[driver.link]
         rate = driver.direction * angle.position_1
         return Transfer(driver.direction * (angle.position - driver.start), rate, angle.position_2)
 
@@ -48,15 +48,15 @@ def driver_coordinate(mechanism: Mechanism) -> Coordinate:
 
 def relative_angle(link: str, other: str) -> Coordinate:
     """Return the angle from one link to another. [rad]"""
-    return lambda there: Transfer(*(b - a for a, b in zip(there.angles[link], there.angles[other], strict=True)))
+    return lambda poses: Transfer(*(b - a for a, b in zip(poses.angles[link], poses.angles[other], strict=True)))
 
 
 def slider_place(guide: Guide, piece: str) -> Coordinate:
     """Return the distance of a sliding piece along its guide. [m]"""
 
-    def coordinate(there: Stretch) -> Transfer:
-        line = guide_on_link(there.frames[guide.link], guide) if guide.link else fixed_guide(guide)
-        return seen_from(line, there.frames[piece].origin).x
+    def coordinate(poses: Configurations) -> Transfer:
+        line = guide_on_link(poses.frames[guide.link], guide) if guide.link else fixed_guide(guide)
+        return in_link_frame(line, poses.frames[piece].origin).x
 
     return coordinate
 

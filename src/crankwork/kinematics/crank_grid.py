@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 # Angles closer than this are one row of a table. [deg]
-_SAME_ANGLE = 1e-9
+_ANGLE_TOLERANCE = 1e-9
 _DECIMALS = 9
 _EPSILON = float(np.finfo(float).eps)
 _SIN_OF_QUARTER = np.array([0.0, 1.0, 0.0, -1.0])
@@ -65,9 +65,9 @@ class CrankGrid:
         special : tuple of float
             Further angles. [deg]
         """
-        count = math.ceil(end / step - _SAME_ANGLE)
+        count = math.ceil(end / step - _ANGLE_TOLERANCE)
         regular = np.append(np.arange(count) * step, end)
-        far = [one for one in sorted(set(special)) if np.min(np.abs(regular - one)) > _SAME_ANGLE]
+        far = [angle for angle in sorted(set(special)) if np.min(np.abs(regular - angle)) > _ANGLE_TOLERANCE]
         return cls.from_degrees(np.sort(np.append(regular, far)) if far else regular)
 
     @cached_property
@@ -134,7 +134,7 @@ class CrankGrid:
         return self._shifts[degrees]
 
     def earlier(self, by: Array, cycle: float) -> tuple[Self, NDArray[np.intp]]:
-        """Return the distinct angles that lie earlier in the cycle by each of some amounts, and where they stand.
+        """Return the distinct angles that lie earlier in the cycle by some amounts, and their index for each angle.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class CrankGrid:
         Returns
         -------
         tuple of CrankGrid and array, shape (m, n)
-            The grid, and for each amount the place of every angle in it.
+            The grid, and for each amount the index of every angle in it.
         """
         local = (self.degrees - by[:, None]).ravel()
         if local.min() < -cycle or local.max() > cycle:
@@ -158,14 +158,14 @@ class CrankGrid:
         local[cycle - local <= 1e-12 * cycle] = 0.0
         order = local.argsort()
         ascending = local[order]
-        # those that rounding alone has set apart are one
+        # angles that differ by rounding are one angle
         is_first = np.append(True, np.diff(ascending) > reach)
         place = np.empty(local.size, dtype=np.intp)
         place[order] = np.cumsum(is_first) - 1
         return type(self).from_degrees(ascending[is_first]), place.reshape(by.size, -1)
 
     def __getitem__(self, part: slice) -> Self:
-        """Return a stretch of the grid."""
+        """Return a slice of the grid."""
         return type(self)(self.degrees[part], self.angle[part], self.sin[part], self.cos[part])
 
     def __len__(self) -> int:
@@ -173,6 +173,6 @@ class CrankGrid:
 
 
 def decimals(degrees: Array, reach: float) -> Array:
-    """Return angles, decimals where rounding alone, no more than `reach`, keeps them from being such. [deg]"""
+    """Return angles rounded to decimals where rounding errors, at most `reach`, are all they miss them by. [deg]"""
     near = np.round(degrees, _DECIMALS)
     return np.where(np.abs(degrees - near) <= reach, near, degrees)

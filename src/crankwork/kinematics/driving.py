@@ -1,4 +1,4 @@
-"""What drivers place besides a crank: cranks that gears turn, the third side that a motor between two links opens."""
+"""Drivers other than a single crank: geared cranks, and the third side of the triangle of a motor between two links."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import absent, is_known, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.dyads import LinkMotion, Opened, fixed_point, is_nothing
+from crankwork.kinematics.dyads import DrivenAngle, LinkMotion, fixed_point, is_zero
 from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.driver import GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import RRR
@@ -53,18 +53,17 @@ def opened_rate_1(theta_2: Value, l_1: Value, theta_k1: Value, theta_1: Value, l
     return theta_2 - l_1 * (1 + 2 * (theta_k1 - theta_1)) / l_s
 
 
-def opened_pair(motor: LinkMotor, dyad: RRR, line: LinkMotion, length: Transfer) -> Opened:
-    """Return what a dyad of the two links of a motor follows from the third side of their triangle.
+def opened_pair(motor: LinkMotor, dyad: RRR, line: LinkMotion, length: Transfer) -> DrivenAngle:
+    """Return the rates of a dyad formed by the two links of a motor, from the third side of their triangle.
 
-    It serves in line as anywhere, where the formulas of a dyad are nought by nought. `line`: the frame of the third
-    side, `length`: its length.
+    Valid with the links in line too, where the formulas of a dyad are 0/0. `line`, `length`: of the third side.
     """
     is_first = dyad.link_a == motor.links[0]
     area = opened_area(length.position, length.position_1)
     first = opened_rate(line.angle_1, *motor.sides, length.position)
     rates = (first, first + 1.0) if is_first else (first + 1.0, first)
     rate_1 = opened_rate_1(line.angle_2, length.position_1, first, line.angle_1, length.position)
-    return Opened(area if is_first else -area, *rates, rate_1)
+    return DrivenAngle(area if is_first else -area, *rates, rate_1)
 
 
 def third_side_motion(motor: LinkMotor, grid: CrankGrid) -> Transfer:
@@ -80,7 +79,7 @@ def third_side_motion(motor: LinkMotor, grid: CrankGrid) -> Transfer:
 def geared_motion(geared: GearedCrank, crank: Crank, grid: CrankGrid) -> LinkMotion:
     """Return the motion of a crank that gears turn with the driving one, its frame at its pivot."""
     rate = geared.ratio * crank.direction
-    angle = rate * grid.angle if is_nothing(geared.start) else geared.start + rate * grid.angle
+    angle = rate * grid.angle if is_zero(geared.start) else geared.start + rate * grid.angle
     cos, sin = plane.cosine_of_direction(angle), plane.sine_of_direction(angle)
     if is_known(cos):
         return LinkMotion(fixed_point(geared.pivot), cos, sin, rate, absent("link_angle_2"))

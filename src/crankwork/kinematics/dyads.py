@@ -1,8 +1,8 @@
 """Closed-form positions and transfer functions of the crank, of points on links and of the dyads of two links.
 
-Everything is arrays with the crank angle on the last axis; what stands still is an array of no axes. The same code
-takes knowns and then remembers: what stands still is absent there. The kernels hold for floats, arrays of designs and
-complex steps alike; whether a group closes is told by `closure`, which is positive where it does.
+Arrays have the crank angle on the last axis; constants are arrays without axes. The same code takes traced values, with
+absent values for constants. It holds for floats, arrays of designs and complex steps; `closure` is positive where a
+group closes.
 """
 
 from __future__ import annotations
@@ -104,20 +104,20 @@ def rrp_sine(sin_th: Value, h_g: Value, cos_th: Value, n_g: Value, l_i: Value) -
     return (sin_th * h_g - cos_th * n_g) / l_i
 
 
-def is_nothing(value: Any) -> bool:  # noqa: ANN401 - a known or a number
-    """Return whether a length or angle is not there: absent, or the number zero."""
+def is_zero(value: Any) -> bool:  # noqa: ANN401 - a known or a number
+    """Return whether a length or angle is zero: absent, or the number zero."""
     return value.is_absent if isinstance(value, Known) else not value
 
 
 def _moves(rate: Any) -> bool:  # noqa: ANN401 - a known or an array
-    # the rate of a crank is not stated either, and is one
+    # the rate of a crank is absent too, with the value 1
     return not rate.is_absent or rate.value != 0 if isinstance(rate, Known) else rate.ndim > 0
 
 
 class LinkMotion(NamedTuple):
-    """The frame of a link: its origin [m], its direction [-], the rate and the second rate of turning [-].
+    """The frame of a link: origin [m], direction [-], first and second rate of rotation [-].
 
-    A guide is one as well: a point of the line, and the direction of the line.
+    Of a guide: a point and the direction of its line.
     """
 
     origin: PointMotion
@@ -127,22 +127,21 @@ class LinkMotion(NamedTuple):
     angle_2: Value
 
     @property
-    def turns(self) -> bool:
-        """Whether it turns at all; a fixed guide does not."""
+    def rotates(self) -> bool:
+        """Whether the frame rotates; False for a fixed guide."""
         return _moves(self.angle_1)
 
     @property
-    def stands(self) -> bool:
-        """Whether it neither turns nor moves."""
+    def is_fixed(self) -> bool:
+        """Whether the frame neither rotates nor moves."""
         return not (_moves(self.angle_1) or _moves(self.origin.x.position_1))
 
 
 class Closure(NamedTuple):
     """How well a group closes.
 
-    `value` is zero where the group is singular and negative or NaN where it does not close, arrays of shape
-    (n,); `scale` is what it is to be compared with; `excess` is the length that is missing, or spare where it
-    is negative. [m2], [m2], [m]
+    `value` is zero where the group is singular, negative or NaN where it does not close, shape (n,); `scale` is its
+    unit of comparison; `excess` is the missing length, negative for a margin. [m2], [m2], [m]
     """
 
     value: Array
@@ -151,15 +150,15 @@ class Closure(NamedTuple):
 
 
 def fixed_point(point: Point) -> PointMotion:
-    """Return the motion of a point that stands still."""
+    """Return the motion of a fixed point."""
     if is_known(*point):
-        x, y = (Transfer(one, absent("point_x_1"), absent("point_x_2")) for one in point)
+        x, y = (Transfer(coordinate, absent("point_x_1"), absent("point_x_2")) for coordinate in point)
         return PointMotion(x, y)
     return PointMotion(Transfer(np.array(point[0]), _ZERO, _ZERO), Transfer(np.array(point[1]), _ZERO, _ZERO))
 
 
 def fixed_guide(guide: Guide) -> LinkMotion:
-    """Return the motion of a guide that stands still."""
+    """Return the motion of a fixed guide."""
     if is_known(guide.angle):
         cos, sin = plane.cosine_of_direction(guide.angle), plane.sine_of_direction(guide.angle)
         return LinkMotion(fixed_point(guide.point), cos, sin, absent("link_angle_1"), absent("link_angle_2"))
@@ -170,7 +169,7 @@ def fixed_guide(guide: Guide) -> LinkMotion:
 def crank_motion(crank: Crank, grid: CrankGrid) -> LinkMotion:
     """Return the motion of the crank, its frame at the pivot."""
     cos, sin = grid.cos, grid.sin if crank.direction == 1 else -grid.sin
-    if not is_nothing(crank.start):
+    if not is_zero(crank.start):
         cos_start, sin_start = plane.cosine_of_direction(crank.start), plane.sine_of_direction(crank.start)
         cos_start, sin_start = named(cos_start, "line_cos.crank"), named(sin_start, "line_sin.crank")
         cos, sin = (
@@ -197,20 +196,20 @@ def point_on_link(link: LinkMotion, along: Value, across: Value, name: str = "")
     r = o + d, r' = o' + J d theta', r'' = o'' + J d theta'' - d theta'^2.
     """
     (x, x_1, x_2), (y, y_1, y_2) = link.origin
-    if is_known(along) and is_nothing(along) and is_nothing(across):
+    if is_known(along) and is_zero(along) and is_zero(across):
         return link.origin
-    if is_nothing(across):
+    if is_zero(across):
         dx, dy = along * link.cos, along * link.sin
     else:
         dx = plane.arm_along_x(along, link.cos, across, link.sin)
         dy = plane.arm_along_y(along, link.sin, across, link.cos)
     dx, dy = named(dx, f"arm_x.{name}"), named(dy, f"arm_y.{name}")
-    if not link.turns:
+    if not link.rotates:
         return PointMotion(Transfer(x + dx, x_1, x_2), Transfer(y + dy, y_1, y_2))
-    return carried(link, dx, dy)
+    return point_of_link(link, dx, dy)
 
 
-def carried(link: LinkMotion, dx: Value, dy: Value) -> PointMotion:
+def point_of_link(link: LinkMotion, dx: Value, dy: Value) -> PointMotion:
     """Return the motion of the point of a turning link at the end of an arm from its origin. [m]"""
     (x, x_1, x_2), (y, y_1, y_2) = link.origin
     rate, rate_1 = link.angle_1, link.angle_2
@@ -220,9 +219,9 @@ def carried(link: LinkMotion, dx: Value, dy: Value) -> PointMotion:
     )
 
 
-def turned(link: LinkMotion, angle: float, name: str = "line") -> LinkMotion:
-    """Return a frame with the same origin, its x axis at an angle to that of the link, under a name. [rad]"""
-    if is_nothing(angle):
+def rotated_frame(link: LinkMotion, angle: float, name: str = "line") -> LinkMotion:
+    """Return a frame with the same origin, its x axis at an angle to that of the link. [rad]"""
+    if is_zero(angle):
         return link
     if not is_known(angle) and abs(angle) == math.pi:
         return link._replace(cos=-link.cos, sin=-link.sin)
@@ -235,24 +234,23 @@ def turned(link: LinkMotion, angle: float, name: str = "line") -> LinkMotion:
 
 def guide_on_link(link: LinkMotion, guide: Guide) -> LinkMotion:
     """Return the motion of a guide that a link carries."""
-    return turned(link, guide.angle)._replace(origin=point_on_link(link, *guide.point))
+    return rotated_frame(link, guide.angle)._replace(origin=point_on_link(link, *guide.point))
 
 
-def seen_from(link: LinkMotion, point: PointMotion) -> PointMotion:
-    """Return the motion of a point as seen from a link: its coordinates in the frame of the link. [m]
+def in_link_frame(link: LinkMotion, point: PointMotion) -> PointMotion:
+    """Return the motion of a point in the frame of a link: its coordinates along and across it. [m]
 
-    Along and across, with their own derivatives: what is left of the acceleration after guiding and Coriolis parts
-    are taken off.
+    Their derivatives are relative ones: guiding and Coriolis parts are removed.
     """
     cos, sin = link.cos, link.sin
     (x, x_1, x_2), (y, y_1, y_2) = point
     base_x, base_y = link.origin
     x, y = x - base_x.position, y - base_y.position
-    if not link.stands:
+    if not link.is_fixed:
         x_1, y_1 = x_1 - base_x.position_1, y_1 - base_y.position_1
         x_2, y_2 = x_2 - base_x.position_2, y_2 - base_y.position_2
     along, across = plane.along_guide(x, cos, y, sin), plane.across_guide(y, cos, x, sin)
-    if link.turns:
+    if link.rotates:
         rate, rate_1 = link.angle_1, link.angle_2
         along_1 = plane.along_turning_1(x_1, cos, y_1, sin, rate, across)
         across_1 = plane.across_turning_1(y_1, cos, x_1, sin, rate, along)
@@ -270,9 +268,9 @@ def point_on_guide(guide: LinkMotion, slide: Transfer) -> PointMotion:
     cos, sin = guide.cos, guide.sin
     (x, x_1, x_2), (y, y_1, y_2) = guide.origin
     place_x, place_y = plane.slid_x(x, cos, s), plane.slid_y(y, sin, s)
-    if guide.stands:
+    if guide.is_fixed:
         return PointMotion(Transfer(place_x, cos * s_1, cos * s_2), Transfer(place_y, sin * s_1, sin * s_2))
-    if not guide.turns:
+    if not guide.rotates:
         return PointMotion(
             Transfer(place_x, plane.slid_x(x_1, cos, s_1), plane.slid_x(x_2, cos, s_2)),
             Transfer(place_y, plane.slid_y(y_1, sin, s_1), plane.slid_y(y_2, sin, s_2)),
@@ -295,22 +293,22 @@ def point_on_guide(guide: LinkMotion, slide: Transfer) -> PointMotion:
 Through = Callable[[str, Any], Any]
 
 
-def straight(key: str, value: Any) -> Any:  # noqa: ANN401, ARG001 - a known or a number stays what it is
-    """Return a quantity of a dyad that passes no change point."""
+def unchanged(key: str, value: Any) -> Any:  # noqa: ANN401, ARG001 - a known or a number stays what it is
+    """Return a quantity of a dyad without change points."""
     return value
 
 
-class Opened(NamedTuple):
-    """What the angle between the two links of an RRR dyad gives, where that is what drives."""
+class DrivenAngle(NamedTuple):
+    """Area and rates of an RRR dyad whose inner angle is the driver's coordinate."""
 
     area: Value  # Twice the area of the triangle, h of the dyad [m2]
     rate_a: Value
     rate_b: Value
-    rate_1: Value  # Of both
+    rate_1: Value  # Second rate of both links
 
 
 class RRRMotion(NamedTuple):
-    """Where the two links of an RRR dyad meet, and their frames."""
+    """The inner joint of an RRR dyad, and the frames of its links."""
 
     point: PointMotion
     link_a: LinkMotion
@@ -326,25 +324,25 @@ def rrr_motion(
     a: PointMotion,
     b: PointMotion,
     lengths: Mapping[str, Transfer] = _CONSTANT,
-    through: Through = straight,
-    opened: Opened | None = None,
+    through: Through = unchanged,
+    opened: DrivenAngle | None = None,
 ) -> RRRMotion:
     """Return the motion of the joint and the links of an RRR dyad (artobolevsky_1988, ch. 4).
 
-    Joint [m], frames of the links, closure; NaN where the links do not meet. `through` leads what a change point would
-    make nought by nought over it.
+    Joint [m], frames of the links, closure; NaN where the links do not meet. `through` replaces quantities that are 0/0
+    at a change point.
 
     With d from a to b, u and v from a and b to the joint, and c = (p^2 - q^2 + d^2) / 2:
     h = u x v = branch sqrt(((p + q)^2 - d^2)(d^2 - (p - q)^2)) / 2, twice the area of the triangle, and
     u = (c d + h J d) / d^2. The loop a' + theta_a' J u = b' + theta_b' J v gives theta_a' = (b' - a') v / h and
     theta_b' = (b' - a') u / h, its derivative the same with b'' - a'' + theta_a'^2 u - theta_b'^2 v. `lengths`: of
-    links whose length changes; what it adds to their ends is taken off b' - a' and b'' - a''. `opened`: of a motor
-    between the two, which moves them through a line as well.
+    links whose length changes; its effect on their ends is subtracted from b' - a' and b'' - a''. `opened`: from a
+    motor between the two links.
     """
     name, changing = dyad.point, [lengths.get(link) for link in (dyad.link_a, dyad.link_b)]
     p, q = (
-        length if one is None else one.position
-        for one, length in zip(changing, (dyad.length_a, dyad.length_b), strict=True)
+        length if change is None else change.position
+        for change, length in zip(changing, (dyad.length_a, dyad.length_b), strict=True)
     )
     (ax, ax_1, ax_2), (ay, ay_1, ay_2) = a
     (bx, bx_1, bx_2), (by, by_1, by_2) = b
@@ -360,9 +358,9 @@ def rrr_motion(
 
     cos_a, sin_a, cos_b, sin_b = ux / p, uy / p, vx / q, vy / q
     ex, ey = bx_1 - ax_1, by_1 - ay_1
-    for one, cos, sin, sign in zip(changing, (cos_a, cos_b), (sin_a, sin_b), (-1.0, 1.0), strict=True):
-        if one is not None:
-            ex, ey = ex + sign * (one.position_1 * cos), ey + sign * (one.position_1 * sin)
+    for changing_length, cos, sin, sign in zip(changing, (cos_a, cos_b), (sin_a, sin_b), (-1.0, 1.0), strict=True):
+        if changing_length is not None:
+            ex, ey = ex + sign * (changing_length.position_1 * cos), ey + sign * (changing_length.position_1 * sin)
     ex, ey = named(ex, f"distance_x_1.{name}"), named(ey, f"distance_y_1.{name}")
     if opened is None:
         rate_a, rate_b = rrr_rate(ex, vx, ey, vy, h), rrr_rate(ex, ux, ey, uy, h)
@@ -372,9 +370,9 @@ def rrr_motion(
     rate_a, rate_b = named(rate_a, f"link_angle_1.{dyad.link_a}"), named(rate_b, f"link_angle_1.{dyad.link_b}")
     ex, ey = bx_2 - ax_2, by_2 - ay_2
     turning = ((rate_a, cos_a, sin_a, -1.0), (rate_b, cos_b, sin_b, 1.0))
-    for one, (rate, cos, sin, sign) in zip(changing, turning, strict=True):
-        if one is not None:
-            stretch = stretch_of(one, rate, cos, sin, name)
+    for changing_length, (rate, cos, sin, sign) in zip(changing, turning, strict=True):
+        if changing_length is not None:
+            stretch = stretch_of(changing_length, rate, cos, sin, name)
             ex, ey = ex + sign * stretch[0], ey + sign * stretch[1]
     ex = named(closing_x(ex, rate_a, ux, rate_b, vx), f"closing_x.{name}")
     ey = named(closing_x(ey, rate_a, uy, rate_b, vy), f"closing_y.{name}")
@@ -387,12 +385,12 @@ def rrr_motion(
 
     link_a = LinkMotion(a, cos_a, sin_a, rate_a, rate_a_1)
     link_b = LinkMotion(b, cos_b, sin_b, rate_b, rate_b_1)
-    point = carried(link_a, ux, uy) if changing[0] is None else carried(link_b, vx, vy)
+    point = point_of_link(link_a, ux, uy) if changing[0] is None else point_of_link(link_b, vx, vy)
     return RRRMotion(point, link_a, link_b, _rrr_closure(p, q, square, is_opened=opened is not None))
 
 
 def stretch_of(length: Transfer, rate: Value, cos: Value, sin: Value, name: str) -> tuple[Value, Value]:
-    """Return what a link of changing length adds to the second derivative of its end. [m]"""
+    """Return the terms that a changing length adds to the second derivative of the end of its link. [m]"""
     _, length_1, length_2 = length
     x = plane.stretched_x(length_2, cos, length_1, rate, sin)
     y = plane.stretched_y(length_2, sin, length_1, rate, cos)
@@ -407,7 +405,7 @@ def _rrr_closure(p: Value, q: Value, square: Value, *, is_opened: bool) -> Closu
     if is_known(square):
         return None
     if is_opened:
-        # in any direction that its ends have
+        # singular only where the outer joints coincide
         return Closure(square, _largest((p + q) ** 2), square)
     return Closure(((p + q) ** 2 - square) * (square - (p - q) ** 2), _largest((2 * p * q) ** 2), square)
 
@@ -427,7 +425,7 @@ def rrp_motion(
     joint: PointMotion,
     guide: LinkMotion,
     lengths: Mapping[str, Transfer] = _CONSTANT,
-    through: Through = straight,
+    through: Through = unchanged,
 ) -> RRPMotion:
     """Return the motion of the slider and the link of an RRP dyad (artobolevsky_1988, ch. 4).
 
@@ -440,7 +438,7 @@ def rrp_motion(
     """
     link_, piece, changing = dyad.link, dyad.piece, lengths.get(dyad.link)
     length = dyad.length if changing is None else changing.position
-    (along, along_1, along_2), (u, u_1, u_2) = named_coordinates(seen_from(guide, joint), dyad.joint)
+    (along, along_1, along_2), (u, u_1, u_2) = named_coordinates(in_link_frame(guide, joint), dyad.joint)
     h = named(through("reach", rrp_reach(dyad.branch, length, u)), f"guide_reach.{piece}")
     if changing is not None:
         along_1, u_1 = along_1 + changing.position_1 * (h / length), u_1 - changing.position_1 * (u / length)
@@ -453,7 +451,7 @@ def rrp_motion(
     slide = named_slide(Transfer(along + h, along_1 + h_1, rrp_slide_2(along_2, rate_1, u, rate, u_1)), piece)
     cos, sin = guide.cos, guide.sin
     cos, sin = rrp_cosine(cos, h, sin, u, length), rrp_sine(sin, h, cos, u, length)
-    if guide.turns:
+    if guide.rotates:
         rate, rate_1 = rate + guide.angle_1, rate_1 + guide.angle_2
     point = point_on_guide(guide, slide)
     link = LinkMotion(joint, cos, sin, rate, rate_1)
@@ -475,7 +473,7 @@ def named_slide(slide: Transfer, piece: str) -> Transfer:
 
 
 def _ordered(transfer: Transfer, key: str, name: str) -> list[Any]:
-    return [named(one, f"{key}{order}.{name}") for one, order in zip(transfer, ("", "_1", "_2"), strict=True)]
+    return [named(value, f"{key}{order}.{name}") for value, order in zip(transfer, ("", "_1", "_2"), strict=True)]
 
 
 def named_point(point: PointMotion, name: str) -> PointMotion:
@@ -491,4 +489,4 @@ def named_link(link: LinkMotion, name: str) -> LinkMotion:
     if not is_known(*link[1:]):
         return link
     keys = ("link_cos", "link_sin", "link_angle_1", "link_angle_2")
-    return LinkMotion(link.origin, *(named(one, f"{key}.{name}") for key, one in zip(keys, link[1:], strict=True)))
+    return LinkMotion(link.origin, *(named(value, f"{key}.{name}") for key, value in zip(keys, link[1:], strict=True)))

@@ -14,34 +14,34 @@ _NEAR = 65
 _MAX_STEPS = 40
 
 
-def closed_in(function: Callable[[Array], Array], low: Array, high: Array, at_low: Array, at_high: Array) -> Array:
+def bracketed_roots(
+    function: Callable[[Array], Array], low: Array, high: Array, at_low: Array, at_high: Array
+) -> Array:
     """Return a root between each pair of angles at which a function has different signs, to the last bit. [deg]"""
     root = high
     for _ in range(_MAX_STEPS):
-        # one that is found waits for the others, and between its ends nothing is left
-        apart = at_high - at_low
-        root = high - at_high * (high - low) / np.where(apart == 0, 1.0, apart)
+        # a converged interval waits for the others, with equal values at its ends
+        difference = at_high - at_low
+        root = high - at_high * (high - low) / np.where(difference == 0, 1.0, difference)
         value = function(root)
         if np.all((np.abs(high - low) <= 4 * np.spacing(np.abs(high))) | (value == 0)):
             break
         crossed = np.sign(value) != np.sign(at_high)
-        # Illinois: the end that stays is halved, so that both ends close in
+        # Illinois method: the value at the retained end is halved, so that both ends converge
         low, at_low = np.where(crossed, high, low), np.where(crossed, at_high, at_low / 2)
         high, at_high = root, np.where(value == 0, at_high * 1e-300, value)
     return root
 
 
-def reached(function: Callable[[Array], Array], wanted: float, start: float, end: float) -> float:
-    """Return where a function that grows or falls all the way reaches a value; the nearer end if it does not. [deg]"""
+def solve_monotone(function: Callable[[Array], Array], target: float, start: float, end: float) -> float:
+    """Solve function(angle) = target for a monotone function; the nearer end if there is no solution. [deg]"""
     angles = np.linspace(start, end, _NEAR)
-    apart = function(angles) - wanted
-    if apart[0] * apart[-1] >= 0:
-        return start if abs(apart[0]) < abs(apart[-1]) else end
-    at = int(np.argmax(np.sign(apart[1:]) != np.sign(apart[0])))
-    low, high = slice(at, at + 1), slice(at + 1, at + 2)
-    return float(
-        closed_in(lambda degrees: function(degrees) - wanted, angles[low], angles[high], apart[low], apart[high])[0]
-    )
+    residual = function(angles) - target
+    if residual[0] * residual[-1] >= 0:
+        return start if abs(residual[0]) < abs(residual[-1]) else end
+    index = int(np.argmax(np.sign(residual[1:]) != np.sign(residual[0])))
+    ends = [(values[index : index + 1], values[index + 1 : index + 2]) for values in (angles, residual)]
+    return float(bracketed_roots(lambda degrees: function(degrees) - target, *ends[0], *ends[1])[0])
 
 
 def dead_centres(slider_crank: SliderCrank) -> tuple[float, float]:

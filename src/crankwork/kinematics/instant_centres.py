@@ -1,4 +1,4 @@
-"""Where links turn about for a moment: their instantaneous centres of velocity against the ground."""
+"""Instantaneous centres of velocity of links, relative to the ground."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
 
-_STANDS = 1e-12
+_REST_TOLERANCE = 1e-12
 
 
 @formula("instant_centre_x", "khurmi_gupta_2005, ch. 6")
@@ -32,12 +32,12 @@ def instant_centre_y(y_P: Value, x_P1: Value, theta_1: Value) -> Value:
 
 def pivoted_links(mechanism: Mechanism) -> set[str]:
     """Return the links that turn about a fixed pivot."""
-    return {one.link for one in joints(mechanism) if isinstance(one, Pin) and one.other == GROUND}
+    return {joint.link for joint in joints(mechanism) if isinstance(joint, Pin) and joint.other == GROUND}
 
 
 def instant_centres(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, Known]]:
-    """Yield the instant centres of links that turn, but about no fixed pivot; `motion` is remembered."""
-    # the third side of a triangle whose shape a motor drives is no link
+    """Yield the instant centres of rotating links without a fixed pivot; `motion` is traced."""
+    # the third side of the triangle of a motor is not a link
     pivoted = pivoted_links(mechanism) | ({mechanism.driver.link} if isinstance(mechanism.driver, LinkMotor) else set())
     for name in motion.links:
         if name in pivoted or name not in motion.frames or motion.frames[name].angle_1.is_absent:
@@ -48,12 +48,12 @@ def instant_centres(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str,
 
 
 def absent_where_still(columns: Mapping[str, Array]) -> dict[str, Array]:
-    """Return columns without the instant centres of links where they do not turn."""
-    rates = {key: np.abs(one) for key, one in columns.items() if key.startswith("link_angular_velocity.")}
-    largest = max((float(np.max(one, initial=0.0)) for one in rates.values()), default=0.0)
+    """Return columns with NaN for the instant centres of links at rest."""
+    rates = {key: np.abs(column) for key, column in columns.items() if key.startswith("link_angular_velocity.")}
+    largest = max((float(np.max(rate, initial=0.0)) for rate in rates.values()), default=0.0)
     result = dict(columns)
     for key, values in columns.items():
         kind, _, name = key.partition(".")
         if kind in {"instant_centre_x", "instant_centre_y"}:
-            result[key] = np.where(rates[f"link_angular_velocity.{name}"] > _STANDS * largest, values, np.nan)
+            result[key] = np.where(rates[f"link_angular_velocity.{name}"] > _REST_TOLERANCE * largest, values, np.nan)
     return result

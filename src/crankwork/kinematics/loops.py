@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.kinematics.closing import ClosingEquations, Positions, Surroundings, point_of
+from crankwork.kinematics.closing import ChainBoundary, LoopClosure, Positions, point_of
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.dyads import Closure, LinkMotion, seen_from
+from crankwork.kinematics.dyads import Closure, LinkMotion, in_link_frame
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
@@ -28,9 +28,9 @@ _SMALLEST_STEP = 1e-4
 _LAST_STEP = 1e-8
 _ITERATIONS = 12
 _FARTHEST = 0.05
-# by how much a stated position may miss what Newton's method finds from it
+# largest relative distance of Newton's solution from a stated position
 _ROUGHLY = 0.25
-# of what loops are open by at a stated position, the part that is closed at first
+# first step of the homotopy, as a share of the residual at the stated position
 _FIRST_PART = 0.1
 
 
@@ -53,72 +53,73 @@ class _Solution(NamedTuple):
 
 
 class ChainPath:
-    """Positions of a chain along the way of the crank, from the stated start; all others are solved from these.
+    """Positions of a chain along the path of the crank, from the stated start; all others are solved from these.
 
-    `around` gives what is placed before, as a function of the crank angles.
+    `boundary_at` gives the placed neighbours as a function of the crank angles.
 
     F(q, phi) = 0; q' and q'' solve J q' = -F' and J q'' = -F'' with the same Jacobian, where F' and F'' are the
     derivatives of the equations with the unknown one set to zero (uicker_2011).
     """
 
-    def __init__(self, chain: Chain, grid: CrankGrid, around: Callable[[CrankGrid], Surroundings]) -> None:
-        self._equations, self._around = ClosingEquations(chain), around
-        # by how much a turn of the crank turns the links, where it brings them back
+    def __init__(self, chain: Chain, grid: CrankGrid, boundary_at: Callable[[CrankGrid], ChainBoundary]) -> None:
+        self._equations, self._boundary_at = LoopClosure(chain), boundary_at
+        # rotation of the links per turn of the crank, if the position repeats
         self._turned: Array | None = None
-        self._start = _start(self._equations, around(CrankGrid.from_radians([chain.start])))
+        self._start = _start(self._equations, boundary_at(CrankGrid.from_radians([chain.start])))
         self._knots = [(chain.start, self._start)]
         self._path = _path(self._knots, self._start)
-        # how far it has been followed, and whether there is no way on behind and ahead
+        # range solved so far, and whether the path ends before and after it
         self._reach, self._lost = (chain.start, chain.start), [False, False]
-        self.follow(grid)
+        self.extend(grid)
 
-    def follow(self, grid: CrankGrid) -> None:
-        """Follow the chain as far as some crank angles, on from where that was done already."""
+    def extend(self, grid: CrankGrid) -> None:
+        """Extend the path to cover some crank angles."""
         before = self._reach
         self._reach = min(before[0], float(grid.angle.min())), max(before[1], float(grid.angle.max()))
         is_long = self._equations.chain.radian == 1.0 and self._reach[1] - self._reach[0] > 2 * math.tau
         if is_long and self._repeats():
             return
-        behind = self._way(0, before[0], self._reach[0])
-        ahead = self._way(-1, before[1], self._reach[1])
+        behind = self._extend_side(0, before[0], self._reach[0])
+        ahead = self._extend_side(-1, before[1], self._reach[1])
         self._knots = [*behind[::-1], *self._knots, *ahead]
         self._path = _path(self._knots, self._start)
 
-    def _way(self, side: int, known: float, end: float) -> list[tuple[float, _Solution]]:
-        """Return positions on from the last known on a side, as far as there are any."""
+    def _extend_side(self, side: int, known: float, end: float) -> list[tuple[float, _Solution]]:
+        """Return positions beyond the last one on a side, up to an end or to where the path ends."""
         if known == end or self._lost[side]:
             return []
-        angle, at = self._knots[side]
-        found = list(self._walk(angle, at, _knots(self._equations.chain, angle, end)))
-        self._lost[side] = not found or found[-1][0] != end
-        return found
+        angle, solution = self._knots[side]
+        path = list(self._walk(angle, solution, _knots(self._equations.chain, angle, end)))
+        self._lost[side] = not path or path[-1][0] != end
+        return path
 
-    def _walk(self, angle: float, at: _Solution, knots: Array) -> Iterator[tuple[float, _Solution]]:
-        return _Walk(self._equations, self._around(CrankGrid.from_radians(knots)), self._around).along(angle, at, knots)
+    def _walk(self, angle: float, solution: _Solution, knots: Array) -> Iterator[tuple[float, _Solution]]:
+        boundary = self._boundary_at(CrankGrid.from_radians(knots))
+        return _Walk(self._equations, boundary, self._boundary_at).along(angle, solution, knots)
 
     def _repeats(self) -> bool:
-        """Follow one turn of the crank, and return whether it ends as it began; then it is the same in every other."""
+        """Solve one turn of the crank, and return whether it ends as it began, so that all turns are equal."""
         chain, start = self._equations.chain, self._start
         knots = _knots(chain, chain.start, chain.start + math.tau)
-        there = list(self._walk(chain.start, start, knots))
-        if not there or there[-1][0] != knots[-1]:
+        path = list(self._walk(chain.start, start, knots))
+        if not path or path[-1][0] != knots[-1]:
             return False
-        last, scale = there[-1][1], self._equations.scale
+        last, scale = path[-1][1], self._equations.scale
         turned = np.zeros_like(start.q[0])
         turned[2::3] = math.tau * np.rint((last.q - start.q)[0, 2::3] / math.tau)
         same = (last.q - start.q - turned, last.q_1 - start.q_1, last.q_2 - start.q_2)
-        if max(float(np.max(np.abs(one) / scale)) for one in same) > _LAST_STEP:
+        if max(float(np.max(np.abs(difference) / scale)) for difference in same) > _LAST_STEP:
             return False
-        self._path, self._turned = _path([(chain.start, start), *there], start), turned
+        self._path, self._turned = _path([(chain.start, start), *path], start), turned
         return True
 
     def covers(self, grid: CrankGrid) -> bool:
-        """Return whether crank angles lie within what has been followed."""
+        """Return whether the path covers crank angles."""
         return self._turned is not None or bool(
             self._reach[0] <= grid.angle.min() and grid.angle.max() <= self._reach[1]
         )
 
-    def _solved(self, grid: CrankGrid, surroundings: Surroundings) -> _Solution:
+    def _solved(self, grid: CrankGrid, boundary: ChainBoundary) -> _Solution:
         path, angle = self._path, grid.angle
         turns = np.zeros_like(angle)
         if self._turned is not None:
@@ -131,21 +132,21 @@ class ChainPath:
         if self._turned is not None:
             guess += turns[:, None] * self._turned
         guess[np.abs(step[:, 0]) > 1.001 * _STEP * self._equations.chain.radian] = np.nan
-        at = np.arange(len(grid))
-        q, _ = _newton(self._equations, guess, surroundings, at)
+        positions = np.arange(len(grid))
+        q, _ = _newton(self._equations, guess, boundary, positions)
         with np.errstate(invalid="ignore"):
-            return _derivatives(self._equations, q, surroundings, at)
+            return _derivatives(self._equations, q, boundary, positions)
 
     def coordinates(self, grid: CrankGrid) -> Array:
         """Return the coordinates of all links, then their derivatives, shape (9 links, n). [m], [rad]"""
-        found = self._solved(grid, self._around(grid))
-        return np.concatenate([found.q, found.q_1, found.q_2], axis=1).T
+        solution = self._solved(grid, self._boundary_at(grid))
+        return np.concatenate([solution.q, solution.q_1, solution.q_2], axis=1).T
 
     def motion(self, grid: CrankGrid) -> ChainMotion:
         """Return points, frames and distances at crank angles."""
-        surroundings = self._around(grid)
-        solution, at = self._solved(grid, surroundings), np.arange(len(grid))
-        return _as_motion(self._equations, solution, self._path.determinant, surroundings, at)
+        boundary = self._boundary_at(grid)
+        solution, positions = self._solved(grid, boundary), np.arange(len(grid))
+        return _as_motion(self._equations, solution, self._path.determinant, boundary, positions)
 
 
 def _knots(chain: Chain, start: float, end: float) -> Array:
@@ -154,7 +155,7 @@ def _knots(chain: Chain, start: float, end: float) -> Array:
 
 
 class _Path(NamedTuple):
-    """Solved positions along the way of the crank, ascending, and the determinant at the start."""
+    """Solved positions along the path of the crank, ascending, and the determinant at the start."""
 
     angle: Array
     q: Array
@@ -164,23 +165,23 @@ class _Path(NamedTuple):
 
 
 def _path(knots: list[tuple[float, _Solution]], start: _Solution) -> _Path:
-    """Return solved positions as arrays, two at least."""
+    """Return solved positions as arrays, at least two."""
     if len(knots) == 1:
         knots = knots * 2
-    q, q_1, q_2 = (np.concatenate([one[k] for _, one in knots]) for k in range(3))
+    q, q_1, q_2 = (np.concatenate([solution[k] for _, solution in knots]) for k in range(3))
     return _Path(np.array([angle for angle, _ in knots]), q, q_1, q_2, float(start.determinant[0]))
 
 
-def _start(equations: ClosingEquations, surroundings: Surroundings) -> _Solution:
-    """Return the position at the stated start, which is the first of the surroundings."""
-    chain, here = equations.chain, np.array([0])
+def _start(equations: LoopClosure, boundary: ChainBoundary) -> _Solution:
+    """Return the position at the stated start, which is the first of the boundary."""
+    chain, positions = equations.chain, np.array([0])
     given = np.array([[value for link in chain.links for value in (*link.origin, link.angle)]])
-    q, miss = _newton(equations, given, surroundings, here)
-    apart = float(np.max(np.abs(q - given) / equations.scale))
-    if not apart < _ROUGHLY:
-        led = _led(equations, given, surroundings)
-        if led is not None and not np.max(np.abs(led - given) / equations.scale) > apart:
-            q = led
+    q, miss = _newton(equations, given, boundary, positions)
+    distance = float(np.max(np.abs(q - given) / equations.scale))
+    if not distance < _ROUGHLY:
+        tracked = _start_by_homotopy(equations, given, boundary)
+        if tracked is not None and not np.max(np.abs(tracked - given) / equations.scale) > distance:
+            q = tracked
     if not np.isfinite(q).all():
         raise GeometryError(
             Refusal(
@@ -190,23 +191,23 @@ def _start(equations: ClosingEquations, surroundings: Surroundings) -> _Solution
                 open=float(miss[0]) * 1e3,
             )
         )
-    return _derivatives(equations, q, surroundings, here)
+    return _derivatives(equations, q, boundary, positions)
 
 
-def _led(equations: ClosingEquations, given: Array, surroundings: Surroundings) -> Array | None:
-    """Return the position that a stated one is led to while what its loops are open by shrinks, None if there is none.
+def _start_by_homotopy(equations: LoopClosure, given: Array, boundary: ChainBoundary) -> Array | None:
+    """Return the position reached from a stated one while the residual is reduced in steps, None if this fails.
 
-    Newton's method alone may end far from where it began.
+    Newton's method alone may converge far from its start.
     """
-    here, q, still, step = np.array([0]), given, 1.0, _FIRST_PART
-    first, _ = equations.closed(q, surroundings, here)
+    positions, q, still, step = np.array([0]), given, 1.0, _FIRST_PART
+    first, _ = equations.residual(q, boundary, positions)
     while still > 0 and step > _SMALLEST_STEP:
-        to = max(still - step, 0.0)
-        _, jacobian = equations.closed(q, surroundings, here)
-        guess = q + _solved(jacobian, (to - still) * first)
-        found, _ = _newton(equations, guess, surroundings, here, to * first)
-        if np.max(np.abs(found - guess) / equations.scale) < _FARTHEST:
-            q, still, step = found, to, 2 * step
+        target = max(still - step, 0.0)
+        _, jacobian = equations.residual(q, boundary, positions)
+        guess = q + _solved(jacobian, (target - still) * first)
+        corrected, _ = _newton(equations, guess, boundary, positions, target * first)
+        if np.max(np.abs(corrected - guess) / equations.scale) < _FARTHEST:
+            q, still, step = corrected, target, 2 * step
         else:
             step /= 2
     return None if still > 0 else q
@@ -215,62 +216,62 @@ def _led(equations: ClosingEquations, given: Array, surroundings: Surroundings) 
 class _Walk(NamedTuple):
     """Follows the crank from knot to knot."""
 
-    equations: ClosingEquations
-    surroundings: Surroundings
-    around: Callable[[CrankGrid], Surroundings]
+    equations: LoopClosure
+    boundary: ChainBoundary
+    boundary_at: Callable[[CrankGrid], ChainBoundary]
 
-    def along(self, angle: float, at: _Solution, knots: Array) -> Iterator[tuple[float, _Solution]]:
-        """Yield positions at the knots, and between where needed, until there is none that continues the last."""
+    def along(self, angle: float, solution: _Solution, knots: Array) -> Iterator[tuple[float, _Solution]]:
+        """Yield positions at the knots, and between them where needed, up to where the path ends."""
         for index, target in enumerate(knots.tolist()):
-            found = _continued(self.equations, at, target - angle, self.surroundings, index)
-            if found is None:
-                crept = list(self._creep(at, angle, target))
-                yield from crept
-                if not crept or crept[-1][0] != target:
+            following = _continued(self.equations, solution, target - angle, self.boundary, index)
+            if following is None:
+                refined = list(self._refine_step(solution, angle, target))
+                yield from refined
+                if not refined or refined[-1][0] != target:
                     return
-                angle, at = crept[-1]
+                angle, solution = refined[-1]
             else:
-                angle, at = target, found
-                yield angle, at
+                angle, solution = target, following
+                yield angle, solution
 
-    def _creep(self, at: _Solution, angle: float, end: float) -> Iterator[tuple[float, _Solution]]:
-        """Yield positions on the way to the end in steps as small as it takes."""
+    def _refine_step(self, solution: _Solution, angle: float, end: float) -> Iterator[tuple[float, _Solution]]:
+        """Yield positions up to an end, in steps as small as needed."""
         step = (end - angle) / 2
         while angle != end and abs(step) > _SMALLEST_STEP * self.equations.chain.radian:
             target = end if abs(step) >= abs(end - angle) else angle + step
-            here = self.around(CrankGrid.from_radians([target]))
-            found = _continued(self.equations, at, target - angle, here, 0)
-            if found is None:
+            boundary = self.boundary_at(CrankGrid.from_radians([target]))
+            following = _continued(self.equations, solution, target - angle, boundary, 0)
+            if following is None:
                 step /= 2
             else:
-                angle, at, step = target, found, 2 * step
-                yield angle, at
+                angle, solution, step = target, following, 2 * step
+                yield angle, solution
 
 
 def _continued(
-    equations: ClosingEquations, at: _Solution, step: float, surroundings: Surroundings, index: int
+    equations: LoopClosure, solution: _Solution, step: float, boundary: ChainBoundary, index: int
 ) -> _Solution | None:
-    """Return the position one step on, or None if that would be a jump or a passage through a singular one."""
-    guess = at.q + step * (at.q_1 + 0.5 * step * at.q_2)
-    here = np.array([index])
-    q, _ = _newton(equations, guess, surroundings, here)
+    """Return the next position, or None if it is a jump or lies beyond a singular position."""
+    guess = solution.q + step * (solution.q_1 + 0.5 * step * solution.q_2)
+    positions = np.array([index])
+    q, _ = _newton(equations, guess, boundary, positions)
     if not np.max(np.abs(q - guess) / equations.scale) < _FARTHEST:
         return None
-    found = _derivatives(equations, q, surroundings, here)
-    # what lies between is foretold from either end
-    back = found.q - step * (found.q_1 - 0.5 * step * found.q_2)
-    if not np.max(np.abs(back - at.q) / equations.scale) < _FARTHEST:
+    following = _derivatives(equations, q, boundary, positions)
+    # the extrapolation back must agree too
+    back = following.q - step * (following.q_1 - 0.5 * step * following.q_2)
+    if not np.max(np.abs(back - solution.q) / equations.scale) < _FARTHEST:
         return None
-    return found if found.determinant[0] * at.determinant[0] > 0 else None
+    return following if following.determinant[0] * solution.determinant[0] > 0 else None
 
 
 def _newton(
-    equations: ClosingEquations, guess: Array, surroundings: Surroundings, at: Positions, aim: Array | float = 0.0
+    equations: LoopClosure, guess: Array, boundary: ChainBoundary, positions: Positions, aim: Array | float = 0.0
 ) -> tuple[Array, Array]:
-    """Return the coordinates that close all loops, NaN where none were found, and by how much the guess misses.
+    """Return the coordinates that close all loops, NaN without convergence, and the residual of the guess.
 
-    The guesses belong to the positions `at` of the surroundings. Those that have converged drop out: after a
-    step shorter than the square root of the rounding, the error is gone. `aim`: by how much loops are to stay open.
+    The guesses belong to `positions` of the boundary. Converged ones are dropped: after a step shorter than the square
+    root of the rounding, the error is gone. `aim`: the residual to reach.
     """
     q, active = guess.copy(), np.arange(len(guess))
     active = active[np.isfinite(q).all(axis=1)]
@@ -278,7 +279,7 @@ def _newton(
     for iteration in range(_ITERATIONS):
         if not active.size:
             break
-        value, jacobian = equations.closed(q[active], surroundings, at[active])
+        value, jacobian = equations.residual(q[active], boundary, positions[active])
         if iteration == 0:
             miss[active] = np.abs(value).max(axis=1)
         step = _solved(jacobian, aim - value)
@@ -288,13 +289,13 @@ def _newton(
     return q, miss
 
 
-def _derivatives(equations: ClosingEquations, q: Array, surroundings: Surroundings, at: Positions) -> _Solution:
+def _derivatives(equations: LoopClosure, q: Array, boundary: ChainBoundary, positions: Positions) -> _Solution:
     """Return the transfer functions of the coordinates."""
-    _, jacobian = equations.closed(q, surroundings, at)
+    _, jacobian = equations.residual(q, boundary, positions)
     still = np.zeros_like(q)
-    first, _ = equations.rates(q, still, still, surroundings, at)
+    first, _ = equations.residual_derivatives(q, still, still, boundary, positions)
     q_1 = _solved(jacobian, -first)
-    _, second = equations.rates(q, q_1, still, surroundings, at)
+    _, second = equations.residual_derivatives(q, q_1, still, boundary, positions)
     q_2 = _solved(jacobian, -second)
     return _Solution(q, q_1, q_2, np.linalg.det(jacobian))
 
@@ -311,20 +312,20 @@ def _solved(matrix: Array, right: Array) -> Array:
 
 
 def _as_motion(
-    equations: ClosingEquations, solution: _Solution, determinant: float, around: Surroundings, at: Positions
+    equations: LoopClosure, solution: _Solution, determinant: float, boundary: ChainBoundary, positions: Positions
 ) -> ChainMotion:
     """Return points, frames and distances from the coordinates of the links."""
     chain, frames = equations.chain, equations.frames(*solution[:3])
     points = {
-        name: point_of(link, name, frames[link.name], around, at)
+        name: point_of(link, name, frames[link.name], boundary, positions)
         for link in chain.links
         for name in link.points
         if name not in chain.known
     }
     sliders = {}
     for slide in chain.slides:
-        line = equations.line(slide, frames, around, at)
-        sliders[slide.link] = seen_from(line, frames[slide.link].origin).x
+        line = equations.line(slide, frames, boundary, positions)
+        sliders[slide.link] = in_link_frame(line, frames[slide.link].origin).x
     ratio = solution.determinant / determinant
     return ChainMotion(points, frames, sliders, Closure(np.where(ratio > 0, ratio * ratio, np.nan), 1.0, ratio))
 
@@ -332,15 +333,15 @@ def _as_motion(
 def as_chain(
     dyad: Dyad, placed: Mapping[str, LinkMotion], start: float, bars: Mapping[str, Bar] = MappingProxyType({})
 ) -> Chain:
-    """Return a dyad as a chain that starts from a solved position, to be solved the other way.
+    """Return a dyad as a chain that starts from a solved position, for an independent solution.
 
-    `placed`: solved frames of links, of which the first position is taken; `start`: crank angle of the first position
+    `placed`: solved frames of links, of which the first position is used; `start`: crank angle of the first position
     [rad]; `bars`: those of the mechanism.
     """
 
     def link(name: str, **own: Point) -> ChainLink:
         frame = placed[name]
-        x, y = (float(np.ravel(one.position)[0]) for one in frame.origin)
+        x, y = (float(np.ravel(coordinate.position)[0]) for coordinate in frame.origin)
         cos, sin = float(np.ravel(frame.cos)[0]), float(np.ravel(frame.sin)[0])
         return ChainLink(name, (x, y), math.atan2(sin, cos), own)
 
@@ -348,7 +349,7 @@ def as_chain(
         own = bars.get(name, Bar((0.0, 0.0), (length, 0.0), 0.0))
         return link(name, **{joint: own.start, point: own.end})
 
-    at = (0.0, 0.0)
+    origin = (0.0, 0.0)
     match dyad:
         case RRR():
             a = bar(dyad.link_a, dyad.joint_a, dyad.point, dyad.length_a)
@@ -356,16 +357,16 @@ def as_chain(
             return Chain((a, b), (), frozenset({dyad.joint_a, dyad.joint_b}), start)
         case RRP():
             a = bar(dyad.link, dyad.joint, dyad.slider, dyad.length)
-            b = link(dyad.piece, **{dyad.slider: at})
+            b = link(dyad.piece, **{dyad.slider: origin})
             return Chain((a, b), (Slide(dyad.piece, dyad.guide),), frozenset({dyad.joint}), start)
         case RPR():
-            a, b = link(dyad.link, **{dyad.pivot: at}), link(dyad.block, **{dyad.joint: at})
+            a, b = link(dyad.link, **{dyad.pivot: origin}), link(dyad.block, **{dyad.joint: origin})
             slot = replace(dyad.slot, link=dyad.link)
             return Chain((a, b), (Slide(dyad.block, slot),), frozenset({dyad.joint, dyad.pivot}), start)
         case PRP():
-            a, b = link(dyad.block_a, **{dyad.point: at}), link(dyad.block_b, **{dyad.point: at})
+            a, b = link(dyad.block_a, **{dyad.point: origin}), link(dyad.block_b, **{dyad.point: origin})
             return Chain((a, b), (Slide(dyad.block_a, dyad.guide_a), Slide(dyad.block_b, dyad.guide_b)), start=start)
         case RPP():
-            a, b = link(dyad.link), link(dyad.block, **{dyad.joint: at})
+            a, b = link(dyad.link), link(dyad.block, **{dyad.joint: origin})
             slides = Slide(dyad.link, dyad.guide), Slide(dyad.block, replace(dyad.slot, link=dyad.link))
             return Chain((a, b), slides, frozenset({dyad.joint}), start)

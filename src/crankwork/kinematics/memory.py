@@ -1,4 +1,4 @@
-"""The motion of a mechanism as knowns: its lengths are given values, and everything else remembers them."""
+"""The traced motion of a mechanism: lengths are inputs, and formulas give everything else."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Body, Crank, Driver, LinkPoint, Mechanism
 
 
-class CrankAngle(NamedTuple):
-    """The crank angle and its functions, as a grid has them, and how far the crank gets. [deg]"""
+class TracedCrankAngle(NamedTuple):
+    """The crank angle and its functions, as in a grid, and the range of the crank. [deg]"""
 
     angle: Known = Known(OfAngle("angle"), "crank_angle")
     sin: Known = Known(OfAngle("sin"), "crank_sin")
@@ -33,74 +33,73 @@ class CrankAngle(NamedTuple):
     start: float = 0.0
     end: float = 360.0
 
-    def over(self, knowns: Mapping[str, Known]) -> OverCycle:
-        """Follow columns from the first to the last crank angle that is reached."""
-        return OverCycle(knowns, CrankGrid.from_degrees, self.end - self.start, self.start)
+    def over(self, columns: Mapping[str, Known]) -> OverCycle:
+        """Return the interpolant of columns over the range of the crank."""
+        return OverCycle(columns, CrankGrid.from_degrees, self.end - self.start, self.start)
 
 
 @dataclass(frozen=True)
-class Near:
-    """Directions at some crank angles, and straight lines between them. [deg], [rad]"""
+class ApproximateDirection:
+    """Directions at some crank angles, interpolated linearly. [deg], [rad]"""
 
     degrees: Array
     angle: Array
 
     def __call__(self, degrees: Array) -> Array:
-        """Return roughly the direction at crank angles."""
+        """Return the approximate direction at crank angles."""
         return np.asarray(np.interp(degrees, self.degrees, self.angle))
 
 
-def remembered_motion(mechanism: Mechanism, moved: Motion, linkage: Linkage | None = None) -> Motion:
-    """Return the motion of a mechanism as knowns.
+def remembered_motion(mechanism: Mechanism, motion: Motion, linkage: Linkage | None = None) -> Motion:
+    """Return the traced motion of a mechanism: how it follows from lengths and crank angle.
 
-    The same, each value a known that remembers how it follows from lengths and crank angle. `moved`: its motion in
-    numbers, which says how many turns its links make; `linkage`: the same as it was described.
+    `motion`: the same in numbers, for the full turns of its links; `linkage`: the mechanism as described.
     """
-    driver, reached = mechanism.driver, (float(moved.grid.degrees[0]), float(moved.grid.degrees[-1]))
-    grid = _untyped(CrankAngle(start=reached[0], end=reached[1]))
+    driver, ends = mechanism.driver, (float(motion.grid.degrees[0]), float(motion.grid.degrees[-1]))
+    grid = _untyped(TracedCrankAngle(start=ends[0], end=ends[1]))
     rates = None if driver.law is None else remembered_law(driver.law, turns=driver.turns)
-    at = grid if rates is None else _untyped(_coordinate(driver, rates.position))
-    placed = place_at(given_mechanism(mechanism, linkage), at, plain=mechanism)
+    coordinate = grid if rates is None else _untyped(_coordinate(driver, rates.position))
+    placed = place_at(traced_mechanism(mechanism, linkage), coordinate, plain=mechanism)
     links = {}
     for name, frame in placed.links.items():
         if name == driver.link and isinstance(driver, Crank):
-            links[name] = Transfer(driver.start + driver.direction * at.angle, frame.angle_1, frame.angle_2)
-        elif name in moved.links:
-            near = Near(moved.grid.degrees, moved.links[name].position)
-            turns = Known(HalfTurns(frame.sin, frame.cos, near), f"half_turns.{name}")
+            links[name] = Transfer(driver.start + driver.direction * coordinate.angle, frame.angle_1, frame.angle_2)
+        elif name in motion.links:
+            approximate = ApproximateDirection(motion.grid.degrees, motion.links[name].position)
+            turns = Known(HalfTurns(frame.sin, frame.cos, approximate), f"half_turns.{name}")
             angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
             links[name] = Transfer(angle, frame.angle_1, frame.angle_2)
     return Motion(grid, placed.points, links, placed.sliders, placed.links, placed.bars, rates)
 
 
-def _coordinate(driver: Driver, angle: Known) -> CrankAngle:
-    """Return the coordinate of a driver in place of an angle, with the functions that an angle has."""
+def _coordinate(driver: Driver, angle: Known) -> TracedCrankAngle:
+    """Return the coordinate of a driver in the form of a crank angle."""
     if not driver.turns:
-        return CrankAngle(angle, angle, angle)
-    return CrankAngle(
+        return TracedCrankAngle(angle, angle, angle)
+    return TracedCrankAngle(
         angle, named(sine_of_direction(angle), "crank_sin"), named(cosine_of_direction(angle), "crank_cos")
     )
 
 
-def course_of(grid: Any) -> Callable[[Mapping[str, Known]], OverCycle]:  # noqa: ANN401 - typed as a grid
-    """Return what follows columns over the crank angles of a remembered motion."""
-    course: Callable[[Mapping[str, Known]], OverCycle] = grid.over
-    return course
+def interpolant_of(grid: Any) -> Callable[[Mapping[str, Known]], OverCycle]:  # noqa: ANN401 - typed as a grid
+    """Return the function that interpolates columns over the crank angles of a traced motion."""
+    interpolant: Callable[[Mapping[str, Known]], OverCycle] = grid.over
+    return interpolant
 
 
 def angle_of(grid: Any) -> Known:  # noqa: ANN401 - typed as a grid
-    """Return the crank angle of a remembered motion."""
+    """Return the crank angle of a traced motion."""
     angle: Known = grid.angle
     return angle
 
 
-class _Places:
-    """Where a description states members and guides."""
+class _Paths:
+    """Paths of members and guides in a description."""
 
     def __init__(self, linkage: Linkage | None) -> None:
         members = () if linkage is None else (linkage.driving, *linkage.members)
-        self._geared = set() if linkage is None else {one.name for one in linkage.geared}
-        self._guides = {one.name: one.guide for one in members}
+        self._geared = set() if linkage is None else {geared.name for geared in linkage.geared}
+        self._guides = {member.name: member.guide for member in members}
         halves = linkage.driver.halves if linkage is not None and isinstance(linkage.driver, Cylinder) else ()
         self._halves = {half.link: f"driver.{name}" for half, name in zip(halves, ("barrel", "rod"), strict=False)}
         self._crank = linkage.driver.link if linkage is not None and isinstance(linkage.driver, Crank) else ""
@@ -118,18 +117,22 @@ class _Places:
         return f"guides.{self._guides.get(piece, piece)}"
 
 
-def given_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Mechanism:
-    """Return a mechanism whose lengths, angles and masses are given values; what is zero is absent."""
-    places = _Places(linkage)
-    ground: dict[str, Any] = {name: _point(name, at, f"fixed_points.{name}") for name, at in mechanism.ground.items()}
+def traced_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Mechanism:
+    """Return a mechanism whose lengths, angles and masses are inputs; zeros are absent."""
+    paths = _Paths(linkage)
+    ground: dict[str, Any] = {
+        name: _point(name, point, f"fixed_points.{name}") for name, point in mechanism.ground.items()
+    }
     return replace(
         mechanism,
         driver=_given_driver(mechanism, ground),
-        dyads=tuple(_chain(one, places) if isinstance(one, Chain) else _dyad(one, places) for one in mechanism.dyads),
-        bodies=tuple(_body(one, places) for one in mechanism.bodies),
+        dyads=tuple(
+            _chain(group, paths) if isinstance(group, Chain) else _dyad(group, paths) for group in mechanism.dyads
+        ),
+        bodies=tuple(_body(body, paths) for body in mechanism.bodies),
         ground=ground,
-        points=tuple(_link_point(one, places) for one in mechanism.points),
-        bars={name: _bar(name, one) for name, one in mechanism.bars.items()},
+        points=tuple(_link_point(point, paths) for point in mechanism.points),
+        bars={name: _bar(name, bar) for name, bar in mechanism.bars.items()},
     )
 
 
@@ -137,13 +140,13 @@ def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # no
     driver: Any = mechanism.driver
     match mechanism.driver:
         case Crank():
-            pivot = next((name for name, at in mechanism.ground.items() if at == driver.pivot), "")
+            pivot = next((name for name, point in mechanism.ground.items() if point == driver.pivot), "")
             return replace(
                 driver,
                 radius=given("crank_radius", driver.radius, "crank.radius"),
                 pivot=ground[pivot] if pivot else _point(f"{driver.link}_pivot", driver.pivot, "crank.pivot"),
                 start=_stated("line_angle.crank", driver.start, "crank.start"),
-                geared=tuple(_geared(one, mechanism.ground, ground) for one in driver.geared),
+                geared=tuple(_geared(geared, mechanism.ground, ground) for geared in driver.geared),
             )
         case DrivingSlider(link=piece, guide=guide):
             return replace(driver, guide=_guide(piece, guide, f"guides.{piece}"))
@@ -159,7 +162,7 @@ def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # no
 
 
 def _geared(crank: GearedCrank, places: Mapping[str, Point], ground: Mapping[str, Any]) -> GearedCrank:
-    pivot = next((name for name, at in places.items() if at == crank.pivot), "")
+    pivot = next((name for name, point in places.items() if point == crank.pivot), "")
     path, name = f"geared.{crank.link}", crank.link
     return replace(
         crank,
@@ -180,18 +183,18 @@ def _branch(name: str, branch: int) -> Any:  # noqa: ANN401 - a known where a nu
     return absent("branch", 1.0) if branch == 1 else given(f"branch.{name}", -1.0, f"branch.{name}")
 
 
-def _point(name: str, at: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
+def _point(name: str, point: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
     return tuple(
-        given(f"point_{axis}.{name}", one, f"{path}[{number}]")
-        for number, axis, one in zip((1, 2), "xy", at, strict=True)
+        given(f"point_{axis}.{name}", coordinate, f"{path}[{number}]")
+        for number, axis, coordinate in zip((1, 2), "xy", point, strict=True)
     )
 
 
 def _guide(name: str, guide: Guide, path: str) -> Guide:
-    """Return a guide; what is zero of a fixed one is given, of a carried one absent."""
+    """Return a guide of inputs; zeros of a fixed guide are given, those of a carried guide absent."""
     if not guide.link:
-        at: Any = _point(f"{name}.guide", guide.point, f"{path}.through")
-        return Guide(at, _untyped(given(f"link_angle.{name}.guide", guide.angle, f"{path}.angle")))
+        point: Any = _point(f"{name}.guide", guide.point, f"{path}.through")
+        return Guide(point, _untyped(given(f"link_angle.{name}.guide", guide.angle, f"{path}.angle")))
     return replace(_slot(f"{name}.guide", guide, path), link=guide.link)
 
 
@@ -203,12 +206,15 @@ def _slot(name: str, slot: Guide, path: str) -> Guide:
     )
 
 
-def _along_across(name: str, at: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
+def _along_across(name: str, point: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
     keys = (f"point_along.{name}", f"point_across.{name}")
-    return tuple(_stated(key, one, f"{path}[{number}]") for number, key, one in zip((1, 2), keys, at, strict=True))
+    return tuple(
+        _stated(key, coordinate, f"{path}[{number}]")
+        for number, key, coordinate in zip((1, 2), keys, point, strict=True)
+    )
 
 
-def _untyped(known: Known | CrankAngle) -> Any:  # noqa: ANN401 - a known where a number is typed
+def _untyped(known: Known | TracedCrankAngle) -> Any:  # noqa: ANN401 - a known where a number is typed
     return known
 
 
@@ -216,7 +222,7 @@ def _length(link: str, length: float) -> Any:  # noqa: ANN401 - a known where a 
     return given(f"link_length.{link}", length, f"links.{link}.length")
 
 
-def _dyad(dyad: Dyad, places: _Places) -> Dyad:
+def _dyad(dyad: Dyad, paths: _Paths) -> Dyad:
     match dyad:
         case RRR():
             return replace(
@@ -226,7 +232,7 @@ def _dyad(dyad: Dyad, places: _Places) -> Dyad:
                 branch=_branch(dyad.point, dyad.branch),
             )
         case RRP():
-            guide = _guide(dyad.piece, dyad.guide, places.guide(dyad.piece))
+            guide = _guide(dyad.piece, dyad.guide, paths.guide(dyad.piece))
             return replace(
                 dyad,
                 length=_length(dyad.link, dyad.length),
@@ -236,27 +242,23 @@ def _dyad(dyad: Dyad, places: _Places) -> Dyad:
             )
         case RPR():
             return replace(
-                dyad,
-                slot=_slot(dyad.block, dyad.slot, places.guide(dyad.block)),
-                branch=_branch(dyad.link, dyad.branch),
+                dyad, slot=_slot(dyad.block, dyad.slot, paths.guide(dyad.block)), branch=_branch(dyad.link, dyad.branch)
             )
         case PRP():
             a, b = dyad.block_a, dyad.block_b
             return replace(
-                dyad,
-                guide_a=_guide(a, dyad.guide_a, places.guide(a)),
-                guide_b=_guide(b, dyad.guide_b, places.guide(b)),
+                dyad, guide_a=_guide(a, dyad.guide_a, paths.guide(a)), guide_b=_guide(b, dyad.guide_b, paths.guide(b))
             )
         case RPP():
             return replace(
                 dyad,
-                slot=_slot(dyad.block, dyad.slot, places.guide(dyad.block)),
-                guide=_guide(dyad.link, dyad.guide, places.guide(dyad.link)),
+                slot=_slot(dyad.block, dyad.slot, paths.guide(dyad.block)),
+                guide=_guide(dyad.link, dyad.guide, paths.guide(dyad.link)),
             )
 
 
 def _bar(name: str, bar: Bar) -> Bar:
-    """Return a bar with what is measured of it given; one that lies the other way round needs no more than that."""
+    """Return a bar of inputs; a bar that is only reversed stays as it is."""
     if bar.end == (0.0, 0.0) and abs(bar.angle) == math.pi:
         return bar
     path = f"links.{name}"
@@ -264,15 +266,15 @@ def _bar(name: str, bar: Bar) -> Bar:
     return replace(bar, start=start, angle=_stated(f"line_angle.{name}", bar.angle, path))
 
 
-def _chain(chain: Chain, places: _Places) -> Chain:
-    """Return a chain whose guides are given; its points become so where they are placed."""
-    guides = (_guide(one.link, one.guide, places.guide(one.link)) for one in chain.slides)
-    slides = (replace(one, guide=guide) for one, guide in zip(chain.slides, guides, strict=True))
+def _chain(chain: Chain, paths: _Paths) -> Chain:
+    """Return a chain whose guides are inputs; its points become inputs where they are placed."""
+    guides = (_guide(slide.link, slide.guide, paths.guide(slide.link)) for slide in chain.slides)
+    slides = (replace(slide, guide=guide) for slide, guide in zip(chain.slides, guides, strict=True))
     return replace(chain, slides=tuple(slides))
 
 
-def _body(body: Body, places: _Places) -> Body:
-    path = places.member(body.link)
+def _body(body: Body, paths: _Paths) -> Body:
+    path = paths.member(body.link)
     return replace(
         body,
         mass=_stated(f"body_mass.{body.link}", body.mass, f"{path}.mass"),
@@ -280,9 +282,9 @@ def _body(body: Body, places: _Places) -> Body:
     )
 
 
-def _link_point(point: LinkPoint, places: _Places) -> LinkPoint:
-    member = places.member(point.link)
-    # a centre of mass that is no joint has no name of its own
+def _link_point(point: LinkPoint, paths: _Paths) -> LinkPoint:
+    member = paths.member(point.link)
+    # a centre of mass that is not a joint has no name in the description
     is_centre = point.name == f"{point.link}.centre"
     path = f"{member}.centre" if is_centre else f"{member}.points.{point.name}"
     along, across = _along_across(point.name, (point.along, point.across), path)

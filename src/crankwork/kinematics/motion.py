@@ -10,9 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.dyads import (
-    LinkMotion,
-)
+from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.placement import assembled
@@ -64,11 +62,11 @@ class Directions(Mapping[str, Transfer]):
 
 
 def direction(grid: CrankGrid, link: LinkMotion) -> Transfer:
-    """Return the direction of a link, free of jumps by a turn. [rad]
+    """Return the direction of a link without jumps by full turns. [rad]
 
     Angle from the x axis, over -pi and up to pi at the first position, and its derivatives.
 
-    Between neighbours the angle grows by about the mean rate times the step, which says how many turns to add.
+    Between neighbours the angle grows by about the mean rate times the step, which gives the number of turns to add.
     """
     still = np.zeros_like(grid.angle)
     # -0 would be -180 degrees where the cosine is negative
@@ -84,13 +82,13 @@ def linkage_motion(mechanism: Mechanism, grid: CrankGrid, *, paths: dict[int, Ch
 
     Positions and transfer functions [m], [rad]. `paths`: see `place_at`.
     """
-    placed, halves = assembled(mechanism, grid, paths), {one.link for one in mechanism.halves}
+    placed, halves = assembled(mechanism, grid, paths), {half.link for half in mechanism.halves}
 
-    def transfer(one: Transfer) -> Transfer:
-        return Transfer(*(part if part.ndim else np.broadcast_to(part, grid.angle.shape) for part in one))
+    def transfer(motion: Transfer) -> Transfer:
+        return Transfer(*(part if part.ndim else np.broadcast_to(part, grid.angle.shape) for part in motion))
 
-    points = {name: PointMotion(transfer(one.x), transfer(one.y)) for name, one in placed.points.items()}
-    sliders = {name: transfer(one) for name, one in placed.sliders.items()}
+    points = {name: PointMotion(transfer(point.x), transfer(point.y)) for name, point in placed.points.items()}
+    sliders = {name: transfer(distance) for name, distance in placed.sliders.items()}
     links = {name: frame for name, frame in placed.links.items() if name not in sliders and name not in halves}
     law = mechanism.driver.law
     driver = None if law is None else law_at(law, grid)

@@ -1,8 +1,8 @@
 """Motion laws: the coordinate of a driver over one period of time, and its two rates.
 
-A segment is a way from one value of the coordinate to another. What share of it is done after what share of the time
-says the normalised law, a polynomial or a sine beside a straight line, piece after piece. The period is one turn of
-360 degrees of the angle that all columns follow.
+A segment moves the coordinate from one value to another. Its normalised law gives the share of the travel by the share
+of the time: a polynomial, or a straight line less a sine, piece by piece. The period is one turn of 360 degrees of the
+angle that all columns depend on.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from crankwork.kinematics.transfer import Transfer
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import Law, LawKind, MotionLaw, Segment
 
-_STANDS = 1e-9
+_REST_TOLERANCE = 1e-9
 _LAWS = "norton_2012, ch. 8"
 
 
@@ -90,8 +90,8 @@ def law_acceleration(h_q: Value, f_z2: Value, T_s: Value) -> Value:
     return h_q * f_z2 / T_s**2
 
 
-class Piece(NamedTuple):
-    """A normalised law up to a share of the time: a polynomial, less a sine of an acceleration where it has one."""
+class LawPiece(NamedTuple):
+    """A normalised law up to a share of the time: a polynomial, less a sine if it has an amplitude."""
 
     end: float
     coefficients: tuple[float, ...]
@@ -101,7 +101,7 @@ class Piece(NamedTuple):
 
 
 class _Pushed(NamedTuple):
-    """An acceleration up to a share of the time: constant, or that amplitude of a sine."""
+    """An acceleration up to a share of the time: constant, or the amplitude of a sine."""
 
     end: float
     acceleration: float
@@ -109,28 +109,28 @@ class _Pushed(NamedTuple):
     phase: float = 0.0
 
 
-def _from_accelerations(pushed: Sequence[_Pushed]) -> tuple[Piece, ...]:
-    """Return the law from rest to rest that some accelerations give, the way scaled to one."""
+def _from_accelerations(pushed: Sequence[_Pushed]) -> tuple[LawPiece, ...]:
+    """Return the law from rest to rest with given accelerations, scaled to a travel of one."""
     start, place, rate = 0.0, 0.0, 0.0
     pieces = []
-    for one in pushed:
-        if one.frequency:
-            k, a = one.frequency, one.acceleration
-            slope = rate + a / k * math.cos(k * start + one.phase)
-            constant = place - slope * start + a / k**2 * math.sin(k * start + one.phase)
-            pieces.append(Piece(one.end, (constant, slope), a, k, one.phase))
-            place = constant + slope * one.end - a / k**2 * math.sin(k * one.end + one.phase)
-            rate = slope - a / k * math.cos(k * one.end + one.phase)
+    for push in pushed:
+        if push.frequency:
+            k, a = push.frequency, push.acceleration
+            slope = rate + a / k * math.cos(k * start + push.phase)
+            constant = place - slope * start + a / k**2 * math.sin(k * start + push.phase)
+            pieces.append(LawPiece(push.end, (constant, slope), a, k, push.phase))
+            place = constant + slope * push.end - a / k**2 * math.sin(k * push.end + push.phase)
+            rate = slope - a / k * math.cos(k * push.end + push.phase)
         else:
-            a = one.acceleration
+            a = push.acceleration
             coefficients = (place - rate * start + a / 2 * start**2, rate - a * start, a / 2)
-            pieces.append(Piece(one.end, coefficients))
-            step = one.end - start
+            pieces.append(LawPiece(push.end, coefficients))
+            step = push.end - start
             place, rate = place + rate * step + a / 2 * step**2, rate + a * step
-        start = one.end
+        start = push.end
     return tuple(
-        one._replace(coefficients=tuple(c / place for c in one.coefficients), amplitude=one.amplitude / place)
-        for one in pieces
+        piece._replace(coefficients=tuple(c / place for c in piece.coefficients), amplitude=piece.amplitude / place)
+        for piece in pieces
     )
 
 
@@ -156,23 +156,23 @@ _ACCELERATIONS: Mapping[LawKind, tuple[_Pushed, ...]] = MappingProxyType({
 
 
 @cache
-def shape(kind: LawKind, ramp: float = 1 / 3) -> tuple[Piece, ...]:
+def shape(kind: LawKind, ramp: float = 1 / 3) -> tuple[LawPiece, ...]:
     """Return a normalised law of a segment that rises or returns, piece after piece (norton_2012, ch. 8).
 
     The names are those of VDI 2143. A trapezoidal law has a trapezoid of velocity; `ramp` is the part of the time in
     which it rises, and in which it falls.
     """
     if kind in _POLYNOMIALS:
-        return (Piece(1.0, _POLYNOMIALS[kind]),)
+        return (LawPiece(1.0, _POLYNOMIALS[kind]),)
     if kind == "trapezoidal":
         return _from_accelerations((_Pushed(ramp, 1.0), _Pushed(1 - ramp, 0.0), _Pushed(1.0, -1.0)))
     return _from_accelerations(_ACCELERATIONS[kind])
 
 
-def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: bool) -> tuple[Piece, ...]:
+def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: bool) -> tuple[LawPiece, ...]:
     """Return the cubic spline through some points as a normalised law.
 
-    `shares`: from 0 to 1, rising; `ways`: of any scale. Both ends are at rest, or, where it is closed, one place.
+    `shares`: from 0 to 1, ascending; `ways`: of any scale. Both ends are at rest; a closed spline is periodic instead.
     """
     z, y = np.array(shares, dtype=float), np.array(ways, dtype=float)
     count, step = z.size, np.diff(z)
@@ -183,7 +183,7 @@ def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: b
         right[k] = 3 * (slopes[k - 1] / step[k - 1] + slopes[k] / step[k])
     matrix[0, 0] = matrix[-1, -1] = 1.0
     if is_closed:
-        # one rate and one acceleration at both ends
+        # equal rates and equal accelerations at both ends
         matrix[-1, 0] = -1.0
         matrix[0] = 0.0
         matrix[0, :2] += 2 / step[0], 1 / step[0]
@@ -194,18 +194,18 @@ def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: b
     for k in range(count - 1):
         h, bend = step[k], (3 * slopes[k] - 2 * rate[k] - rate[k + 1]) / step[k]
         local = np.polynomial.Polynomial([y[k], rate[k], bend, (rate[k] + rate[k + 1] - 2 * slopes[k]) / h**2])
-        whole = local(np.polynomial.Polynomial([-z[k], 1.0]))
-        pieces.append(Piece(float(z[k + 1]), tuple(whole.coef.tolist())))
+        shifted = local(np.polynomial.Polynomial([-z[k], 1.0]))
+        pieces.append(LawPiece(float(z[k + 1]), tuple(shifted.coef.tolist())))
     return tuple(pieces)
 
 
 _TRIED, _HALVINGS = np.linspace(0.0, 1.0, 2001), 52
-# how far a derivative may be from the differences of what it is one of, of its largest
-_APART = 1e-3
+# largest difference of a rate from the difference quotient, relative to the largest rate
+_RATE_TOLERANCE = 1e-3
 
 
 class _Own:
-    """A law of one's own, tried out before it is taken."""
+    """A law of the user, checked when it is made."""
 
     def __init__(self, law: MotionLaw) -> None:
         self.law, self.breaks = law, tuple(law.breaks)
@@ -213,28 +213,28 @@ class _Own:
         name = type(law).__name__
         if tried.shape != (3, _TRIED.size) or not np.all(np.isfinite(tried)):
             raise CrankworkError(Refusal("own_law_values", name=name))
-        if abs(tried[0, 0]) > _STANDS or abs(tried[0, -1] - 1.0) > _STANDS:
+        if abs(tried[0, 0]) > _REST_TOLERANCE or abs(tried[0, -1] - 1.0) > _REST_TOLERANCE:
             raise CrankworkError(Refusal("own_law_ends", name=name, start=tried[0, 0], end=tried[0, -1]))
-        if not all(0.0 < one < 1.0 for one in self.breaks) or list(self.breaks) != sorted(set(self.breaks)):
+        if not all(0.0 < share < 1.0 for share in self.breaks) or list(self.breaks) != sorted(set(self.breaks)):
             raise CrankworkError(Refusal("own_law_breaks", name=name))
         step = _TRIED[1]
         smooth = np.all(np.abs(_TRIED[1:-1, None] - np.array(self.breaks)) > step, axis=1)
-        for order, (one, rate) in enumerate(itertools.pairwise(tried), start=1):
-            apart = np.abs((one[2:] - one[:-2]) / (2 * step) - rate[1:-1])[smooth]
-            if np.max(apart) > _APART * max(1.0, np.max(np.abs(rate))):
+        for order, (values, rate) in enumerate(itertools.pairwise(tried), start=1):
+            error = np.abs((values[2:] - values[:-2]) / (2 * step) - rate[1:-1])[smooth]
+            if np.max(error) > _RATE_TOLERANCE * max(1.0, np.max(np.abs(rate))):
                 raise CrankworkError(Refusal("own_law_rates", name=name, order=order))
 
     def pieces(self, z: Known) -> Iterator[tuple[float, tuple[Known, Known, Known]]]:
-        """Yield stretches between breaks: where they end, share of the way, normalised velocity and acceleration."""
+        """Yield the intervals between breaks: end, share of the travel, normalised velocity and acceleration."""
         for begin, end in itertools.pairwise((0.0, *self.breaks, 1.0)):
-            way, rate, second = (
+            share, rate, second = (
                 Known(Table(_Part(self.law, order, begin, end), "own_law", by=z), key)
                 for order, key in enumerate(("way_share", "way_share_1", "way_share_2"))
             )
-            yield end, (way, rate, second)
+            yield end, (share, rate, second)
 
     def passed(self) -> Array:
-        """Return shares of the way, the least and the greatest that there are among them."""
+        """Return the least and the greatest share of the travel at samples, and the shares at reversals."""
         ways, rates, _ = self.law.ways(_TRIED)
         signs = np.sign(rates)
         before = np.flatnonzero(signs[:-1] * signs[1:] < 0)
@@ -248,7 +248,7 @@ class _Own:
 
 @dataclass(frozen=True)
 class _Part:
-    """One of the three that a law of one's own gives, on its own side of breaks."""
+    """One of the three outputs of a law of the user, in one interval between breaks."""
 
     law: MotionLaw
     order: int
@@ -260,42 +260,42 @@ class _Part:
         return np.asarray(self.law.ways(inside)[self.order], dtype=float)
 
 
-# keys of coordinate, rates and way of a driver that moves along a line, and of one that turns
+# keys of coordinate, rates and travel of a driver on a line, and of one that turns
 _KEYS = {
     False: (("driver_displacement", "driver_velocity", "driver_acceleration"), "driver_way"),
     True: (("driver_angle", "driver_speed", "driver_angular_acceleration"), "driver_turn"),
 }
 
 
-class _Way(NamedTuple):
-    """A segment in its place: where it starts and ends [deg], from which value on, how far, and its pieces or law."""
+class _PlacedSegment(NamedTuple):
+    """A segment in the period: start and end [deg], initial value, travel, and pieces or law."""
 
     start: float
     end: float
     origin: float
-    way: float
-    pieces: tuple[Piece, ...] | _Own
+    travel: float
+    pieces: tuple[LawPiece, ...] | _Own
 
 
-def _ways(law: Law) -> Iterator[_Way]:
-    shares = np.cumsum([0.0, *(one.share for one in law.segments)]) / sum(one.share for one in law.segments)
-    edges, origin = (360.0 * shares).tolist(), law.start
+def _placed_segments(law: Law) -> Iterator[_PlacedSegment]:
+    shares = np.cumsum([0.0, *(section.share for section in law.segments)])
+    edges, origin = (360.0 * (shares / shares[-1])).tolist(), law.start
     for segment, (start, end) in zip(law.segments, itertools.pairwise(edges), strict=True):
-        way, pieces = _shape_of(segment, origin, is_alone=len(law.segments) == 1)
-        yield _Way(start, end, origin, way, pieces)
+        travel, pieces = _shape_of(segment, origin, is_alone=len(law.segments) == 1)
+        yield _PlacedSegment(start, end, origin, travel, pieces)
         origin = segment.to
 
 
-def _shape_of(segment: Segment, origin: float, *, is_alone: bool) -> tuple[float, tuple[Piece, ...] | _Own]:
-    """Return the way of a segment and its normalised law; a rest has neither."""
+def _shape_of(segment: Segment, origin: float, *, is_alone: bool) -> tuple[float, tuple[LawPiece, ...] | _Own]:
+    """Return the travel of a segment and its normalised law; a dwell has neither."""
     if not isinstance(segment.kind, str):
         return segment.to - origin, _Own(segment.kind)
     if segment.kind == "table":
         shares = (0.0, *(share for share, _ in segment.points), 1.0)
         places = (origin, *(place for _, place in segment.points), segment.to)
-        way = max(places) - min(places) or 1.0
-        ways = [(place - origin) / way for place in places]
-        return way, smooth_shape(shares, ways, is_closed=is_alone and segment.to == origin)
+        travel = max(places) - min(places) or 1.0
+        ways = [(place - origin) / travel for place in places]
+        return travel, smooth_shape(shares, ways, is_closed=is_alone and segment.to == origin)
     if segment.kind == "dwell" or segment.to == origin:
         return 0.0, ()
     return segment.to - origin, shape(segment.kind, segment.ramp)
@@ -313,51 +313,51 @@ class Clock:
 
 
 def clock(law: Law) -> Known:
-    """Return the time as a known over the angle of one period. [s]"""
+    """Return the traced time over the angle of one period. [s]"""
     return Known(Table(Clock(law.period), "clock"), "time")
 
 
 def remembered_law(law: Law, *, turns: bool) -> Transfer:
-    """Return coordinate, rate and second rate of a driver as knowns over the angle of one period.
+    """Return the traced coordinate, rate and second rate of a driver over the angle of one period.
 
     `turns`: whether the coordinate is an angle and not a length.
     """
     keys, way_key = _KEYS[turns]
     time, ends = clock(law), list[float]()
     columns: tuple[list[Known], ...] = ([], [], [])
-    for number, one in enumerate(_ways(law), start=1):
-        before, here = f"driver.law[{number - 1}]" if number > 1 else "driver", f"driver.law[{number}]"
-        origin = given(f"{keys[0]}.{number}", one.origin, f"{before}.{'to' if number > 1 else 'start'}")
-        if not one.pieces:
-            ends.append(one.end)
+    for number, segment in enumerate(_placed_segments(law), start=1):
+        before, path = f"driver.law[{number - 1}]" if number > 1 else "driver", f"driver.law[{number}]"
+        origin = given(f"{keys[0]}.{number}", segment.origin, f"{before}.{'to' if number > 1 else 'start'}")
+        if not segment.pieces:
+            ends.append(segment.end)
             for column, known in zip(columns, (origin, absent(keys[1]), absent(keys[2])), strict=True):
                 column.append(known)
             continue
-        begins, lasts = (law.period * degrees / 360.0 for degrees in (one.start, one.end - one.start))
+        begins, lasts = (law.period * degrees / 360.0 for degrees in (segment.start, segment.end - segment.start))
         begin = given(f"start_time.{number}", begins, f"{before}.over") if begins else absent("start_time")
-        way = given(f"{way_key}.{number}", one.way, f"{here}.to")
-        duration = given(f"segment_time.{number}", lasts, f"{here}.over")
+        travel = given(f"{way_key}.{number}", segment.travel, f"{path}.to")
+        duration = given(f"segment_time.{number}", lasts, f"{path}.over")
         z = ((time - begin) / duration).named(f"time_share.{number}")
         for end, (f, f_1, f_2) in (
-            one.pieces.pieces(z)
-            if isinstance(one.pieces, _Own)
-            else ((piece.end, _normalised(piece, z)) for piece in one.pieces)
+            segment.pieces.pieces(z)
+            if isinstance(segment.pieces, _Own)
+            else ((piece.end, _normalised(piece, z)) for piece in segment.pieces)
         ):
-            ends.append(one.start + end * (one.end - one.start))
-            columns[0].append(law_displacement(origin, way, f))
-            columns[1].append(law_velocity(way, f_1, duration))
-            columns[2].append(f_2 if f_2.is_absent else law_acceleration(way, f_2, duration))
+            ends.append(segment.start + end * (segment.end - segment.start))
+            columns[0].append(law_displacement(origin, travel, f))
+            columns[1].append(law_velocity(travel, f_1, duration))
+            columns[2].append(f_2 if f_2.is_absent else law_acceleration(travel, f_2, duration))
     ends[-1] = 360.0
     return Transfer(*(Known(Pieces(ends, tuple(laws)), key) for laws, key in zip(columns, keys, strict=True)))
 
 
-def _normalised(piece: Piece, z: Known) -> tuple[Known, Known, Known]:
-    """Return the share of the way, normalised velocity and acceleration of one piece; none of a constant rate."""
+def _normalised(piece: LawPiece, z: Known) -> tuple[Known, Known, Known]:
+    """Return share of the travel, normalised velocity and acceleration of a piece; absent for a constant rate."""
     if piece.amplitude:
         c_0, c_1, *_ = (_coefficient(c) for c in piece.coefficients)
         a, k, d = piece.amplitude, piece.frequency, _coefficient(piece.phase)
         return sine_law(c_0, c_1, z, a, k, d), sine_law_1(c_1, a, k, z, d), sine_law_2(a, k, z, d)
-    c = [_coefficient(one) for one in (*piece.coefficients, *[0.0] * (8 - len(piece.coefficients)))]
+    c = [_coefficient(value) for value in (*piece.coefficients, *[0.0] * (8 - len(piece.coefficients)))]
     second = polynomial_law_2(z, *c[2:]) if any(piece.coefficients[2:]) else absent("way_share_2")
     return polynomial_law(z, *c), polynomial_law_1(z, *c[1:]), second
 
@@ -377,19 +377,20 @@ def law_at(law: Law, grid: CrankGrid) -> Transfer:
 
 
 def extent(law: Law) -> tuple[float, float]:
-    """Return the least and the greatest coordinate of a driver over its period, wherever in time they are."""
-    passed = [law.start, *(one.to for one in law.segments)]
-    for segment, one in zip(law.segments, _ways(law), strict=True):
-        # of the other laws none leaves what lies between its ends
-        if isinstance(one.pieces, _Own):
-            passed += (one.origin + one.way * one.pieces.passed()).tolist()
+    """Return the least and the greatest coordinate of a driver over its period."""
+    passed = [law.start, *(section.to for section in law.segments)]
+    for segment, placed in zip(law.segments, _placed_segments(law), strict=True):
+        # the other laws stay between the values at their ends
+        if isinstance(placed.pieces, _Own):
+            passed += (placed.origin + placed.travel * placed.pieces.passed()).tolist()
         elif segment.kind == "table":
             passed += [place for _, place in segment.points]
             begin = 0.0
-            for piece in one.pieces:
+            for piece in placed.pieces:
                 share = np.polynomial.Polynomial(piece.coefficients)
                 stops = share.deriv().trim().roots()
-                at = stops[np.isreal(stops)].real
-                passed += (one.origin + one.way * share(at[(at > begin) & (at < piece.end)])).tolist()
+                extremes = stops[np.isreal(stops)].real
+                inside = extremes[(extremes > begin) & (extremes < piece.end)]
+                passed += (placed.origin + placed.travel * share(inside)).tolist()
                 begin = piece.end
     return min(passed), max(passed)

@@ -1,8 +1,8 @@
-"""Change points passed: polynomials through the positions beside them lead the dyads over.
+"""Polynomials that replace the formulas of dyads near change points.
 
-At a change point the two branches of a dyad meet and its formulas are nought by nought; beside it they lose digits with
-the square of the distance. The motion itself is smooth there, so that polynomials through positions farther off, on
-one branch before and on the other after it, give it to rounding.
+At a change point the two branches of a dyad meet and its formulas are 0/0; near it they lose digits with the square of
+the distance. The motion itself is smooth there, so that polynomials through positions farther off, on one branch before
+and on the other after it, give it to rounding.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.placement import place
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
-from crankwork.mechanism.passage import Bridge, Passage, Polynomial
+from crankwork.mechanism.passage import ChangePointFit, ChangePointPassage, Polynomial
 
 _TOUCHES = 1e-7
 _DEGREE = 12
 _NODES = 80
 _REACHES = 45.0 * 0.75 ** np.arange(14)
-# nodes nearest to the change point lose the most digits, and the formulas beside the polynomials as many
+# nodes nearest to the change point lose the most digits, as do the formulas at the ends of the polynomials
 _NEAREST = 1 / 6
 _USED = 1 / 2
-# the widest reach serves whose last orders change hardly more than those of the best
+# the widest reach is used whose last orders change little more than those of the best
 _ENOUGH, _ROUNDING = 4.0, 5e-14
 
 
@@ -36,20 +36,22 @@ def with_passages(
 ) -> Mechanism:
     """Return a mechanism that passes change points at crank angles between the ends of its motion.
 
-    `stated`: crank angle at which its dyads are on their branches, or just behind which [deg]; `is_whole`: whether the
-    crank turns fully, and all repeats from the end.
+    `stated`: crank angle at which its dyads are on their branches, or just after which [deg]; `is_whole`: whether the
+    crank turns fully, so that everything repeats.
     """
-    # a crank that turns fully goes on beyond its table; one that turns back does not
+    # a crank that turns fully goes on beyond its table; otherwise it does not
     period = ends[1] - ends[0] if is_whole else math.inf
     for index, group in enumerate(mechanism.dyads):
         if not isinstance(group, RRR | RRP | RPR):
             continue
-        here = tuple(one for one in changes if _touches(mechanism, index, one))
-        if here:
-            passed = replace(mechanism, passages={**mechanism.passages, index: Passage(here, stated, period)})
-            bridges = tuple(_bridge(passed, index, one, changes, ends) for one in here)
+        touched = tuple(change for change in changes if _touches(mechanism, index, change))
+        if touched:
+            passed = replace(
+                mechanism, passages={**mechanism.passages, index: ChangePointPassage(touched, stated, period)}
+            )
+            bridges = tuple(_bridge(passed, index, change, changes, ends) for change in touched)
             mechanism = replace(
-                mechanism, passages={**mechanism.passages, index: Passage(here, stated, period, bridges)}
+                mechanism, passages={**mechanism.passages, index: ChangePointPassage(touched, stated, period, bridges)}
             )
     return mechanism
 
@@ -62,22 +64,22 @@ def _touches(mechanism: Mechanism, index: int, degrees: float) -> bool:
 
 def _bridge(
     mechanism: Mechanism, index: int, degrees: float, changes: Sequence[float], ends: tuple[float, float]
-) -> Bridge:
-    """Return the polynomials of a dyad about a change point, through what loses the fewest digits."""
-    room = [abs(one - degrees) / 2 for one in changes if one != degrees]
+) -> ChangePointFit:
+    """Return the polynomials of a dyad near a change point, those that lose the fewest digits."""
+    limits = [abs(change - degrees) / 2 for change in changes if change != degrees]
     if not math.isfinite(mechanism.passages[index].period):
-        room += [abs(one - degrees) for one in ends]
-    widest = min([_REACHES[0], *room])
+        limits += [abs(end - degrees) for end in ends]
+    widest = min([_REACHES[0], *limits])
     part = replace(mechanism, dyads=mechanism.dyads[: index + 1])
-    reaches = [float(one) for one in _REACHES if one <= widest] or [widest]
+    reaches = [float(width) for width in _REACHES if width <= widest] or [widest]
     fits = [_fitted(part, index, degrees, reach) for reach in reaches]
     enough = _ENOUGH * max(min(left for _, _, left in fits), _ROUNDING)
     reach, columns = next((reach, columns) for reach, columns, left in fits if left <= enough)
-    return Bridge(degrees, _USED * reach, columns)
+    return ChangePointFit(degrees, _USED * reach, columns)
 
 
 def _fitted(part: Mechanism, index: int, degrees: float, reach: float) -> tuple[float, Mapping[str, Polynomial], float]:
-    """Return polynomials of the quantities of a dyad over a reach, and how much the last orders still change them."""
+    """Return polynomials of the quantities of a dyad over a reach, and the effect of their last orders."""
     nearest = _NEAREST * reach
     nodes = np.cos(np.pi * (2 * np.arange(_NODES // 2) + 1) / _NODES)
     far = np.sqrt((nearest**2 + reach**2) / 2 + (reach**2 - nearest**2) / 2 * nodes)
@@ -87,37 +89,37 @@ def _fitted(part: Mechanism, index: int, degrees: float, reach: float) -> tuple[
     near = chebyshev.chebvander(np.linspace(-_USED, _USED, 9), _DEGREE)
     columns, left = {}, 0.0
     for key, value in values.items():
-        # what the formulas lose towards the change point
+        # the digits that formulas lose near the change point
         weight = np.abs(local) ** (2 if key.endswith("_1") else 1)
-        whole, less = (
+        full, reduced = (
             np.linalg.lstsq(powers[:, :count] * weight[:, None], value * weight, rcond=None)[0]
             for count in (_DEGREE + 1, _DEGREE - 1)
         )
-        columns[key] = Polynomial(degrees, reach, tuple(map(float, whole)))
-        apart = np.abs(near @ whole - near[:, : _DEGREE - 1] @ less).max()
-        left = max(left, float(apart / (1 + np.abs(value).max()))) if np.isfinite(apart) else math.inf
+        columns[key] = Polynomial(degrees, reach, tuple(map(float, full)))
+        difference = np.abs(near @ full - near[:, : _DEGREE - 1] @ reduced).max()
+        left = max(left, float(difference / (1 + np.abs(value).max()))) if np.isfinite(difference) else math.inf
     return reach, columns, left
 
 
 def _quantities(part: Mechanism, index: int, grid: CrankGrid) -> dict[str, Array]:
-    """Return what a change point makes nought by nought, of a dyad beside it."""
+    """Return the quantities of a dyad that are 0/0 at a change point."""
     placed, full = place(part, grid), np.zeros(len(grid))
     match part.dyads[index]:
         case RRR() as dyad:
-            a, b = (placed.bars.get(one, placed.links[one]) for one in (dyad.link_a, dyad.link_b))
-            found = {
+            a, b = (placed.bars.get(link, placed.links[link]) for link in (dyad.link_a, dyad.link_b))
+            quantities = {
                 "arm_x": dyad.length_a * a.cos, "arm_y": dyad.length_a * a.sin,
                 "rate_a": a.angle_1, "rate_b": b.angle_1, "rate_a_1": a.angle_2, "rate_b_1": b.angle_2,
             }  # fmt: skip
         case RRP() as dyad:
             a, b = placed.bars.get(dyad.link, placed.links[dyad.link]), placed.links[dyad.piece]
             reach = dyad.length * (a.cos * b.cos + a.sin * b.sin)
-            found = {"reach": reach, "rate": a.angle_1 - b.angle_1, "rate_1": a.angle_2 - b.angle_2}
+            quantities = {"reach": reach, "rate": a.angle_1 - b.angle_1, "rate_1": a.angle_2 - b.angle_2}
         case RPR() as dyad:
             a, b = placed.links[dyad.link], placed.links[dyad.block]
             x, y = (pin.position - pivot.position for pin, pivot in zip(b.origin, a.origin, strict=True))
-            found = {
+            quantities = {
                 "reach": x * b.cos + y * b.sin, "cos": b.cos, "sin": b.sin,
                 "rate": b.angle_1, "rate_1": b.angle_2,
             }  # fmt: skip
-    return {key: value + full for key, value in found.items()}
+    return {key: value + full for key, value in quantities.items()}

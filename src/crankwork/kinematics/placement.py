@@ -1,4 +1,4 @@
-"""The driver and one group after another: where every point and link of a mechanism is."""
+"""Position analysis: the driver, then one group after another."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.known import Root, absent, is_known, named
-from crankwork.kinematics.assembly import refusal, singular_between, unassembled
-from crankwork.kinematics.bridges import over_bridges, passed_branch
+from crankwork.kinematics.assembly import assembly_error, singular_between, unassembled
+from crankwork.kinematics.bridges import branch_sign, change_point_replacement
 from crankwork.kinematics.chain_memory import remembered_chain
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.driving import geared_motion, opened_pair, third_side_motion
@@ -25,16 +25,16 @@ from crankwork.kinematics.dyads import (
     fixed_guide,
     fixed_point,
     guide_on_link,
-    is_nothing,
+    is_zero,
     named_link,
     named_point,
     pin_on_crank,
     point_on_guide,
     point_on_link,
+    rotated_frame,
     rrp_motion,
     rrr_motion,
-    straight,
-    turned,
+    unchanged,
 )
 from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import extent, law_at
@@ -46,19 +46,19 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide
 from crankwork.mechanism.joints import group_links, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
-from crankwork.mechanism.passage import Passage
+from crankwork.mechanism.passage import ChangePointPassage
 
-_STANDS = 1e-12
-# positions of a driver with a law at which a linkage is looked at, between which it is as well
-_LOOKED_AT = 361
+_REST_TOLERANCE = 1e-12
+# positions of a driver at which a linkage with a motion law is checked; intervals between them are checked too
+_SCAN_POINTS = 361
 
 
 @dataclass
 class Placed:
-    """What has been placed so far: points, frames of links, distances of sliders, and how well groups closed.
+    """The positions calculated so far: points, frames of links, distances of sliders, closures of groups.
 
-    `grid` has the coordinate of the driver, a length or an angle. Where all these are remembered, `plain` is the same
-    mechanism in numbers.
+    `grid` has the coordinate of the driver, a length or an angle. For traced values, `plain` is the same mechanism in
+    numbers.
     """
 
     grid: CrankGrid
@@ -66,11 +66,11 @@ class Placed:
     links: dict[str, LinkMotion] = field(default_factory=dict)
     sliders: dict[str, Transfer] = field(default_factory=dict)
     lengths: dict[str, Transfer] = field(default_factory=dict)
-    # Lines between the joints of those links of dyads whose frames they are not, by link
+    # Lines between the joints of links of dyads whose frames lie elsewhere, by link
     bars: dict[str, LinkMotion] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
     plain: Mechanism | None = None
-    # What has been followed of chains, by their place; it serves what hangs on them
+    # Solved paths of chains by the index of their group, for the chains that depend on them too
     paths: dict[int, ChainPath] = field(default_factory=dict)
 
     def guide(self, guide: Guide, piece: str = "chain") -> LinkMotion:
@@ -86,17 +86,17 @@ class Placed:
         name = "–".join(ends)
         line = line._replace(cos=named(line.cos, f"link_cos.{name}"), sin=named(line.sin, f"link_sin.{name}"))
         self.bars[link] = line
-        frame = turned(line, bar.angle if is_nothing(bar.angle) else -bar.angle, f"{link}.{name}")
+        frame = rotated_frame(line, bar.angle if is_zero(bar.angle) else -bar.angle, f"{link}.{name}")
         if bar.end == (0.0, 0.0):
             return frame._replace(origin=self.points[ends[1]])
         (x, y), frame = bar.start, named_link(frame, link)
-        along, across = (one if is_nothing(one) else -one for one in (x, y))
+        along, across = (coordinate if is_zero(coordinate) else -coordinate for coordinate in (x, y))
         origin = point_on_link(frame, along, across, f"{link}.origin")
         return frame._replace(origin=named_point(origin, f"{link}.origin"))
 
 
 def place(mechanism: Mechanism, grid: CrankGrid) -> Placed:
-    """Return where everything is at the angles of the tables, without asking whether it can be assembled.
+    """Return the positions at the angles of the tables, without a check of assembly.
 
     Points, links and sliders; NaN or infinite where a group does not close.
     """
@@ -109,16 +109,11 @@ def coordinates(driver: Driver, grid: CrankGrid) -> CrankGrid:
 
 
 def place_at(
-    mechanism: Mechanism,
-    grid: CrankGrid,
-    *,
-    plain: Mechanism | None = None,
-    paths: dict[int, ChainPath] | None = None,
+    mechanism: Mechanism, grid: CrankGrid, *, plain: Mechanism | None = None, paths: dict[int, ChainPath] | None = None
 ) -> Placed:
-    """Return what `place` does at values of the driver's coordinate.
+    """Return the positions at values of the driver's coordinate.
 
-    `plain`: the same in numbers, where lengths and coordinate are knowns; `paths`: of its chains, as far as they have
-    been followed, for more of them.
+    `plain`: the mechanism in numbers if lengths and coordinate are traced; `paths`: solved paths of chains.
     """
     placed = Placed(grid, plain=plain, paths={} if paths is None else paths)
     placed.points.update({name: fixed_point(point) for name, point in mechanism.ground.items()})
@@ -140,45 +135,47 @@ def place_at(
 
 
 def _place_driver(driver: Driver, placed: Placed) -> None:
-    """Add what the driver places by itself, or the length that is its coordinate."""
+    """Place the driver, or set the length that is its coordinate."""
     grid = placed.grid
     if isinstance(driver, Crank):
         arm = crank_motion(driver, grid)
         placed.points[driver.pin] = named_point(pin_on_crank(driver, arm), driver.pin)
-        placed.links[driver.link] = arm if is_nothing(driver.start) else named_link(arm, driver.link)
-        placed.links.update({one.link: named_link(geared_motion(one, driver, grid), one.link) for one in driver.geared})
+        placed.links[driver.link] = arm if is_zero(driver.start) else named_link(arm, driver.link)
+        placed.links.update(
+            {geared.link: named_link(geared_motion(geared, driver, grid), geared.link) for geared in driver.geared}
+        )
         return
     if is_known(grid.angle):
-        way = Transfer(grid.angle, absent("driver_rate", 1.0), absent("driver_rate_1"))
+        travel = Transfer(grid.angle, absent("driver_rate", 1.0), absent("driver_rate_1"))
     else:
-        way = Transfer(grid.angle, np.ones_like(grid.angle), np.zeros_like(grid.angle))
+        travel = Transfer(grid.angle, np.ones_like(grid.angle), np.zeros_like(grid.angle))
     match driver:
         case DrivingSlider(link=piece, guide=guide):
             line = fixed_guide(guide)
-            placed.sliders[piece] = way
-            placed.links[piece] = line._replace(origin=named_point(point_on_guide(line, way), piece))
+            placed.sliders[piece] = travel
+            placed.links[piece] = line._replace(origin=named_point(point_on_guide(line, travel), piece))
         case Cylinder(link=link):
-            placed.lengths[link] = way._replace(position=named(way.position, f"link_length.{link}"))
+            placed.lengths[link] = travel._replace(position=named(travel.position, f"link_length.{link}"))
         case LinkMotor(link=link):
             placed.lengths[link] = third_side_motion(driver, grid)
 
 
-def _bridged(closure: Closure, passage: Passage | None, grid: CrankGrid) -> Closure:
-    """Return how well a group closes; where it is led over a change point, nothing is to be told."""
+def _bridged(closure: Closure, passage: ChangePointPassage | None, grid: CrankGrid) -> Closure:
+    """Return the closure of a group; near change points, where polynomials are used, that of a group that closes."""
     if passage is None or not passage.bridges:
         return closure
     return closure._replace(value=np.where(passage.is_bridged(grid.degrees), closure.scale, closure.value))
 
 
 def _name(placed: Placed, links: set[str], points: set[str]) -> None:
-    """Give what is remembered of links and points its name."""
+    """Name the traced values of links and points."""
     if placed.plain is not None:
         placed.links.update({name: named_link(placed.links[name], name) for name in links})
         placed.points.update({name: named_point(placed.points[name], name) for name in points})
 
 
 def _place_halves(mechanism: Mechanism, placed: Placed, links: set[str]) -> None:
-    """Add the frames of barrel and rod of a cylinder just placed, each at its own end, from the one to the other."""
+    """Add the frames of barrel and rod of a cylinder just placed, each at its own end, directed from barrel to rod."""
     driver = mechanism.driver
     if not isinstance(driver, Cylinder) or not driver.halves or driver.link not in links:
         return
@@ -200,22 +197,19 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
     """Add the points, links and sliders of one group."""
     points, links, sliders = placed.points, placed.links, placed.sliders
     group = mechanism.dyads[index]
-    through: Through = straight
+    through: Through = unchanged
     if index in mechanism.passages and not isinstance(group, Chain | PRP | RPP):
         passage = mechanism.passages[index]
-        group = replace(group, branch=passed_branch(passage, group.branch, placed.grid))
-        through = over_bridges(passage, placed.grid)
+        group = replace(group, branch=branch_sign(passage, group.branch, placed.grid))
+        through = change_point_replacement(passage, placed.grid)
     match group:
         case RRR() as dyad:
-            hung, driver, opened = (points[dyad.joint_a], points[dyad.joint_b]), mechanism.driver, None
+            joints, driver, opened = (points[dyad.joint_a], points[dyad.joint_b]), mechanism.driver, None
             if isinstance(driver, LinkMotor) and {dyad.link_a, dyad.link_b} == {*driver.links}:
                 opened = opened_pair(driver, dyad, links[driver.link], placed.lengths[driver.link])
-            rrr = rrr_motion(dyad, *hung, placed.lengths, through, opened)
+            rrr = rrr_motion(dyad, *joints, placed.lengths, through, opened)
             points[dyad.point] = named_point(rrr.point, dyad.point)
-            for link, line, joint in (
-                (dyad.link_a, rrr.link_a, dyad.joint_a),
-                (dyad.link_b, rrr.link_b, dyad.joint_b),
-            ):
+            for link, line, joint in ((dyad.link_a, rrr.link_a, dyad.joint_a), (dyad.link_b, rrr.link_b, dyad.joint_b)):
                 links[link] = placed.frame(mechanism.bars.get(link), link, line, (joint, dyad.point))
             return rrr.closure
         case RRP() as dyad:
@@ -253,7 +247,7 @@ def _place_group(mechanism: Mechanism, index: int, placed: Placed) -> Closure | 
 
 
 class ChainRoot:
-    """The coordinates of the links of one chain of a mechanism, its way along the driver's coordinate solved once."""
+    """The coordinates of the links of one chain, whose path along the driver's coordinate is solved once."""
 
     def __init__(self, mechanism: Mechanism, index: int, paths: dict[int, ChainPath] | None = None) -> None:
         self._earlier, self._index = replace(mechanism, dyads=mechanism.dyads[:index]), index
@@ -263,55 +257,56 @@ class ChainRoot:
             raise TypeError(f"group {index} is no chain")
         self._chain = chain
 
-    def around(self, grid: CrankGrid) -> Placed:
-        """Return what the chain hangs on."""
+    def boundary(self, grid: CrankGrid) -> Placed:
+        """Return the placed neighbours of the chain."""
         return place_at(self._earlier, grid, paths=self._paths)
 
     def path(self, grid: CrankGrid) -> ChainPath:
-        """Return the way of the chain, followed as far as some crank angles."""
-        found = self._paths.get(self._index)
-        if found is None:
-            found = self._paths[self._index] = ChainPath(self._chain, grid, self.around)
-        elif not found.covers(grid):
-            found.follow(grid)
-        return found
+        """Return the path of the chain, extended to some crank angles."""
+        path = self._paths.get(self._index)
+        if path is None:
+            path = self._paths[self._index] = ChainPath(self._chain, grid, self.boundary)
+        elif not path.covers(grid):
+            path.extend(grid)
+        return path
 
-    def __call__(self, at: CrankGrid | Sequence[Array]) -> Array:
+    def __call__(self, coordinate: CrankGrid | Sequence[Array]) -> Array:
         """Return coordinates, first and second transfer functions, shape (9 links, n). [m], [rad]"""
-        grid = at if isinstance(at, CrankGrid) else CrankGrid.from_radians(at[0])
+        grid = coordinate if isinstance(coordinate, CrankGrid) else CrankGrid.from_radians(coordinate[0])
         return self.path(grid).coordinates(grid)
 
 
 def assembled(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath] | None = None) -> Placed:
-    """Return where everything is, of a mechanism that can be assembled at and between all angles.
+    """Return the positions of a mechanism; raise GeometryError if it cannot be assembled at or between all angles.
 
-    `paths`: of its chains, as far as they have been followed, for more of them.
-    `grid`: crank angles; what lies between them is looked at where they ascend [rad]. Where a law drives, everything
-    that the driver passes in its period is looked at.
+    `paths`: solved paths of its chains, which are extended; `grid`: crank angles, with a check of the intervals between
+    them if they ascend [rad]. For a driver with a law, its whole period is checked.
     """
     law = mechanism.driver.law
     if law is None:
         return _assembled_at(mechanism, grid, paths)
     least, greatest = extent(law)
-    # a coordinate that only rounding changes stands
-    stands = greatest - least <= _STANDS * max(1.0, abs(least), abs(greatest))
-    ways = np.array([law.start]) if stands else np.linspace(least, greatest, _LOOKED_AT)
-    whole = CrankGrid.from_radians(ways)
-    placed = place_at(mechanism, whole)
+    # a coordinate that changes by rounding only is at rest
+    is_at_rest = greatest - least <= _REST_TOLERANCE * max(1.0, abs(least), abs(greatest))
+    positions = np.array([law.start]) if is_at_rest else np.linspace(least, greatest, _SCAN_POINTS)
+    scan = CrankGrid.from_radians(positions)
+    placed = place_at(mechanism, scan)
     closures = Closures(mechanism)
     for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
         bad = unassembled(closure)
-        between = [angle for _, angle in singular_between(whole, closure, closures[index])]
+        between = [angle for _, angle in singular_between(scan, closure, closures[index])]
         if bad is not None or between:
-            # what the driver meets first
-            lost = [*ways[bad if bad is not None else []].tolist(), *between]
-            raise _unreached(mechanism.driver, group, min(lost, key=lambda one: abs(one - law.start)))
+            # the first failure from the start of the driver
+            lost = [*positions[bad if bad is not None else []].tolist(), *between]
+            raise _unreached(mechanism.driver, group, min(lost, key=lambda position: abs(position - law.start)))
     return place_at(mechanism, coordinates(mechanism.driver, grid), paths=paths)
 
 
-def _unreached(driver: Driver, group: Dyad | Chain, at: float) -> GeometryError:
-    told, size = ("law_unreached_angle", math.degrees(at)) if driver.turns else ("law_unreached", at * 1e3)
-    return GeometryError(Refusal(told, links=", ".join(group_links(group)), at=size))
+def _unreached(driver: Driver, group: Dyad | Chain, coordinate: float) -> GeometryError:
+    name, size = (
+        ("law_unreached_angle", math.degrees(coordinate)) if driver.turns else ("law_unreached", coordinate * 1e3)
+    )
+    return GeometryError(Refusal(name, links=", ".join(group_links(group)), at=size))
 
 
 def _assembled_at(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainPath] | None) -> Placed:
@@ -320,19 +315,16 @@ def _assembled_at(mechanism: Mechanism, grid: CrankGrid, paths: dict[int, ChainP
     for index, (group, closure) in enumerate(zip(mechanism.dyads, placed.closures, strict=True)):
         bad = unassembled(closure)
         if bad is not None:
-            raise refusal(group, closure, grid, bad)
+            raise assembly_error(group, closure, grid, bad)
         for _, angle in singular_between(grid, closure, closures[index]):
-            at = CrankGrid.from_radians(np.array([angle]))
-            there = closures[index](at)._replace(scale=closure.scale)
-            raise refusal(group, there, at, np.array([True]))
+            single = CrankGrid.from_radians(np.array([angle]))
+            failed = closures[index](single)._replace(scale=closure.scale)
+            raise assembly_error(group, failed, single, np.array([True]))
     return placed
 
 
 class Closures:
-    """How well each group of a mechanism closes, as a function of the crank angles.
-
-    What several groups are asked for at the same angles is placed once.
-    """
+    """How well each group of a mechanism closes, as a function of the crank angles; shared positions are cached."""
 
     def __init__(self, mechanism: Mechanism, paths: dict[int, ChainPath] | None = None) -> None:
         self._mechanism, self._paths = mechanism, dict[int, ChainPath]() if paths is None else paths
@@ -340,8 +332,10 @@ class Closures:
 
     def __getitem__(self, index: int) -> Callable[[CrankGrid], Closure]:
         groups = self._mechanism.dyads
-        # a chain is followed where it is asked for only
-        end = next((at for at in range(index + 1, len(groups)) if isinstance(groups[at], Chain)), len(groups))
+        # a chain is solved only if its own closure is needed
+        end = next(
+            (number for number in range(index + 1, len(groups)) if isinstance(groups[number], Chain)), len(groups)
+        )
         return lambda grid: self._placed(end, grid.angle.tobytes())[index]
 
     def _place(self, end: int, angles: bytes) -> tuple[Closure, ...]:
@@ -350,7 +344,7 @@ class Closures:
 
 
 def _title(group: Dyad | Chain) -> Refusal:
-    """Return what to call a group in a message."""
+    """Return the name of a group in messages."""
     match group:
         case RRR():
             pair = group.link_a, group.link_b

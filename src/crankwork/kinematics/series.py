@@ -71,7 +71,7 @@ def acceleration_harmonics(slider_crank: SliderCrank, order: int) -> Harmonics:
     orders = range(1, order + 1)
     ratio = float(slider_crank.rod_ratio)
     if slider_crank.offset == 0 and ratio <= _CLOSED_FORM_RATIO:
-        cosine = np.array([acceleration_harmonic(ratio, one) for one in orders])
+        cosine = np.array([acceleration_harmonic(ratio, k) for k in orders])
         return Harmonics(slider_crank.crank_radius * cosine, np.zeros(order))
     return _transform(slider_crank, order)
 
@@ -140,13 +140,13 @@ def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> T
     x, x', x''; the displacement is zero at the top dead centre of the mechanism. Source: taylor_1985, vol. 2, ch. 8.
     """
     lengths = SliderCrank(*map(plain, slider_crank))
-    dead_centre, remembers = lengths.top_dead_centre, is_known(*slider_crank)
+    dead_centre, is_traced = lengths.top_dead_centre, is_known(*slider_crank)
     terms: list[tuple[int, Transfer]] = []
     for k, (c, s) in enumerate(zip(*acceleration_harmonics(lengths, order), strict=True), start=1):
         if c == 0 and s == 0:
             continue
         at_top = (float(np.cos(k * dead_centre)), float(np.sin(k * dead_centre)))
-        taken = remembered_order(slider_crank, k, (float(c), float(s)), at_top) if remembers else (c, s, at_top)
+        taken = remembered_order(slider_crank, k, (float(c), float(s)), at_top) if is_traced else (c, s, at_top)
         terms.append((k, order_terms(grid, k, *taken)))
     sums = (_sum(key, [(k, term[i]) for k, term in terms]) for i, key in enumerate(_KEYS))
     return Transfer(*sums)
@@ -171,4 +171,4 @@ def remembered_order(
 
 
 def _sum(key: str, terms: list[tuple[int, Value]]) -> Value:
-    return added(key, [named(one, f"{key}.k{k}") for k, one in terms])
+    return added(key, [named(term, f"{key}.k{k}") for k, term in terms])

@@ -44,9 +44,9 @@ def rod_cosine(sin_beta: Value, r: Value, l: Value, e: Value, less_sin_phi: Valu
     cos^2 = (1 - sin)(1 + sin), each factor as what is left of the rod length beside crank and offset
     plus r (1 -+ sin phi). Neither cancels when the rod is hardly longer than crank and offset.
     """
-    spare = l - r
-    lost = (l - spare) - r
-    return np.sqrt((spare + e + lost + r * less_sin_phi) * (spare - e + lost + r * more_sin_phi)) / l
+    clearance = l - r
+    lost = (l - clearance) - r
+    return np.sqrt((clearance + e + lost + r * less_sin_phi) * (clearance - e + lost + r * more_sin_phi)) / l
 
 
 @formula("rod_angle", "kolchin_demidov_2008, ch. 6")
@@ -169,18 +169,12 @@ def turns_fully(slider_crank: SliderCrank) -> bool:
 
 def check_slider_crank(slider_crank: SliderCrank) -> None:
     """Raise if the crank cannot turn fully."""
-    r, l, e = (float(np.max(np.abs(one))) for one in slider_crank)  # noqa: E741
+    r, l, e = (float(np.max(np.abs(length))) for length in slider_crank)  # noqa: E741
     if np.any(np.less_equal(slider_crank.crank_radius, 0)) or np.any(np.less_equal(slider_crank.rod_length, 0)):
         raise GeometryError(Refusal("lengths_zero"))
     if not turns_fully(slider_crank):
         raise GeometryError(
-            Refusal(
-                "rod_too_short",
-                length=l * 1e3,
-                radius=r * 1e3,
-                offset=e * 1e3,
-                missing=(r + e - l) * 1e3,
-            )
+            Refusal("rod_too_short", length=l * 1e3, radius=r * 1e3, offset=e * 1e3, missing=(r + e - l) * 1e3)
         )
 
 

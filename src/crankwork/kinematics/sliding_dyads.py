@@ -13,15 +13,15 @@ from crankwork.kinematics.dyads import (
     Closure,
     LinkMotion,
     Through,
-    is_nothing,
+    in_link_frame,
+    is_zero,
     joint_distance_square,
     named_coordinates,
     named_point,
     named_slide,
     point_on_guide,
-    seen_from,
-    straight,
-    turned,
+    rotated_frame,
+    unchanged,
 )
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.dyads import PRP, RPP, RPR, Guide
@@ -96,7 +96,7 @@ class RPRMotion(NamedTuple):
     closure: Closure | None
 
 
-def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Through = straight) -> RPRMotion:
+def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Through = unchanged) -> RPRMotion:
     """Return the motion of a slotted lever and its block (artobolevsky_1988, ch. 4).
 
     Distance along the slot [m], frames, closure; NaN where the pin is nearer to the pivot than the slot. `joint` and
@@ -110,8 +110,8 @@ def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Throu
     name, block_ = dyad.link, dyad.block
     (dx, dx_1, dx_2), (dy, dy_1, dy_2) = (
         tuple(
-            named(one - other, f"distance_{axis}{order}.{name}")
-            for one, other, order in zip(mine, base, ("", "_1", "_2"), strict=True)
+            named(end - start, f"distance_{axis}{order}.{name}")
+            for end, start, order in zip(mine, base, ("", "_1", "_2"), strict=True)
         )
         for axis, mine, base in zip("xy", joint, pivot, strict=True)
     )
@@ -126,21 +126,21 @@ def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Throu
     s_2 = rpr_slide_2(dx_2, cos, dy_2, sin, s, rate, e, rate_1)
     block = LinkMotion(joint, cos, sin, rate, rate_1)
     angle = dyad.slot.angle
-    link = turned(block._replace(origin=pivot), angle if is_nothing(angle) else -angle, name)
+    link = rotated_frame(block._replace(origin=pivot), angle if is_zero(angle) else -angle, name)
     closure = (
         None if is_known(square) else Closure(square - e * e, float(np.fmax.reduce(square.real, initial=0.0)), square)
     )
-    place = s if is_nothing(along) else s - along
+    place = s if is_zero(along) else s - along
     return RPRMotion(named_slide(Transfer(place, s_1, s_2), block_), link, block, closure)
 
 
 def _in_slot_axes(slot: Guide) -> tuple[Value, Value]:
     """Return the coordinates of the point of a slot along and across the slot, seen from the origin of the link."""
     x, y = slot.point
-    if is_nothing(slot.angle):
+    if is_zero(slot.angle):
         return x, y
     cos, sin = plane.cosine_of_direction(slot.angle), plane.sine_of_direction(slot.angle)
-    if is_known(x) and is_nothing(x) and is_nothing(y):
+    if is_known(x) and is_zero(x) and is_zero(y):
         return absent("slider_displacement"), absent("slot_offset")
     along, across = plane.along_guide(x, cos, y, sin), plane.across_guide(y, cos, x, sin)
     return named(along, "guide_along.slot"), named(across, "slot_offset")
@@ -176,7 +176,7 @@ def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
         x, y = end[0] - start[0], end[1] - start[1]
         s_a, s_b = crossing(x, b.sin, y, b.cos, sine), crossing(x, a.sin, y, a.cos, sine)
         keys = (f"slider_displacement{order}.{piece}" for piece in (dyad.block_a, dyad.block_b))
-        return tuple(named(one, key) for one, key in zip((s_a, s_b), keys, strict=True))
+        return tuple(named(distance, key) for distance, key in zip((s_a, s_b), keys, strict=True))
 
     s_a, s_b = solved("", *(_column(guide.origin, 0) for guide in (a, b)))
     names = f"{dyad.block_a}.place", f"{dyad.block_b}.place"
@@ -184,13 +184,13 @@ def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
         named_point(point_on_guide(guide, Transfer(s, zero, zero)), name)
         for guide, s, name in zip((a, b), (s_a, s_b), names, strict=True)
     ]
-    s_a_1, s_b_1 = solved("_1", *(_column(one, 1) for one in carried))
+    s_a_1, s_b_1 = solved("_1", *(_column(position, 1) for position in carried))
     names = f"{dyad.block_a}.carried", f"{dyad.block_b}.carried"
     carried = [
         named_point(point_on_guide(guide, Transfer(s, s_1, zero)), name)
         for guide, s, s_1, name in zip((a, b), (s_a, s_b), (s_a_1, s_b_1), names, strict=True)
     ]
-    s_a_2, s_b_2 = solved("_2", *(_column(one, 2) for one in carried))
+    s_a_2, s_b_2 = solved("_2", *(_column(position, 2) for position in carried))
     slide_a, slide_b = Transfer(s_a, s_a_1, s_a_2), Transfer(s_b, s_b_1, s_b_2)
     point = point_on_guide(a, slide_a)
     blocks = a._replace(origin=point), b._replace(origin=point)
@@ -226,13 +226,13 @@ def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
         named(plane.cosine_of_direction(gamma), f"line_cos.{dyad.block}"),
         named(plane.sine_of_direction(gamma), f"line_sin.{dyad.block}"),
     )
-    along, across = named_coordinates(seen_from(guide, joint), dyad.joint)
+    along, across = named_coordinates(in_link_frame(guide, joint), dyad.joint)
     block_slide = named_slide(Transfer((across[0] - y) / sin, across[1] / sin, across[2] / sin), dyad.block)
     slide = named_slide(
         Transfer(along[0] - x - cos * block_slide[0], along[1] - cos * block_slide[1], along[2] - cos * block_slide[2]),
         dyad.link,
     )
     link = guide._replace(origin=named_point(point_on_guide(guide, slide), dyad.link))
-    block = turned(guide, gamma, dyad.block)._replace(origin=joint)
+    block = rotated_frame(guide, gamma, dyad.block)._replace(origin=joint)
     closure = None if is_known(gamma) else Closure(np.full_like(slide[0], sin * sin), 1.0, slide[0])
     return RPPMotion(slide, block_slide, link, block, closure)

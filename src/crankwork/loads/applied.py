@@ -9,11 +9,11 @@ from typing import NamedTuple
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value
 from crankwork.formula.known import named
-from crankwork.kinematics.bodies import everywhere
-from crankwork.kinematics.dyads import LinkMotion, carried
+from crankwork.kinematics.bodies import broadcast
+from crankwork.kinematics.dyads import LinkMotion, point_of_link
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
-from crankwork.mechanism.joints import SlidingJoint, bearers, joints
+from crankwork.mechanism.joints import SlidingJoint, joints, links_of_points
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -73,12 +73,12 @@ def force_at(
 
     `link`: the link it acts on; empty for the first of the links that meet there.
     """
-    owners = bearers(mechanism)
+    owners = links_of_points(mechanism)
     check_name("point", point, owners)
     link = link or owners[point]
     if link == GROUND:
         return NO_LOADS
-    x, y = (everywhere(component, motion.grid) for component in force)
+    x, y = (broadcast(component, motion.grid) for component in force)
     return AppliedLoads((AppliedForce(link, motion.points[point], x, y),))
 
 
@@ -136,11 +136,11 @@ def torque_on(motion: Motion, link: str, torque: Value) -> AppliedLoads:
     check_name("link", link, {**motion.links, **motion.frames})
     frame: LinkMotion | None = motion.frames.get(link)
     rate = motion.links[link].position_1 if frame is None else frame.angle_1
-    return AppliedLoads(torques=(AppliedTorque(link, everywhere(torque, motion.grid), everywhere(rate, motion.grid)),))
+    return AppliedLoads(torques=(AppliedTorque(link, broadcast(torque, motion.grid), broadcast(rate, motion.grid)),))
 
 
 def carried_point(link: LinkMotion, point: PointMotion) -> PointMotion:
     """Return the motion of the point of a link that coincides with another point at each angle. [m]"""
     place = point.x.position, point.y.position
-    x, y = carried(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)
+    x, y = point_of_link(link, place[0] - link.origin.x.position, place[1] - link.origin.y.position)
     return PointMotion(x._replace(position=place[0]), y._replace(position=place[1]))

@@ -17,7 +17,7 @@ import numpy as np
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import Known
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.extremes import reached
+from crankwork.kinematics.extremes import solve_monotone
 from crankwork.loads.cycle import quadrature
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
@@ -321,7 +321,7 @@ class _Solver:
             if differences[index + 1] == 0:
                 return float(edges[index + 1])
             if differences[index] * differences[index + 1] < 0:
-                return reached(self.volume_at, target, float(edges[index]), float(edges[index + 1]))
+                return solve_monotone(self.volume_at, target, float(edges[index]), float(edges[index + 1]))
         key = "volume" if self.points[name].stroke is None else "stroke"
         raise DiagramError(
             f"{self.path}.points.{name}.{key}", Refusal("point_volume_far", low=low * 1e6, high=high * 1e6)
@@ -407,7 +407,7 @@ class _Solver:
         ends = pressure(np.array([low, high])) - target
         if ends[0] * ends[1] > 0:
             raise DiagramError(key, Refusal("polytrope_far", name=last, angle=high, centres=tuple(self.dead_centres)))
-        return reached(pressure, target, low, high)
+        return solve_monotone(pressure, target, low, high)
 
     def _rounded(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:

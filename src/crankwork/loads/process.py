@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.formula.expression import Value
 from crankwork.formula.known import Known, Pieces, absent, given, is_known, named
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.memory import angle_of, course_of
+from crankwork.kinematics.memory import angle_of, interpolant_of
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedLoads, check_name, force_along_guide, force_at, torque_on
 from crankwork.loads.remembered import curve_over_angle, curve_over_column
@@ -91,7 +91,7 @@ def _force(load: ProcessForce, travel: _Travel, motion: Motion, named_at: tuple[
 
 def _remembered(load: ProcessForce, travel: _Travel, motion: Motion, name: str, path: str) -> Known:
     """Return the force as a curve over travel or crank angle, piecewise if it acts on the working stroke only."""
-    key, interpolator = f"process_force.{name}", course_of(motion.grid)
+    key, interpolator = f"process_force.{name}", interpolant_of(motion.grid)
     travel = travel._replace(position=named(travel.position, f"working_stroke.{name}"))
     if load.against == "stroke":
         force = curve_over_column(load.force, travel.position, interpolator, key, f"{path}.force")

@@ -13,7 +13,7 @@ from crankwork.formula.expression import Value
 from crankwork.formula.known import Found, Known, KnownAngle, Pieces, given, is_known, plain
 from crankwork.formula.replay import replay
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.extremes import reached
+from crankwork.kinematics.extremes import solve_monotone
 from crankwork.loads.between import cubic_between
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment
@@ -62,7 +62,7 @@ class RememberedVolume:
 
     def reached(self, volume: Known, start: float, end: float) -> Known:
         """Return the crank angle between two others at which a volume is reached. [deg]"""
-        angle = reached(self._numbers, volume.value, start, end)
+        angle = solve_monotone(self._numbers, volume.value, start, end)
         return Known(Found(angle, "reached", (self.volume,), angle, volume))
 
 

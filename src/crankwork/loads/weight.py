@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import given, is_known, named
-from crankwork.kinematics.bodies import centre_of_mass, everywhere
+from crankwork.kinematics.bodies import broadcast, centre_of_mass
 from crankwork.kinematics.motion import Motion
 from crankwork.loads.applied import AppliedForce, AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
@@ -38,8 +38,6 @@ def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
         x, y = (weight_along(body.mass, gravity, part) for part in (math.cos(load.direction), math.sin(load.direction)))
         x, y = named(x, f"load_x.{body.link}.weight"), named(y, f"load_y.{body.link}.weight")
         forces.append(
-            AppliedForce(
-                body.link, centre_of_mass(body, motion), everywhere(x, motion.grid), everywhere(y, motion.grid)
-            )
+            AppliedForce(body.link, centre_of_mass(body, motion), broadcast(x, motion.grid), broadcast(y, motion.grid))
         )
     return AppliedLoads(tuple(forces))

@@ -1,4 +1,4 @@
-"""A mechanism as an engineer writes it down, in tables, and every mistake in it at once."""
+"""Linkages described in tables, with every mistake in them at once."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from crankwork.errors import Problem
 from crankwork.locale import Refusal
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Half, Law, LinkMotor
+from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, Law, LinkMotor
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Driver
@@ -33,10 +33,7 @@ _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 
 
 def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:
-    """Return the linkage that some tables describe, or every problem that is in them.
-
-    The linkage where there is no problem.
-    """
+    """Return the linkage that tables describe, or every problem in them."""
     reader = _Reader(tables)
     linkage = reader.linkage()
     return (None, reader.problems) if reader.problems else (linkage, [])
@@ -44,29 +41,31 @@ def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:
 
 @dataclass
 class _Reader:
-    """Reads the tables and collects what is wrong with them."""
+    """Reads the tables and collects the problems."""
 
     tables: Table
     problems: list[Problem] = field(default_factory=list)
 
     def linkage(self) -> Linkage:
-        """Return the linkage; it makes sense only if there are no problems."""
+        """Return the linkage, which is valid only without problems."""
         self._known_keys("", self.tables, _TABLES)
-        ground = {name: self._point(f"fixed_points.{name}", at) for name, at in self._table("fixed_points").items()}
-        positions = {name: self._point(f"positions.{name}", at) for name, at in self._table("positions").items()}
+        ground, positions = (
+            {name: self._point(f"{key}.{name}", point) for name, point in self._table(key).items()}
+            for key in ("fixed_points", "positions")
+        )
         guides = {name: self._guide(name, guide, ground) for name, guide in self._named("guides", _GUIDE)}
         law: Any = self._table("driver").get("law")
         if "driver" in self.tables and law is None:
             self._problem("driver.law", Refusal("law_missing"))
             law = Law((), 1.0, 1.0)
-        named = [one for one in _DRIVERS if one in self._table("driver")]
+        named = [name for name in _DRIVERS if name in self._table("driver")]
         sliders = tuple(self._sliders())
         driver: Driver
         if named:
             self._known_keys("driver", self._table("driver"), _DRIVER)
             if len(named) > 1 or "crank" in self.tables:
-                others = ", ".join([*named[1:], *(["crank"] if "crank" in self.tables else [])])
-                self._problem(f"driver.{named[0]}", Refusal("drivers_many", one=named[0], others=others))
+                further = ", ".join([*named[1:], *(["crank"] if "crank" in self.tables else [])])
+                self._problem(f"driver.{named[0]}", Refusal("drivers_many", one=named[0], others=further))
             driver, driving = self._driving_slider(sliders, guides, law)
         else:
             driver, driving = self._crank(ground, law)
@@ -78,7 +77,7 @@ class _Reader:
             self._problem("geared", Refusal("geared_alone"))
         drawn = Linkage(driver, ground, (), positions=positions, driving=driving, geared=geared).at_zero()
         links = tuple(self._links(drawn))
-        members = (*links, *(one for one in sliders if one.name != driving.name))
+        members = (*links, *(slider for slider in sliders if slider.name != driving.name))
         linkage = Linkage(driver, ground, members, guides, self._branches(), positions, driving, geared)
         self._names(linkage)
         if self.problems or not named:
@@ -138,34 +137,34 @@ class _Reader:
     def _points(self, key: str, table: Table) -> dict[str, Point]:
         points = table.get("points", {})
         if isinstance(points, Mapping):
-            return {name: self._point(f"{key}.points.{name}", at) for name, at in points.items()}
+            return {name: self._point(f"{key}.points.{name}", point) for name, point in points.items()}
         self._problem(f"{key}.points", Refusal("be_coordinates"))
         return {}
 
     def _driving_slider(
         self, sliders: tuple[Member, ...], guides: Mapping[str, Guide], law: Law
     ) -> tuple[DrivingSlider, Member]:
-        """Return the slider that drives, as a member; one that nothing hangs on where something else drives."""
+        """Return the driving slider, also as a member; an empty one without a valid slider."""
         name = self._table("driver").get("slider")
-        nobody = DrivingSlider("", Guide(), law), Member("", {})
+        no_driver = DrivingSlider("", Guide(), law), Member("", {})
         if name is None:
-            return nobody
-        found = next((one for one in sliders if one.name == self._word("driver.slider", name)), None)
-        if found is None:
-            known = ", ".join(one.name for one in sliders)
+            return no_driver
+        slider = next((candidate for candidate in sliders if candidate.name == self._word("driver.slider", name)), None)
+        if slider is None:
+            known = ", ".join(candidate.name for candidate in sliders)
             self._problem("driver.slider", Refusal("absent_slider", name=str(name)[:40], known=known))
-            return nobody
-        guide = guides.get(found.guide, Guide())
+            return no_driver
+        guide = guides.get(slider.guide, Guide())
         if guide.link:
             self._problem(
-                "driver.slider", Refusal("driven_on_link", name=found.name, guide=found.guide, link=guide.link)
+                "driver.slider", Refusal("driven_on_link", name=slider.name, guide=slider.guide, link=guide.link)
             )
-        return DrivingSlider(found.name, guide, law), found
+        return DrivingSlider(slider.name, guide, law), slider
 
     def _two(self, key: str, known: Mapping[str, object] | set[str], refusal: str) -> tuple[str, str] | None:
-        """Return two different names of things that there are."""
+        """Return two different, known names."""
         names = self._table("driver")[key]
-        if not isinstance(names, list | tuple) or len(names) != 2 or not all(isinstance(one, str) for one in names):
+        if not isinstance(names, list | tuple) or len(names) != 2 or not all(isinstance(item, str) for item in names):
             self._problem(f"driver.{key}", Refusal("driver_two"))
             return None
         for name in names:
@@ -180,58 +179,58 @@ class _Reader:
         ends = self._two("cylinder", set(linkage.owners), "absent_point")
         if ends is None:
             return linkage
-        taken = {one.name for one in linkage.members}
-        name = next(one for one in ("cylinder", "hydraulic_cylinder", "cylinder_link") if one not in taken)
+        taken = {existing.name for existing in linkage.members}
+        name = next(word for word in ("cylinder", "hydraulic_cylinder", "cylinder_link") if word not in taken)
         both = set(linkage.owners[ends[0]]) & set(linkage.owners[ends[1]])
         if both:
-            told = Refusal("cylinder_idle", first=ends[0], second=ends[1], name=min(both))
-            self._problem("driver.cylinder", told)
+            message = Refusal("cylinder_idle", first=ends[0], second=ends[1], name=min(both))
+            self._problem("driver.cylinder", message)
         member = Member(name, {ends[0]: (0.0, 0.0), ends[1]: (law.start, 0.0)})
         members = (*linkage.members, member)
-        halves = tuple(self._half(one, f"{name}_{one}" if one in taken else one) for one in _HALVES)
-        halves = halves if any(one.mass for one in halves) else ()
+        halves = tuple(self._half(part, f"{name}_{part}" if part in taken else part) for part in _HALVES)
+        halves = halves if any(half.mass for half in halves) else ()
         return replace(linkage, driver=Cylinder(*ends, law, name, halves), members=members)
 
-    def _half(self, name: str, link: str) -> Half:
-        """Return the barrel or the rod of a cylinder, without mass where none is given."""
+    def _half(self, name: str, link: str) -> CylinderPart:
+        """Return the barrel or the rod of a cylinder, massless by default."""
         table, key = self._table("driver").get(name), f"driver.{name}"
         if table is None:
-            return Half(link, 0.0, 0.0, (0.0, 0.0))
+            return CylinderPart(link, 0.0, 0.0, (0.0, 0.0))
         mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
         inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
-        return Half(link, mass, inertia, self._point(f"{key}.centre", table.get("centre")))
+        return CylinderPart(link, mass, inertia, self._point(f"{key}.centre", table.get("centre")))
 
     def _with_motor(self, linkage: Linkage, law: Law) -> Linkage:
-        """Return a linkage with the third side of the triangle that a motor between two links opens."""
-        links = self._two("between", {one.name for one in linkage.members if not one.guide}, "absent_link")
+        """Return a linkage with the third side of the triangle of a motor between two links."""
+        links = self._two("between", {link.name for link in linkage.members if not link.guide}, "absent_link")
         if links is None:
             return linkage
-        first, second = (linkage.member(one) for one in links)
+        first, second = (linkage.member(name) for name in links)
         pin = next((name for name in first.points if name in second.points), "")
         if not pin:
             self._problem("driver.between", Refusal("motor_pin", first=first.name, second=second.name))
             return linkage
-        drawn, found = linkage.at_zero(), []
-        for one, other in product(self._joints(linkage, first, pin), self._joints(linkage, second, pin)):
-            if not {one, other, pin} <= drawn.keys():
+        drawn, linkages = linkage.at_zero(), []
+        for end_a, end_b in product(self._joints(linkage, first, pin), self._joints(linkage, second, pin)):
+            if not {end_a, end_b, pin} <= drawn.keys():
                 continue
             sides = tuple(
-                math.dist(link.points[pin], link.points[end]) for link, end in ((first, one), (second, other))
+                math.dist(link.points[pin], link.points[end]) for link, end in ((first, end_a), (second, end_b))
             )
-            (cx, cy), (ax, ay), (bx, by) = drawn[pin], drawn[one], drawn[other]
+            (cx, cy), (ax, ay), (bx, by) = drawn[pin], drawn[end_a], drawn[end_b]
             angle = math.remainder(math.atan2(by - cy, bx - cx) - math.atan2(ay - cy, ax - cx), math.tau)
             a, b = sides
             opened = angle + law.start
             length = math.sqrt(max(a * a + b * b - 2 * a * b * math.cos(opened), 0.0))
             motor = LinkMotor(links, pin, (a, b), angle, law)
-            member = Member(motor.link, {one: (0.0, 0.0), other: (length, 0.0)})
-            found.append(replace(linkage, driver=motor, members=(*linkage.members, member)))
-        if not found:
+            member = Member(motor.link, {end_a: (0.0, 0.0), end_b: (length, 0.0)})
+            linkages.append(replace(linkage, driver=motor, members=(*linkage.members, member)))
+        if not linkages:
             self._problem("driver.between", Refusal("motor_drawn", first=first.name, second=second.name, pin=pin))
             return linkage
-        # of several third sides the one after which dyads are left
-        groups = [structure(one)[0] for one in found]
-        return next((one for one, made in zip(found, groups, strict=True) if made and made.number <= 2), found[0])
+        # of several third sides the first that leaves dyads only
+        structures = ((candidate, structure(candidate)[0]) for candidate in linkages)
+        return next((candidate for candidate, made in structures if made and made.number <= 2), linkages[0])
 
     @staticmethod
     def _joints(linkage: Linkage, member: Member, pin: str) -> list[str]:
@@ -258,14 +257,14 @@ class _Reader:
         return crank, self._turning("crank", Member(crank.link, points), table, places)
 
     def _geared(self, ground: Mapping[str, Point]) -> tuple[tuple[GearedCrank, ...], tuple[Member, ...]]:
-        """Return the cranks that gears turn with the driving one, and what they are as members."""
+        """Return the geared cranks, also as members."""
         cranks, members = [], []
         for name, table in self._named("geared", _GEARED):
             key = f"geared.{name}"
             pivot = self._word(f"{key}.pivot", table.get("pivot"))
             if pivot and pivot not in ground:
                 self._problem(f"{key}.pivot", Refusal("pivot_unknown", name=pivot))
-            ratio, start = (self._number(f"{key}.{one}", table.get(one, 0.0)) for one in ("ratio", "start"))
+            ratio, start = (self._number(f"{key}.{item}", table.get(item, 0.0)) for item in ("ratio", "start"))
             if not ratio:
                 self._problem(f"{key}.ratio", Refusal("ratio_zero"))
             angle = (
@@ -282,14 +281,14 @@ class _Reader:
         return tuple(cranks), tuple(members)
 
     def _turning(self, key: str, member: Member, table: Table, places: Mapping[str, Point]) -> Member:
-        """Return a crank with its mass; its moment of inertia is that about its axis, all of it included.
+        """Return a crank with its mass; its moment of inertia is stated about its axis.
 
-        `places`: where its points are in its frame, the pivot first.
+        `places`: its points in its frame, the pivot first.
         """
         if not any(name in table for name in _MASS):
             return member
         mass = self._number(f"{key}.mass", table.get("mass", 0.0))
-        whole = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        about_axis = self._number(f"{key}.inertia", table.get("inertia", 0.0))
         centre = table.get("centre", next(iter(places)))
         points, places = dict(member.points), dict(places)
         if not isinstance(centre, str):
@@ -301,15 +300,15 @@ class _Reader:
             self._problem(f"{key}.centre", Refusal("centre_unknown", centre=centre, link=member.name, known=known))
             return member
         turning = mass * math.hypot(*places[centre]) ** 2
-        if "inertia" in table and whole < turning * (1 - _SAME):
+        if "inertia" in table and about_axis < turning * (1 - _SAME):
             self._problem(f"{key}.inertia", Refusal("crank_inertia_small", least=turning))
-        own = max(whole - turning, 0.0) if "inertia" in table else 0.0
+        own = max(about_axis - turning, 0.0) if "inertia" in table else 0.0
         return _replaced(member, points, mass, own, centre)
 
     def _links(self, drawn: Mapping[str, Point]) -> Iterator[Member]:
         for name, table in self._named("links", _LINK):
             key, joins = f"links.{name}", table.get("joins")
-            if not isinstance(joins, list | tuple) or len(joins) < 2 or not all(isinstance(one, str) for one in joins):
+            if not isinstance(joins, list | tuple) or len(joins) < 2 or not all(isinstance(end, str) for end in joins):
                 self._problem(f"{key}.joins", Refusal("joins_two"))
                 continue
             if len(set(joins)) < len(joins):
@@ -324,8 +323,8 @@ class _Reader:
     def _joint_places(
         self, key: str, table: Table, joins: list[str], points: Mapping[str, Point], drawn: Mapping[str, Point]
     ) -> dict[str, Point]:
-        """Return the joints of a link in its frame, from its length or from where they are drawn."""
-        first, second, *others = joins
+        """Return the joints of a link in its frame, from its length or their drawn positions."""
+        first, second, *further = joins
         if "length" in table:
             length = self._number(f"{key}.length", table["length"], positive=True)
         elif first in drawn and second in drawn:
@@ -337,7 +336,7 @@ class _Reader:
             self._problem(f"{key}.length", Refusal("link_length", first=first, second=second))
             length = 1.0
         places = {first: (0.0, 0.0), second: (length, 0.0)}
-        for name in others:
+        for name in further:
             if name in points:
                 continue
             if not {first, second, name} <= drawn.keys():
@@ -367,11 +366,11 @@ class _Reader:
             name = f"{member.name}.centre"
             return _replaced(member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name)
         if centre not in member.points:
-            told = Refusal(
+            message = Refusal(
                 "centre_unknown" if centre else "centre_missing",
                 centre=centre, link=member.name, known=", ".join(member.points),
             )  # fmt: skip
-            self._problem(f"{key}.centre", told)
+            self._problem(f"{key}.centre", message)
         return _replaced(member, member.points, mass, inertia, centre)
 
     def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
@@ -396,20 +395,19 @@ class _Reader:
         return branches
 
     def _names(self, linkage: Linkage) -> None:
-        """Note names that stand for two things or for nothing."""
+        """Report names that are used twice or unknown."""
         names = {*linkage.base} - {GROUND}
-        for one in linkage.members:
-            table = "sliders" if one.guide else "links"
-            if one.name in names:
-                self._problem(f"{table}.{one.name}", Refusal("link_named_twice", name=one.name))
-            names.add(one.name)
-            if one.guide and one.guide not in linkage.guides:
-                self._problem(f"{table}.{one.name}.guide", Refusal("guide_unknown", name=one.guide))
+        for member in linkage.members:
+            table = "sliders" if member.guide else "links"
+            if member.name in names:
+                self._problem(f"{table}.{member.name}", Refusal("link_named_twice", name=member.name))
+            names.add(member.name)
+            if member.guide and member.guide not in linkage.guides:
+                self._problem(f"{table}.{member.name}.guide", Refusal("guide_unknown", name=member.guide))
         for name, guide in linkage.guides.items():
             if guide.link and guide.link not in names:
                 self._problem(
-                    f"guides.{name}.link",
-                    Refusal("carrier_unknown", name=guide.link, known=", ".join(sorted(names))),
+                    f"guides.{name}.link", Refusal("carrier_unknown", name=guide.link, known=", ".join(sorted(names)))
                 )
         placed = {linkage.driver.pin} if isinstance(linkage.driver, Crank) else set(linkage.driving.points)
         for name in linkage.positions:
@@ -418,5 +416,5 @@ class _Reader:
 
 
 def _replaced(member: Member, points: Mapping[str, Point], mass: float, inertia: float, centre: str) -> Member:
-    values = {one.name: getattr(member, one.name) for one in fields(member)}
+    values = {entry.name: getattr(member, entry.name) for entry in fields(member)}
     return Member(**{**values, "points": points, "mass": mass, "inertia": inertia, "centre": centre})

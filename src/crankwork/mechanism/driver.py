@@ -1,4 +1,4 @@
-"""What drives a mechanism, and the law by which its coordinate changes over one period."""
+"""Drivers of a mechanism, and the laws of their coordinate over one period."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LawKind = Literal[
 
 @runtime_checkable
 class MotionLaw(Protocol):
-    """A motion law of one's own, from rest to rest or not: how much of the way is done when.
+    """A motion law of the user: the share of the travel by the share of the time, from rest to rest or not.
 
     Examples
     --------
@@ -38,17 +38,17 @@ class MotionLaw(Protocol):
     breaks: Sequence[float]  # Shares of the time between 0 and 1 where its second derivative jumps or bends [-]
 
     def ways(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Return the share of the way, from 0 to 1, and its two derivatives, shape (n,), by the share of the time."""
+        """Return the share of the travel, from 0 to 1, and its two derivatives by the share of the time, shape (n,)."""
 
 
 @dataclass(frozen=True)
 class Segment:
     """A rise, a return or a rest of the coordinate."""
 
-    kind: LawKind | MotionLaw  # How it moves
+    kind: LawKind | MotionLaw  # Its normalised law
     to: float  # The coordinate at its end [m] or [rad]
     share: float  # Its part of the period [-]
-    ramp: float = 1 / 3  # Of a trapezoidal velocity, the part of the segment that each ramp takes [-]
+    ramp: float = 1 / 3  # Share of the segment that each ramp of a trapezoidal velocity takes [-]
     # Of a table, shares of the segment between 0 and 1, and the coordinate there [-], [m] or [rad]
     points: tuple[tuple[float, float], ...] = ()
 
@@ -74,31 +74,31 @@ class DrivingSlider:
 
 
 @dataclass(frozen=True)
-class Half:
+class CylinderPart:
     """The barrel or the rod of a cylinder with its mass. [kg], [kg m2]"""
 
     link: str
     mass: float
     inertia: float  # About its centre of mass
-    centre: Point  # From its own end towards the other one, and to the left of that [m]
+    centre: Point  # From its own end towards the other, and to the left of that [m]
 
 
 @dataclass(frozen=True)
 class Cylinder:
     """A link of changing length between two points: that length is the coordinate."""
 
-    # The points that it joins: of the barrel and of the rod
+    # The points that barrel and rod are pinned to
     barrel: str
     rod: str
     law: Law
     link: str = "cylinder"  # Name of the link
-    halves: tuple[Half, ...] = ()  # Barrel and rod, where they have masses
+    halves: tuple[CylinderPart, ...] = ()  # Barrel and rod, where they have masses
 
     turns = False
 
 
 def rod_name(cylinder: str) -> str:
-    """Return the name of the rod of a cylinder, which is a link of its own."""
+    """Return the name of the rod of a cylinder, which is a separate link."""
     return f"{cylinder}_rod"
 
 
@@ -106,7 +106,7 @@ def rod_name(cylinder: str) -> str:
 class LinkMotor:
     """A motor in the pin of two moving links: the angle from the first to the second is the coordinate.
 
-    One point of each link and the pin are a triangle, whose third side is a link of changing length without mass.
+    One point of each link and the pin form a triangle, whose third side is a massless link of changing length.
     """
 
     # The links, the first and the second
@@ -123,10 +123,10 @@ class LinkMotor:
 
 @dataclass(frozen=True)
 class GearedCrank:
-    """A crank that gears turn with the driving one."""
+    """A crank that is geared to the driving one."""
 
     link: str
     pivot: Point  # [m]
-    ratio: float  # Its angular velocity over that of the driving crank, negative where it turns the other way round [-]
-    start: float = 0.0  # Direction of its x axis where the driving crank has not turned yet [rad]
-    pressure_angle: float | None = None  # Of teeth that touch those of the driving crank's wheel, if they do [rad]
+    ratio: float  # Its angular velocity over that of the driving crank, negative for the opposite sense [-]
+    start: float = 0.0  # Direction of its x axis at a driving crank angle of zero [rad]
+    pressure_angle: float | None = None  # Of teeth in mesh with the driving crank's wheel [rad]

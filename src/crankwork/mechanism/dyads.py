@@ -1,7 +1,7 @@
 """Assur groups of class II: the five dyads, each two links and three joints, and the guides they slide on.
 
-A link has a frame: origin at its first joint, x axis towards its second. A sliding piece has its origin at its
-pin (or on its guide) and its x axis along the guide. Points and guides that a link carries are given there.
+The frame of a link has its origin at the first joint and its x axis towards the second; that of a sliding piece has its
+origin at its pin (or on its guide) and its x axis along the guide. Points and guides on a link are given in its frame.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ class Guide:
 
     # A point of the line, from which distances along it count; in the frame of the link that carries it [m]
     point: Point = (0.0, 0.0)
-    angle: float = 0.0  # Direction in which they count, from the x axis of that frame [rad]
+    angle: float = 0.0  # Positive direction of the line, from the x axis of that frame [rad]
     link: str = ""  # The link that carries it; empty for a fixed guide
 
 
 @dataclass(frozen=True)
 class Bar:
-    """Where the line from the known joint of a link of a dyad to its other joint lies in the frame of the link."""
+    """The line from the known joint of a link of a dyad to the other joint, in the frame of the link."""
 
     # Its ends, at the known joint and at the other one [m]
     start: Point
@@ -37,17 +37,17 @@ class Bar:
 class RRR:
     """Two links between two known points."""
 
-    # The known points, and the one where the links meet
+    # The known points, and the inner joint
     joint_a: str
     joint_b: str
     point: str
-    # Names of the links, each counted from its known point
+    # Names of the links, each directed from its known point
     link_a: str
     link_b: str
     # Their lengths [m]
     length_a: float
     length_b: float
-    branch: Branch = 1  # 1 if `point` lies on the left on the way from `joint_a` to `joint_b`, -1 if on the right
+    branch: Branch = 1  # 1 if `point` lies on the left of the line from `joint_a` to `joint_b`, -1 if on the right
 
 
 @dataclass(frozen=True)
@@ -60,15 +60,15 @@ class RRP:
     link: str  # Name of the link
     length: float  # Distance between the two points [m]
     guide_point: Point = (0.0, 0.0)  # A point of the guide line, in the frame of `guide_link` [m]
-    # Direction in which the slider's distance along the guide is counted, from the x axis of that frame [rad]
+    # Positive direction of the slider's distance along the guide, from the x axis of that frame [rad]
     guide_angle: float = 0.0
     branch: Branch = 1  # 1 if the slider lies ahead of the joint in the guide direction, -1 if behind
     guide_link: str = ""  # The link that carries the guide; empty for a fixed guide
-    block: str = ""  # Name of the sliding piece, where it is not that of its point
+    block: str = ""  # Name of the sliding piece, if it differs from that of its point
 
     @property
     def guide(self) -> Guide:
-        """The line the slider runs on."""
+        """The guide of the slider."""
         return Guide(self.guide_point, self.guide_angle, self.guide_link)
 
     @property
@@ -93,7 +93,7 @@ class RPR:
 
 @dataclass(frozen=True)
 class PRP:
-    """Two blocks on one pin, each on a known guide. There is one way to assemble it."""
+    """Two blocks on one pin, each on a known guide. It has one way of assembly."""
 
     point: str  # The pin, where the guides cross
     # Names of the blocks
@@ -106,15 +106,15 @@ class PRP:
 
 @dataclass(frozen=True)
 class RPP:
-    """A yoke on a known guide, and the block on a known pin that slides in its slot, in one way."""
+    """A yoke on a known guide, and the block on a known pin that slides in its slot. It has one way of assembly."""
 
     joint: str  # Pin of the block
     # Names of yoke and block
     link: str
     block: str
-    # The slot in the frame of the yoke, which moves along the guide without turning on it; its `link` is not used
+    # The slot in the frame of the yoke, which does not rotate on its guide; its `link` is not used
     slot: Guide
-    guide: Guide = Guide()  # What the yoke slides on
+    guide: Guide = Guide()  # The guide of the yoke
 
 
 Dyad = RRR | RRP | RPR | PRP | RPP

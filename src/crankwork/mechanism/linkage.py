@@ -24,12 +24,12 @@ class Member:
     # Mass, and moment of inertia about the centre of mass [kg], [kg m2]
     mass: float = 0.0
     inertia: float = 0.0
-    centre: str = ""  # Name of the point that is the centre of mass; empty where there is no mass
+    centre: str = ""  # Name of the point at the centre of mass; empty without mass
 
 
 @dataclass(frozen=True)
 class Linkage:
-    """A planar linkage before it is taken apart."""
+    """A planar linkage before its decomposition."""
 
     driver: Driver
     ground: Mapping[str, Point]  # Fixed points by name [m]
@@ -38,48 +38,48 @@ class Linkage:
     guides: Mapping[str, Guide] = field(default_factory=dict)
     # Branch by the name of the joint that it places, or of the slotted lever
     branches: Mapping[str, Branch] = field(default_factory=dict)
-    # Roughly where joints are at the beginning; they settle the branches that are not given [m]
+    # Approximate initial positions of joints, which determine branches that are not given [m]
     positions: Mapping[str, Point] = field(default_factory=dict)
-    # Points and mass of a driving link; points of a crank are further ones, from the pivot towards the pin, and left
+    # Points and mass of the driving link; points of a crank besides its pin, along and to the left of the arm
     driving: Member = Member("", {})
-    geared: tuple[Member, ...] = ()  # Points and masses of the cranks that gears turn with the driving one
+    geared: tuple[Member, ...] = ()  # Points and masses of the geared cranks
 
     @property
     def crank(self) -> Crank:
-        """The crank, of a linkage that one drives."""
+        """The crank, if the driver is one."""
         return crank_of(self.driver)
 
     @property
     def base(self) -> frozenset[str]:
-        """What is placed before any group: the ground, and the link that drives."""
+        """The links placed before any group: the ground, and the driving links."""
         is_link = isinstance(self.driver, Crank | DrivingSlider)
-        geared = (one.name for one in self.geared)
+        geared = (crank.name for crank in self.geared)
         return frozenset({GROUND, self.driver.link, *geared} if is_link else {GROUND})
 
     def member(self, name: str) -> Member:
-        """Return the member of a name."""
-        return next(one for one in self.members if one.name == name)
+        """Return the member with a name."""
+        return next(member for member in self.members if member.name == name)
 
     @cached_property
     def owners(self) -> dict[str, list[str]]:
-        """For every point what it belongs to: members, the driving link, the ground."""
+        """The owners of every point: members, the driving link, the ground."""
         owners: dict[str, list[str]] = {name: [GROUND] for name in self.ground}
         pin = (self.driver.pin,) if isinstance(self.driver, Crank) else ()
         for name in (*pin, *self.driving.points):
             owners.setdefault(name, []).append(self.driver.link)
-        for one in (*self.geared, *self.members):
-            for name in one.points:
-                owners.setdefault(name, []).append(one.name)
+        for member in (*self.geared, *self.members):
+            for name in member.points:
+                owners.setdefault(name, []).append(member.name)
         return owners
 
     def base_frame(self, link: str) -> tuple[Point, float]:
-        """Where the frame of a link that is placed first is at the beginning, and its direction. [m], [rad]"""
+        """Return the initial origin and direction of the frame of a link that is placed first. [m], [rad]"""
         match self.driver:
             case Crank(pivot=pivot, start=start, direction=direction, law=law, geared=geared):
                 turned = direction * law.start if law else 0.0
-                for one in geared:
-                    if one.link == link:
-                        return one.pivot, one.start + one.ratio * turned
+                for crank in geared:
+                    if crank.link == link:
+                        return crank.pivot, crank.start + crank.ratio * turned
                 return pivot, start + turned
             case DrivingSlider(guide=guide, law=law):
                 (x, y), angle = guide.point, guide.angle
@@ -87,14 +87,14 @@ class Linkage:
         raise TypeError(f"{self.driver.link} has no place of its own")
 
     def at_zero(self) -> dict[str, Point]:
-        """Return where points are at the beginning, as far as it is given. [m]"""
+        """Return the initial positions of points that are given. [m]"""
         if self.base == {GROUND}:
             return {**self.positions, **self.ground}
         pin = {self.driver.pin: (self.driver.radius, 0.0)} if isinstance(self.driver, Crank) else {}
         placed: dict[str, Point] = {}
-        for one in (self.driving, *self.geared):
-            (x, y), angle = self.base_frame(one.name)
+        for link in (self.driving, *self.geared):
+            (x, y), angle = self.base_frame(link.name)
             cos, sin = math.cos(angle), math.sin(angle)
-            points = {**one.points, **(pin if one is self.driving else {})}
+            points = {**link.points, **(pin if link is self.driving else {})}
             placed |= {name: (x + u * cos - v * sin, y + u * sin + v * cos) for name, (u, v) in points.items()}
         return {**self.positions, **self.ground, **placed}

@@ -1,4 +1,4 @@
-"""What a mechanism is: a driver and an ordered list of dyads, with bodies and named points."""
+"""Mechanisms: a driver and an ordered list of dyads, with bodies and named points."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, Half, Law, LinkMotor
+from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, Law, LinkMotor
 from crankwork.mechanism.dyads import RRP
 
 if TYPE_CHECKING:
     from crankwork.mechanism.chain import Chain
     from crankwork.mechanism.dyads import Bar, Branch, Dyad, Point
-    from crankwork.mechanism.passage import Passage
+    from crankwork.mechanism.passage import ChangePointPassage
 
 
 _TURN = 360.0
-# turns of the crank that results may go over, and how much a ratio of gears may differ from one of whole numbers
-_MOST_TURNS, _SAME_RATIO = 6, 1e-9
+# largest period in turns of the crank, and tolerance of a gear ratio that is one of integers
+_MAX_TURNS, _RATIO_TOLERANCE = 6, 1e-9
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,8 @@ class Crank:
     # Names of the moving end and of the link
     pin: str = "crank_pin"
     link: str = "crank"
-    law: Law | None = None  # How it turns; at the angle of the tables without
-    geared: tuple[GearedCrank, ...] = ()  # What gears turn with it
+    law: Law | None = None  # Its motion law; without one it is at the angle of the tables
+    geared: tuple[GearedCrank, ...] = ()  # Cranks that are geared to it
 
     turns = True
 
@@ -82,41 +82,41 @@ class Mechanism:
     """A driver, the dyads in the order in which they are solved, and the bodies."""
 
     driver: Driver
-    dyads: tuple[Dyad | Chain, ...]  # Each rests on points and links that the driver or an earlier one has placed
-    bodies: tuple[Body, ...] = ()  # Moving masses; may be empty where only the motion is wanted
+    dyads: tuple[Dyad | Chain, ...]  # Each connects to points and links of the driver or an earlier group
+    bodies: tuple[Body, ...] = ()  # Moving masses; may be empty if only the motion is needed
     ground: Mapping[str, Point] = field(default_factory=dict)  # Fixed points by name [m]
-    points: tuple[LinkPoint, ...] = ()  # Further points of the links; a dyad may rest on them
-    # Lines between the joints of those links of dyads whose frames they are not, by link
+    points: tuple[LinkPoint, ...] = ()  # Further points of the links; a dyad may connect to them
+    # Lines between the joints of links of dyads whose frames lie elsewhere, by link
     bars: Mapping[str, Bar] = field(default_factory=dict)
-    # Those of the dyads, by their place, that go through change points
-    passages: Mapping[int, Passage] = field(default_factory=dict)
+    # The dyads that pass change points, by index
+    passages: Mapping[int, ChangePointPassage] = field(default_factory=dict)
 
     @property
     def crank(self) -> Crank:
-        """The crank, of a mechanism that one drives."""
+        """The crank, if the driver is one."""
         return crank_of(self.driver)
 
     @property
-    def halves(self) -> tuple[Half, ...]:
+    def halves(self) -> tuple[CylinderPart, ...]:
         """Barrel and rod of a driving cylinder that has masses."""
         return self.driver.halves if isinstance(self.driver, Cylinder) else ()
 
     @property
     def period(self) -> float:
-        """Crank angle after which it is back where it was: with gears or change points it may be some turns. [deg]"""
-        passed = [one.period for one in self.passages.values() if math.isfinite(one.period)]
+        """Crank angle after which everything repeats: with gears or change points it may be several turns. [deg]"""
+        passed = [passage.period for passage in self.passages.values() if math.isfinite(passage.period)]
         geared = self.driver.geared if isinstance(self.driver, Crank) and self.driver.law is None else ()
-        return max([_TURN * math.lcm(*(turns_of(one.ratio) or 1 for one in geared)), *passed])
+        return max([_TURN * math.lcm(*(period_in_turns(crank.ratio) or 1 for crank in geared)), *passed])
 
 
-def turns_of(ratio: float) -> int:
-    """Return after how many turns of the crank one that gears turn with it is back too; none for many of them."""
-    nearest = Fraction(ratio).limit_denominator(_MOST_TURNS)
-    return nearest.denominator if abs(ratio - nearest) < _SAME_RATIO else 0
+def period_in_turns(ratio: float) -> int:
+    """Return the turns of the crank after which a geared one is back too, 0 if there are too many."""
+    nearest = Fraction(ratio).limit_denominator(_MAX_TURNS)
+    return nearest.denominator if abs(ratio - nearest) < _RATIO_TOLERANCE else 0
 
 
 def crank_of(driver: Driver) -> Crank:
-    """Return the crank that drives, of what one drives."""
+    """Return the crank that drives, or raise TypeError for another driver."""
     if isinstance(driver, Crank):
         return driver
     raise TypeError(f"{driver.link} drives, and that is no crank")

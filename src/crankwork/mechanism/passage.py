@@ -1,4 +1,4 @@
-"""How a dyad goes on through a change point, in which its two branches meet."""
+"""Passages of dyads through change points, where their two branches meet."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Polynomial:
-    """A quantity about a crank angle, by Chebyshev polynomials of the distance from it. [deg]"""
+    """A quantity near a crank angle, by Chebyshev polynomials of the distance from it. [deg]"""
 
     centre: float
-    reach: float  # How far from the centre the values lie that it goes through
+    reach: float  # Distance from the centre of the farthest fitted values
     coefficients: tuple[float, ...]
 
     def __call__(self, degrees: Array) -> Array:
@@ -27,22 +27,22 @@ class Polynomial:
 
 
 @dataclass(frozen=True)
-class Bridge:
-    """What leads a dyad over a change point: there its own formulas are nought by nought."""
+class ChangePointFit:
+    """Polynomials for a dyad near a change point, where its own formulas are 0/0."""
 
     degrees: float  # Crank angle of the change point
-    width: float  # How far on both sides the polynomials are used [deg]
+    width: float  # Half width of the range of the polynomials [deg]
     columns: Mapping[str, Polynomial]  # By the quantity that they replace
 
 
 @dataclass(frozen=True)
-class Passage:
-    """A dyad that passes change points, and with each from one of its branches to the other."""
+class ChangePointPassage:
+    """The change points of a dyad, at each of which it changes its branch."""
 
     changes: tuple[float, ...]  # Crank angles at which its branch changes, ascending [deg]
-    stated: float  # Crank angle at which it is on the branch that is its own, or just behind which [deg]
-    period: float = math.inf  # Crank angle after which everything repeats, of a crank that turns fully [deg]
-    bridges: tuple[Bridge, ...] = ()
+    stated: float  # Crank angle at which, or just after which, it is on its own branch [deg]
+    period: float = math.inf  # Crank angle after which everything repeats, if the crank turns fully [deg]
+    bridges: tuple[ChangePointFit, ...] = ()
 
     def within(self, degrees: Array) -> Array:
         """Return crank angles within the period."""
@@ -55,7 +55,7 @@ class Passage:
         return np.where((passed - np.searchsorted(self.changes, self.stated, side="right")) % 2 == 0, 1.0, -1.0)
 
     def is_bridged(self, degrees: Array) -> NDArray[np.bool_]:
-        """Return where polynomials are used."""
+        """Return where polynomials are used (True)."""
         inside, local = np.zeros(degrees.shape, dtype=bool), self.within(degrees)
         for bridge in self.bridges:
             inside |= np.abs(local - bridge.degrees) <= bridge.width

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.dynamics.friction import PinFriction, Rubbing
+from crankwork.dynamics.friction import FrictionJoint, PinFriction
 from crankwork.kinematics.crank_grid import Array
 
 # rows of one joint: its rate by the coordinate, then pairs of its two unknowns: constant while it grows and while it
@@ -30,7 +30,7 @@ class State(NamedTuple):
 class Slipping:
     """Joints with friction, whose rows of a machine's quantities begin at a place."""
 
-    joints: tuple[Rubbing, ...]
+    joints: tuple[FrictionJoint, ...]
     first: int
 
     @property

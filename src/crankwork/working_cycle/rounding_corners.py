@@ -15,7 +15,7 @@ import numpy as np
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value
 from crankwork.formula.known import chosen, plain
-from crankwork.kinematics.extremes import reached
+from crankwork.kinematics.extremes import solve_monotone
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import VolumeAt
 from crankwork.loads.retold import RememberedVolume
@@ -75,7 +75,7 @@ class RoundedCorners(NamedTuple):
         """Return the angle at which the expansion reaches a volume. [deg]"""
         if isinstance(self.volume_at, RememberedVolume):
             return self.volume_at.reached(volume, self.top, self.bottom)
-        return reached(self.volume_at, volume, self.top, self.bottom)
+        return solve_monotone(self.volume_at, volume, self.top, self.bottom)
 
 
 def corners_of(

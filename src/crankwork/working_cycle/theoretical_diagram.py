@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from crankwork.kinematics.extremes import reached
+from crankwork.kinematics.extremes import solve_monotone
 from crankwork.loads.indicator import DiagramPoint, Piece, VolumeAt
 from crankwork.locale import Refusal
 from crankwork.working_cycle.calculated_cycle import Corners
@@ -102,7 +102,7 @@ def _angle_of_volume(volume_at: VolumeAt, volume: float, small: float, large: fl
     ends = volume_at(np.array([low, high]))
     if not ends[0] <= volume <= ends[1] * (1 + 1e-12):
         raise CycleError(Refusal("volume_unreached", volume=volume * 1e6, least=ends[0] * 1e6, most=ends[1] * 1e6))
-    return reached(volume_at, volume, low, high)
+    return solve_monotone(volume_at, volume, low, high)
 
 
 def _from_zero(points: Points, pieces: list[Piece], cycle: float) -> tuple[Points, tuple[Piece, ...]]:
