@@ -134,18 +134,21 @@ def _angle(scale: float, slope: float, name: str, language: Language) -> str:
     return f"$ψ_{name}$ = {number(angle, language, digits=6)}°; {words} {number(slope, language, digits=4)} {unit}"
 
 
-def speed_curve(degrees: Array, speed: Array, style: Style = PLAIN) -> Drawing:
-    """Return the angular speed of the crank over one cycle, with its largest, mean and smallest value."""
+def speed_curve(degrees: Array, speed: Array, evenness: Fluctuation, style: Style = PLAIN) -> Drawing:
+    """Return the angular speed of the crank over one cycle, with its largest and smallest value.
+
+    `evenness`: the mean and the fluctuation, as the results have them.
+    """
     language, row = style.language, quantity_of("speed")
     low, high = float(np.min(speed)), float(np.max(speed))
     mean = symbol("mean_torque", language).partition("_")[2]
-    levels = (high, "max", DOTTED), ((low + high) / 2, mean, DASHED), (low, "min", DOTTED)
+    levels = (high, "max", DOTTED), (evenness.mean, mean, DASHED), (low, "min", DOTTED)
     mark, unit = symbol("speed", language), unit_name(row.unit, language)
     shown = [
         f"${mark}_{name}$ = {number(float(displayed_values(row, np.asarray(value))), language, digits=5)} {unit}"
         for value, name, _ in levels
     ]
-    shown.append(f"$δ$ = {number(2 * (high - low) / (high + low), language, digits=3)}")
+    shown.append(f"$δ$ = {number(evenness.delta, language, digits=3)}")
     paper, box = sheet(216.0, [Row(";  ".join(shown), width=0.0)])
     spare = 0.08 * (high - low) or 0.01 * high
     ends = displayed_values(row, np.array([low - spare, high + spare]))

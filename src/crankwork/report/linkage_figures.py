@@ -78,7 +78,7 @@ def _of_drawing(results: Results, linkage: Linkage, style: Style) -> Pictures:
         drawn |= {} if style.period else lever_figure(results, float(degrees[at]), style)
     drawn |= transient_figures(results, style)
     if is_whole:
-        drawn |= _evenness(machine, degrees, known, results.solved.speed, style)
+        drawn |= _evenness(results, degrees, known, style)
     return drawn
 
 
@@ -202,14 +202,16 @@ def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictu
     return {"friction": partial(curves, degrees, known, [*panels, *ratio], title, style)}
 
 
-def _evenness(machine: Machine, degrees: Array, known: Mapping[str, Array], speed: float, style: Style) -> Pictures:
+def _evenness(results: Results, degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
     """Return the energy-mass diagram and the speed with the flywheel found."""
     if "crank_speed" not in known:
         return {}
-    course: Pictures = {"speed": partial(speed_curve, degrees, known["crank_speed"], style)}
-    if machine.drive.fluctuation is None:
+    speed, drive = results.solved.speed, results.machine.drive
+    found = Fluctuation(speed, results.summary["speed_fluctuation"])
+    course: Pictures = {"speed": partial(speed_curve, degrees, known["crank_speed"], found, style)}
+    if drive.fluctuation is None:
         return course
-    wanted = Fluctuation(speed, machine.drive.fluctuation)
+    wanted = Fluctuation(speed, drive.fluctuation)
     energy, inertia = known["kinetic_energy_change"], known["reduced_inertia"]
     if np.any(inertia):
         # without masses the energy stands over one point

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 
 from crankwork.analysis import Array, Results
+from crankwork.analysis.diagrams import Fluctuation
 from crankwork.analysis.turning import TurningDiagram, turning_diagram
 from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
@@ -50,7 +51,8 @@ def turning_pictures(results: Results, language: Language) -> dict[str, Callable
     found: dict[str, Callable[[], Drawing]] = {"turning_moment": partial(_diagram, results, drawn, style)}
     if "crank_speed" in results.columns:
         speed = results.columns_at(drawn.degrees, ["crank_speed"])["crank_speed"]
-        found["speed"] = partial(speed_curve, drawn.degrees, speed, style)
+        evenness = Fluctuation(results.solved.speed, results.summary["speed_fluctuation"])
+        found["speed"] = partial(speed_curve, drawn.degrees, speed, evenness, style)
     return found
 
 
