@@ -207,8 +207,8 @@ def _evenness(results: Results, degrees: Array, known: Mapping[str, Array], styl
     if "crank_speed" not in known:
         return {}
     speed, drive = results.solved.speed, results.machine.drive
-    found = Fluctuation(speed, results.summary["speed_fluctuation"])
-    course: Pictures = {"speed": partial(speed_curve, degrees, known["crank_speed"], found, style)}
+    evenness = Fluctuation(speed, results.summary["speed_fluctuation"])
+    course: Pictures = {"speed": partial(speed_curve, degrees, known["crank_speed"], evenness, style)}
     if drive.fluctuation is None:
         return course
     wanted = Fluctuation(speed, drive.fluctuation)
