@@ -80,3 +80,7 @@ class InputError(CrankworkError):
             ": ".join(part for part in (place, problem.key, tell(problem.message)) if part)
             for place, problem in zip(self.places, self.problems, strict=True)
         ]
+
+
+class RenamedKeyWarning(FutureWarning):
+    """An old key of results was asked for; its argument says which key to use now."""

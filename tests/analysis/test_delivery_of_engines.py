@@ -118,7 +118,7 @@ def test_mass_power_and_slip_are_those_of_both_cylinders():
         "free_air_delivery": flow * LOW / 101325 * 288 / 300,
         "isothermal_power": least,
         "isothermal_efficiency": least / power,
-        "engine_indicated_power": -power,
+        "indicated_power": -power,
         "discharge_coefficient": 0.9 / 60 / flow,
         "pump_slip": 1 - 0.9 / 60 / flow,
         "induced_volume": drawn,

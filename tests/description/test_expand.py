@@ -163,7 +163,7 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
         names = [one for one in linkage.memory if re.fullmatch(rf"joint_force_x\.{pin}(_rod_\d+)?", one)]
         x, y = (sum(of_linkage(one.replace("_x", part)) for one in names) for part in ("_x", "_y"))
         same(np.hypot(x, y), engine.columns_at(degrees, [key])[key], key)
-    whole_inertia = engine.memory.get("total_reduced_inertia")
+    whole_inertia = engine.memory.get("reduced_inertia")
     if whole_inertia is not None:
         same(
             of_linkage("reduced_inertia"), Program({"": whole_inertia})(CrankGrid.from_degrees(degrees))[""], "inertia"
@@ -173,7 +173,7 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
 
 def work_per_angle(engine, machine):
     """Return the mean torque of the gas."""
-    return engine.summary["engine_indicated_power"] / (machine.speed * machine.method.pi / math.pi)
+    return engine.summary["indicated_power"] / (machine.speed * machine.method.pi / math.pi)
 
 
 @in_parts(

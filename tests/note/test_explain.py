@@ -243,7 +243,7 @@ def test_a_measured_pressure_names_its_samples(tmp_path):
 
 
 def test_what_is_found_of_a_column_is_followed_to_its_numbers():
-    lines = explained("v8-diesel", "mean_total_torque")
+    lines = explained("v8-diesel", "mean_torque")
     start = next(at for at, one in enumerate(lines) if one.startswith("M_Σ, N·m – 0°: 438.39; "))
     told = " ".join(lines[start : lines.index("Where")])
     found = [float(one.replace("−", "-")) for one in re.findall(r"°: ([−\d.]+)", told)]

@@ -194,7 +194,7 @@ def test_the_total_torque_is_the_sum_of_the_drawn_cylinders_and_that_of_the_last
     # the sum is a fitted curve, least exact where a pressure has a corner
     assert np.max(apart) < 5e-5 * np.max(total)
     assert np.median(apart) < 1e-9 * np.max(total)
-    assert curves["mean"][1] == pytest.approx([results.summary["mean_total_torque"]] * 2)
+    assert curves["mean"][1] == pytest.approx([results.summary["mean_torque"]] * 2)
     assert curves["total"][1].max() == pytest.approx(results.summary["total_torque_max"], rel=2e-3)
     throws = {place.throw for place in drawn.results.machine.engine.layout.places}
     assert ("accumulated_torque" in figure_list(drawn)) == (len(throws) > 1)

@@ -48,7 +48,7 @@ def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
     for name in chambers:
         power = _per_time(solved, name)(found[f"indicated_work.{name}"])
         found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
-    if len(chambers) > 1:
+    if chambers:
         found["indicated_power"] = total("indicated_power", [found[f"indicated_power.{name}"] for name in chambers])
     return found | _delivery(solved, found)
 

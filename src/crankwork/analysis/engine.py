@@ -16,6 +16,7 @@ from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import SolvedCylinder, apart, solve
+from crankwork.analysis.speed import delivered_or_needed
 from crankwork.formula.known import Known, given
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program, Samples
@@ -37,6 +38,8 @@ _Value = TypeVar("_Value")
 _CHECK_STEP = 1.0
 # what a cycle is calculated with or checked by, and the rest of a summary says in its own way
 _NOT_SHOWN = ("first_law_residual", "rotational_speed")
+# without an owner they are those of the machine
+_OF_ENGINES_TOO = ("mean_torque", "indicated_power", "reduced_inertia", "reduced_inertia_1")
 _MOVING = ("piston_velocity", "piston_acceleration")
 _PUSHING = ("gas_pressure", "inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
 _WRONG_FORCES = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
@@ -52,7 +55,8 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     if grid is None:
         grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     followed, wrong = _followed(solved)
-    own = {key: solved.memory[key] for key in (*COLUMNS, *HARMONICS) if key in solved.memory}
+    names = {key: own_key(machine, key) for key in (*COLUMNS, *HARMONICS) if key in solved.memory}
+    own = {name: solved.memory[key] for key, name in names.items()}
     if machine.engine is None or "crank_torque" not in solved.memory:
         program = Program(own | followed)
         samples = Samples(program, CrankGrid.from_degrees, machine.cycle)
@@ -65,22 +69,23 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         whole = WholeMemory.of(solved, followed, wrong, own)
         samples, over = whole.samples, whole.over
     found = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
+    found = _by_own_keys(machine, found)
     calculated = solved.space.calculated if solved.space is not None else None
     summary = {key: known.value for key, known in found.items()}
     if calculated is not None:
         summary |= _cycle_values(calculated.values)
-    memory = {**({} if calculated is None else _cycle_memory(calculated)), **solved.memory, **found}
+    memory = ({} if calculated is None else _cycle_memory(calculated)) | _by_own_keys(machine, solved.memory) | found
     if calculated is not None and "geometric_compression_ratio" in calculated.memory:
         # that of the closed cylinder, as the summary has it
         memory["compression_ratio"] = calculated.memory["compression_ratio"]
     results = Results(
         solved,
         grid,
-        _only(own, samples(grid)),
+        _only({name: name for name in own}, samples(grid)),
         summary,
-        _checks(solved, summary, samples),
+        _checks(solved, summary, samples, over),
         solved.notices,
-        GROUPS,
+        {name: tuple(own_key(machine, key) for key in keys) for name, keys in GROUPS.items()},
         allowed=_allowed(solved, summary),
         memory=memory,
     )
@@ -91,8 +96,19 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     return with_whole_engine(results, whole)
 
 
-def _only(knowns: Mapping[str, Known], columns: Mapping[str, Array]) -> dict[str, Array]:
-    return {key: columns[key].copy() for key in knowns if key in columns}
+def own_key(machine: Machine, key: str) -> str:
+    """Return the key of a value of cylinder 1; of what the whole engine has too, that of the cylinder names it."""
+    return f"{key}.1" if machine.engine is not None and key in _OF_ENGINES_TOO else key
+
+
+def _by_own_keys(machine: Machine, values: Mapping[str, Known]) -> dict[str, Known]:
+    """Return values of cylinder 1 by the keys that they have in the results."""
+    return {own_key(machine, key): known for key, known in values.items()}
+
+
+def _only(names: Mapping[str, str], columns: Mapping[str, Array]) -> dict[str, Array]:
+    """Return columns by key, each found under its name."""
+    return {key: columns[name].copy() for key, name in names.items() if name in columns}
 
 
 def _followed(solved: SolvedCylinder) -> tuple[dict[str, Known], dict[str, str]]:
@@ -150,7 +166,8 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
     found |= over.extremes(*(key for key in _PUSHING if key in memory))
     if "rotating_inertia_force" in memory:
         found["rotating_inertia_force"] = memory["rotating_inertia_force"]
-    found["mean_torque"] = over.mean("crank_torque", "mean_torque")
+    mean = over.mean("crank_torque", "mean_torque")
+    found["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
     if solved.space is not None:
         work = found["indicated_work"] = work_of_gas(solved, solved.space)
         found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, memory["swept_volume"])
@@ -178,11 +195,14 @@ def _cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
     return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}
 
 
-def _checks(solved: SolvedCylinder, summary: Mapping[str, float], samples: Samples) -> dict[str, float]:
+def _checks(
+    solved: SolvedCylinder, summary: Mapping[str, float], samples: Samples, over: OverCycle
+) -> dict[str, float]:
     """Return the residuals of identities between the results, relative to the largest term."""
     if "piston_force" not in solved.memory:
         return {}
-    dense = _only(solved.memory, samples(CrankGrid.steps(_CHECK_STEP, solved.machine.cycle)))
+    names = {key: own_key(solved.machine, key) for key in solved.memory}
+    dense = _only(names, samples(CrankGrid.steps(_CHECK_STEP, solved.machine.cycle)))
     T, K, S, N = (dense[key] for key in ("tangential_force", "radial_force", "rod_force", "side_force"))
     P, r, l = dense["piston_force"], solved.lengths.crank_radius, solved.lengths.rod_length  # noqa: E741
     across = dense.get("rod_transverse_force", np.zeros_like(S))
@@ -202,7 +222,7 @@ def _checks(solved: SolvedCylinder, summary: Mapping[str, float], samples: Sampl
         if "reduced_inertia" in dense:
             result["torque_of_energy"] = apart(dense["crank_torque"], _torque_of_energy(solved, dense))
     if solved.space is not None and not solved.machine.angular_acceleration:
-        work = summary["mean_torque"] * math.radians(solved.machine.cycle)
+        work = over.mean("crank_torque", "mean_torque").value * math.radians(solved.machine.cycle)
         result["work"] = abs(work - summary["indicated_work"]) / moved_work(solved, summary)
     valves = solved.machine.gas.valves if solved.machine.gas is not None else None
     if valves is not None and solved.space is not None:

@@ -83,17 +83,22 @@ def work_memory(whole: WholeEngine, firing: Mapping[str, Known]) -> dict[str, Kn
         return {}
     cycle, several = origins.cycle_angle(whole.machine), len(works) > 1
     found = {f"indicated_work.{number}": one for number, one in enumerate(works, start=1)} if several else {}
+    work, name = works[0].named("indicated_work"), "indicated_power"
     if several:
-        all_ = total("indicated_work.all", (one.named(key) for key, one in found.items()))
-        found["engine_indicated_power"] = indicated_power(all_, whole.master.memory["speed"], cycle)
+        work = total("indicated_work.all", (one.named(key) for key, one in found.items()))
+        name = "engine_indicated_power"
+    found["indicated_power"] = indicated_power(work, whole.master.memory["speed"], cycle).named(name)
     if whole.is_uniform:
         torque = mean_torque_of_work(firing["cylinder_count"], works[0].named("indicated_work"), cycle)
     else:
-        each = [mean_torque(one, cycle).named(f"mean_torque.{number}") for number, one in enumerate(works, start=1)]
+        each = [
+            mean_torque(work, cycle).named(f"mean_torque.indicated.{number}")
+            for number, work in enumerate(works, start=1)
+        ]
         found |= {one.key: one for one in each}
-        torque = total("mean_total_torque.indicated", each)
-    found["mean_total_torque.indicated"] = torque
-    return {key: one.named(key) for key, one in found.items()}
+        torque = total("mean_torque.indicated", each)
+    found["mean_torque.indicated"] = torque
+    return {key: one if key == "indicated_power" else one.named(key) for key, one in found.items()}
 
 
 def delivery_memory(whole: WholeEngine, firing: Mapping[str, Known], works: Mapping[str, Known]) -> dict[str, Known]:
@@ -103,7 +108,7 @@ def delivery_memory(whole: WholeEngine, firing: Mapping[str, Known], works: Mapp
     """
     gases = {number: one.machine.gas for number, one in enumerate(whole.cylinders, start=1)}
     valved = {number: gas.valves for number, gas in gases.items() if gas is not None and gas.valves is not None}
-    if not valved or "engine_indicated_power" not in works:
+    if not valved or "indicated_power" not in works:
         return {}
     cycle, speed, flows = origins.cycle_angle(whole.machine), whole.master.memory["speed"], dict[int, Known]()
     for number, valves in valved.items():
@@ -118,7 +123,7 @@ def delivery_memory(whole: WholeEngine, firing: Mapping[str, Known], works: Mapp
     else:
         found = {one.key: one for one in flows.values()}
         flow = total("inlet_flow", found.values())
-    return found | stated.passed(flow, works["engine_indicated_power"])
+    return found | stated.passed(flow, works["indicated_power"])
 
 
 def firing_listing(whole: WholeEngine, firing: Mapping[str, Known]) -> Listing:

@@ -11,10 +11,10 @@ from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.engine_bearings import rotating_mass_of
 from crankwork.analysis.flywheel import turning_inertia
-from crankwork.analysis.reduction import MOVING
+from crankwork.analysis.reduction import MOVING, REDUCTION
 from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
-from crankwork.analysis.speed import Balance, excess_of, turn_of, work_of
+from crankwork.analysis.speed import Balance, delivered_or_needed, excess_of, turn_of, work_of
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import (
@@ -94,7 +94,7 @@ def engine_reduction(whole: WholeEngine) -> dict[str, Known]:
     if whole.machine.drive.inertia:
         parts.append(turning_inertia(whole.machine, "reduced_inertia.drive"))
     found = total("total_reduced_inertia", parts), total("total_reduced_inertia_1", parts_1)
-    return {one.key: one for one in found}
+    return dict(zip(REDUCTION, found, strict=True))
 
 
 def engine_torque(
@@ -104,15 +104,16 @@ def engine_torque(
     first = whole.of(1, "crank_torque").key
     one, all_ = (_curve(over, key) for key in (first, "total_torque"))
     w = whole.master.memory["speed"]
-    summary = {"mean_total_torque": over.mean("total_torque", "mean_total_torque")}
+    mean = delivered_or_needed(over.mean("total_torque", "mean_total_torque"))
+    summary = {"mean_torque": mean}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
     balance = _balance(whole, memory, over, all_)
     excess = summary["excess_work"] = excess_of(balance)
-    between = work_of(excess, summary["mean_total_torque"], origins.cycle_angle(whole.machine))
+    between = work_of(excess, mean, origins.cycle_angle(whole.machine))
     # textbooks draw the extremes as far above the mean as below it
     turn = turn_of(whole.machine, balance, w, "extremes" if whole.master.method.kinematics == "textbook" else "time")
     summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
-    named = {key: known.named(key) for key, known in summary.items()}
+    named = {key: known if known is mean else known.named(key) for key, known in summary.items()}
     between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
     return EngineTorque(one, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
 
@@ -131,15 +132,15 @@ def _balance(whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, t
     As textbooks do it: the torque of all cylinders at constant speed, with what turns with the crank alone.
     """
     drive, total_ = turning_inertia(whole.machine, "reduced_inertia.drive"), memory["total_torque"]
-    if "total_reduced_inertia" not in memory or not has_own_inertia(whole):
+    if "reduced_inertia" not in memory or not has_own_inertia(whole):
         constant = Curve.constant(drive.value, total_torque.cycle)
         return Balance(total_, total_torque, drive, constant, excess_work(total_torque), sign=1.0)
     w, eps = whole.master.memory["speed"], origins.acceleration(whole.machine)
-    inertia, inertia_1 = memory["total_reduced_inertia"], memory["total_reduced_inertia_1"]
+    inertia, inertia_1 = memory["reduced_inertia"], memory["reduced_inertia_1"]
     own = inertia if drive.is_absent else (inertia - drive).named("reduced_inertia.cylinders")
     dynamic = dynamic_torque(w, inertia_1, own, eps).named("dynamic_torque")
     static = static_torque_of_balancing((-total_).named("balancing_torque"), dynamic).named("static_torque")
-    J, J_1 = (_curve(over, key) for key in ("total_reduced_inertia", "total_reduced_inertia_1"))
+    J, J_1 = (_curve(over, key) for key in ("reduced_inertia", "reduced_inertia_1"))
     torque = total_torque + J_1 * (w.value**2 / 2)
     if not eps.is_absent:
         torque = torque + (J + -drive.value) * eps.value

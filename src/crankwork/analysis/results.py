@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.solved import Notice
-from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.errors import CrankworkError, RenamedKeyWarning, UnknownKeyError
 from crankwork.formula.known import Known
 from crankwork.formula.lines import Moment
 from crankwork.formula.replay import Program
@@ -21,6 +21,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Language, Refusal
 from crankwork.method import Method
 from crankwork.quantities import QUANTITIES
+from crankwork.quantities.renamed import MOVED, RENAMED
 from crankwork.units import coherent_unit
 
 if TYPE_CHECKING:
@@ -93,6 +94,8 @@ class Results(Mapping[str, Array | float]):
     allowed: Mapping[str, float] = field(default_factory=dict)
     memory: Mapping[str, Known] = field(default_factory=dict)
     compared: Comparison | None = None
+    # old keys that have been asked for
+    _noticed: set[str] = field(default_factory=set, compare=False)
 
     @property
     def machine(self) -> Machine:
@@ -128,6 +131,22 @@ class Results(Mapping[str, Array | float]):
         present = {name: (first, *(key for key in keys if key in self.columns)) for name, keys in self.groups.items()}
         return {name: keys for name, keys in present.items() if len(keys) > 1}
 
+    def current(self, key: str) -> str:
+        """Return the key that a result has today; warn where it had another one, or was the value of something else."""
+        renamed, engine = RENAMED.get(key, key), self.machine.engine
+        notice = None
+        if renamed != key and self._has(renamed):
+            notice = Refusal("key_renamed", old=key, new=renamed)
+        elif key in MOVED and engine is not None and len(engine.layout.places) > 1:
+            notice = Refusal("key_moved", key=key, new=MOVED[key])
+        if notice is not None and key not in self._noticed:
+            self._noticed.update((key, renamed))
+            warnings.warn(RenamedKeyWarning(notice), stacklevel=3)
+        return renamed if self._has(renamed) else key
+
+    def _has(self, key: str) -> bool:
+        return key in self.columns or key in self.summary or key in self.memory
+
     def columns_at(self, angles: CrankGrid | ArrayLike, keys: Iterable[str] | None = None) -> dict[str, Array]:
         """Return columns that are remembered, at other crank angles.
 
@@ -144,6 +163,9 @@ class Results(Mapping[str, Array | float]):
             Columns by key. [SI]
         """
         grid = angles if isinstance(angles, CrankGrid) else CrankGrid.from_degrees(angles)
+        if keys is not None and not RENAMED.keys().isdisjoint(keys := list(keys)):
+            renamed = self.columns_at(grid, [self.current(key) for key in keys])
+            return {key: renamed[RENAMED.get(key, key)] for key in keys if RENAMED.get(key, key) in renamed}
         wanted = [key for key in (self.columns if keys is None else keys) if key in self.memory]
         if not any(key.startswith("instant_centre_") for key in wanted):
             return Program({key: self.memory[key] for key in wanted})(grid)
@@ -168,6 +190,7 @@ class Results(Mapping[str, Array | float]):
 
     def __getitem__(self, key: str) -> Array | float:
         """Return a column, or a single value. [SI]"""
+        key = self.current(key)
         if key in self.columns:
             return self.columns[key]
         if key in self.summary:
@@ -183,6 +206,7 @@ class Results(Mapping[str, Array | float]):
         UnknownKeyError
             If there is no such key.
         """
+        key = self.current(key)
         if key in self.columns:
             return self.columns[key]
         if key not in self.memory:
@@ -200,7 +224,7 @@ class Results(Mapping[str, Array | float]):
         return len({*self.columns, *self.summary, *self.memory})
 
     def __contains__(self, key: object) -> bool:
-        return key in self.columns or key in self.summary or key in self.memory
+        return isinstance(key, str) and self._has(RENAMED.get(key, key))
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self)
@@ -311,6 +335,7 @@ class Results(Mapping[str, Array | float]):
         >>> results.value("stroke"), round(results.value("crank_torque", at=390.5), 3)
         (0.09, 376.47)
         """
+        key = self.current(key)
         known = self.memory.get(key)
         if key in self.summary or (known is not None and not known.varies):
             return float(self.summary[key]) if known is None else known.value
@@ -343,7 +368,7 @@ class Results(Mapping[str, Array | float]):
         # words stand above the analysis, and this is a door to them
         from crankwork.note.explain import explanation  # noqa: PLC0415
 
-        return explanation(self, key, at, language)
+        return explanation(self, self.current(key), at, language)
 
     def _column_at(self, key: str, known: Known | None, at: float) -> float:
         row = int(np.argmin(np.abs(self.grid.degrees - at)))

@@ -97,6 +97,11 @@ def balance_of(
     return Balance(torque, load, memory["reduced_inertia"], followed(memory["reduced_inertia"]), excess_work(load))
 
 
+def delivered_or_needed(delivered: Known) -> Known:
+    """Return the mean torque of a machine: what it delivers or, under the name of that, what its driver must give."""
+    return delivered if delivered.value >= 0 else (-delivered).named("mean_driving_torque")
+
+
 class Turn(NamedTuple):
     """How evenly a machine runs: columns, single values, residuals, what the reader should know, what lies between."""
 

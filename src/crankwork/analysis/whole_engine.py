@@ -37,6 +37,7 @@ from crankwork.analysis.engine_torque import (
     torque_checks,
     torque_memory,
 )
+from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice, SolvedCylinder
 from crankwork.cylinders.engines import inline
@@ -47,8 +48,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Engine
 
 _TORQUES = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_torque.")
-_REDUCTION = ("total_reduced_inertia", "total_reduced_inertia_1")
-_WHOLE_VALUES = ("cylinder_count", "displacement", "engine_indicated_power")
+_WHOLE_VALUES = ("cylinder_count", "displacement", "indicated_power")
 _TABLES = {
     "engine_torque": ("crank_torque.", "total_torque"),
     "accumulated_torque": ("journal_torque.", "crankpin_torque."),
@@ -80,7 +80,7 @@ class WholeMemory(NamedTuple):
         memory = torque_memory(whole) | bearing_memory(whole) | engine_reduction(whole)
         first = whole.of(1, "crank_torque")
         keys = ("total_torque", *load_columns(memory).values(), "bearing_force_x.small_end")
-        inertias = _REDUCTION if has_own_inertia(whole) else ()
+        inertias = REDUCTION if has_own_inertia(whole) else ()
         followed = {
             first.key: first,
             **{key: memory[key] for key in inertias},
@@ -98,7 +98,7 @@ class WholeMemory(NamedTuple):
 def _table_keys(memory: Mapping[str, Known]) -> tuple[str, ...]:
     """Return which torques, loads and inertias of an engine stand in its tables."""
     torques = [key for key in memory if key.startswith(_TORQUES)]
-    return (*torques, *bearing_columns(memory), *(key for key in _REDUCTION if key in memory))
+    return (*torques, *bearing_columns(memory), *(key for key in REDUCTION if key in memory))
 
 
 def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
@@ -131,7 +131,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
     groups = {
         name: tuple(key for key in columns if key.startswith(starts) and _belongs(name, key))
         for name, starts in _TABLES.items()
-    } | {"dynamics": (*results.groups["dynamics"], *(key for key in _REDUCTION if key in columns))}
+    } | {"dynamics": (*results.groups["dynamics"], *(key for key in REDUCTION if key in columns))}
     listings: dict[str, Listing] = {
         "firing": firing_listing(whole, firing | works),
         "torque_harmonics": harmonics_listing(harmonics),
@@ -234,7 +234,7 @@ def _against_cycle(whole: WholeEngine, one: Mapping[str, float], summary: Mappin
         yield Notice("cycle_in_every", {})
     elif not whole.machine.angular_acceleration:
         # a mean torque less what the parts take up is not that of the gas
-        cycle, mean = one["effective_torque"] / one["mechanical_efficiency"], summary["mean_total_torque"]
+        cycle, mean = one["effective_torque"] / one["mechanical_efficiency"], summary["mean_torque"]
         yield Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)})
 
 

@@ -8,6 +8,7 @@ import json
 import os
 import re
 import sys
+import warnings
 from typing import TextIO
 
 import click
@@ -39,7 +40,7 @@ from crankwork.cli.options import (
 from crankwork.cli.spoken import LocalizedGroup, placeholder, requested_language
 from crankwork.cli.studies import map_, optimise, sweep
 from crankwork.cli.studio import studio
-from crankwork.errors import CrankworkError, DoubtfulError, InputError
+from crankwork.errors import CrankworkError, DoubtfulError, InputError, RenamedKeyWarning
 from crankwork.locale import Language, Refusal, say, told
 from crankwork.progress import progress_bar, with_progress
 
@@ -55,8 +56,15 @@ def main() -> None:
     sys.exit(_exit_code())
 
 
+def _print_warning(message: Warning | str) -> None:
+    """Print a warning on one line, as far as it is meant for users."""
+    if isinstance(message, RenamedKeyWarning):
+        click.echo(_in_language(message.args[0]), err=True)
+
+
 def _exit_code() -> int:
     """Run the commands and print errors; return 0, 1, 2 or 130."""
+    warnings.showwarning = lambda message, *_, **_options: _print_warning(message)
     try:
         commands(standalone_mode=False)
         if sys.stdout is not None:
@@ -299,6 +307,7 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
     if key is None or with_keys:
         click.echo("\n".join(key_lines(results, options.language)))
         return
+    key = results.current(key)
     click.echo(explanation(results, key, angle_or_time, options.language, options.origin()), nl=False)
 
 

@@ -48,15 +48,14 @@ def comparison_blocks(
 
 # in their order; of what links, joints and cylinders have the largest is told
 _KEYS = (
-    "effective_power", "engine_indicated_power", "indicated_power", "motor_power", "shaft_power",
-    "mean_total_torque", "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
+    "effective_power", "indicated_power", "motor_power", "shaft_power",
+    "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
     "slider_stroke", "joint_force_max", "crankpin_load_max", "excess_work", "flywheel_inertia",
     "flywheel_inertia.exact", "speed_fluctuation", "piston_velocity_max", "piston_acceleration_max",
     "piston_acceleration_min",
 )  # fmt: skip
-_SAME = {"indicated_power": ("effective_power", "engine_indicated_power"), "shaft_power": ("motor_power",),
-         "mean_torque": ("mean_total_torque",)}  # fmt: skip
+_SAME = {"shaft_power": ("motor_power",)}
 _MOST = 12
 
 

@@ -22,13 +22,15 @@ _MAIN = (
     "mean_piston_speed", "piston_velocity_max", "piston_velocity_min", "piston_acceleration_max",
     "piston_acceleration_min", "gas_pressure_max", "inertia_force_max", "inertia_force_min", "piston_force_max",
     "piston_force_min", "side_force_max", "side_force_min", "tangential_force_max", "tangential_force_min",
-    "rotating_inertia_force", "crank_torque_max", "crank_torque_min", "mean_torque", "indicated_work",
-    "indicated_mean_pressure", "indicated_power", "effective_mean_pressure", "effective_power", "effective_torque",
-    "effective_efficiency", "effective_fuel_consumption", "displacement", "mean_total_torque", "total_torque_max",
-    "total_torque_min", "excess_work", "flywheel_inertia", "speed_fluctuation", "mean_crankpin_load",
-    "crankpin_load_max", "oil_hole_angle",
+    "rotating_inertia_force", "crank_torque_max", "crank_torque_min", "mean_torque.1", "indicated_work",
+    "indicated_mean_pressure", "indicated_power.1", "indicated_power", "effective_mean_pressure", "effective_power",
+    "effective_torque", "effective_efficiency", "effective_fuel_consumption", "displacement", "mean_torque",
+    "total_torque_max", "total_torque_min", "excess_work", "flywheel_inertia", "speed_fluctuation",
+    "mean_crankpin_load", "crankpin_load_max", "oil_hole_angle",
 )  # fmt: skip
-_OF_ENGINES = ("displacement", "mean_total_torque", "total_torque_max", "total_torque_min", "cylinder_count")
+_OF_ENGINES = (
+    "displacement", "mean_torque.1", "indicated_power.1", "total_torque_max", "total_torque_min", "cylinder_count",
+)  # fmt: skip
 
 
 def checks(material: Material) -> Iterator[Block]:

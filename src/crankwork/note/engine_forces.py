@@ -54,7 +54,7 @@ def dynamics(material: Material) -> Iterator[Block]:
     )
     yield words.heading("extremes", 2)
     yield from material.intro("extremes", material.equations("force_extremes"))
-    yield from material.equations("power", "mean_torque")
+    yield from material.equations("power", "mean_torque", "mean_driving_torque")
 
 
 def masses(material: Material) -> Iterator[Block]:
@@ -120,4 +120,4 @@ def across(material: Material) -> Iterator[Block]:
     figures = ("rod_forces", "crankpin_forces", "torque")
     yield from material.presented([angle_table(material, "forces", shown)], figures)
     yield from material.intro("extremes", material.equations("force_extremes"))
-    yield from material.equations("power", "mean_torque")
+    yield from material.equations("power", "mean_torque", "mean_driving_torque")

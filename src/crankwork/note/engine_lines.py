@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from crankwork.analysis import Results
+from crankwork.analysis.engine import own_key
 from crankwork.formula.known import Delayed, Use
 from crankwork.formula.known import Given as GivenNode
 from crankwork.formula.lines import FormulaLine, Line, Moment, ValueLine, symbols_of
-from crankwork.machine import Engine
+from crankwork.machine import Engine, Machine
 from crankwork.notation import ARGUMENTS
 from crankwork.note.flywheel import values_by_method
 from crankwork.note.groups import DELIVERY, Group
@@ -47,14 +48,14 @@ _FORCE_EXTREMES = tuple(
     for key in ("inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
     for end in ("max", "min")
 )
-_REDUCTION = tuple(one for kind in ("reduced_inertia", "reduced_inertia_1") for one in (f"{kind}.", kind))
+_REDUCTION = ("reduced_inertia.", "reduced_inertia", "reduced_inertia_1.", "reduced_inertia_1")
 _POWER = ("indicated_work", "indicated_mean_pressure", "indicated_power", "mean_torque")
 
 # of the whole engine
 _FIRING = ("swept_volume.", "displacement", "firing_interval", "firing_interval.")
 _TORQUES = (
-    "crank_torque.", "throw_torque.", "total_torque", "crankpin_torque.", "journal_torque.", "total_reduced_inertia",
-    "total_reduced_inertia_1",
+    "crank_torque.", "throw_torque.", "total_torque", "crankpin_torque.", "journal_torque.", "reduced_inertia",
+    "reduced_inertia_1",
 )  # fmt: skip
 _OF_SLAVE = (
     "piston_displacement", "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force",
@@ -81,7 +82,7 @@ _LOADS = tuple(
     for one in (kind, f"{kind}.")
 )  # fmt: skip
 _UNIFORMITY = (
-    "mean_total_torque", "mean_torque.", "mean_total_torque.indicated", "excess_work", "work_per_cycle",
+    "mean_torque", "mean_torque.indicated.", "mean_torque.indicated", "excess_work", "work_per_cycle",
     "energy_fluctuation", "whole_inertia", "flywheel_inertia", "speed_fluctuation",
 )  # fmt: skip
 _OF_HARMONIC = ("harmonic_amplitude", "phase_sum", "total_harmonic_amplitude")
@@ -104,7 +105,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
     machine, at = results.machine, degrees
     there = machine.cycle - _TURN + at if force_degrees is None else force_degrees
     moving, loaded = results.moment(at), results.moment(there)
-    has_forces = "piston_force" in results.memory
+    has_forces, has_gas = "piston_force" in results.memory, results.solved.space is not None
     groups = [
         Group("cycle", tuple(_cycle(results))),
         Group("geometry", _own(moving, results, _GEOMETRY)),
@@ -115,9 +116,9 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
         Group("masses", _followed(moving, results, _MASSES)),
         Group("gas", _own(loaded, results, (*_space(results), *_points(results)))),
         Group("forces", _followed(loaded, results, _FORCES if has_forces else ()), there),
-        Group("reduction", _own(loaded, results, _REDUCTION if has_forces else ()), there),
+        Group("reduction", _own(loaded, results, _of_cylinder(machine, _REDUCTION if has_forces else ())), there),
         Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES)),
-        Group("power", _own(loaded, results, _POWER if results.solved.space is not None else ())),
+        Group("power", _own(loaded, results, _of_cylinder(machine, _POWER if has_gas else ()))),
     ]
     groups.append(Group("delivery", _own(loaded, results, DELIVERY if "induced_volume" in results.memory else ())))
     if machine.engine is not None:
@@ -138,6 +139,14 @@ def _of_engine(results: Results, engine: Engine, moment: Moment) -> Iterator[Gro
     yield Group("uniformity", _own(moment, results, _uniformity(results)))
     yield Group("flywheel", tuple(moment.step(known) for known in values_by_method(results.memory)))
     yield Group("balance", _own(moment, results, (*_orders(results, engine), *_ROTATING, *_weights(results))))
+
+
+def _of_cylinder(machine: Machine, keys: Iterable[str]) -> tuple[str, ...]:
+    """Return the keys of values of cylinder 1."""
+    own = [own_key(machine, key) for key in keys]
+    # a key that ends in a point stands for all that begin with it
+    starts = tuple(key for key in own if key.endswith("."))
+    return tuple(key for key in own if key in starts or not starts or not key.startswith(starts))
 
 
 def _uniformity(results: Results) -> tuple[str, ...]:

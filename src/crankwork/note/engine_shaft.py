@@ -38,7 +38,7 @@ def _cylinders(material: Material) -> int:
 def total(material: Material) -> Iterator[Block]:
     """Yield the torque of all cylinders; for one cylinder only where the order of sections asks for it."""
     words, summary, engine = material.words, material.summary, material.machine.engine
-    if engine is None or "mean_total_torque" not in summary:
+    if engine is None or "total_torque_max" not in summary:
         return
     count = _cylinders(material)
     if count == 1 and material.order != "vi":
@@ -48,7 +48,7 @@ def total(material: Material) -> Iterator[Block]:
     if count > 1:
         yield words.paragraph("order", order="–".join(map(str, engine.layout.firing_order)))
     yield from material.equations("firing")
-    yield from material.equations("uniformity", "mean_total_torque", "mean_torque")
+    yield from material.equations("uniformity", "mean_total_torque", "mean_driving_torque", "mean_torque")
     firing = listing_table(material, "firing", "firing") if count > 1 else None
     if firing is not None:
         yield from material.presented([firing])

@@ -73,7 +73,7 @@ def explanation(
     if known is not None and explained is not None and explained.moment(None).is_noise(known):
         value = 0.0
     where = "" if at is None or asked else f"({places(degrees)})"
-    shown = " = ".join([f"{value_symbol(key, language)}{where}", *_values(key, value, language)])
+    shown = " = ".join([f"{value_symbol(told_as(key, results), language)}{where}", *_values(key, value, language)])
     head = [f"{capital(label(told_as(key, results), language)) if _has_label(key) else key}: {shown}"]
     if explained is None:
         return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"

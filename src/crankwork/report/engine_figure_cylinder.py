@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
+from crankwork.analysis.engine import own_key
 from crankwork.locale import say
 from crankwork.quantities import QUANTITIES
 from crankwork.report.engine_figure_data import EngineDrawn
@@ -153,7 +154,8 @@ def _over_cycle(
 
 def torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the crank torque of one cylinder and its mean."""
-    values, mean = engine.values("crank_torque"), engine.results.summary["mean_torque"]
+    values, found = engine.values("crank_torque"), engine.results.memory[own_key(engine.results.machine, "mean_torque")]
+    mean = -found.value if found.key == "mean_driving_torque" else found.value
     if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
         mean = 0.0
     row = QUANTITIES["mean_torque"]

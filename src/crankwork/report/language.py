@@ -13,6 +13,7 @@ import numpy as np
 from crankwork.locale import decimal, has_text, say
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
+from crankwork.quantities.renamed import MOVED
 from crankwork.units import DisplayUnits, from_si, use_units
 
 if TYPE_CHECKING:
@@ -132,14 +133,14 @@ def is_per_area(key: str) -> bool:
 
 
 def told_as(key: str, results: Results) -> str:
-    """Return the key whose name a single value has: the mean torque of a linkage may be what its driver must give.
+    """Return the key whose name a single value has: the mean torque may be what the driver must give.
 
     What several cylinders deliver is that of all.
     """
     engine = results.machine.engine
     if key in _DELIVERED and engine is not None and len(engine.layout.places) > 1:
         return f"{key}.all"
-    return results.memory[key].key if key == "mean_torque" else key
+    return results.memory[key].key if key in MOVED and key in results.memory else key
 
 
 def label(key: str, language: Language) -> str:
@@ -155,7 +156,7 @@ def label(key: str, language: Language) -> str:
 
 def _part(kind: str, name: str, language: Language) -> str:
     """Return what a part of a quantity is called: the report's own phrase, or the name as it is."""
-    if kind in _DELIVERED and (name.isdecimal() or name == "all"):
+    if kind in (*_DELIVERED, *MOVED) and (name.isdecimal() or name == "all"):
         told = say("drawing.all_cylinders", language)
         return told if name == "all" else say("drawing.cylinder", language, number=name)
     way = f"report.way_{name}"

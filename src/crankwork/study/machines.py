@@ -63,6 +63,7 @@ class MachineVariants:
         self.stated = self.results(spans[:, 1])
         for key in keys:
             check_single(self.stated, key)
+        self.keys = [self.stated.current(key) for key in keys]
 
     def results(self, design: Array) -> Results:
         """Return the results of one design."""

@@ -48,7 +48,7 @@ def split_target(equation: str) -> TargetText:
 
 def parse_target(parts: TargetText, results: Results) -> Target:
     """Parse and validate a target equation against the results of the stated machine."""
-    key, place, right = parts
+    key, place, right = results.current(parts.key), parts.place, parts.level
     if key not in results:
         # raises an error with the nearest keys
         results.value(key)
