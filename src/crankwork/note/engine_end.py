@@ -106,15 +106,15 @@ def conclusion(material: Material) -> Iterator[Block]:
 
 def _main_keys(material: Material) -> list[str]:
     """Return the keys of the main results, in order; of one cylinder its own torque says it all."""
-    kinds = [one for one in _MAIN if material.has_engine or one not in _OF_ENGINES]
     # those of each method have a table of their own
     alone = ("excess_work", "flywheel_inertia")
-    return [
+    keys = dict.fromkeys(
         key
-        for one in kinds
+        for kind in _MAIN
         for key in material.summary
-        if key == one or (key.startswith(f"{one}.") and one not in alone)
-    ]
+        if key == kind or (key.startswith(f"{kind}.") and kind not in alone)
+    )
+    return [key for key in keys if material.has_engine or key not in _OF_ENGINES]
 
 
 def _row(material: Material, key: str) -> tuple[Cell, ...]:
