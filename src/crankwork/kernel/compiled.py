@@ -265,7 +265,7 @@ def _of_cycle(known: Known, value: KernelValue) -> KernelValue:
 
 
 def _dependencies(node: Node) -> Sequence[Known]:
-    return (node.retold,) if isinstance(node, Found | Use) and node.retold is not None else node.operands
+    return (node.general_form,) if isinstance(node, Found | Use) and node.general_form is not None else node.operands
 
 
 def _reduced(traced: Iterable[Known]) -> list[Known]:

@@ -67,7 +67,7 @@ def curve_over_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Kn
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], f"{path}[1]")
     function = StatedTable(curve, key, path) if isinstance(curve, LoadTable) else curve
-    return Known(Table(function, "given", corners, by=angle), key)
+    return Known(Table(function, "given", corners, argument=angle), key)
 
 
 def curve_over_column(curve: Curve, column: Known, interpolator: Interpolator, key: str, path: str = "") -> Known:
@@ -77,9 +77,9 @@ def curve_over_column(curve: Curve, column: Known, interpolator: Interpolator, k
     over, corners = interpolator({"": column}), _corners(curve)
     passed = [angle for corner in corners for angle in over.crossings("", corner).tolist()]
     if not isinstance(curve, LoadTable):
-        return Known(Table(curve, "given", passed, by=column), key)
+        return Known(Table(curve, "given", passed, argument=column), key)
     low, high = curve.at[0], curve.at[-1]
-    law = Known(Table(StatedTable(curve, key, path), "given", passed, by=column), key)
+    law = Known(Table(StatedTable(curve, key, path), "given", passed, argument=column), key)
     margin = _MARGIN * max(abs(low), abs(high))
     ends = sorted([*over.crossings("", low - margin).tolist(), *over.crossings("", high + margin).tolist()])
     ends = [*ends, float(over.edges[-1])]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from crankwork.analysis.results import Results
 from crankwork.description.origins import Origin
-from crankwork.formula.explained import Explained, Explanation, goes_by_argument, is_given
+from crankwork.formula.explained import Explained, Explanation, has_argument_symbol, is_given
 from crankwork.formula.expression import symbol
 from crankwork.formula.known import (
     Arithmetic,
@@ -213,7 +213,7 @@ class _Printed:
         match known.node:
             case OfAngle(function=function, multiple=multiple, shift=shift) if not has_own_symbol(known):
                 return of_angle(function, multiple, shift, self._language)
-        if known.key and not goes_by_argument(known, argument):
+        if known.key and not has_argument_symbol(known, argument):
             return self._own.get(known.key) or value_symbol(known.key, self._language)
         return symbol(argument, self._language) if argument in ARGUMENTS else "?"
 
@@ -343,7 +343,7 @@ class _Printed:
         known, language = one.known, self._language
         if isinstance(known.node, OfAngle) and not has_own_symbol(known):
             return value_symbol("crank_angle", language), label("crank_angle", language)
-        if not known.key or goes_by_argument(known, one.argument):
+        if not known.key or has_argument_symbol(known, one.argument):
             return meaning_of_argument(one.argument, language)
         kind, _, part = known.key.partition(".")
         if kind not in QUANTITIES:

@@ -215,7 +215,7 @@ def _give_sizes(worked: Worked, clearance: float, largest: float, data: HeatRele
 def volume_when(worked: Worked, volume: float, degrees: float) -> Known:
     """Return the volume of the cylinder at a crank angle, from the displacement of the piston. [m3]"""
     clearance, area = worked["clearance_volume"], worked["piston_area"]
-    displacement = Known(Found((volume - clearance.value) / area.value, "motion", at=degrees), "piston_displacement")
+    displacement = Known(Found((volume - clearance.value) / area.value, "motion", angle=degrees), "piston_displacement")
     cylinder_volume: Known = gas_formulas.cylinder_volume(clearance, area, displacement)
     return cylinder_volume
 

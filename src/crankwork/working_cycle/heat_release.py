@@ -236,7 +236,7 @@ def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> No
     degrees += data.cycle if degrees < gas.first else 0.0
     volume, growth = (float(function(np.array([degrees]))[0]) for function in (gas.volume_at, gas.volume_rate_at))
     area = worked["piston_area"]
-    slope = Known(Found(growth / area.value, "motion", at=degrees), "piston_transfer_1")
+    slope = Known(Found(growth / area.value, "motion", angle=degrees), "piston_transfer_1")
     worked.known |= {"cylinder_pressure": pressure, "cylinder_volume": volume_when(worked, volume, degrees)}
     worked.known["crank_angle"] = Known(Found(math.radians(degrees), "max_angle", (pressure,), degrees), "crank_angle")
     if start < degrees < end:
