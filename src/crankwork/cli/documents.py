@@ -127,7 +127,9 @@ def draw(options: CommonOptions, output: str, place: str | None, *, forces: bool
     results = options.results()
     angle_or_time = None if place is None else parse_angle_or_time(place, "time" if results.period else "angle")
     with progress_bar() as progress:
-        drawing = drawn(results, ending, options.theme, angle_or_time, options.language, forces=forces, told=progress)
+        drawing = drawn(
+            results, ending, options.theme, angle_or_time, options.language, forces=forces, progress=progress
+        )
     files.write_files({output: drawing}, overwrite=options.overwrite)
     options.print_written(output)
     options.raise_if_unverified(results)

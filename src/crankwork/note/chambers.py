@@ -22,12 +22,12 @@ _SINGLE = (
 
 
 def given_chambers(material: Material) -> Iterator[Block]:
-    """Yield the chambers as they are given, and what is sealed in them."""
+    """Yield the chambers as they are given, and the gas sealed in them."""
     words = material.words
-    found = stated_chambers(material.machine)
-    if not found:
+    given = stated_chambers(material.machine)
+    if not given:
         return
-    rows = [tuple(_given(one, material)) for one in found]
+    rows = [tuple(_given(chamber, material)) for chamber in given]
     sizes = (words.titled(key) for key in ("piston_area", "clearance_volume", "ambient_pressure"))
     yield words.table("chambers", ("chamber", "faces", *sizes, "gas"), rows, "llrrrl")
     for charge in stated_charges(material.machine):
@@ -44,20 +44,20 @@ def _given(chamber: StatedChamber, material: Material) -> Iterator[str]:
     words, results = material.words, material.results
     yield chamber.name
     yield ", ".join(f"{slider} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
-    keys = [f"piston_area.{one}" for one in chamber.owners]
+    keys = [f"piston_area.{owner}" for owner in chamber.owners]
     yield "; ".join(words.number(in_display_unit(key, [results.value(key)])[0]) for key in keys)
     yield words.number(
         in_display_unit("clearance_volume", [results.summary.get(f"clearance_volume.{chamber.name}", 0.0)])[0]
     )
-    # of gauge pressures nobody is told what they are counted from
+    # of gauge pressures the ambient pressure is not known
     yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0]) if chamber.ambient else "–"
     amounts = {name: words.amount(value, unit) for name, (value, unit) in chamber.amounts.items()}
-    told = say(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
+    pressure = say(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
     if chamber.delay:
-        told = say("sentences.of_later", words.language, text=told, delay=words.amount(chamber.delay, "deg"))
+        pressure = say("sentences.of_later", words.language, text=pressure, delay=words.amount(chamber.delay, "deg"))
     if chamber.factor != 1:
-        told = say("sentences.of_factor", words.language, text=told, factor=words.number(chamber.factor))
-    yield told
+        pressure = say("sentences.of_factor", words.language, text=pressure, factor=words.number(chamber.factor))
+    yield pressure
 
 
 def _amount(volume: float, temperature: float | None, words: Words) -> str:
@@ -72,7 +72,7 @@ def chambers(material: Material) -> Iterator[Block]:
         return
     yield words.heading("chambers")
     yield words.paragraph("chambers", source=Citation(_VOLUME))
-    if any(one.exponent is None for one in machine.charges.values()):
+    if any(charge.exponent is None for charge in machine.charges.values()):
         yield words.paragraph("isothermal", source=Citation(_CHARGE))
     yield from material.equations("charges")
     yield from material.worked("chambers")
@@ -81,7 +81,7 @@ def chambers(material: Material) -> Iterator[Block]:
     yield from material.figures("chambers", "indicator")
     yield words.paragraph("gas_work")
     yield from material.equations("gas_work")
-    rows = [(one.name, *_values(one.name, material)) for one in stated_chambers(machine)]
+    rows = [(chamber.name, *_values(chamber.name, material)) for chamber in stated_chambers(machine)]
     titles = [words.titled(key, QUANTITIES[base_key(key)].unit) for key in _SINGLE]
     yield words.table("gas_work", ("chamber", *titles), rows, "l" + "r" * len(_SINGLE))
     if material.lines("delivery"):

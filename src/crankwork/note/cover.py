@@ -19,7 +19,7 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 
 def cover(document: Document, language: Language, subtitle: str) -> TitlePage:
-    """Return the cover; `subtitle` says what the note is where the document does not."""
+    """Return the cover; `subtitle` names the kind of note where the document does not."""
     named = {key: say(f"note.cover_{key}", language, name=getattr(document, key)) for key in ("subject", "variant")}
     institution = (document.ministry, document.institution, document.faculty, document.department)
     above = (document.work, named["subject"] if document.subject else "")
@@ -29,15 +29,15 @@ def cover(document: Document, language: Language, subtitle: str) -> TitlePage:
         institution=tuple(filter(None, institution)),
         above=tuple(filter(None, above)),
         below=tuple(filter(None, below)),
-        people=tuple(one for key in _PEOPLE[language] if (one := _person(document, key, language)).names),
+        people=tuple(person for key in _PEOPLE[language] if (person := _person(document, key, language)).names),
         place=say("note.cover_place", language, city=document.city, when=when) if document.city else when,
     )
 
 
 def _person(document: Document, key: str, language: Language) -> Person:
-    found = getattr(document, key)
-    # of a file that leaves a name open no line without a name is told
-    names = tuple(one for one in ((found,) if isinstance(found, str) else found) if one.strip())
+    value = getattr(document, key)
+    # a name left open in the file gets no line
+    names = tuple(name for name in ((value,) if isinstance(value, str) else value) if name.strip())
     label = say(f"note.cover_{'several_' if len(names) > 1 else ''}{key}", language)
     return Person(label, names, signs=language == "ru" and key in _SIGN)
 

@@ -36,45 +36,45 @@ def enough_digits(step: Line) -> int:
         if missed <= _UNITS * last_place(printed):
             return digits
         reached.append((digits, missed, max(map(abs, (*terms, printed)))))
-    return next((digits for digits, missed, one in reached if missed <= _UNITS * last_place(one)), _MOST_DIGITS)
+    return next((digits for digits, missed, largest in reached if missed <= _UNITS * last_place(largest)), _MOST_DIGITS)
 
 
 def _terms(step: FormulaLine | SumLine, digits: int) -> list[float]:
     """Return the terms of a line from its printed numbers."""
     if isinstance(step, SumLine):
-        return [as_printed(one.value, digits) for one in step.terms]
+        return [as_printed(term.value, digits) for term in step.terms]
     exact = _exact(step.expression, step.values)
     put_in = {name: exact.get(name, as_printed(value, digits)) for name, value in step.values.items()}
     with np.errstate(all="ignore"):
         try:
-            return [sign * float(evaluate(one, put_in)) for one, sign in terms_of(step.expression)]
+            return [sign * float(evaluate(term, put_in)) for term, sign in terms_of(step.expression)]
         except ZeroDivisionError:
             return [math.nan]
 
 
 def terms_of(tree: Expression) -> Iterator[tuple[Expression, int]]:
-    """Yield the terms of a sum with their signs; what is no sum is one term."""
+    """Yield the terms of a sum with their signs; any other expression is one term."""
     match tree:
         case Operation(function, (left, right)) if function in _SUMS:
             yield from terms_of(left)
-            yield from ((one, sign if function is operator.add else -sign) for one, sign in terms_of(right))
-        case Operation(operator.neg, (one,)):
-            yield from ((term, -sign) for term, sign in terms_of(one))
+            yield from ((term, sign if function is operator.add else -sign) for term, sign in terms_of(right))
+        case Operation(operator.neg, (operand,)):
+            yield from ((term, -sign) for term, sign in terms_of(operand))
         case _:
             yield tree, 1
 
 
 def _exact(tree: Expression, values: Mapping[str, float]) -> dict[str, float]:
-    """Return what is printed without rounding: π itself, and angles of whole degrees in functions of them."""
-    found = {name: math.pi for name, value in values.items() if is_exact_pi(name, value)}
+    """Return the values printed without rounding: π itself, and arguments of functions that are whole degrees."""
+    exact = {name: math.pi for name, value in values.items() if is_exact_pi(name, value)}
     stack = [tree]
     while stack:
-        one = stack.pop()
-        if isinstance(one, Operation):
-            stack += one.operands
-            if takes_angle(one.function) and whole_degrees(one.operands[0], values) is not None:
-                found |= {name.name: values[name.name] for name in one.operands if isinstance(name, Symbol)}
-    return found
+        node = stack.pop()
+        if isinstance(node, Operation):
+            stack += node.operands
+            if takes_angle(node.function) and whole_degrees(node.operands[0], values) is not None:
+                exact |= {name.name: values[name.name] for name in node.operands if isinstance(name, Symbol)}
+    return exact
 
 
 def whole_degrees(angle: Expression, values: Mapping[str, float]) -> float | None:

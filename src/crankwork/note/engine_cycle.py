@@ -83,15 +83,15 @@ def cycle(material: Material) -> Iterator[Block]:
     words = material.words
     if not material.cycle:
         return
-    steps = [one for one in material.groups["cycle"].lines if not isinstance(one, ValueLine)]
+    steps = [line for line in material.groups["cycle"].lines if not isinstance(line, ValueLine)]
     yield words.heading("cycle")
-    rows = list(cycle_data_rows(material, [one for one in steps if isinstance(one, FormulaLine)]))
+    rows = list(cycle_data_rows(material, [step for step in steps if isinstance(step, FormulaLine)]))
     if rows:
         yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
         yield value_table("cycle_data", rows, words)
     yield words.paragraph("cycle")
-    for stage, some in _staged(steps).items():
-        equations = material.worked(some)
+    for stage, lines in _staged(steps).items():
+        equations = material.worked(lines)
         if equations:
             yield words.heading(stage, 2)
         if equations and stage == "heat_release":
@@ -101,16 +101,16 @@ def cycle(material: Material) -> Iterator[Block]:
 
 
 def _staged(steps: Sequence[Line]) -> dict[str, list[Line]]:
-    """Return steps by the stage they belong to; a part of a quantity belongs where it was needed."""
+    """Return steps by the stage that they belong to; a part of a quantity belongs where it is used."""
     stages = {key: stage for stage, keys in _STAGES.items() for key in keys}
-    found: dict[str, list[Line]] = {stage: [] for stage in _STAGES}
+    lines_of: dict[str, list[Line]] = {stage: [] for stage in _STAGES}
     current = "fuel"
-    for one in steps:
-        kind, dot, _ = one.key.partition(".")
-        if not dot or kind == "heat_share" or one.key.endswith((".cycle", ".peak")):
+    for step in steps:
+        kind, dot, _ = step.key.partition(".")
+        if not dot or kind == "heat_share" or step.key.endswith((".cycle", ".peak")):
             current = stages.get(kind, current)
-        found[current].append(one)
-    return found
+        lines_of[current].append(step)
+    return lines_of
 
 
 def _heat_balance(material: Material) -> Table | None:
@@ -134,10 +134,10 @@ def indicator(material: Material) -> Iterator[Block]:
     yield words.heading("indicator")
     yield from _measured(material)
     yield from material.intro("volumes", material.equations("gas"))
-    found = polytropes(material.results)
-    if found is not None:
-        yield words.paragraph("polytropes", polytrope=_exponents(found, words), table=Reference("t:polytropes"))
-        yield _polytrope_table(found, words)
+    lines = polytropes(material.results)
+    if lines is not None:
+        yield words.paragraph("polytropes", polytrope=_exponents(lines, words), table=Reference("t:polytropes"))
+        yield _polytrope_table(lines, words)
     gas = material.machine.gas
     if gas is not None and gas.is_absolute:
         yield words.paragraph("absolute")
@@ -154,7 +154,7 @@ def _measured(material: Material) -> Iterator[Block]:
     words, gas = material.words, material.machine.gas
     if gas is None or gas.measured is None:
         return
-    cycles = next((one.values["cycles"] for one in material.results.notices if one.code == "cycles_averaged"), 1)
+    cycles = next((item.values["cycles"] for item in material.results.notices if item.code == "cycles_averaged"), 1)
     yield words.paragraph(
         "measured",
         file=gas.measured.file or "–",
@@ -169,27 +169,27 @@ def _measured(material: Material) -> Iterator[Block]:
     degrees = np.arange(0.0, gas.cycle + 1e-9, _MEASURED_STEP)
     pressures = material.results.columns_at(degrees, ("diagram_pressure",))["diagram_pressure"]
     columns: list[tuple[Runs, Sequence[str]]] = [
-        (words.titled("crank_angle"), [words.number(float(one)) for one in degrees]),
+        (words.titled("crank_angle"), [words.number(float(angle)) for angle in degrees]),
         _shown("diagram_pressure", pressures.tolist(), words),
     ]
     yield folded(column_table("measured", columns, words))
 
 
-def _exponents(found: Polytropes, words: EngineWords) -> Runs:
-    numbers = {name: words.number(one) for name, one in found.exponents.items()}
+def _exponents(lines: Polytropes, words: EngineWords) -> Runs:
+    numbers = {name: words.number(exponent) for name, exponent in lines.exponents.items()}
     if len(numbers) == 1:
         ((name, value),) = numbers.items()
         return words.sentence("exponent", symbol=Math(words.symbol(f"{name}_exponent")), value=value)
     return words.sentence("exponents", **numbers)
 
 
-def _polytrope_table(found: Polytropes, words: EngineWords) -> Table:
+def _polytrope_table(lines: Polytropes, words: EngineWords) -> Table:
     multiple = "/".join(map(words.symbol, ("cylinder_volume", "clearance_volume")))
     columns: list[tuple[Runs, Sequence[str]]] = [
-        ((Math(multiple),), [words.number(one, digits=5) for one in found.multiples]),
-        _shown("cylinder_volume", found.volumes.tolist(), words),
+        ((Math(multiple),), [words.number(multiple_value, digits=5) for multiple_value in lines.multiples]),
+        _shown("cylinder_volume", lines.volumes.tolist(), words),
     ]
-    for name, pressures in found.pressures.items():
+    for name, pressures in lines.pressures.items():
         shown = in_display_unit("diagram_pressure", pressures.tolist())
         heading = (f"{words.column(name)} ", *words.titled("diagram_pressure"))
         columns.append((heading, words.column_texts(shown)))
@@ -199,14 +199,14 @@ def _polytrope_table(found: Polytropes, words: EngineWords) -> Table:
 def _points(material: Material) -> Table | None:
     """Return the named points of the diagram with angle, volume and pressure, in the order of the cycle."""
     words, results = material.words, material.results
-    named = sorted(results.solved.space.diagram.named.items(), key=lambda one: one[1][0])
+    named = sorted(results.solved.space.diagram.named.items(), key=lambda item: item[1][0])
     if not named:
         return None
     degrees = np.array([angle for _, (angle, _) in named])
     volumes = results.columns_at(degrees, ("cylinder_volume",))["cylinder_volume"]
     columns: list[tuple[Runs, Sequence[Cell]]] = [
         ((words.column("point"),), [Math(name) if "_" in name else name for name, _ in named]),
-        (words.titled("crank_angle"), [words.number(float(one), digits=5) for one in degrees]),
+        (words.titled("crank_angle"), [words.number(float(angle), digits=5) for angle in degrees]),
         _shown("cylinder_volume", volumes.tolist(), words),
         _shown("diagram_pressure", [pressure for _, (_, pressure) in named], words),
     ]
@@ -228,14 +228,14 @@ def _laws(material: Material) -> Table | None:
         moment = results.moment((start + end) / 2)
         law, step = moment.law(known).node, moment.step(known)
         if isinstance(step, FormulaLine):
-            told: Cell = Math(step)
+            law_text: Cell = Math(step)
         elif isinstance(law, TableOfValues):
-            told = say(f"memory.{law.word}", words.language)
+            law_text = say(f"memory.{law.word}", words.language)
         else:
-            told = words.amount(step.value, "MPa")
-        rows.append((words.number(start, digits=5), words.number(end, digits=5), told))
+            law_text = words.amount(step.value, "MPa")
+        rows.append((words.number(start, digits=5), words.number(end, digits=5), law_text))
         start = end
-    ends = ((words.column(one, "deg"),) for one in ("law_from", "law_to"))
+    ends = ((words.column(name, "deg"),) for name in ("law_from", "law_to"))
     return words.table("laws", (*ends, (Math(words.symbol("diagram_pressure")),)), rows, "rrl", "t:laws")
 
 
@@ -259,7 +259,7 @@ _BROUGHT = {
 
 
 def cycle_data_rows(material: Material, steps: Sequence[FormulaLine]) -> Iterator[tuple[Cell, ...]]:
-    """Yield what is given or chosen for the cycle, and what is put into its formulas that nothing else gives."""
+    """Yield the inputs of the cycle, given or assumed, and other arguments of its formulas that no formula gives."""
     words, given, assumed = material.words, cycle_keys(material), _assumed(material)
 
     def marked(key: str, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
@@ -268,9 +268,9 @@ def cycle_data_rows(material: Material, steps: Sequence[FormulaLine]) -> Iterato
     for key in given:
         yield marked(key, value_row(key, material.summary[key], words))
     known = {*given, *material.summary, *material.results.columns, *_ELSEWHERE}
-    known |= {base_key(one.key) for one in material.cycle}
+    known |= {base_key(line.key) for line in material.cycle}
     for step in steps:
-        meanings = {one.symbol: one.text for one in legend(step, words.language, frozenset(known))}
+        meanings = {entry.symbol: entry.text for entry in legend(step, words.language, frozenset(known))}
         for name, value in step.values.items():
             if name not in ARGUMENTS:
                 continue
@@ -293,7 +293,7 @@ def _key(name: str) -> str:
 
 
 def _assumed(material: Material) -> set[str]:
-    """Return the keys of what the calculation has taken as usual."""
-    names = [str(one.values["names"]) for one in material.results.notices if one.code == "cycle_assumed"]
-    keys = {FILE_KEYS.get(one, one) for some in names for one in some.split(", ")}
-    return keys | {one for key in keys for one in _BROUGHT.get(key, ())}
+    """Return the keys of default values that the calculation assumes."""
+    names = [str(notice.values["names"]) for notice in material.results.notices if notice.code == "cycle_assumed"]
+    keys = {FILE_KEYS.get(name, name) for names_of_notice in names for name in names_of_notice.split(", ")}
+    return keys | {key_brought for key in keys for key_brought in _BROUGHT.get(key, ())}

@@ -34,20 +34,20 @@ _OF_ENGINES = ("displacement", "mean_total_torque", "total_torque_max", "total_t
 def checks(material: Material) -> Iterator[Block]:
     """Yield the identities that were checked, the errors of the method, and what the reader should know."""
     words, results = material.words, material.results
-    found = errors(material)
-    if not (results.checks or found or results.notices):
+    largest_errors = errors(material)
+    if not (results.checks or largest_errors or results.notices):
         return
     yield words.heading("checks")
     if results.checks:
         yield words.paragraph("checks", table=Reference("t:identities"))
-        rows = [(_identity(key, words), words.number(100.0 * one, digits=2)) for key, one in results.checks.items()]
+        rows = [(_identity(key, words), words.number(100.0 * check, digits=2)) for key, check in results.checks.items()]
         yield words.table("identities", ("identity", "residual"), rows, "lr", "t:identities")
-    if found:
+    if largest_errors:
         yield words.paragraph("errors", table=Reference("t:errors"))
-        yield _errors(material, found)
+        yield _errors(material, largest_errors)
     if results.notices:
         yield words.paragraph("notices")
-        yield ItemList(tuple((_notice(one, words),) for one in results.notices))
+        yield ItemList(tuple((_notice(notice, words),) for notice in results.notices))
 
 
 def comparison(material: Material) -> Iterator[Block]:
@@ -63,9 +63,9 @@ def comparison(material: Material) -> Iterator[Block]:
 
 
 def _identity(key: str, words: EngineWords) -> Cell:
-    """Return what a check compares: in words, or symbols where it is an equation."""
-    said = say(f"report.{key}", words.language)
-    return Math(said) if "²" in said else said
+    """Return the identity that a check tests: in words, or symbols where it is an equation."""
+    text = say(f"report.{key}", words.language)
+    return Math(text) if "²" in text else text
 
 
 def _notice(notice: Notice, words: EngineWords) -> str:
@@ -78,7 +78,7 @@ def _notice(notice: Notice, words: EngineWords) -> str:
     return notice_text(notice.code, {**notice.values, **values}, words.language)
 
 
-def _errors(material: Material, found: dict[str, tuple[float, float]]) -> Table:
+def _errors(material: Material, largest_errors: dict[str, tuple[float, float]]) -> Table:
     """Return the errors of the method, each also as a share of the largest value."""
     words = material.words
     rows = [
@@ -88,7 +88,7 @@ def _errors(material: Material, found: dict[str, tuple[float, float]]) -> Table:
             printed_unit(key_unit(key), words.language) or "–",
             words.number(100 * share, digits=2),
         )
-        for key, (error, share) in found.items()
+        for key, (error, share) in largest_errors.items()
     ]
     return words.table("errors", ("quantity", "value", "unit", "relative"), rows, "lrcr", "t:errors")
 
@@ -103,15 +103,15 @@ def conclusion(material: Material) -> Iterator[Block]:
 
 
 def _main_keys(material: Material) -> list[str]:
-    """Return the keys of the main results, in order; of one cylinder its own torque says it all."""
-    kinds = [one for one in _MAIN if material.has_engine or one not in _OF_ENGINES]
+    """Return the keys of the main results, in order; for one cylinder those of its own torque only."""
+    kinds = [kind for kind in _MAIN if material.has_engine or kind not in _OF_ENGINES]
     # those of each method have a table of their own
     alone = ("excess_work", "flywheel_inertia")
     return [
         key
-        for one in kinds
+        for kind in kinds
         for key in material.summary
-        if key == one or (key.startswith(f"{one}.") and one not in alone)
+        if key == kind or (key.startswith(f"{kind}.") and kind not in alone)
     ]
 
 
@@ -120,9 +120,9 @@ def _row(material: Material, key: str) -> tuple[Cell, ...]:
     words, summary = material.words, material.summary
     area = summary["piston_area"] if material.per_area else None
     kind, dot, name = key.partition(".")
-    at = summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
+    angle = summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
     row = value_row(key, summary[key], words, area=area)
-    return (*row, "–" if at is None else words.amount(at, "deg", digits=4))
+    return (*row, "–" if angle is None else words.amount(angle, "deg", digits=4))
 
 
 def sources(material: Material) -> Iterator[Block]:

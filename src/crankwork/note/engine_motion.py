@@ -51,7 +51,7 @@ def velocity(material: Material) -> Iterator[Block]:
     yield from material.worked_at("motion")
     yield from material.equations("motion", "piston_transfer_1", "piston_velocity")
     kinds = ("piston_transfer_1", "piston_velocity")
-    yield from material.equations("harmonics", *(f"{one}_{order}_order" for one in kinds for order in _ORDERS))
+    yield from material.equations("harmonics", *(f"{kind}_{order}_order" for kind in kinds for order in _ORDERS))
     yield from material.equations("motion", "rod_transfer_1", "rod_angular_velocity")
     most = material.equations("extremes", "piston_velocity_max_angle", "piston_velocity_max", "piston_velocity_min")
     yield from material.intro("extremes", most)
@@ -79,20 +79,20 @@ def _table(material: Material, noun: str) -> Table | None:
 
 def error_bound(material: Material) -> Iterator[Block]:
     """Yield how far the method is from exact; nothing if it is exact."""
-    found = errors(material)
-    if "piston_acceleration_error" in found:
-        share = material.words.number(100 * found["piston_acceleration_error"][1], digits=2)
+    largest_errors = errors(material)
+    if "piston_acceleration_error" in largest_errors:
+        share = material.words.number(100 * largest_errors["piston_acceleration_error"][1], digits=2)
         yield material.words.paragraph("error", share=share, table=Reference("t:errors"))
-    if "inertia_force_error" in found:
-        share = material.words.number(100 * found["inertia_force_error"][1], digits=2)
+    if "inertia_force_error" in largest_errors:
+        share = material.words.number(100 * largest_errors["inertia_force_error"][1], digits=2)
         yield material.words.paragraph("force_error", share=share)
 
 
 def errors(material: Material) -> dict[str, tuple[float, float]]:
     """Return the largest errors against exact [SI], and their shares of the largest value, by key."""
-    found = {}
-    for key in (one for one in material.summary if one.endswith("_error")):
+    largest_errors = {}
+    for key in (name for name in material.summary if name.endswith("_error")):
         values = material.results.columns.get(key.removesuffix("_error"))
         if values is not None and np.any(values):
-            found[key] = (material.summary[key], material.summary[key] / float(np.max(np.abs(values))))
-    return found
+            largest_errors[key] = (material.summary[key], material.summary[key] / float(np.max(np.abs(values))))
+    return largest_errors

@@ -25,7 +25,7 @@ _MOST_JOINTS = 3
 
 
 def task(material: Material) -> Iterator[Block]:
-    """Yield what is asked and what is given."""
+    """Yield the task and the given data."""
     words, machine = material.words, material.machine
     crank = machine.mechanism.crank
     yield words.heading("task")
@@ -38,8 +38,8 @@ def task(material: Material) -> Iterator[Block]:
         start=words.amount(crank.start, "deg"),
         value=words.amount(material.results.solved.speed, "rad/s"),
     )
-    for one in crank.geared:
-        yield words.paragraph("geared_crank", name=one.link, ratio=words.number(one.ratio))
+    for geared in crank.geared:
+        yield words.paragraph("geared_crank", name=geared.link, ratio=words.number(geared.ratio))
     if machine.angular_acceleration:
         yield words.paragraph("acceleration", value=words.amount(machine.angular_acceleration, "rad/s2"))
     yield from given_parts(material)
@@ -70,7 +70,7 @@ def given_parts(material: Material) -> Iterator[Block]:
     yield from _places(material)
     if machine.loads:
         yield words.paragraph("outer_loads")
-        yield ItemList(tuple(_outer_load(one, words) for one in stated_loads(machine)))
+        yield ItemList(tuple(_outer_load(load, words) for load in stated_loads(machine)))
     elif machine.mechanism.bodies and not machine.chambers:
         yield words.paragraph("no_loads")
     yield from given_chambers(material)
@@ -84,18 +84,18 @@ def _links(material: Material) -> Table:
     numbers = {name: number for number, name in enumerate(links_of(linkage), start=1)}
     is_listed = linkage.driving.centre or linkage.driving.guide
     driving = (*([linkage.driving] if is_listed else []), *linkage.geared)
-    for one in (*driving, *linkage.members):
-        if one.name == linkage.driver.link and one not in driving:
+    for member in (*driving, *linkage.members):
+        if member.name == linkage.driver.link and member not in driving:
             continue
-        number = numbers[one.name]
-        shared = [name for name in one.points if len(owners[name]) > 1]
+        number = numbers[member.name]
+        shared = [name for name in member.points if len(owners[name]) > 1]
         rows.append((
-            str(number), called(one.name, words.language), ", ".join(shared), _length(one, shared, words),
-            words.shown("body_mass", one.mass) if one.mass else "–",
-            words.shown("body_inertia", one.inertia) if one.inertia else "–", _centre(one, words),
+            str(number), called(member.name, words.language), ", ".join(shared), _length(member, shared, words),
+            words.shown("body_mass", member.mass) if member.mass else "–",
+            words.shown("body_inertia", member.inertia) if member.inertia else "–", _centre(member, words),
         ))  # fmt: skip
     masses = (words.titled(key) for key in ("body_mass", "body_inertia"))
-    length, centre = ((words.column(one, "mm"),) for one in ("length", "centre"))
+    length, centre = ((words.column(name, "mm"),) for name in ("length", "centre"))
     return words.table("links", ("number", "link", "joints", length, *masses, centre), rows, "clcrrrc", "links")
 
 
@@ -114,7 +114,7 @@ def _centre(member: Member, words: Words) -> str:
     if not member.centre:
         return "–"
     # the centre of a crank may be its pivot
-    x, y = (words.shown("point_x", one) for one in member.points.get(member.centre, (0.0, 0.0)))
+    x, y = (words.shown("point_x", coordinate) for coordinate in member.points.get(member.centre, (0.0, 0.0)))
     named = "" if "." in member.centre or "_" in member.centre else f"{member.centre} "
     return f"{named}({x}; {y})"
 
@@ -128,7 +128,7 @@ def _places(material: Material) -> Iterator[Table]:
         yield words.table("pivots", ("point", *axes), rows, "crr")
     lines = [
         (
-            name, guide.link or words.term("ground"), *(words.shown("point_x", one) for one in guide.point),
+            name, guide.link or words.term("ground"), *(words.shown("point_x", value) for value in guide.point),
             words.number(math.degrees(guide.angle)),
         )
         for name, guide in linkage.guides.items()
@@ -147,21 +147,21 @@ def _outer_load(load: StatedLoad, words: Words) -> Runs:
 
 def structural_analysis(material: Material) -> Iterator[Block]:
     """Yield links, joints, mobility, groups and class."""
-    words, found = material.words, material.structure
-    if found is None:
+    words, analysed = material.words, material.structure
+    if analysed is None:
         return
     yield words.heading("structure")
-    yield words.paragraph("structure", n=str(len(found.links)), p=str(found.joints))
-    yield _pairs(material, ("", *found.links))
+    yield words.paragraph("structure", n=str(len(analysed.links)), p=str(analysed.joints))
+    yield _pairs(material, ("", *analysed.links))
     yield words.paragraph("chebyshev")
     yield from material.equations("structure")
     yield words.paragraph("one_driver" if material.words.period else "one_drive")
-    numbers = {name: str(number) for number, name in enumerate(found.links, start=1)}
+    numbers = {name: str(number) for number, name in enumerate(analysed.links, start=1)}
     driver = material.machine.mechanism.driver
     if isinstance(driver, Cylinder):
         # barrel and rod stand for one link of changing length
         numbers[driver.link] += f"+{numbers[rod_name(driver.link)]}"
-    kinds = {_members(one): type(one).__name__ for one in material.machine.mechanism.dyads}
+    kinds = {_members(dyad): type(dyad).__name__ for dyad in material.machine.mechanism.dyads}
     rows = [
         (
             str(number),
@@ -169,10 +169,10 @@ def structural_analysis(material: Material) -> Iterator[Block]:
             _ROMAN[group.number],
             words.kind(kinds.get(frozenset(group.members), "")),
         )
-        for number, group in enumerate(found.groups, start=1)
+        for number, group in enumerate(analysed.groups, start=1)
     ]
     yield words.table("groups", ("group", "members", "class", "species"), rows, "clcc")
-    yield words.paragraph("formula", formula=found.formula.replace("->", "→"), number=_ROMAN[found.number])
+    yield words.paragraph("formula", formula=analysed.formula.replace("->", "→"), number=_ROMAN[analysed.number])
     kind = four_bar_type(material.machine)
     if kind:
         yield words.paragraph("grashof", type=words.kind(kind))
@@ -187,7 +187,7 @@ def _members(dyad: Dyad | Chain) -> frozenset[str]:
         case PRP():
             return frozenset((dyad.block_a, dyad.block_b))
         case Chain():
-            return frozenset(one.name for one in dyad.links)
+            return frozenset(link.name for link in dyad.links)
     return frozenset((dyad.link, dyad.block))
 
 
@@ -196,14 +196,14 @@ def _pairs(material: Material, links: tuple[str, ...]) -> Table:
     words, driver = material.words, material.machine.mechanism.driver
     pivots = pivots_of(material.machine.mechanism)
     rows = []
-    for number, one in enumerate(joints(material.machine.mechanism), start=1):
-        both = [one.link, one.other]
-        if isinstance(driver, Cylinder) and isinstance(one, Pin) and one.point == driver.rod:
+    for number, joint in enumerate(joints(material.machine.mechanism), start=1):
+        both = [joint.link, joint.other]
+        if isinstance(driver, Cylinder) and isinstance(joint, Pin) and joint.point == driver.rod:
             # there the rod of the cylinder ends, not its barrel
             both = [rod_name(name) if name == driver.link else name for name in both]
         ends = sorted(0 if name == GROUND else links.index(name) for name in both)
-        name = (one.point or pivots.get(one.link, "")) if isinstance(one, Pin) else one.link
-        kind = words.term("turning" if isinstance(one, Pin) else "sliding")
+        name = (joint.point or pivots.get(joint.link, "")) if isinstance(joint, Pin) else joint.link
+        kind = words.term("turning" if isinstance(joint, Pin) else "sliding")
         rows.append((str(number), name, f"{ends[0]}–{ends[1]}", kind))
     if isinstance(driver, Cylinder):
         inside = "–".join(str(links.index(name)) for name in (driver.link, rod_name(driver.link)))

@@ -24,7 +24,7 @@ _COORDINATE = (
 
 
 def driven_task(material: Material) -> Iterator[Block]:
-    """Yield what is asked and what is given, the law of the driver first."""
+    """Yield the task and the given data, the law of the driver first."""
     words, machine = material.words, material.machine
     driver = machine.mechanism.driver
     yield words.heading("task")
@@ -32,7 +32,7 @@ def driven_task(material: Material) -> Iterator[Block]:
     yield _drives(driver, words)
     for name, half in zip(("barrel", "rod"), machine.mechanism.halves, strict=False):
         if half.mass:
-            along, across = (words.amount(one, "mm") for one in half.centre)
+            along, across = (words.amount(coordinate, "mm") for coordinate in half.centre)
             amounts = {"mass": words.amount(half.mass, "kg"), "inertia": words.amount(half.inertia, "kg*m2")}
             yield words.paragraph(f"cylinder_{name}", **amounts, along=along, across=across)
     if driver.law is not None:
@@ -55,19 +55,19 @@ def _drives(driver: Driver, words: Words) -> Paragraph:
 
 
 def _segments(law: Law, words: Words, *, turns: bool) -> Table:
-    """Return the segments of a law: how they move, from where to where, when and how long."""
+    """Return the segments of a law: kind of motion, ends, start and duration."""
     key = "link_angle" if turns else "slider_displacement"
-    places = [law.start, *(one.to for one in law.segments)]
-    times = [one.share * law.period for one in law.segments]
+    places = [law.start, *(segment.to for segment in law.segments)]
+    times = [segment.share * law.period for segment in law.segments]
     rows = [
         (
-            str(number), _moves(one, words), *(words.shown(key, place) for place in ends),
+            str(number), _moves(segment, words), *(words.shown(key, place) for place in ends),
             words.number(sum(times[: number - 1])), words.number(times[number - 1]),
         )
-        for number, (one, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
+        for number, (segment, ends) in enumerate(zip(law.segments, itertools.pairwise(places), strict=True), start=1)
     ]  # fmt: skip
-    ends = ((words.column(one, key_unit(key)),) for one in ("law_from", "law_to"))
-    times_of = (words.titled(one) for one in ("start_time", "segment_time"))
+    ends = ((words.column(name, key_unit(key)),) for name in ("law_from", "law_to"))
+    times_of = (words.titled(title) for title in ("start_time", "segment_time"))
     return words.table("law", ("number", "motion_law", *ends, *times_of), rows, "clrrrr", "law")
 
 

@@ -100,7 +100,7 @@ _SHOWN = ("time", "crank_angle", "crank_speed", "angular_acceleration", "kinetic
 
 
 def transient(material: Material) -> Iterator[Block]:
-    """Yield the section about the motion in time, where a machine is let go."""
+    """Yield the section about the transient motion."""
     words, results, wanted = material.words, material.results, material.machine.transient
     if wanted is None or "transient" not in results.listings:
         return
@@ -127,16 +127,16 @@ def transient(material: Material) -> Iterator[Block]:
     yield from material.figures("transient")
     happened = results.listings.get("transient_events")
     if happened is not None:
-        names = [row_name(one, words.language) for one in happened.names[:_MOST_EVENTS]]
-        shown = {key: one[:_MOST_EVENTS] for key, one in happened.columns.items()}
+        names = [row_name(name, words.language) for name in happened.names[:_MOST_EVENTS]]
+        shown = {key: column[:_MOST_EVENTS] for key, column in happened.columns.items()}
         yield _table("transient_events", shown, words, names)
 
 
 def _table(caption: str, columns: dict[str, np.ndarray], words: Words, names: list[str] | None = None) -> Table:
     """Return columns as a table, rows called by names where they have some."""
     made = quantity_columns(columns, columns, words)
-    titles: list[Runs] = [one.heading for one in made]
-    entries = [one.entries for one in made]
+    titles: list[Runs] = [column.heading for column in made]
+    entries = [column.entries for column in made]
     if names is not None:
         titles.insert(0, (words.column("event"),))
         entries.insert(0, names)

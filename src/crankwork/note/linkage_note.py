@@ -44,7 +44,7 @@ def linkage_note(results: Results, options: NoteOptions) -> Note:
     if results.has_positions:
         sections, order, title = _OF_TABLE, list(_OF_TABLE), "tabulated"
     elif results.period:
-        sections = {**_SECTIONS, **_DRIVEN, **dict.fromkeys(_NOT_DRIVEN, _nothing)}
+        sections = {**_SECTIONS, **_DRIVEN, **dict.fromkeys(_NOT_DRIVEN, _no_section)}
     elif options.order == "en":
         # engineers who read English want the results before the way to them
         order = ["task", "conclusion", *(name for name in order if name not in ("task", "conclusion"))]
@@ -52,6 +52,6 @@ def linkage_note(results: Results, options: NoteOptions) -> Note:
     return note_of_sections(material, sections, tuple(order), words.title(title), words.title("linkage_subtitle"))
 
 
-def _nothing(_: Material) -> Iterator[Block]:
-    """Yield nothing: a section that such a machine has not."""
+def _no_section(_: Material) -> Iterator[Block]:
+    """Yield no blocks: a section that such a machine does not have."""
     yield from ()

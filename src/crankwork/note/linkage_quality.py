@@ -21,14 +21,14 @@ _NONE = "–"
 
 def quality(material: Material) -> Iterator[Block]:
     """Yield the section about range, ends, time ratio, transmission and pressure angles."""
-    found = [*_range(material), *_ends(material), *_transmission(material)]
-    if found:
+    blocks = [*_range(material), *_ends(material), *_transmission(material)]
+    if blocks:
         yield material.words.heading("quality")
-        yield from found
+        yield from blocks
 
 
 def _range(material: Material) -> Iterator[Block]:
-    """Yield how far a crank gets that does not turn fully, and what it moves, on its branch and on the circuit."""
+    """Yield the range of a crank that does not turn fully, and the travel of its links, on branch and circuit."""
     words, summary = material.words, material.summary
     if "crank_range" not in summary:
         return
@@ -38,7 +38,7 @@ def _range(material: Material) -> Iterator[Block]:
     for kind in _TRAVEL.values():
         for key in named(summary, kind, f"{kind}_circuit"):
             name = key.partition(".")[2]
-            reached = (_value(material, f"{one}.{name}") for one in (kind, f"{kind}_circuit"))
+            reached = (_value(material, f"{reach}.{name}") for reach in (kind, f"{kind}_circuit"))
             row = (name, _unit(material, key), *reached)
             if row not in rows:
                 rows.append(row)
@@ -56,7 +56,7 @@ def _ends(material: Material) -> Iterator[Block]:
             name = key.partition(".")[2]
             ends = [f"{kind}_{word}.{name}" for word in ("min", "max")]
             shown = [text for end in ends for text in (_value(material, end), _place(material, end))]
-            ways = [_value(material, f"{one}.{name}") for one in (travel, "time_ratio")]
+            ways = [_value(material, f"{quantity}.{name}") for quantity in (travel, "time_ratio")]
             rows.append((name, _unit(material, key), *shown, *ways))
     if not rows:
         return
@@ -64,8 +64,8 @@ def _ends(material: Material) -> Iterator[Block]:
     yield words.paragraph("ends", table=Reference("ends"))
     if has_ratio:
         yield words.paragraph("time_ratio")
-    at = words.reached_at()
-    titles: list[str | Runs] = ["link", "unit", "least", at, "largest", at, "travel"]
+    angle_title = words.reached_at()
+    titles: list[str | Runs] = ["link", "unit", "least", angle_title, "largest", angle_title, "travel"]
     if has_ratio:
         titles.append(words.titled("time_ratio"))
     else:
@@ -81,7 +81,7 @@ def _transmission(material: Material) -> Iterator[Block]:
         return
     yield words.heading("transmission", 2)
     if named(columns, "transmission_angle"):
-        low, high = (words.number(one) + "°" for one in USUAL)
+        low, high = (words.number(angle) + "°" for angle in USUAL)
         yield words.paragraph("transmission", source=Citation(_SOURCE), low=low, high=high)
     if named(columns, "pressure_angle"):
         yield words.paragraph("pressure", source=Citation(_SOURCE), limit=words.number(USUAL_PRESSURE) + "°")
@@ -101,7 +101,7 @@ def _worst(material: Material) -> Iterator[Block]:
             symbol, place, unit = words.place(extreme.at)
             name, value = key.partition(".")[2], _with_unit(place, unit, words)
             yield words.paragraph("worst_angle", name=name, place=symbol, value=value)
-            lines = [one for one in material.lines("transmission") if one.key in (extreme.key, key)]
+            lines = [line for line in material.lines("transmission") if line.key in (extreme.key, key)]
             yield from equations(lines, words)
     yield _limits(material)
 
@@ -109,16 +109,16 @@ def _worst(material: Material) -> Iterator[Block]:
 def _limits(material: Material) -> Table:
     """Return the extreme angles of every pin and slider, each with where it is reached."""
     words, summary = material.words, material.summary
-    kinds = [one for one in WORST_ANGLES if named(summary, one)]
+    kinds = [angle_kind for angle_kind in WORST_ANGLES if named(summary, angle_kind)]
     names = dict.fromkeys(key.partition(".")[2] for key in named(summary, *kinds))
     rows = [
         (
             name,
-            *(text for one in kinds for text in (_value(material, f"{one}.{name}"), _place(material, f"{one}.{name}"))),
+            *(text for end in kinds for text in (_value(material, f"{end}.{name}"), _place(material, f"{end}.{name}"))),
         )
         for name in names
     ]
-    angles = [title for one in kinds for title in (words.titled(one, "deg"), words.reached_at())]
+    angles = [title for kind in kinds for title in (words.titled(kind, "deg"), words.reached_at())]
     return words.table("limits", ("transmitting", *angles), rows, "l" + "r" * len(angles), "limits")
 
 
@@ -133,8 +133,8 @@ def _unit(material: Material, key: str) -> str:
 
 def _place(material: Material, key: str) -> str:
     """Return the crank angle or time at which an extreme is reached."""
-    found = extreme_of(material.results, key)
-    return _NONE if found is None else material.words.number(material.words.place(found.at)[1], digits=4)
+    extreme = extreme_of(material.results, key)
+    return _NONE if extreme is None else material.words.number(material.words.place(extreme.at)[1], digits=4)
 
 
 def _with_unit(value: float, unit: str, words: Words) -> str:

@@ -19,13 +19,13 @@ _WORK = "artobolevsky_1988, ch. 15"
 
 
 def table_task(material: Material) -> Iterator[Block]:
-    """Yield what is asked, the masses, and the transfer functions."""
+    """Yield the task, the masses, and the transfer functions."""
     words, table = material.words, material.transfer
     yield words.heading("task")
     yield words.paragraph("task_table")
     yield words.paragraph("table_speed", value=words.amount(material.results.solved.speed, "rad/s"))
     yield words.paragraph("bodies")
-    yield ItemList(tuple(_body(table, at, words) for at in range(len(table.bodies))))
+    yield ItemList(tuple(_body(table, index, words) for index in range(len(table.bodies))))
     yield from position_tables(
         "table_transfer", material.results.grid.degrees, list(_ratios(material)), words, first=1, label="transfer"
     )
@@ -34,8 +34,8 @@ def table_task(material: Material) -> Iterator[Block]:
         yield words.paragraph("sheets")
 
 
-def _body(table: TransferTable, at: int, words: Words) -> Runs:
-    body = table.bodies[at]
+def _body(table: TransferTable, index: int, words: Words) -> Runs:
+    body = table.bodies[index]
     mass, inertia = Math(words.symbol(f"body_mass.{body.name}")), Math(f"J_{subscript(body.name)}")
     runs: list[str | Math] = [f"{body.name}: "]
     if body.mass:
@@ -54,8 +54,8 @@ def _ratios(material: Material) -> Iterator[Column]:
             ("rotation_ratio", "", body.rotation_ratio),
         ):
             if any(ratios):
-                whole = ratios if len(ratios) > 1 else ratios * count
-                yield Column(words.titled(f"{key}.{body.name}", unit), [words.number(one) for one in whole])
+                values = ratios if len(ratios) > 1 else ratios * count
+                yield Column(words.titled(f"{key}.{body.name}", unit), [words.number(value) for value in values])
 
 
 def static(material: Material) -> Iterator[Block]:
@@ -89,13 +89,13 @@ def dynamic(material: Material) -> Iterator[Block]:
 
 
 def _parts(material: Material) -> list[Column]:
-    """Return the parts of the bodies in the reduced inertia."""
+    """Return the terms of the bodies in the reduced inertia."""
     words, results = material.words, material.results
-    whole = in_order([results.memory["reduced_inertia"]])
-    known = {one.key: one for one in whole if one.key.startswith("reduced_inertia.")}
+    traced_values = in_order([results.memory["reduced_inertia"]])
+    known = {traced.key: traced for traced in traced_values if traced.key.startswith("reduced_inertia.")}
     rows = Program(known)(results.grid)
     parts = {
-        key: rows[key] for key in (f"reduced_inertia.{one.name}" for one in material.transfer.bodies) if key in rows
+        key: rows[key] for key in (f"reduced_inertia.{body.name}" for body in material.transfer.bodies) if key in rows
     }
     return [quantity_columns((key,), parts, words)[0] for key, values in parts.items() if values.any()]
 

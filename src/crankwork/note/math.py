@@ -159,8 +159,8 @@ def _quotient(left: Expression, right: Expression, printing: _Printing) -> tuple
 def _power(base: Expression, exponent: Expression, printing: _Printing) -> Box:
     above = _box(exponent, printing._replace(inline=True))[0]
     box, base_binding = _box(base, printing)
-    whole = isinstance(exponent, Number) and exponent.value in (2, 3, 4)
-    if isinstance(box, Apply) and isinstance(box.name, Upright) and whole:
+    is_short = isinstance(exponent, Number) and exponent.value in (2, 3, 4)
+    if isinstance(box, Apply) and isinstance(box.name, Upright) and is_short:
         return Apply(Script(box.name, None, above), box.argument)
     # primes of a symbol stay where they are, and the power follows them
     if isinstance(box, Script) and base_binding == _ATOM:

@@ -112,7 +112,7 @@ def equation_source(block: Equation) -> str:
 
 
 def _source_numbers(note: Note) -> dict[str, int]:
-    keys = list(dict.fromkeys([*(one.partition(",")[0] for one in _cited(note)), *note.sources]))
+    keys = list(dict.fromkeys([*(key.partition(",")[0] for key in _cited(note)), *note.sources]))
     unknown = [key for key in keys if key not in sources()]
     if unknown:
         raise CrankworkError(f'the bibliography has no "{unknown[0]}"; add it to sources.bib or cite another source')

@@ -49,7 +49,7 @@ def note_of_sections(
     written = itertools.chain.from_iterable(sections[name](material) for name in chosen or order)
     blocks = tuple(explained(written, options.language, with_results=with_results))
     # on a page of their own where they fill it: Typst then sets the rest once, not again with every page found
-    listed = sum(isinstance(one, Heading) and one.level <= 2 for one in blocks)
+    listed = sum(isinstance(block, Heading) and block.level <= 2 for block in blocks)
     front: list[Block] = [cover(document, options.language, subtitle), Contents()]
     if listed >= _OWN_PAGE:
         front.append(PageBreak())
@@ -57,17 +57,17 @@ def note_of_sections(
         options.title or material.machine.title or title,
         options.language,
         (*front, *(_complete(blocks) if chosen else blocks)),
-        tuple(one for one in document.author if one.strip()),
+        tuple(author for author in document.author if author.strip()),
         document.date,
     )
 
 
 def _complete(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield blocks without the paragraphs that refer to what stands in none of the sections that were chosen."""
+    """Yield blocks without the paragraphs that refer to sections that were not chosen."""
     kept = list(blocks)
-    labels = {getattr(one, "label", "") for one in kept}
+    labels = {getattr(item, "label", "") for item in kept}
     for block in kept:
         parts = (block.runs,) if isinstance(block, Paragraph) else block.items if isinstance(block, ItemList) else ()
-        asked = {run.label for runs in parts for run in runs if isinstance(run, Reference)}
-        if asked <= labels:
+        references = {run.label for runs in parts for run in runs if isinstance(run, Reference)}
+        if references <= labels:
             yield block

@@ -10,8 +10,8 @@ from crankwork.formula.lines import FormulaLine, Line
 
 # what follows from a transfer function, which stands before it
 _OF_TRANSFER = {
-    f"{one}{order}": f"{of}{order}"
-    for one, of in (("piston_velocity", "piston_transfer_1"), ("piston_acceleration", "piston_transfer_2"))
+    f"{key}{order}": f"{transfer}{order}"
+    for key, transfer in (("piston_velocity", "piston_transfer_1"), ("piston_acceleration", "piston_transfer_2"))
     for order in ("", "_first_order", "_second_order")
 } | {"inertia_acceleration": "piston_transfer_2.inertia"}
 TRANSFER = tuple(_OF_TRANSFER.values())
@@ -19,17 +19,17 @@ TRANSFER = tuple(_OF_TRANSFER.values())
 
 def in_one_formula(lines: Iterable[Line]) -> Iterator[Line]:
     """Yield lines, the transfer functions of the piston put into what follows from them: v = R ω (sin φ + ...)."""
-    every = list(lines)
-    known = {one.key: one for one in every if isinstance(one, FormulaLine)}
+    all_lines = list(lines)
+    known = {item.key: item for item in all_lines if isinstance(item, FormulaLine)}
     joined: dict[str, FormulaLine | None] = {}
-    for key, of in _OF_TRANSFER.items():
-        line, transfer = known.get(key), known.get(of)
-        if line is not None and transfer is not None and (one := _joined(line, transfer)) is not None:
-            joined[key], joined[of] = one, None
-    for each in every:
-        found = joined.get(each.key, each)
-        if found is not None:
-            yield found
+    for key, factor in _OF_TRANSFER.items():
+        line, transfer = known.get(key), known.get(factor)
+        if line is not None and transfer is not None and (product := _joined(line, transfer)) is not None:
+            joined[key], joined[factor] = product, None
+    for each in all_lines:
+        replaced = joined.get(each.key, each)
+        if replaced is not None:
+            yield replaced
 
 
 def _joined(line: FormulaLine, transfer: FormulaLine) -> FormulaLine | None:
@@ -45,6 +45,6 @@ def _joined(line: FormulaLine, transfer: FormulaLine) -> FormulaLine | None:
                 factor = Operation(operator.truediv, (factor, whole.operands[1]))
             tree = Operation(operator.mul, (factor, second))
             values = {key: value for key, value in line.values.items() if key != name}
-            named = (*transfer.named, *(one for one in line.named if one[0] != name))
+            named = (*transfer.named, *(symbol for symbol in line.named if symbol[0] != name))
             return line._replace(values={**transfer.values, **values}, tree=tree, named=named)
     return None

@@ -91,7 +91,7 @@ _ALIGN = {"l": "left", "c": "center", "r": "right"}
 def typst_source(note: Note, numbers: Numbering) -> str:
     """Return a note as the source of a Typst document."""
     year, month, day = (note.date.year, note.date.month, note.date.day) if note.date else (2000, 1, 1)
-    authors = "".join(f"{typst_string(one)}, " for one in note.authors)
+    authors = "".join(f"{typst_string(author)}, " for author in note.authors)
     language, _, region = LANGUAGE_TAGS[note.language].partition("-")
     date = f"datetime(year: {year}, month: {month}, day: {day})"
     parts = [
@@ -178,26 +178,26 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
-    size = next((one for one in SIZES if fits(block.headings, block.rows, one, wide=block.wide)), SIZES[-1])
+    size = next((letters for letters in SIZES if fits(block.headings, block.rows, letters, wide=block.wide)), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
     # a short table stays on one page with its caption
-    whole = len(block.rows) <= _TOGETHER
-    if whole:
+    is_whole = len(block.rows) <= _TOGETHER
+    if is_whole:
         yield "#block(breakable: false)["
     above = typst_string(caption("table", number, block.caption, numbers.language))
-    yield f"#{'above' if whole else 'over'}({above})"
+    yield f"#{'above' if is_whole else 'over'}({above})"
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
         for row in block.rows
     )
-    again = "" if whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
+    again = "" if is_whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table({_columns(block, size, marked=not whole)}, align: ({align},), {header},\n{rows}))\n}}"
+        f"align(center, table({_columns(block, size, marked=not is_whole)}, align: ({align},), {header},\n{rows}))\n}}"
     )
-    if whole:
+    if is_whole:
         yield "]"
 
 
@@ -225,7 +225,7 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
     widths = one_line_widths(block.headings, block.rows, size, wide=block.wide)
     if not widths:
         return f"columns: {len(block.headings)}"
-    columns = f"columns: ({', '.join(f'{one:.1f}pt' for one in widths)},)"
+    columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):
         return columns
     return f"{columns}, rows: ({'auto, auto' if marked else 'auto'}, {_LINE * size + 2 * _INSET:.2f}pt)"
@@ -251,18 +251,18 @@ def _title_page(page: TitlePage, note: Note) -> str:
     """Return the cover: whose it is at the head, the title in the middle, people below, place and year at the foot."""
     small = 0.62 if page.is_crowded else 1.0
 
-    def lines(some: tuple[str, ...], size: float, weight: int = 400) -> str:
-        every = ", ".join(f"text(size: {size * small:.1f}pt, weight: {weight}, {_breakable(one)})" for one in some)
-        return f"#stack(spacing: {0.9 * small:.2f}em, {every})\n" if some else ""
+    def lines(texts: tuple[str, ...], size: float, weight: int = 400) -> str:
+        boxes = ", ".join(f"text(size: {size * small:.1f}pt, weight: {weight}, {_breakable(entry)})" for entry in texts)
+        return f"#stack(spacing: {0.9 * small:.2f}em, {boxes})\n" if texts else ""
 
     # the strokes of signatures stand under names that are written by hand
     sign = "box(width: 32mm, height: 0.9em, stroke: (bottom: 0.4pt))"
     people = ", ".join(
-        f"{typst_string(one.label + ':' if k == 0 else '')}, {sign if one.signs else '[]'}, {_breakable(name)}"
-        for one in page.people
-        for k, name in enumerate(one.names)
+        f"{typst_string(person.label + ':' if k == 0 else '')}, {sign if person.signs else '[]'}, {_breakable(name)}"
+        for person in page.people
+        for k, name in enumerate(person.names)
     )
-    columns = "(auto, auto, 1fr)" if any(one.signs for one in page.people) else "(auto, 0pt, auto)"
+    columns = "(auto, auto, 1fr)" if any(person.signs for person in page.people) else "(auto, 0pt, auto)"
     grid = f"grid(columns: {columns}, column-gutter: 0.7em, row-gutter: 0.9em, align: left + bottom, {people})"
     body = (
         f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((note.headline,), 20, 700)}"

@@ -159,15 +159,15 @@ def _contents(note: Note, numbers: Numbering) -> str:
 
 
 def _title_page(page: TitlePage, note: Note) -> str:
-    def lines(some: tuple[str, ...], name: str) -> str:
-        return f'<div class="{name}">{"".join(f"<p>{xml_text(one)}</p>" for one in some)}</div>' if some else ""
+    def lines(texts: tuple[str, ...], name: str) -> str:
+        return f'<div class="{name}">{"".join(f"<p>{xml_text(entry)}</p>" for entry in texts)}</div>' if texts else ""
 
     signed = '<td class="sign"></td>'
     people = "".join(
-        f"<tr><td>{xml_text(one.label + ':') if k == 0 else ''}</td>"
-        f"{signed if one.signs else '<td></td>'}<td>{xml_text(name)}</td></tr>"
-        for one in page.people
-        for k, name in enumerate(one.names)
+        f"<tr><td>{xml_text(person.label + ':') if k == 0 else ''}</td>"
+        f"{signed if person.signs else '<td></td>'}<td>{xml_text(name)}</td></tr>"
+        for person in page.people
+        for k, name in enumerate(person.names)
     )
     table = f'<table class="people" role="presentation">{people}</table>' if people else ""
     title = f"{lines(page.above, 'above')}<h1>{xml_text(note.title)}</h1>{lines(page.below, 'subtitle')}"

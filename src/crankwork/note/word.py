@@ -70,7 +70,7 @@ def word(note: Note) -> bytes:
     set_styles(document, note.language)
     writer = _Writer(document, note, numbers)
     set_pages(document.sections[0], wide=False)
-    document.sections[0].different_first_page_header_footer = any(isinstance(one, TitlePage) for one in note.blocks)
+    document.sections[0].different_first_page_header_footer = any(isinstance(block, TitlePage) for block in note.blocks)
     writer.footer()
     writer.write()
     stream = io.BytesIO()
@@ -90,17 +90,17 @@ class _Writer:
         self._figures = 0
         self._pictures = _pictures(note)
         self._printed = {
-            id(one): printed_equation(one, note.language, EQUATION_WIDTH)
-            for one in note.blocks
-            if isinstance(one, Equation)
+            id(block): printed_equation(block, note.language, EQUATION_WIDTH)
+            for block in note.blocks
+            if isinstance(block, Equation)
         }
-        self._columns = {id(one): table_columns(one, numbers) for one in note.blocks if isinstance(one, Table)}
+        self._columns = {id(block): table_columns(block, numbers) for block in note.blocks if isinstance(block, Table)}
 
     def write(self) -> None:
-        """Add the blocks of the note, figures where there is room for them."""
+        """Add the blocks of the note, figures where they fit."""
         blocks = self._note.blocks
         headings = len(_headings(self._note, self._numbers))
-        for k in flow(blocks, [self._height(one, headings) for one in blocks]):
+        for k in flow(blocks, [self._height(item, headings) for item in blocks]):
             block = blocks[k]
             self.turn(wide=isinstance(block, Table) and block.wide)
             self.block(block, self._numbers.blocks[k])
@@ -180,14 +180,14 @@ class _Writer:
 def _pictures(note: Note) -> dict[int, tuple[bytes, bytes]]:
     """Return figures as lines and as pixels, those of one size made at once."""
     sizes: dict[tuple[float, float], list[Figure]] = defaultdict(list)
-    for one in note.blocks:
-        if isinstance(one, Figure):
-            sizes[one.drawing.width, one.drawing.height].append(one)
+    for block in note.blocks:
+        if isinstance(block, Figure):
+            sizes[block.drawing.width, block.drawing.height].append(block)
     made: dict[int, tuple[bytes, bytes]] = {}
-    for some in sizes.values():
-        drawn = [svg(one.drawing) for one in some]
-        pictures = pngs([one.drawing for one in some], "print", _PIXELS_PER_INCH, drawn)
-        made |= {id(one): pair for one, pair in zip(some, zip(drawn, pictures, strict=True), strict=True)}
+    for figures in sizes.values():
+        drawn = [svg(figure.drawing) for figure in figures]
+        pictures = pngs([figure.drawing for figure in figures], "print", _PIXELS_PER_INCH, drawn)
+        made |= {id(figure): pair for figure, pair in zip(figures, zip(drawn, pictures, strict=True), strict=True)}
     return made
 
 

@@ -57,7 +57,7 @@ def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
             waiting.append(k)
             continue
         is_new = isinstance(block, PageBreak | TitlePage) or (isinstance(block, Table) and block.wide)
-        while waiting and not is_heading and (is_new or _stands(filled, heights[waiting[0]], waited)):
+        while waiting and not is_heading and (is_new or _fits_here(filled, heights[waiting[0]], waited)):
             figure, waited = waiting.pop(0), 0.0
             filled = _after(filled, blocks[figure], heights[figure])
             yield figure
@@ -73,8 +73,8 @@ def _left(filled: Array, height: float) -> Array:
     return np.where(filled + height > PAGE, PAGE - filled, 0.0)
 
 
-def _stands(filled: Array, figure: float, waited: float) -> bool:
-    """Return whether a figure that waits stands here: it leaves little empty, or does so on average and waited long."""
+def _fits_here(filled: Array, figure: float, waited: float) -> bool:
+    """Return whether a waiting figure is placed here: it leaves little empty, or does so on average and waited long."""
     left = _left(filled, figure)
     return bool(left.max() <= _EMPTY or (waited > _LONG and left.mean() <= _EMPTY))
 
@@ -89,8 +89,8 @@ def _after(filled: Array, block: Block, height: float) -> Array:
         begins = np.where(filled + least > PAGE, 0.0, filled)
         high = high + 2 * _LINE * ((begins + high) // PAGE)
     # of an equation the lines that explain it
-    goes_on = isinstance(block, Table | Paragraph | ItemList | Contents) or bool(getattr(block, "legend", ()))
-    return np.where(begins + high <= PAGE, begins + high, (begins + high) % PAGE if goes_on else high)
+    is_divided = isinstance(block, Table | Paragraph | ItemList | Contents) or bool(getattr(block, "legend", ()))
+    return np.where(begins + high <= PAGE, begins + high, (begins + high) % PAGE if is_divided else high)
 
 
 def equation_height(block: Equation, lines: Sequence[Row], language: Language) -> float:
@@ -99,13 +99,13 @@ def equation_height(block: Equation, lines: Sequence[Row], language: Language) -
         _LINE * _lines((words,), _WIDTH - _INDENT) + _ENTRY + _HIGHER * (_high(symbol) - 1.0)
         for _, symbol, words in legend_rows(block, language)
     )
-    return sum(_MATHS + _HIGHER * (_high(one) - 1.0) for one in lines) + (legend or 2.0)
+    return sum(_MATHS + _HIGHER * (_high(row) - 1.0) for row in lines) + (legend or 2.0)
 
 
 def table_height(block: Table, columns: Columns) -> float:
     """Return about how high a table is. [pt]"""
     size, row = columns.size / 2, columns.row_height
-    tall = any(isinstance(one, Math) and not isinstance(one.content, str) for runs in block.headings for one in runs)
+    tall = any(isinstance(run, Math) and not isinstance(run.content, str) for runs in block.headings for run in runs)
     rows = row * len(block.rows) or size * sum(
         max(
             1.44 if isinstance(cell, Math) else 1.18 * _lines((cell,), width / 20 - 6.0, size)
@@ -130,13 +130,13 @@ def block_height(block: Block, headings: int, sources: Iterable[str]) -> float:
         case Contents():
             return _HEADINGS[1] + (_LINE + 3) * headings
         case Bibliography():
-            return sum(_LINE * _lines((cite(one),), _WIDTH - _ITEM) + 3 for one in sources)
+            return sum(_LINE * _lines((cite(source),), _WIDTH - _ITEM) + 3 for source in sources)
         case _:
             return 0.0
 
 
 def _lines(runs: Runs, width: float = _WIDTH, size: float = _SIZE) -> int:
-    wide = sum(text_width(one if isinstance(one, str) else _SYMBOL, CAP_HEIGHT) for one in runs)
+    wide = sum(text_width(run if isinstance(run, str) else _SYMBOL, CAP_HEIGHT) for run in runs)
     return max(1, math.ceil(wide * size / width))
 
 

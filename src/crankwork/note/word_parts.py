@@ -128,14 +128,15 @@ def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -
         for side in ("top", "left", "bottom", "right", "insideH", "insideV")
     )
     aligned = [f'<w:jc w:val="{_ALIGN[letter]}"/></w:pPr>' for letter in (block.align or "r" * len(widths))]
-    loose, kept = ([f"<w:tc><w:p><w:pPr>{_CELL_STYLE}{keep}{one}" for one in aligned] for keep in ("", "<w:keepNext/>"))
+    starts = [f"<w:tc><w:p><w:pPr>{_CELL_STYLE}" + keep for keep in ("", "<w:keepNext/>")]
+    free, kept = ([start + kind for kind in aligned] for start in starts)
     # rows as high as they are counted on to be, whatever font stands in for that of the note
     high = f'<w:trHeight w:val="{round(20 * row_height)}" w:hRule="exact"/>' if row_height else ""
     rows = "".join(
         f"<w:tr><w:trPr><w:cantSplit/>{high}</w:trPr>"
         + "".join(
             f"{start}{_run(cell, numbers, font)}</w:p></w:tc>"
-            for start, cell in zip(kept if k < _TOGETHER else loose, row, strict=True)
+            for start, cell in zip(kept if k < _TOGETHER else free, row, strict=True)
         )
         + "</w:tr>"
         for k, row in enumerate(block.rows)
@@ -181,12 +182,12 @@ def table_columns(block: Table, numbers: Numbering) -> Columns:
         if sum(least) <= full:
             break
     else:
-        return Columns(size, [one * full // sum(least) for one in least], 0.0)
-    wanted = [max(one, round(size * entry) + _SIDES) for one, entry in zip(least, entries, strict=True)]
+        return Columns(size, [part * full // sum(least) for part in least], 0.0)
+    wanted = [max(part, round(size * entry) + _SIDES) for part, entry in zip(least, entries, strict=True)]
     excess = sum(wanted) - sum(least)
     share = min(1.0, (full - sum(least)) / excess) if excess else 1.0
     is_even = share == 1.0 and all(isinstance(cell, str) and " " not in cell for row in block.rows for cell in row)
-    widths = [int(one + share * (most - one)) for one, most in zip(least, wanted, strict=True)]
+    widths = [int(part + share * (most - part)) for part, most in zip(least, wanted, strict=True)]
     return Columns(size, widths, _ROW_HEIGHT * size if is_even else 0.0)
 
 
@@ -194,7 +195,7 @@ def _word_width(cell: Cell) -> float:
     """Return how wide the longest word of a cell is, or its symbol, for every half point of its size. [twip]"""
     if isinstance(cell, Math):
         return _DIGIT * cell_length(cell)
-    return max((_letters_width(one) for one in cell.split()), default=0.0)
+    return max((_letters_width(word) for word in cell.split()), default=0.0)
 
 
 def _letters_width(word: str) -> float:
@@ -208,9 +209,9 @@ def _heading_width(runs: Runs, numbers: Numbering, size: int) -> float:
         if isinstance(run, Math):
             widths[-1] += _EM * box_width(inline_box(run.content, numbers.language))
             continue
-        first, *others = (size * _letters_width(one) for one in numbers.words(run).split(" "))
+        first, *further = (size * _letters_width(word) for word in numbers.words(run).split(" "))
         widths[-1] += first
-        widths += others
+        widths += further
     return max(widths)
 
 
@@ -288,9 +289,9 @@ def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
     """Yield the cover and the end of its page."""
     small = 0.62 if page.is_crowded else 1.0
 
-    def lines(some: tuple[str, ...], size: int, *, bold: bool = False, style: str = "TitleLine") -> str:
+    def lines(texts: tuple[str, ...], size: int, *, bold: bool = False, style: str = "TitleLine") -> str:
         font = f'{"<w:b/>" if bold else ""}<w:sz w:val="{int(size * small)}"/><w:szCs w:val="{int(size * small)}"/>'
-        return "".join(paragraph(text_run(one, font), style) for one in some)
+        return "".join(paragraph(text_run(entry_text, font), style) for entry_text in texts)
 
     title = lines(page.above, 30) + lines((note.headline,), 40, bold=True, style="Title") + lines(page.below, 28)
     parts = [
@@ -312,11 +313,11 @@ def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
 
 
 def _people(people: tuple[Person, ...], size: int) -> str:
-    """Return who has to do with the note in the right part of the page, with a stroke for each signature."""
+    """Return the people of the note in the right part of the page, with a line for each signature."""
     if not people:
         return ""
-    signs = any(one.signs for one in people)
-    most = max(len(name) for one in people for name in one.names)
+    signs = any(man.signs for man in people)
+    most = max(len(name) for man in people for name in man.names)
     name_width = _NAME if most < _SHORT else TEXT_WIDTH - _LABEL - _SIGN
     widths = [_LABEL, _SIGN, name_width] if signs else [_LABEL, name_width]
     font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
@@ -326,12 +327,12 @@ def _people(people: tuple[Person, ...], size: int) -> str:
         return f"<w:tc><w:tcPr>{look}</w:tcPr>{paragraph(text_run(text, font), '', _INDENT)}</w:tc>"
 
     rows = ""
-    for one in people:
-        for k, name in enumerate(one.names):
-            stroke = entry(_SIGN, "", _STROKE if one.signs else "") if signs else ""
-            label = entry(_LABEL, f"{one.label}:" if k == 0 else "")
+    for person in people:
+        for k, name in enumerate(person.names):
+            stroke = entry(_SIGN, "", _STROKE if person.signs else "") if signs else ""
+            label = entry(_LABEL, f"{person.label}:" if k == 0 else "")
             rows += f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{label}{stroke}{entry(widths[-1], name)}</w:tr>"
-    grid = "".join(f'<w:gridCol w:w="{one}"/>' for one in widths)
+    grid = "".join(f'<w:gridCol w:w="{column}"/>' for column in widths)
     return (
         f'<w:tbl><w:tblPr><w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:jc w:val="right"/>'
         f'<w:tblLayout w:type="fixed"/></w:tblPr><w:tblGrid>{grid}</w:tblGrid>{rows}</w:tbl>'

@@ -44,34 +44,34 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
     cycle = results.machine.cycle
     degrees = np.linspace(0.0, cycle, min(round(cycle / _STEP), _MOST) + 1)
     area = results.summary["piston_area"] if per_area else None
-    found = compared.columns_at(degrees)
-    others, named = compared.names[1:], shown_names(compared, language)
+    columns = compared.columns_at(degrees)
+    other_names, named = compared.names[1:], shown_names(compared, language)
     looks = zip(named, _looks(compared.names), strict=True)
     rows = [Row(shown, style, 1.2, colour) for shown, (_, style, colour) in looks]
-    if len(others) == 1:
+    if len(other_names) == 1:
         rows.append(Row(f"Δ: {say('report.less', language, name=named[1], other=named[0])}", width=0.0))
     else:
         rows.append(Row(f"Δ: {say('report.less_own', language, other=named[0])}", width=0.0))
     room = (_TALLEST - LEGEND_ROW * len(rows)) / len(keys) - 1.5 * _GAP
     upper, lower = (min(most, share * room) for most, share in ((_UPPER, 0.63), (_LOWER, 0.37)))
     paper, box = sheet(len(keys) * (upper + lower + 1.5 * _GAP) - _GAP, rows)
-    at = _across(results, degrees)
+    abscissas = _across(results, degrees)
     top = box.top
     for key in keys:
         scale, unit = displayed(key, 1.0, per_area=area), unit_name(key_unit(key, per_area=per_area), language)
         sign = QUANTITIES[key.partition(".")[0]]._replace(key=key).symbol(language)
         for names, place, tall, mark in (
-            ([(beside(key, one), one) for one in compared.names], top, upper, f"${sign}$"),
-            ([(difference(key, one), one) for one in others], top + upper + _GAP / 2, lower, f"$Δ{sign}$"),
+            ([(beside(key, name), name) for name in compared.names], top, upper, f"${sign}$"),
+            ([(difference(key, name), name) for name in other_names], top + upper + _GAP / 2, lower, f"$Δ{sign}$"),
         ):
             is_last = key == keys[-1] and place > top
-            curves = {name: found[column] * scale for column, name in names}
+            curves = {name: columns[column] * scale for column, name in names}
             graph = _graph(
-                paper, ChartBox(box.left, place, box.width, tall), at, curves, results, language, numbers=is_last
+                paper, ChartBox(box.left, place, box.width, tall), abscissas, curves, results, language, numbers=is_last
             )
             for name, style, colour in _looks(compared.names):
                 if name in curves:
-                    graph.curve(name, at, curves[name], style, colour=colour)
+                    graph.curve(name, abscissas, curves[name], style, colour=colour)
             graph.y_title(f"{mark}, {unit}" if unit else mark)
             if is_last:
                 graph.x_title(_x_title(results, language))
@@ -81,11 +81,11 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
 
 def drawn_keys(compared: Comparison) -> list[str]:
     """Return the columns that a figure shows; of several links or sliders the last, which others move."""
-    found = []
+    selected = []
     for kinds in _DRAWN:
         keys = {key.partition(".")[0]: key for key in compared.keys if np.any(compared.columns[_own(compared, key)])}
-        found += [keys[kind] for kind in kinds if kind in keys][:1]
-    return found
+        selected += [keys[kind] for kind in kinds if kind in keys][:1]
+    return selected
 
 
 def _own(compared: Comparison, key: str) -> str:
@@ -93,7 +93,10 @@ def _own(compared: Comparison, key: str) -> str:
 
 
 def _looks(names: tuple[str, ...]) -> list[tuple[str, Style, str]]:
-    return [(name, _STYLES[min(at, len(_STYLES) - 1)], _COLOURS[at % len(_COLOURS)]) for at, name in enumerate(names)]
+    return [
+        (name, _STYLES[min(index, len(_STYLES) - 1)], _COLOURS[index % len(_COLOURS)])
+        for index, name in enumerate(names)
+    ]
 
 
 def _across(results: Results, degrees: Array) -> Array:
@@ -108,7 +111,7 @@ def _x_title(results: Results, language: Language) -> str:
 def _graph(  # noqa: PLR0913 - place, curves and how they are told
     paper: Canvas,
     box: ChartBox,
-    at: Array,
+    abscissas: Array,
     curves: Mapping[str, Array],
     results: Results,
     language: Language,
@@ -119,7 +122,7 @@ def _graph(  # noqa: PLR0913 - place, curves and how they are told
     y = limits(*curves.values())
     if results.period or results.machine.cycle > _LONG:
         over = "time" if results.period else "crank_angle"
-        graph = Graph(paper, box, (0.0, float(at[-1])), y, language, over)
-        graph.frame(round_ticks(0.0, float(at[-1])), round_ticks(*y, 4), labels=(numbers, True))
+        graph = Graph(paper, box, (0.0, float(abscissas[-1])), y, language, over)
+        graph.frame(round_ticks(0.0, float(abscissas[-1])), round_ticks(*y, 4), labels=(numbers, True))
         return graph
-    return over_cycle(paper, box, y, float(at[-1]), language, numbers=numbers)
+    return over_cycle(paper, box, y, float(abscissas[-1]), language, numbers=numbers)

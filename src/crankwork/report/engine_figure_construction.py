@@ -30,12 +30,12 @@ def brix(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     circle = brix_points(lengths, degrees)
     error = float(np.max(np.abs(radius * (1 - circle.up) - exact)))
     shift = engine.value("piston_displacement", float(lengths.crank_radius * lengths.rod_ratio / 2))
-    apart = f"{engine.number(error, 2)} {engine.unit('piston_displacement')}"
+    difference = f"{engine.number(error, 2)} {engine.unit('piston_displacement')}"
     half = f"{engine.symbol('rod_ratio')}{engine.symbol('crank_radius')}/2"
     rows = [
         Row(f"{say('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}"),
         Row(
-            say("drawing.brix_error", engine.language, symbol=engine.symbol("piston_displacement"), value=apart),
+            say("drawing.brix_error", engine.language, symbol=engine.symbol("piston_displacement"), value=difference),
             width=0.0,
         ),
     ]
@@ -52,8 +52,8 @@ def brix(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     _projections(ring, graph, points, radius, marks)
     _rays(engine, ring, points, radius, marks)
     ticks = round_ticks(0.0, float(exact.max()), 8)
-    for at in graph.down(ticks):
-        corners = [left - 28, left - 4, left - 4, left - 28], [at - 5, at - 5, at + 5, at + 5]
+    for level in graph.down(ticks):
+        corners = [left - 28, left - 4, left - 4, left - 28], [level - 5, level - 5, level + 5, level + 5]
         paper.area(*corners)
     graph.frame(np.arange(0.0, 361.0, 60.0), ticks)
     graph.curve("displacement", degrees, exact)
@@ -84,8 +84,8 @@ def _rays(engine: EngineDrawn, ring: Graph, points: BrixPoints, radius: float, m
         place = np.array(centre) + out * (1 + 12 / float(np.hypot(*out)))
         ring.text_on_white(float(place[0]), float(place[1]) + 2.8, engine.number(float(mark)), "middle", 7.5)
     label_marks(ring.paper, [("O′", *start), ("O", *centre)], dot=0.0, frame=ring.box)
-    for at in (start, centre):
-        ring.paper.dot(*at, 2.0, fill="#ffffff", width=0.9)
+    for origin in (start, centre):
+        ring.paper.dot(*origin, 2.0, fill="#ffffff", width=0.9)
 
 
 def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, marks: Array) -> None:
@@ -105,19 +105,19 @@ def tolle(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     unit = float(engine.shown("piston_acceleration", lengths.crank_radius * engine.results.solved.speed**2))
     turn = engine.degrees <= 360
     x, y = engine.values("piston_displacement")[turn], engine.values("piston_acceleration")[turn]
-    found = tolle_points(ratio)
-    corners = {name.upper(): (a * radius, b * unit) for name, (a, b) in found._asdict().items()}
+    points = tolle_points(ratio)
+    corners = {name.upper(): (a * radius, b * unit) for name, (a, b) in points._asdict().items()}
     along, up = tolle_parabola(ratio)
     parabola = radius * along, unit * up
     rows = [
         Row(engine.title("piston_acceleration").rpartition(",")[0]),
         Row(say("drawing.tangents", engine.language), width=0.5),
     ]
-    is_apart = float(np.max(np.abs(np.interp(x, *parabola) - y))) > 2e-3 * unit
-    if is_apart:
+    differs = float(np.max(np.abs(np.interp(x, *parabola) - y))) > 2e-3 * unit
+    if differs:
         rows.insert(1, Row(say("drawing.parabola", engine.language), DOTTED, 1.0))
     paper, box = sheet(270.0, rows)
-    low, high = limits(np.array([one[1] for one in corners.values()]), y, margin=0.09)
+    low, high = limits(np.array([corner[1] for corner in corners.values()]), y, margin=0.09)
     room = 0.04 * 2 * radius
     graph = Graph(paper, box, (-room, max(2 * radius, float(x.max())) + room), (low, high), engine.language)
     graph.frame(round_ticks(0.0, graph.x[1], 8), round_ticks(low, high, 9))
@@ -126,11 +126,11 @@ def tolle(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
                             graph.across(tangents[:, 2]), graph.down(tangents[:, 3])])  # fmt: skip
     paper.segments(ends, width=0.5)
     graph.curves["tangents"] = tangents[:, [0, 2]], tangents[:, [1, 3]]
-    for one, other in map(tuple, _SIDES):
-        pair = np.array([corners[one], corners[other]])
-        graph.curve(one + other, pair[:, 0], pair[:, 1], DASHED if one + other == "CD" else SOLID, width=0.7)
+    for first, second in map(tuple, _SIDES):
+        pair = np.array([corners[first], corners[second]])
+        graph.curve(first + second, pair[:, 0], pair[:, 1], DASHED if first + second == "CD" else SOLID, width=0.7)
     graph.curves["parabola"] = parabola
-    if is_apart:
+    if differs:
         graph.curve("parabola", *parabola, DOTTED, width=1.0)
     graph.curve("acceleration", x, y, width=1.6)
     places = [(name, *graph.point(*place)) for name, place in corners.items()]
@@ -142,5 +142,5 @@ def tolle(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
 
 def _numbered(graph: Graph, tangents: Array) -> list[tuple[str, float, float]]:
     """Return the parts of the two outer tangents with their numbers, where they stand on the paper."""
-    one = [(f"{at}", *graph.point(*row[:2])) for at, row in enumerate(tangents.tolist(), start=1)]
-    return one + [(f"{at}′", *graph.point(*row[2:])) for at, row in enumerate(tangents.tolist(), start=1)]
+    numbered = [(f"{index}", *graph.point(*row[:2])) for index, row in enumerate(tangents.tolist(), start=1)]
+    return numbered + [(f"{index}′", *graph.point(*row[2:])) for index, row in enumerate(tangents.tolist(), start=1)]

@@ -58,8 +58,8 @@ class EngineDrawn:
         machine = self.results.machine
         if machine.engine is None or not machine.engine.gases:
             return {}
-        found = self.diagrams.other_pressures(self.degrees)
-        return {number: self.shown("gas_pressure", one) for number, one in found.items()}
+        pressures = self.diagrams.other_pressures(self.degrees)
+        return {number: self.shown("gas_pressure", pressure) for number, pressure in pressures.items()}
 
     def shown(self, key: str, values: Array | float) -> Array:
         """Return SI values in the display unit of a quantity. [display unit]"""
@@ -100,7 +100,7 @@ class EngineDrawn:
     def finished(self, name: str, paper: Canvas, remark: str = "", *, forces: bool = False) -> Drawing:
         """Return a figure, with the method that made it."""
         if forces and self.per_area:
-            remark = "; ".join(one for one in (remark, say("report.per_area", self.language)) if one)
+            remark = "; ".join(text for text in (remark, say("report.per_area", self.language)) if text)
         write_method(paper, results_method(self.results, self.language), remark)
         return paper.drawing(figure_title(name, self.language), self.language)
 

@@ -107,10 +107,10 @@ def _polars(engine: EngineDrawn) -> dict[str, Draw]:
     """Return the polar diagram of every unlike crankpin; the first has no number."""
 
     def of_pin(pin: int) -> Draw:
-        return lambda one: crankpin_polar(one, pin)
+        return lambda engine_: crankpin_polar(engine_, pin)
 
     pins = list(engine.diagrams.loads[1].crankpins)
-    return {"crankpin_polar" if at == 0 else f"crankpin_polar_{pin}": of_pin(pin) for at, pin in enumerate(pins)}
+    return {"crankpin_polar" if index == 0 else f"crankpin_polar_{pin}": of_pin(pin) for index, pin in enumerate(pins)}
 
 
 def _remark(engine: EngineDrawn, kind: str) -> str:

@@ -44,16 +44,16 @@ def total_torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     box = box._replace(top=box.top + _FIRING, height=box.height - _FIRING)
     graph = over_cycle(paper, box, limits(total, shown), engine.cycle, language)
     firings(engine, graph)
-    for at, one in enumerate(shown):
-        style, colour = _look(at)
-        graph.curve(f"cylinder_{at + 1}", engine.diagrams.degrees, one, style, width=_THIN, colour=colour)
+    for index, torque_curve in enumerate(shown):
+        style, colour = _look(index)
+        graph.curve(f"cylinder_{index + 1}", engine.diagrams.degrees, torque_curve, style, width=_THIN, colour=colour)
     graph.curve("total", engine.diagrams.degrees, total, width=_NAMED)
     graph.level(mean, DASHED, "mean")
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(f"{engine.symbol('total_torque')}, {engine.symbol('crank_torque')}, {engine.unit('total_torque')}")
     if len(shown) > 1:
-        peaks = [(at, int(np.argmax(one))) for at, one in enumerate(shown)]
-        tips = [(str(at + 1), *graph.point(engine.diagrams.degrees[peak], shown[at][peak])) for at, peak in peaks]
+        peaks = [(index, int(np.argmax(torque_curve))) for index, torque_curve in enumerate(shown)]
+        tips = [(str(k + 1), *graph.point(engine.diagrams.degrees[peak], shown[k][peak])) for k, peak in peaks]
         label_marks(paper, tips, size=7.5, dot=1.2, frame=graph.box)
     return paper, {"total_torque": graph}
 
@@ -67,7 +67,7 @@ def _of_cylinders(engine: EngineDrawn, count: int) -> list[Row]:
     """Return what a legend says of the torques of so many cylinders, one line for each way they are dashed."""
     rows = []
     for first in range(min(count, len(_DASHES))):
-        numbers = ", ".join(str(at + 1) for at in range(first, count, len(_DASHES)))
+        numbers = ", ".join(str(index + 1) for index in range(first, count, len(_DASHES)))
         key = "drawing.cylinders" if "," in numbers else "drawing.cylinder"
         which = say(key, engine.language, number=numbers)
         other = _LIGHTER if "," in numbers else ""
@@ -81,15 +81,15 @@ def accumulated_torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]
     height = scaled_height(max(52.0, min(110.0, 560.0 / len(journals))))
     paper = Canvas(current_layout().width, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
     graphs, ends, top = {}, limits(journals), TOP
-    for at, values in enumerate(journals):
-        is_last = at == len(journals) - 1
+    for index, values in enumerate(journals):
+        is_last = index == len(journals) - 1
         box = ChartBox(current_layout().left, top, current_layout().inner, height)
         graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=is_last)
-        graph.curve(f"journal_{at + 2}", engine.diagrams.degrees, values)
-        graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{at + 2}$, {engine.unit('journal_torque')}")
-        name = row_name(f"main_journal.{at + 2}", engine.language)
+        graph.curve(f"journal_{index + 2}", engine.diagrams.degrees, values)
+        graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{index + 2}$, {engine.unit('journal_torque')}")
+        name = row_name(f"main_journal.{index + 2}", engine.language)
         small_text(paper, graph.box.left + graph.box.width - 3, box.top - 2, name, "end")
-        graphs[str(at + 2)] = graph
+        graphs[str(index + 2)] = graph
         top += graph.box.height + _PANEL_GAP
     graph.x_title(engine.title("crank_angle"))
     return paper, graphs
@@ -116,35 +116,35 @@ def excess_work(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     low, high = limits(energy, margin=max(0.16, _NAMES / lower))
     graph = over_cycle(paper, box, (low, high), engine.cycle, language)
     graph.curve("energy", engine.diagrams.degrees, energy)
-    found = excess.curve.extremes()
-    unit_less = [float(engine.shown("excess_work", one)) for one in (found.largest, found.least)]
-    for name, value, at in zip(("max", "min"), unit_less, (found.at_largest, found.at_least), strict=True):
+    extremes = excess.curve.extremes()
+    unit_less = [float(engine.shown("excess_work", value_si)) for value_si in (extremes.largest, extremes.least)]
+    for name, value, place in zip(("max", "min"), unit_less, (extremes.at_largest, extremes.at_least), strict=True):
         graph.level(value, DASH_DOT, f"level_{name}")
         symbol = engine.symbol("excess_work")[:-1]
         sign = f"{symbol}{',' if '_' in symbol else '_'}{name}$"
-        mark_point(graph, name, float(np.degrees(at)), value, sign)
-    at = 0.5 * engine.cycle * (0.02 if np.degrees(found.at_largest) > 0.1 * engine.cycle else 1.9)
-    _span(graph, at, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
+        mark_point(graph, name, float(np.degrees(place)), value, sign)
+    place = 0.5 * engine.cycle * (0.02 if np.degrees(extremes.at_largest) > 0.1 * engine.cycle else 1.9)
+    _span(graph, place, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
     engine.name_axes(graph, "crank_angle", "excess_work")
     return paper, {"torque": torque, "energy": graph}
 
 
 def _hatch(graph: Graph, degrees: Array, values: Array) -> None:
     """Hatch what lies over the horizontal axis."""
-    at = np.arange(0.0, degrees[-1], degrees[-1] / 144)
-    over = np.interp(at, degrees, values)
-    x, y, zero = graph.across(at), graph.down(over), float(graph.down(0.0))
+    angles = np.arange(0.0, degrees[-1], degrees[-1] / 144)
+    over = np.interp(angles, degrees, values)
+    x, y, zero = graph.across(angles), graph.down(over), float(graph.down(0.0))
     kept = over > 0
     graph.paper.segments(np.column_stack([x, np.full_like(x, zero), x, y])[kept], width=0.5, colour=GREY)
 
 
-def _span(graph: Graph, at: float, ends: list[float], text: str) -> None:
+def _span(graph: Graph, angle: float, ends: list[float], text: str) -> None:
     """Draw a double arrow between two levels with a text above the graph, where no curve is."""
-    x = float(graph.across(at))
-    top, bottom = (float(graph.down(one)) for one in ends)
+    x = float(graph.across(angle))
+    top, bottom = (float(graph.down(end)) for end in ends)
     graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.8)
     graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.8)
-    graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if at < graph.x[1] / 2 else "end")
+    graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if angle < graph.x[1] / 2 else "end")
 
 
 def crank_speed(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -169,8 +169,8 @@ def crank_speed(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     graph.curve("speed", engine.diagrams.degrees, values)
     graph.level(mean, DASHED, "mean")
     ends = speed.extremes
-    for name, value, at in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
+    for name, value, angle in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
         text = f"{engine.symbol('speed')[:-1]}_{name}$ = {engine.value('crank_speed', value, 5)}"
-        mark_point(graph, name, float(np.degrees(at)), float(engine.shown("crank_speed", value)), text)
+        mark_point(graph, name, float(np.degrees(angle)), float(engine.shown("crank_speed", value)), text)
     engine.name_axes(graph, "crank_angle", "crank_speed")
     return paper, {"crank_speed": graph}

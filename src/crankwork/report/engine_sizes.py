@@ -36,16 +36,16 @@ class Sizes(NamedTuple):
 
     def scaled(self, scale: float) -> Sizes:
         """Return them in other units of length."""
-        stations = {number: at * scale for number, at in self.stations.items()}
-        journals = tuple(at * scale for at in self.journals)
+        stations = {number: station * scale for number, station in self.stations.items()}
+        journals = tuple(journal * scale for journal in self.journals)
         lengths = {
             name: value * scale for name, value in self._asdict().items() if name not in ("stations", "journals")
         }
         return Sizes(**lengths, stations=stations, journals=journals)
 
-    def head(self, one: CylinderMoving) -> float:
-        """Return how far the head of a cylinder is from the shaft, along its axis."""
-        return one.top + self.crown + self.clearance
+    def head(self, cylinder: CylinderMoving) -> float:
+        """Return the distance of the head of a cylinder from the shaft, along its axis."""
+        return cylinder.top + self.crown + self.clearance
 
 
 def sizes(machine: Machine, engine: EngineMoving) -> Sizes:
@@ -56,7 +56,7 @@ def sizes(machine: Machine, engine: EngineMoving) -> Sizes:
     # what is drawn beside the crank is no larger than the crank lets it be
     small = min(bore, 1.6 * stroke)
     skirt, crown = min(_SKIRT * bore, 0.35 * stroke), min(_CROWN * bore, 0.6 * stroke)
-    beneath = min(one.bottom for one in engine.cylinders) - skirt
+    lowest = min(cylinder.bottom for cylinder in engine.cylinders) - skirt
     stations, journals = _along_shaft(engine, bore)
     pitch = (journals[-1] - journals[0]) / max(len(journals) - 1, 1)
     return Sizes(
@@ -68,7 +68,7 @@ def sizes(machine: Machine, engine: EngineMoving) -> Sizes:
         crown,
         skirt,
         _clearance(machine, stroke),
-        min(1.35 * radius, beneath - _WALL * bore) if _has_counterweights(machine) else 0.0,
+        min(1.35 * radius, lowest - _WALL * bore) if _has_counterweights(machine) else 0.0,
         stations,
         journals,
         min(known.main_length or _JOURNAL * pitch, 0.4 * pitch),
@@ -86,27 +86,30 @@ def _clearance(machine: Machine, stroke: float) -> float:
 
 
 def _has_counterweights(machine: Machine) -> bool:
-    whole = machine.engine
-    return whole is not None and bool(whole.counterweight or whole.rotating_share or whole.reciprocating_share)
+    engine = machine.engine
+    return engine is not None and bool(engine.counterweight or engine.rotating_share or engine.reciprocating_share)
 
 
 def _along_shaft(engine: EngineMoving, bore: float) -> tuple[dict[int, float], tuple[float, ...]]:
     """Return where cylinders and main journals stand; a usual distance apart where nobody says. [m]"""
     places, given = engine.layout.places, engine.layout.journal_positions
-    throws = 1 + max(one.throw for one in places)
+    throws = 1 + max(place.throw for place in places)
     if given or throws == 1:
         span = (-_PITCH * bore / 2, _PITCH * bore / 2)
-        return {one.number: one.position for one in places}, given or span
+        return {place.number: place.position for place in places}, given or span
     pitch, middle = _PITCH * bore, (throws - 1) / 2
-    stations = {one.number: (one.throw - middle) * pitch for one in places}
-    return stations, tuple((at - 0.5 - middle) * pitch for at in range(throws + 1))
+    stations = {place.number: (place.throw - middle) * pitch for place in places}
+    return stations, tuple((index - 0.5 - middle) * pitch for index in range(throws + 1))
 
 
 def reach(engine: EngineMoving, size: Sizes) -> Array:
     """Return places that an engine seen along the shaft reaches, shape (k, 2). [m]"""
     around = max(size.crank + 1.4 * size.pin, size.counterweight)
-    found = [np.array([[side * around, side * around] for side in (1, -1)])]
-    for one in engine.cylinders:
-        across = np.array([one.axis[1], -one.axis[0]])
-        found += [(size.head(one) * one.axis + (one.offset + side * size.bore / 2) * across)[None] for side in (1, -1)]
-    return np.vstack(found)
+    corners = [np.array([[side * around, side * around] for side in (1, -1)])]
+    for cylinder in engine.cylinders:
+        across = np.array([cylinder.axis[1], -cylinder.axis[0]])
+        corners += [
+            (size.head(cylinder) * cylinder.axis + (cylinder.offset + side * size.bore / 2) * across)[None]
+            for side in (1, -1)
+        ]
+    return np.vstack(corners)

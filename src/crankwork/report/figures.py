@@ -30,7 +30,9 @@ def figures(
     CrankworkError
         If forces per area are asked for where no bore is known.
     """
-    return {name: svg(one, theme) for name, one in drawings(results, language=language, per_area=per_area).items()}
+    return {
+        name: svg(drawing, theme) for name, drawing in drawings(results, language=language, per_area=per_area).items()
+    }
 
 
 @for_readers
@@ -49,11 +51,11 @@ def figure_names(results: Results, language: Language = "en") -> list[str]:
 
 
 def _pictures(results: Results, language: Language, *, per_area: bool) -> dict[str, Callable[[], Drawing]]:
-    """Return what draws each figure of a machine."""
+    """Return the functions that draw the figures of a machine."""
     listed = linkage_pictures if results.machine.turning is None else turning_pictures
-    found = listed(results, language)
+    pictures = listed(results, language)
     if "piston_displacement" in results.columns:
-        found |= engine_pictures(engine_drawn(results, language, per_area=per_area))
+        pictures |= engine_pictures(engine_drawn(results, language, per_area=per_area))
     if results.compared is not None and drawn_keys(results.compared):
-        found["comparison"] = partial(comparison_figure, results, results.compared, language, per_area=per_area)
-    return found
+        pictures["comparison"] = partial(comparison_figure, results, results.compared, language, per_area=per_area)
+    return pictures

@@ -68,10 +68,10 @@ _SUMS = ("crankpin_wear", "main_wear")
 
 
 def reader_units(results: Results) -> DisplayUnits:
-    """Return the units that a reader is shown: no force of 10000 N where all of them are told in kN."""
-    listed = (one.columns for name, one in results.listings.items() if name not in _SUMS)
+    """Return the display units for readers: forces in kN where many of them are above 10000 N."""
+    listed = (listing.columns for name, listing in results.listings.items() if name not in _SUMS)
     largest = dict.fromkeys(_LARGER, 0.0)
-    for key, values in itertools.chain(*(one.items() for one in (results.columns, *listed))):
+    for key, values in itertools.chain(*(columns.items() for columns in (results.columns, *listed))):
         unit = "" if _is_angle(key) or _is_time(key) else QUANTITIES[base_key(key)].metric
         if unit in largest:
             known = values[np.isfinite(values)]
@@ -131,7 +131,7 @@ def is_per_area(key: str) -> bool:
     return not _is_angle(key) and not _is_time(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
 
 
-def told_as(key: str, results: Results) -> str:
+def display_key(key: str, results: Results) -> str:
     """Return the key whose name a single value has: the mean torque of a linkage may be what its driver must give.
 
     What several cylinders deliver is that of all.
@@ -154,12 +154,12 @@ def label(key: str, language: Language) -> str:
 
 
 def _part(kind: str, name: str, language: Language) -> str:
-    """Return what a part of a quantity is called: the report's own phrase, or the name as it is."""
+    """Return the name of a part of a quantity: the report's own phrase, or the name as it is."""
     if kind in _DELIVERED and (name.isdecimal() or name == "all"):
-        told = say("drawing.all_cylinders", language)
-        return told if name == "all" else say("drawing.cylinder", language, number=name)
-    way = f"report.way_{name}"
-    key = way if kind in _BY_WAY and has_text(way) else f"report.{name}"
+        of_all = say("drawing.all_cylinders", language)
+        return of_all if name == "all" else say("drawing.cylinder", language, number=name)
+    method_key = f"report.way_{name}"
+    key = method_key if kind in _BY_WAY and has_text(method_key) else f"report.{name}"
     return say(key, language) if has_text(key) else own_name(kind, name)
 
 

@@ -33,24 +33,24 @@ _LEAST = 1e-6
 
 
 def centrodes(
-    mechanism: Mechanism, known: Mapping[str, Array], degrees: Array, at: int, style: Style
+    mechanism: Mechanism, known: Mapping[str, Array], degrees: Array, row: int, style: Style
 ) -> dict[str, Callable[[], Drawing]]:
-    """Return what draws both centrodes of a coupler at one crank angle; nothing where the centre is far away.
+    """Return the function that draws both centrodes of a coupler at one crank angle; none if the centre is far away.
 
     `at`: which of the crank angles [deg].
     """
     names = [key.partition(".")[2] for key in known if key.startswith("instant_centre_x.")]
     moved = moving(mechanism, degrees)
-    reach = _reach(np.vstack([one.place for one in moved.points.values()]))
-    found = {name: instant_centres(moved.frames[name], at) for name in names if name in moved.frames}
-    name = max(found, key=lambda one: _seen(found[one][0], reach), default="")
-    if not name or _seen(found[name][0], reach) < _SEEN:
+    reach = _reach(np.vstack([point.place for point in moved.points.values()]))
+    centres = {name: instant_centres(moved.frames[name], row) for name in names if name in moved.frames}
+    name = max(centres, key=lambda link: _seen(centres[link][0], reach), default="")
+    if not name or _seen(centres[name][0], reach) < _SEEN:
         return {}
 
     def draw() -> Drawing:
-        fixed, rolling = found[name]
+        fixed, rolling = centres[name]
         scale = float(displayed_values(QUANTITIES["point_x"], np.array(1.0)))
-        places = {name: one.place[at] * scale for name, one in moved.points.items()}
+        places = {name: point.place[row] * scale for name, point in moved.points.items()}
         letters = skeleton(mechanism, style.links).letters
         # the letter that tables have, unless a point has it
         centre = symbol("instant_centre_x", style.language).partition("_")[2]
@@ -58,18 +58,18 @@ def centrodes(
         rows = [
             Row(say("drawing.fixed_centrode", style.language, link=plain(name))),
             Row(
-                f"{say('drawing.moving_centrode', style.language)}, {position_text(float(degrees[at]), style)}",
+                f"{say('drawing.moving_centrode', style.language)}, {position_text(float(degrees[row]), style)}",
                 _ROLLING,
             ),
             Row(f"${centre}$ – {say('drawing.instant_centre', style.language)}", DOT),
         ]
         paper, box = sheet(scaled_height(_HIGH), rows)
-        graph = _graph(paper, box, np.vstack([one.place * scale for one in moved.points.values()]), style)
+        graph = _graph(paper, box, np.vstack([point.place * scale for point in moved.points.values()]), style)
         _linkage(graph, skeleton(mechanism, style.links).members, places)
         for key, path, dashes in (("fixed_centrode", fixed, SOLID), ("moving_centrode", rolling, _ROLLING)):
             graph.curve(key, *_within(graph, path * scale), dashes)
-        marks = [(plain(letters[point]), *graph.point(*at)) for point, at in places.items() if point in letters]
-        x, y = fixed[at] * scale
+        marks = [(plain(letters[point]), *graph.point(*place)) for point, place in places.items() if point in letters]
+        x, y = fixed[row] * scale
         if graph.x[0] < x < graph.x[1] and graph.y[0] < y < graph.y[1]:
             marks.append((f"${centre}$", *graph.point(float(x), float(y))))
         label_marks(paper, marks, frame=graph.box)
@@ -82,15 +82,15 @@ def centrodes(
     return {"centrodes": draw}
 
 
-def instant_centres(frame: Frame, at: int) -> tuple[Array, Array]:
+def instant_centres(frame: Frame, row: int) -> tuple[Array, Array]:
     """Return the instant centre on the ground, and on the coupler where it is at one crank angle. [m]"""
     rate = np.where(np.abs(frame.angle_1) > _LEAST, frame.angle_1, np.nan)
-    way = frame.origin.place_1 / rate[:, None]
-    fixed = frame.origin.place + np.column_stack([-way[:, 1], way[:, 0]])
+    offset = frame.origin.place_1 / rate[:, None]
+    fixed = frame.origin.place + np.column_stack([-offset[:, 1], offset[:, 0]])
     across = np.column_stack([-frame.along[:, 1], frame.along[:, 0]])
     off = fixed - frame.origin.place
     u, v = np.sum(off * frame.along, axis=1), np.sum(off * across, axis=1)
-    return fixed, frame.origin.place[at] + u[:, None] * frame.along[at] + v[:, None] * across[at]
+    return fixed, frame.origin.place[row] + u[:, None] * frame.along[row] + v[:, None] * across[row]
 
 
 def _seen(path: Array, reach: tuple[Array, Array]) -> float:
@@ -120,8 +120,8 @@ def _graph(paper: Canvas, box: ChartBox, places: Array, style: Style) -> Graph:
 
 def _linkage(graph: Graph, members: Sequence[Member], places: Mapping[str, Array]) -> None:
     """Draw the links as lines between their points."""
-    for one in members:
-        for start, end in combinations([places[name] for name in one.points if name in places], 2):
+    for member in members:
+        for start, end in combinations([places[name] for name in member.points if name in places], 2):
             x, y = graph.across(np.array([start[0], end[0]])), graph.down(np.array([start[1], end[1]]))
             graph.paper.line(x, y, width=1.8, colour=_LINK)
 

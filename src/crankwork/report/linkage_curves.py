@@ -51,38 +51,38 @@ def curves(
     `columns`: values in SI by key, `joint_force.A` for what belongs to a point or link; `panels`: keys of each panel;
     those of one panel share a unit; `remark`: what stands beneath.
     """
-    every = [_panel((one,) if isinstance(one, str) else tuple(one), columns) for one in panels]
-    if not every:
+    all_panels = [_panel((panel,) if isinstance(panel, str) else tuple(panel), columns) for panel in panels]
+    if not all_panels:
         raise CrankworkError("curves need at least one key")
-    # what is zero throughout is said in words
-    sets = [one for one in every if any(np.any(columns[row.key]) for row in one)] or every
-    shown = [[displayed_values(row, columns[row.key]) for row in one] for one in sets]
+    # quantities that are zero throughout are named in a remark
+    sets = [panel for panel in all_panels if any(np.any(columns[row.key]) for row in panel)] or all_panels
+    shown = [[displayed_values(row, columns[row.key]) for row in panel] for panel in sets]
     # beside a panel among others there is no room for a name
-    has_legends = any(_has_legend(one, style) for one in sets)
-    legends = [_rows(*one, style) if has_legends else [] for one in zip(sets, shown, strict=True)]
+    has_legends = any(_has_legend(panel, style) for panel in sets)
+    legends = [_rows(*panel, style) if has_legends else [] for panel in zip(sets, shown, strict=True)]
     above = [legend_height(rows) for rows in legends]
     room = (_TALLEST - BOTTOM - sum(above)) / len(sets) - _GAP
     high = scaled_height(_ALONE if len(sets) == 1 else min(_PANEL, room))
     paper = Canvas(current_layout().width, TOP + sum(above) + len(sets) * (high + _GAP) - _GAP + BOTTOM)
-    at = degrees * style.period / 360.0 if style.period else degrees
+    abscissas = degrees * style.period / 360.0 if style.period else degrees
     top = TOP
     for quantities, values, rows, height in zip(sets, shown, legends, above, strict=True):
         legend(paper, rows, top - 4)
         box = ChartBox(current_layout().left, top + height, current_layout().inner, high)
         is_place = quantities[0].key.partition(".")[0] in _PLACES
         ends = limits(*values, is_place=is_place)
-        graph = drive_graph(paper, box, at, ends, style, is_last=quantities is sets[-1])
-        _draw(graph, at, quantities, values)
+        graph = drive_graph(paper, box, abscissas, ends, style, is_last=quantities is sets[-1])
+        _draw(graph, abscissas, quantities, values)
         graph.y_title(_title(quantities, style, has_legend=has_legends))
         top += height + graph.box.height + _GAP
-    dead = "; ".join(f"{number(round(one, 2), style.language)}°" for one in style.limits)
-    zero = [math_symbol(row.symbol(style.language)) for one in every if one not in sets for row in one]
+    dead = "; ".join(f"{number(round(limit, 2), style.language)}°" for limit in style.limits)
+    zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
     remarks = [
         say("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
         remark,
     ]
-    write_method(paper, style.method, "; ".join(one for one in remarks if one))
+    write_method(paper, style.method, "; ".join(text for text in remarks if text))
     return paper.drawing(title, style.language)
 
 
@@ -91,11 +91,11 @@ def _panel(keys: tuple[str, ...], columns: Mapping[str, Array]) -> list[Quantity
     missing = [key for key in keys if key not in columns]
     if missing:
         raise CrankworkError(f"there is no column {missing[0]}; there is {', '.join(columns)}")
-    found = [quantity_of(key) for key in keys]
-    units = {row.unit for row in found}
+    quantities = [quantity_of(key) for key in keys]
+    units = {row.unit for row in quantities}
     if len(units) > 1:
         raise CrankworkError(f"{', '.join(keys)} have different units; give each a panel of its own")
-    return found
+    return quantities
 
 
 def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
@@ -103,43 +103,43 @@ def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
     return len(quantities) > 1 or "." in quantities[0].key or len(quantities[0].label(style.language)) > _LONG
 
 
-def _draw(graph: Graph, at: Array, quantities: Sequence[Quantity], values: Sequence[Array]) -> None:
+def _draw(graph: Graph, abscissas: Array, quantities: Sequence[Quantity], values: Sequence[Array]) -> None:
     """Draw the curves of a panel, and the extremes of one that is alone."""
     for order, together in enumerate(_together(values)):
-        first, *others = together
-        for one in others:
-            graph.curves[quantities[one].key] = at, values[one]
-        graph.curve(quantities[first].key, at, values[first], STYLES[order % 4])
+        first, *further = together
+        for other in further:
+            graph.curves[quantities[other].key] = abscissas, values[other]
+        graph.curve(quantities[first].key, abscissas, values[first], STYLES[order % 4])
     known = np.where(np.isfinite(values[0]), values[0], 0.0)
     if len(values) > 1 or np.ptp(known) <= _SAME * np.max(np.abs(known)):
         return
     for name, where in (("max", int(np.argmax(known))), ("min", int(np.argmin(known)))):
-        # what is nothing beside the largest is rounding
+        # a value that is zero beside the largest is rounding
         value = float(known[where]) if abs(known[where]) > _ROUNDING * np.max(np.abs(known)) else 0.0
-        mark_point(graph, name, float(at[where]), value, graph.tick_text(value))
+        mark_point(graph, name, float(abscissas[where]), value, graph.tick_text(value))
 
 
 def _together(values: Sequence[Array]) -> list[list[int]]:
-    """Return which curves of a panel fall together, so that they are drawn once."""
-    size = max((float(np.ptp(one[np.isfinite(one)])) for one in values if np.isfinite(one).any()), default=0.0)
+    """Return the groups of curves of a panel that coincide, so that each is drawn once."""
+    size = max((float(np.ptp(row[np.isfinite(row)])) for row in values if np.isfinite(row).any()), default=0.0)
     # constants differ by rounding
-    size += _ROUNDING * max((float(np.max(np.abs(one[np.isfinite(one)]), initial=0.0)) for one in values), default=0.0)
-    found: list[list[int]] = []
-    for at, one in enumerate(values):
-        for some in found:
-            if np.allclose(values[some[0]], one, rtol=0.0, atol=_SAME * size, equal_nan=True):
-                some.append(at)
+    size += _ROUNDING * max((float(np.max(np.abs(row[np.isfinite(row)]), initial=0.0)) for row in values), default=0.0)
+    groups: list[list[int]] = []
+    for index, column in enumerate(values):
+        for group in groups:
+            if np.allclose(values[group[0]], column, rtol=0.0, atol=_SAME * size, equal_nan=True):
+                group.append(index)
                 break
         else:
-            found.append([at])
-    return found
+            groups.append([index])
+    return groups
 
 
 def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style) -> list[Row]:
     rows = []
     for order, together in enumerate(_together(values)):
-        signs = dict.fromkeys(math_symbol(quantities[one].symbol(style.language)) for one in together)
-        names = (plain(quantities[one].label(style.language)) for one in together)
+        signs = dict.fromkeys(math_symbol(quantities[index].symbol(style.language)) for index in together)
+        names = (plain(quantities[index].label(style.language)) for index in together)
         rows.append(Row(f"{', '.join(signs)} – {'; '.join(names)}", STYLES[order % 4]))
     return rows
 

@@ -49,16 +49,18 @@ def linkage_sketch(
         Polyline(path * UNIT, "axis", name=f"path.{name}") for name, path in zip(shape.traced, paths, strict=True)
     ]
     written = [
-        part(f"text.{at}", [_text(one.text, slanted=not one.is_number)], one.places * UNIT)
-        for at, one in enumerate(texts, start=1)
+        part(f"text.{index}", [_text(label.text, slanted=not label.is_number)], label.places * UNIT)
+        for index, label in enumerate(texts, start=1)
     ]
-    places = np.vstack([corners(drawn), *(one.places + side * one.half for one in texts for side in (1, -1))]) * UNIT
+    places = (
+        np.vstack([corners(drawn), *(label.places + side * label.half for label in texts for side in (1, -1))]) * UNIT
+    )
     walls, filled = gas(chambers, scale * UNIT)
-    places = np.vstack([places, *(one.points for one in walls)])
+    places = np.vstack([places, *(wall.points for wall in walls)])
     parts = [*filled, *_parts(drawn), *written]
     low, high = places.min(axis=0), places.max(axis=0)
     sketch = Sketch([*items, *walls, *ground(drawn)], parts, low, high, scale * UNIT)
-    points = {name: at * UNIT for name, at in drawn.points.items()}
+    points = {name: point * UNIT for name, point in drawn.points.items()}
     return with_forces(sketch, forces_in_joints(columns or {}, points, forces or {}), frame)
 
 
@@ -71,7 +73,7 @@ def ground(drawn: Scene, middle: Array | tuple[float, float] = (0.0, 0.0)) -> li
     """Return guides and pivots, hatched; `middle`: where the origin stands on the paper [mm]."""
     items: list[Item] = []
     for rail in drawn.rails:
-        ends = [rail.line.place(one)[0] * UNIT + middle for one in (rail.start - 14, rail.end + 14)]
+        ends = [rail.line.place(end)[0] * UNIT + middle for end in (rail.start - 14, rail.end + 14)]
         items.append(line(ends[0], ends[1], "axis"))
         for start, end in walls(rail):
             items += hatched(start * UNIT + middle, end * UNIT + middle)
@@ -80,10 +82,10 @@ def ground(drawn: Scene, middle: Array | tuple[float, float] = (0.0, 0.0)) -> li
     return items
 
 
-def pivot(at: Array) -> list[Item]:
+def pivot(position: Array) -> list[Item]:
     """Return the support of a fixed joint: a triangle upon hatched ground. [mm]"""
-    triangle = at + np.array([[0.0, 0.0], [-13.0, -24.0], [13.0, -24.0]]) * UNIT
-    foot = [at + np.array([side, -24.0]) * UNIT for side in (20.0, -20.0)]
+    triangle = position + np.array([[0.0, 0.0], [-13.0, -24.0], [13.0, -24.0]]) * UNIT
+    foot = [position + np.array([side, -24.0]) * UNIT for side in (20.0, -20.0)]
     return [Polyline(triangle, "medium", closed=True, fill=1.0), *hatched(*foot)]
 
 
@@ -104,20 +106,20 @@ def walls(rail: Rail) -> list[tuple[Array, Array]]:
 
 
 def _parts(drawn: Scene) -> Iterator[Part]:
-    """Yield what moves: rams, links, slots and the blocks in them, the driving link, joints upon all."""
+    """Yield the moving parts: rams, links, slots and the blocks in them, the driving link, joints upon all."""
     driver = drawn.skeleton.driver
-    for block in (one for one in drawn.blocks if one.is_still):
+    for block in (block_ for block_ in drawn.blocks if block_.is_still):
         yield _block(block)
-    numbers = {name: count(1) for name in [one.name for one in drawn.bars]}
-    for bar in sorted(drawn.bars, key=lambda one: one.is_flat):
+    numbers = {name: count(1) for name in [bar_.name for bar_ in drawn.bars]}
+    for bar in sorted(drawn.bars, key=lambda item: item.is_flat):
         if bar.name != driver.name:
             yield _link(bar, _LINK, next(numbers[bar.name]))
-    for at, slot in enumerate(drawn.slots, start=1):
+    for index, slot in enumerate(drawn.slots, start=1):
         middle, half = slot_middle(slot)
-        yield _carried(f"slot.{slot.carrier}.{at}", Pose(middle, slot.line.along), _slotted(half), 1.0)
-    for block in (one for one in drawn.blocks if not one.is_still):
+        yield _carried(f"slot.{slot.carrier}.{index}", Pose(middle, slot.line.along), _slotted(half), 1.0)
+    for block in (block_ for block_ in drawn.blocks if not block_.is_still):
         yield _block(block)
-    for bar in (one for one in drawn.bars if one.name == driver.name):
+    for bar in (bar_ for bar_ in drawn.bars if bar_.name == driver.name):
         yield _link(bar, _BARREL if driver.rod else _DRIVER, next(numbers[bar.name]))
     for name in drawn.skeleton.letters:
         if name in drawn.points:
@@ -149,9 +151,9 @@ def _carried(name: str, pose: Pose, outline: Array, fill: float) -> Part:
 def _link(bar: Bar, pen: Pen, number: int) -> Part:
     """Return a link as a line, or as a plate between its points."""
     start = bar.nodes[0]
-    far = max(bar.nodes[1:], key=lambda one: float(np.hypot(*(one[0] - start[0]))))
-    way = far - start
-    turns = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))
+    far = max(bar.nodes[1:], key=lambda node: float(np.hypot(*(node[0] - start[0]))))
+    vector = far - start
+    turns = np.unwrap(np.arctan2(vector[:, 1], vector[:, 0]))
     cos, sin = np.cos(turns[0]), np.sin(turns[0])
     nodes = np.array([node[0] - start[0] for node in bar.nodes]) @ np.array([[cos, -sin], [sin, cos]]) * UNIT
     shape = Polyline(nodes, pen) if bar.is_flat else Polyline(nodes, _LINK, closed=True, fill=0.93)
@@ -165,17 +167,17 @@ def slot_middle(slot: Slot) -> tuple[Array, float]:
 
 def corners(drawn: Scene) -> Array:
     """Return places that the parts of a linkage reach, shape (k, 2)."""
-    found = [*drawn.points.values(), *(node for bar in drawn.bars for node in bar.nodes)]
+    places = [*drawn.points.values(), *(node for bar in drawn.bars for node in bar.nodes)]
     for slot in drawn.slots:
-        found += [slot.line.place(end, side) for end in (slot.start, slot.end) for side in (SLOT, -SLOT)]
+        places += [slot.line.place(end, side) for end in (slot.start, slot.end) for side in (SLOT, -SLOT)]
     for block in drawn.blocks:
         u, v = block.half
-        found += [block.pose.place(x, y) for x in (u, -u) for y in (v, -v)]
+        places += [block.pose.place(x, y) for x in (u, -u) for y in (v, -v)]
     for rail in drawn.rails:
         outside = rail.half + HATCH
-        found += [
+        places += [
             rail.line.place(end, side) for end in (rail.start - 14, rail.end + 14) for side in (outside, -outside)
         ]
     for name in drawn.skeleton.pivots:
-        found += [drawn.points[name] + np.array(reach) for reach in _GROUND_REACH]
-    return np.vstack(found)
+        places += [drawn.points[name] + np.array(reach) for reach in _GROUND_REACH]
+    return np.vstack(places)

@@ -55,27 +55,29 @@ def linkage_pictures(results: Results, language: Language) -> Pictures:
 
 def _of_drawing(results: Results, linkage: Linkage, style: Style) -> Pictures:
     """Return the figures of a linkage that was drawn, between its dead positions."""
-    machine, (found, _) = results.machine, structure(linkage)
-    ends = [results.summary[one] for one in ("crank_range_start", "crank_range_end") if one in results.summary]
-    style = style._replace(links=found.links if found is not None else (), limits=tuple(np.degrees(ends).tolist()))
+    machine, (drawn_structure, _) = results.machine, structure(linkage)
+    ends = [results.summary[key] for key in ("crank_range_start", "crank_range_end") if key in results.summary]
+    style = style._replace(
+        links=drawn_structure.links if drawn_structure is not None else (), limits=tuple(np.degrees(ends).tolist())
+    )
     degrees, is_whole = reached_angles(machine, _DENSE_STEP)
     worked = worked_position(results)
     degrees = np.union1d(_with_corners(results, degrees), worked)
     known = without_rounding(results.columns_at(degrees), results.solved.speed)
     rates = driver_rates(results, known)
     drawn = _driver(degrees, known, style) if style.period else {}
-    at = int(np.searchsorted(degrees, worked))
-    drawn |= _plans(machine, degrees, at, rates, style, is_whole=is_whole)
+    row = int(np.searchsorted(degrees, worked))
+    drawn |= _plans(machine, degrees, row, rates, style, is_whole=is_whole)
     drawn |= _sliders(degrees, known, style)
     drawn |= _links(degrees, known, style)
     drawn |= _points(degrees, known, style)
     if not style.period:
-        drawn |= centrodes(machine.mechanism, known, degrees, at, style)
+        drawn |= centrodes(machine.mechanism, known, degrees, row, style)
     drawn |= chamber_figures(results, degrees, known, style)
     drawn |= _dynamics(degrees, known, style)
     if "joint_forces" in drawn:
-        drawn |= force_figure(results, float(degrees[at]), style)
-        drawn |= {} if style.period else lever_figure(results, float(degrees[at]), style)
+        drawn |= force_figure(results, float(degrees[row]), style)
+        drawn |= {} if style.period else lever_figure(results, float(degrees[row]), style)
     drawn |= transient_figures(results, style)
     if is_whole:
         drawn |= _evenness(results, degrees, known, style)
@@ -84,33 +86,33 @@ def _of_drawing(results: Results, linkage: Linkage, style: Style) -> Pictures:
 
 def _with_corners(results: Results, degrees: Array) -> Array:
     """Return crank angles with those of extremes, and on both sides of where a load jumps or bends. [deg]"""
-    found = breaks_of([results.memory[key] for key in results.columns if key in results.memory], results.machine.cycle)
+    breaks = breaks_of([results.memory[key] for key in results.columns if key in results.memory], results.machine.cycle)
     single = (results.memory[key].node for key in results.summary if key in results.memory)
-    extremes = [one.at for one in single if isinstance(one, Found) and one.at is not None]
-    found = np.concatenate([found, found + _AFTER, extremes])
-    return np.union1d(degrees, found[(found >= degrees[0]) & (found <= degrees[-1])])
+    extremes = [node.at for node in single if isinstance(node, Found) and node.at is not None]
+    breaks = np.concatenate([breaks, breaks + _AFTER, extremes])
+    return np.union1d(degrees, breaks[(breaks >= degrees[0]) & (breaks <= degrees[-1])])
 
 
 def _closed(degrees: Array, columns: Mapping[str, Array], cycle: float) -> tuple[Array, Mapping[str, Array]]:
-    """Return a table up to the end of its cycle, where it is what it was at the beginning."""
+    """Return a table closed over its cycle, with the first row repeated at the end."""
     step = float(degrees[-1] - degrees[-2])
     if degrees[0] != 0 or abs(degrees[-1] + step - cycle) > _AFTER:
         return degrees, columns
-    return np.append(degrees, cycle), {key: np.append(one, one[0]) for key, one in columns.items()}
+    return np.append(degrees, cycle), {key: np.append(column, column[0]) for key, column in columns.items()}
 
 
-def _plans(machine: Machine, degrees: Array, at: int, rates: DriverRates, style: Style, *, is_whole: bool) -> Pictures:
-    """Return position plans of all that is reached, and the plans of velocity and acceleration at one crank angle.
+def _plans(machine: Machine, degrees: Array, row: int, rates: DriverRates, style: Style, *, is_whole: bool) -> Pictures:
+    """Return position plans over the whole motion, and the plans of velocity and acceleration at one crank angle.
 
     `at`: which of the crank angles.
     """
     mechanism = machine.mechanism
     ends = None if is_whole else (float(degrees[0]), float(degrees[-1]))
-    plans = {"position_plans": partial(position_plans, mechanism, ends, float(degrees[at]), style)}
-    moved, first, second = moving(mechanism, degrees), float(rates.first[at]), float(rates.second[at])
+    plans = {"position_plans": partial(position_plans, mechanism, ends, float(degrees[row]), style)}
+    moved, first, second = moving(mechanism, degrees), float(rates.first[row]), float(rates.second[row])
     return plans | {
-        "velocity_plan": partial(velocity_plan, mechanism, moved, at, first, style),
-        "acceleration_plan": partial(acceleration_plan, mechanism, moved, at, first, second, style),
+        "velocity_plan": partial(velocity_plan, mechanism, moved, row, first, style),
+        "acceleration_plan": partial(acceleration_plan, mechanism, moved, row, first, second, style),
     }
 
 
@@ -134,7 +136,7 @@ def _links(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures
 def _points(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
     """Return place, velocity and acceleration of the points that have names of their own."""
     kinds = ("point_x", "point_y", "point_velocity", "point_acceleration")
-    names = [one for one in _named(known, kinds[2]) if "." not in one]
+    names = [name for name in _named(known, kinds[2]) if "." not in name]
     return _by_fours("points", kinds, names, degrees, known, style)
 
 
@@ -152,13 +154,13 @@ def _by_fours(
     style: Style,
 ) -> Pictures:
     """Return quantities of all that have them, a few in each figure; those after the first have numbers."""
-    names = [one for one in names if all(f"{kind}.{one}" in known for kind in kinds)]
-    found: Pictures = {}
+    names = [name for name in names if all(f"{kind}.{name}" in known for kind in kinds)]
+    pictures: Pictures = {}
     for first in range(0, len(names), _PER_PANEL):
         name = f"{figure}_{first // _PER_PANEL + 1}" if first else figure
-        panels = [[f"{kind}.{one}" for one in names[first : first + _PER_PANEL]] for kind in kinds]
-        found[name] = partial(curves, degrees, known, panels, figure_title(name, style.language), style)
-    return found
+        panels = [[f"{kind}.{name}" for name in names[first : first + _PER_PANEL]] for kind in kinds]
+        pictures[name] = partial(curves, degrees, known, panels, figure_title(name, style.language), style)
+    return pictures
 
 
 def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
@@ -191,10 +193,10 @@ def _dynamics(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictu
 
 
 def _friction(degrees: Array, known: Mapping[str, Array], style: Style) -> Pictures:
-    """Return what the driver needs with and without friction, and the efficiency."""
+    """Return the driving forces and torques with and without friction, and the efficiency."""
     pairs = (("balancing_torque", "torque_with_friction"), ("driver_force", "driver_force_with_friction"),
              ("driver_torque", "driver_torque_with_friction"))  # fmt: skip
-    panels = [[one for one in pair if one in known] for pair in pairs if pair[1] in known]
+    panels = [[key for key in pair if key in known] for pair in pairs if pair[1] in known]
     ratio = [["instantaneous_efficiency"]] if "instantaneous_efficiency" in known else []
     if not panels or not all(np.isfinite(known[key]).any() for key in itertools.chain(*panels, *ratio)):
         return {}
@@ -208,15 +210,15 @@ def _evenness(results: Results, degrees: Array, known: Mapping[str, Array], styl
         return {}
     speed, drive = results.solved.speed, results.machine.drive
     evenness = Fluctuation(speed, results.summary["speed_fluctuation"])
-    course: Pictures = {"speed": partial(speed_curve, degrees, known["crank_speed"], evenness, style)}
+    pictures: Pictures = {"speed": partial(speed_curve, degrees, known["crank_speed"], evenness, style)}
     if drive.fluctuation is None:
-        return course
+        return pictures
     wanted = Fluctuation(speed, drive.fluctuation)
     energy, inertia = known["kinetic_energy_change"], known["reduced_inertia"]
     if np.any(inertia):
         # without masses the energy stands over one point
-        course["wittenbauer"] = partial(wittenbauer, inertia, energy, wanted, degrees, style)
-    return course
+        pictures["wittenbauer"] = partial(wittenbauer, inertia, energy, wanted, degrees, style)
+    return pictures
 
 
 _KINDS = ("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
@@ -226,7 +228,7 @@ def chamber_figures(
     results: Results, degrees: Array, known: Mapping[str, Array], style: Style = PLAIN
 ) -> dict[str, Callable[[], Drawing]]:
     """Return the figures of the gas by name; none without chambers."""
-    panels = [keys for kind in _KINDS for keys in _panels([one for one in known if one.partition(".")[0] == kind])]
+    panels = [keys for kind in _KINDS for keys in _panels([key for key in known if key.partition(".")[0] == kind])]
     if not panels:
         return {}
     return {
@@ -237,20 +239,20 @@ def chamber_figures(
 
 def indicator(results: Results, style: Style = PLAIN) -> Drawing:
     """Return pressure over volume of every chamber."""
-    found = indicators(results)
+    diagrams = indicators(results)
     volume, pressure = quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
     drawn = {
-        name: (displayed_values(volume, one.volume), displayed_values(pressure, one.pressure))
-        for name, one in found.items()
+        name: (displayed_values(volume, diagram.volume), displayed_values(pressure, diagram.pressure))
+        for name, diagram in diagrams.items()
     }
     rows = [Row(plain(name), STYLES[number % 4]) for number, name in enumerate(drawn)] if len(drawn) > 1 else []
     paper, box = sheet(259.0, rows)
-    x, y = (limits(*some, margin=0.05) for some in zip(*drawn.values(), strict=True))
+    x, y = (limits(*values, margin=0.05) for values in zip(*drawn.values(), strict=True))
     graph = Graph(paper, box, x, y, style.language)
     graph.frame(round_ticks(*x), round_ticks(*y, 10))
     for number, (name, (across, up)) in enumerate(drawn.items()):
         # tables of a law over time go by time
-        angles = found[name].degrees * (results.period / 360.0 if results.period else 1.0)
+        angles = diagrams[name].degrees * (results.period / 360.0 if results.period else 1.0)
         graph.curve(name, across, up, STYLES[number % 4], angles=angles)
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))

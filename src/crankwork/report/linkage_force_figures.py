@@ -43,16 +43,16 @@ _FEWEST, _MOST = 3, 4
 
 
 def force_figure(results: Results, degrees: float, style: Style) -> dict[str, Callable[[], Drawing]]:
-    """Return what draws the force plans at a crank angle [deg]; nothing where no group has more than two forces."""
-    plans = [one for one in force_plans(results, degrees) if len(one.forces) >= _FEWEST][:_MOST]
+    """Return the function that draws the force plans at a crank angle [deg]; none if no group has three forces."""
+    plans = [plan for plan in force_plans(results, degrees) if len(plan.forces) >= _FEWEST][:_MOST]
     if not plans:
         return {}
-    numbers = {one.name: one.number for one in skeleton(results.machine.mechanism, style.links).members}
+    numbers = {member.name: member.number for member in skeleton(results.machine.mechanism, style.links).members}
     return {"force_plans": partial(_figure, plans, numbers, degrees, style)}
 
 
 def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, style: Style) -> Drawing:
-    title, spans = figure_title("force_plans", style.language), [np.ptp(_ends(one), axis=0) for one in plans]
+    title, spans = figure_title("force_plans", style.language), [np.ptp(_ends(plan), axis=0) for plan in plans]
     # upright ones side by side where there is room
     upright = sum(bool(high > wide) for wide, high in spans)
     columns = 2 if current_layout().width > _TWO and upright > max(1, len(plans) / 2) else 1
@@ -60,18 +60,18 @@ def _figure(plans: list[ForcePlan], numbers: dict[str, int], degrees: float, sty
     most = scaled_height(min(_HIGHEST, _WHOLE / len(rows)))
     heights = []
     for row in rows:
-        listed = max(len(one.forces) + len(one.links) for one in row)
-        heights.append(max(_ROW * listed + _HEAD, *(_needed(one, most, columns) for one in row)))
+        listed = max(len(plan.forces) + len(plan.links) for plan in row)
+        heights.append(max(_ROW * listed + _HEAD, *(_needed(plan, most, columns) for plan in row)))
     paper = Canvas(current_layout().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
     top, wide, scales = TOP, current_layout().width / columns, set[float]()
     for row, height in zip(rows, heights, strict=True):
-        for at, plan in enumerate(row):
-            scales.add(_plan(paper, plan, ChartBox(at * wide, top, wide, height), numbers, style.language))
+        for index, plan in enumerate(row):
+            scales.add(_plan(paper, plan, ChartBox(index * wide, top, wide, height), numbers, style.language))
         top += height + _HEAD
     shown = f"{position_sign(style)} = {position_text(degrees, style)}"
     paper.text(current_layout().width - 14, paper.height - 20, shown, anchor="end")
     remarks = ["force_plan", *(["own_scales"] if len(scales) > 1 else [])]
-    write_method(paper, style.method, "; ".join(say(f"drawing.{one}", style.language) for one in remarks))
+    write_method(paper, style.method, "; ".join(say(f"drawing.{remark}", style.language) for remark in remarks))
     return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
 
 
@@ -98,68 +98,68 @@ def _plan(paper: Canvas, plan: ForcePlan, place: ChartBox, numbers: dict[str, in
     x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)
     graph = Graph(paper, ChartBox(left, top + _HEAD, width, height), x, y, language, to_scale=False)
     marks = []
-    corners = np.array([graph.point(*(one * unit)) for one in ends])
-    sides = _beside_each_other(corners)
-    for at, one in enumerate(plan.forces):
-        start, end = sides[at]
-        for corner, moved in zip(corners[at : at + 2], sides[at], strict=True):
+    corners = np.array([graph.point(*(end * unit)) for end in ends])
+    sides = _separated_sides(corners)
+    for index, force in enumerate(plan.forces):
+        start, end = sides[index]
+        for corner, moved in zip(corners[index : index + 2], sides[index], strict=True):
             if np.any(corner != moved):
                 paper.line([corner[0], moved[0]], [corner[1], moved[1]], width=0.4, colour=GREY)
-        paper.arrow(start, end, width=_REACTION if one.kind != "load" else _LOAD, style=SOLID)
-        marks.append((_symbol(one, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
+        paper.arrow(start, end, width=_REACTION if force.kind != "load" else _LOAD, style=SOLID)
+        marks.append((_symbol(force, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
     label_marks(paper, marks, dot=0.0)
     links = ", ".join(str(numbers.get(link, link)) for link in plan.links)
     head = say("drawing.links" if len(plan.links) > 1 else "drawing.link", language, links=links)
     paper.text(left + 14, top + 10, f"{head}: {scale_text('μ_F', scale, row.unit, language)}")
-    for count, one in enumerate(plan.forces):
-        shown = number(float(f"{_size(one):.4g}"), language)
-        text = f"{_symbol(one, numbers, language)} = {shown} {unit_name(row.unit, language)}"
+    for count, force in enumerate(plan.forces):
+        shown = number(float(f"{_size(force):.4g}"), language)
+        text = f"{_symbol(force, numbers, language)} = {shown} {unit_name(row.unit, language)}"
         paper.text(left + width, top + _HEAD + 12 + _ROW * count, text, size=8.5)
-    names = {at: name for name, at in numbers.items()}
-    for count, key in enumerate(key_of_links(names, (numbers[one] for one in plan.links if one in numbers))):
+    names = {own_number: name for name, own_number in numbers.items()}
+    for count, key in enumerate(key_of_links(names, (numbers[link] for link in plan.links if link in numbers))):
         paper.text(left + width, top + _HEAD + 12 + _ROW * (len(plan.forces) + count), key, size=8.5)
     return scale
 
 
 def _ends(plan: ForcePlan) -> Array:
     """Return the corners of the polygon of a group, shape (n, 2). [displayed unit]"""
-    ends = np.vstack([np.zeros(2), np.cumsum([(one.x, one.y) for one in plan.forces], axis=0)])
+    ends = np.vstack([np.zeros(2), np.cumsum([(force.x, force.y) for force in plan.forces], axis=0)])
     return displayed_values(QUANTITIES["joint_force"], ends)
 
 
-def _beside_each_other(corners: Array) -> list[Array]:
+def _separated_sides(corners: Array) -> list[Array]:
     """Return the sides of a polygon, those that would lie over others shifted across. [pt]"""
     placed: list[Array] = []
     for start, end in pairwise(corners):
-        way = end - start
-        across = np.array([-way[1], way[0]]) / max(float(np.hypot(*way)), 1e-9)
+        side = end - start
+        across = np.array([-side[1], side[0]]) / max(float(np.hypot(*side)), 1e-9)
         lanes = [np.array([start, end]) + lane * _LANE * across for lane in _LANES]
-        free = [one for one in lanes if not any(_lie_over(one, other) for other in placed)]
+        free = [lane for lane in lanes if not any(_lie_over(lane, other) for other in placed)]
         placed.append((free or lanes)[0])
     return placed
 
 
-def _lie_over(one: Array, other: Array) -> bool:
+def _lie_over(first: Array, second: Array) -> bool:
     """Return whether two sides lie along each other."""
-    way, length = one[1] - one[0], float(np.hypot(*(one[1] - one[0])))
+    vector, length = first[1] - first[0], float(np.hypot(*(first[1] - first[0])))
     if length < _LANE:
         return False
-    off = other - one[0]
-    along, apart = off @ way / length, np.abs(off @ np.array([-way[1], way[0]])) / length
-    return bool(np.all(apart < _NEAR)) and min(along.max(), length) - max(along.min(), 0.0) > _LANE
+    off = second - first[0]
+    along, distance = off @ vector / length, np.abs(off @ np.array([-vector[1], vector[0]])) / length
+    return bool(np.all(distance < _NEAR)) and min(along.max(), length) - max(along.min(), 0.0) > _LANE
 
 
-def _size(one: PlanForce) -> float:
-    values: Array = displayed_values(QUANTITIES["joint_force"], np.array(one.size))
+def _size(force: PlanForce) -> float:
+    values: Array = displayed_values(QUANTITIES["joint_force"], np.array(force.size))
     return float(values)
 
 
-def _symbol(one: PlanForce, numbers: dict[str, int], language: Language) -> str:
+def _symbol(force: PlanForce, numbers: dict[str, int], language: Language) -> str:
     """Return the symbol of a force: that of its joint, of its guide, of the loads on its link, or of the driver."""
-    if one.kind == "driver":
+    if force.kind == "driver":
         return math_symbol(QUANTITIES["driver_force"].symbol(language))
-    if one.kind == "load":
-        return math_symbol(f"F_{numbers.get(one.name, plain(one.name))}")
-    if one.kind == "guide":
-        return math_symbol(f"N_{numbers.get(one.name, plain(one.name))}")
-    return math_symbol(QUANTITIES["joint_force"]._replace(key=f"joint_force.{one.name}").symbol(language))
+    if force.kind == "load":
+        return math_symbol(f"F_{numbers.get(force.name, plain(force.name))}")
+    if force.kind == "guide":
+        return math_symbol(f"N_{numbers.get(force.name, plain(force.name))}")
+    return math_symbol(QUANTITIES["joint_force"]._replace(key=f"joint_force.{force.name}").symbol(language))

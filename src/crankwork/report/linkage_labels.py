@@ -40,21 +40,21 @@ class Label(NamedTuple):
         return np.array([4.4 * len(self.text) + 1.5, 6.5])
 
 
-def labels(drawn: Scene, fixed: Sequence[Array] = (), *, every: int = _EVERY) -> list[Label]:
+def labels(drawn: Scene, fixed: Sequence[Array] = (), *, stride: int = _EVERY) -> list[Label]:
     """Return the names of points and the numbers of links."""
-    obstacles, owners = _samples(drawn, every)
+    obstacles, owners = _samples(drawn, stride)
     still = np.vstack([*fixed, np.zeros((0, 2))])
     count = obstacles.shape[0]
     obstacles = np.concatenate([obstacles, np.broadcast_to(still, (count, *still.shape))], axis=1)
     owners += [""] * len(still)
     placed: list[Label] = []
     # without pivots there is no place for the number of the ground
-    for text, of, ways in (one for one in _wanted(drawn) if one[2]):
+    for text, link, ways in (label for label in _wanted(drawn) if label[2]):
         # places on other links, of which a number could be
-        others = np.array([bool(of and one and one != of) for one in owners])
-        seen = _Seen(np.ascontiguousarray(obstacles[..., 0]), np.ascontiguousarray(obstacles[..., 1]), others)
-        choices = [(Label(text, place, bool(of)), extra) for place, extra in ways]
-        placed.append(_cheapest(choices, seen, placed, every))
+        is_other = np.array([bool(link and owner and owner != link) for owner in owners])
+        seen = _Seen(np.ascontiguousarray(obstacles[..., 0]), np.ascontiguousarray(obstacles[..., 1]), is_other)
+        choices = [(Label(text, place, bool(link)), extra) for place, extra in ways]
+        placed.append(_cheapest(choices, seen, placed, stride))
     return placed
 
 
@@ -63,51 +63,51 @@ class _Seen(NamedTuple):
 
     x: Array
     y: Array
-    others: NDArray[np.bool_]
+    is_other: NDArray[np.bool_]
 
 
-def _cheapest(ways: Sequence[tuple[Label, float]], seen: _Seen, placed: Sequence[Label], every: int) -> Label:
+def _cheapest(ways: Sequence[tuple[Label, float]], seen: _Seen, placed: Sequence[Label], stride: int) -> Label:
     """Return the label that costs least; one that costs more at least than another does is not looked at."""
-    best, found = np.inf, 0
-    seen = _reachable([label for label, _ in ways], seen, every)
-    names = np.array([one.places[::every] for one in placed]), np.array([[one.half] for one in placed])
-    for at in sorted(range(len(ways)), key=lambda one: ways[one][1]):
-        label, extra = ways[at]
+    best, chosen = np.inf, 0
+    seen = _reachable([label for label, _ in ways], seen, stride)
+    names = np.array([label.places[::stride] for label in placed]), np.array([[label.half] for label in placed])
+    for index in sorted(range(len(ways)), key=lambda candidate: ways[candidate][1]):
+        label, extra = ways[index]
         if extra > best:
             break
-        cost = _cost(label, extra, seen, names, every)
-        best, found = min((best, found), (cost, at))
-    return ways[found][0]
+        cost = _cost(label, extra, seen, names, stride)
+        best, chosen = min((best, chosen), (cost, index))
+    return ways[chosen][0]
 
 
-def _reachable(ways: Sequence[Label], seen: _Seen, every: int) -> _Seen:
+def _reachable(ways: Sequence[Label], seen: _Seen, stride: int) -> _Seen:
     """Return the places that a label could cover, or be read as the number of, at one place or another."""
-    places = np.array([one.places[::every] for one in ways])
-    half = np.max([one.half for one in ways], axis=0) + (_NEAR if seen.others.any() else 0.0)
+    places = np.array([label.places[::stride] for label in ways])
+    half = np.max([label.half for label in ways], axis=0) + (_NEAR if seen.is_other.any() else 0.0)
     low, high = places.min(axis=0) - half, places.max(axis=0) + half
     near = (seen.x > low[:, :1]) & (seen.x < high[:, :1]) & (seen.y > low[:, 1:]) & (seen.y < high[:, 1:])
     kept = near.any(axis=0)
-    return _Seen(np.ascontiguousarray(seen.x[:, kept]), np.ascontiguousarray(seen.y[:, kept]), seen.others[kept])
+    return _Seen(np.ascontiguousarray(seen.x[:, kept]), np.ascontiguousarray(seen.y[:, kept]), seen.is_other[kept])
 
 
-def _cost(label: Label, extra: float, seen: _Seen, names: tuple[Array, Array], every: int) -> float:
-    centre, half = label.places[::every, None], label.half
+def _cost(label: Label, extra: float, seen: _Seen, names: tuple[Array, Array], stride: int) -> float:
+    centre, half = label.places[::stride, None], label.half
     off = seen.x - centre[..., 0], seen.y - centre[..., 1]
     covered = (np.abs(off[0]) < half[0]) & (np.abs(off[1]) < half[1])
     cost = extra + 10.0 * float(np.count_nonzero(covered)) / len(centre)
-    if seen.others.any():
-        # beside another link as near as beside its own it says the wrong thing
-        apart = np.hypot(off[0][:, seen.others], off[1][:, seen.others]).min(axis=1)
-        cost += 60.0 * float(np.mean(apart < _NEAR))
+    if seen.is_other.any():
+        # a number as close to another link as to its own is misleading
+        distance = np.hypot(off[0][:, seen.is_other], off[1][:, seen.is_other]).min(axis=1)
+        cost += 60.0 * float(np.mean(distance < _NEAR))
     middles, halves = names
     if len(middles):
-        covers = np.all(np.abs(middles - label.places[::every]) < half + halves + (11.0, 2.0), axis=2)
+        covers = np.all(np.abs(middles - label.places[::stride]) < half + halves + (11.0, 2.0), axis=2)
         cost += 60.0 * float(covers.mean(axis=1).sum())
     return cost
 
 
 def _wanted(drawn: Scene) -> Iterator[tuple[str, str, list[tuple[Array, float]]]]:
-    """Yield each text, the link it is the number of, the places where it could go, and what each costs at least."""
+    """Yield each text, the link it numbers, the places where it could be, and the least cost of each."""
     shape = drawn.skeleton
     seen: set[str] = set()
     for name, letter in shape.letters.items():
@@ -120,9 +120,12 @@ def _wanted(drawn: Scene) -> Iterator[tuple[str, str, list[tuple[Array, float]]]
                 "",
                 [(drawn.points[name] + spot, 0.0) for spot in supports]
                 + [
-                    (drawn.points[name] + (reach + wide * abs(way[0])) * way, 0.4 * (reach - 15) + 0.2 * rank)
+                    (
+                        drawn.points[name] + (reach + wide * abs(direction[0])) * direction,
+                        0.4 * (reach - 15) + 0.2 * rank,
+                    )
                     for reach in _REACHES
-                    for rank, way in enumerate(_AROUND)
+                    for rank, direction in enumerate(_AROUND)
                 ],
             )
     spots = [(side * x, -y) for x, y in ((32, 24), (30, 12), (36, 36), (12, 46)) for side in (1, -1)]
@@ -131,37 +134,40 @@ def _wanted(drawn: Scene) -> Iterator[tuple[str, str, list[tuple[Array, float]]]
         GROUND,
         [(drawn.points[name] + spot, 3.0 * rank) for rank, name in enumerate(shape.pivots) for spot in spots],
     )
-    for one in shape.members:
-        yield str(one.number), one.name, list(_number_ways(drawn, one.name))
-        if one.rod:
-            yield str(one.rod), rod_name(one.name), list(_number_ways(drawn, rod_name(one.name)))
+    for member in shape.members:
+        yield str(member.number), member.name, list(_number_ways(drawn, member.name))
+        if member.rod:
+            yield str(member.rod), rod_name(member.name), list(_number_ways(drawn, rod_name(member.name)))
 
 
 def _is_crossed(drawn: Scene, name: str) -> bool:
     """Return whether a joint goes over a centre of mass, whose name would be in a heap with its own."""
-    at, others = drawn.points[name], [one for one in drawn.skeleton.letters if one not in drawn.skeleton.centres]
+    place, joints = (
+        drawn.points[name],
+        [letter for letter in drawn.skeleton.letters if letter not in drawn.skeleton.centres],
+    )
     return name in drawn.skeleton.centres and any(
-        np.hypot(*(drawn.points[one] - at).T).min() < _JOINT for one in others if one in drawn.points
+        np.hypot(*(drawn.points[joint] - place).T).min() < _JOINT for joint in joints if joint in drawn.points
     )
 
 
 def _number_ways(drawn: Scene, name: str) -> Iterator[tuple[Array, float]]:
-    """Yield the places beside a link or block, and what each of them costs at least."""
-    for block in (one for one in drawn.blocks if one.name == name):
+    """Yield the places beside a link or block, and the least cost of each."""
+    for block in (item for item in drawn.blocks if item.name == name):
         ways = product((10, 18, 26), (-0.6, 0.0, 0.6, -1.3, 1.3), (1, -1))
         for reach, share, side in ways:
             yield block.pose.place(share * block.half[0], side * (block.half[1] + reach)), 0.3 * reach
-    for slot in (one for one in drawn.slots if one.carrier == name):
+    for slot in (item for item in drawn.slots if item.carrier == name):
         for share, side in product((0.2, 0.5, 0.8), (1, -1)):
             yield slot.line.place(slot.start + share * (slot.end - slot.start), side * (SLOT + 10)), 6.0
-    for bar in (one for one in drawn.bars if one.name == name):
+    for bar in (item for item in drawn.bars if item.name == name):
         if not bar.is_flat:
             yield np.asarray(np.mean(bar.nodes, axis=0)), -8.0
         for start, end in _edges(bar.nodes, is_flat=bar.is_flat):
-            yield from _beside(start, end)
+            yield from _places_along(start, end)
 
 
-def _beside(start: Array, end: Array) -> Iterator[tuple[Array, float]]:
+def _places_along(start: Array, end: Array) -> Iterator[tuple[Array, float]]:
     """Yield the places beside a line, its middle first."""
     along = end - start
     left = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-9)[:, None]
@@ -175,13 +181,13 @@ def _edges(nodes: Sequence[Array], *, is_flat: bool) -> Iterator[tuple[Array, Ar
         yield nodes[-1], nodes[0]
 
 
-def _samples(drawn: Scene, every: int) -> tuple[Array, list[str]]:
+def _samples(drawn: Scene, stride: int) -> tuple[Array, list[str]]:
     """Return places on everything that is drawn, shape (frames, k, 2), and the links that they are on."""
     lines = [(bar.name, edge) for bar in drawn.bars for edge in _edges(bar.nodes, is_flat=bar.is_flat)]
     for slot in drawn.slots:
         sides = (SLOT, -SLOT)
         ends = ((slot.line.place(slot.start, side), slot.line.place(slot.end, side)) for side in sides)
-        lines += [(slot.carrier, one) for one in ends]
+        lines += [(slot.carrier, end) for end in ends]
     for block in drawn.blocks:
         u, v = block.half
         rows = np.linspace(v, -v, max(3, int(v / _STEP))).tolist()
@@ -189,14 +195,14 @@ def _samples(drawn: Scene, every: int) -> tuple[Array, list[str]]:
     for rail in drawn.rails:
         for side in (rail.half, rail.half + 6, -rail.half, -rail.half - 6):
             lines.append(("", (rail.line.place(rail.start, side), rail.line.place(rail.end, side))))
-    for at in (place for name, place in drawn.points.items() if name in drawn.skeleton.pivots):
-        feet = [(at, np.add(at, foot)) for foot in ((-13.0, -24.0), (13.0, -24.0))]
-        feet += [(np.add(at, (-26.0, drop)), np.add(at, (20.0, drop))) for drop in (-24.0, -31.0)]
-        lines += [("", one) for one in feet]
-    found, owners = [place[::every, None] for place in drawn.points.values()], [""] * len(drawn.points)
+    for pivot in (place for name, place in drawn.points.items() if name in drawn.skeleton.pivots):
+        feet = [(pivot, np.add(pivot, foot)) for foot in ((-13.0, -24.0), (13.0, -24.0))]
+        feet += [(np.add(pivot, (-26.0, drop)), np.add(pivot, (20.0, drop))) for drop in (-24.0, -31.0)]
+        lines += [("", foot_line) for foot_line in feet]
+    samples, owners = [place[::stride, None] for place in drawn.points.values()], [""] * len(drawn.points)
     for name, (start, end) in lines:
         length = float(np.max(np.hypot(*(end - start).T)))
         shares = np.linspace(0, 1, max(2, int(length / _STEP)))[:, None]
-        found.append(start[::every, None] + shares * (end - start)[::every, None])
+        samples.append(start[::stride, None] + shares * (end - start)[::stride, None])
         owners += [name] * len(shares)
-    return np.concatenate(found, axis=1), owners
+    return np.concatenate(samples, axis=1), owners

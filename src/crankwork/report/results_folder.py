@@ -58,8 +58,8 @@ def results_folder(
         yield {"machine.svg": moving_svg(film, on_screen)}
     free = free_course(results)
     if free is not None:
-        yield {"transient.svg": moving_svg(moving_drawing(results, language=language, way=free), on_screen)}
+        yield {"transient.svg": moving_svg(moving_drawing(results, language=language, path=free), on_screen)}
     if formats:
         drawn = drawings(results, language=language, per_area=per_area)
-        for one in formats:
-            yield {f"figures/{name}.{one}": FORMATS[one](drawing, theme) for name, drawing in drawn.items()}
+        for ending in formats:
+            yield {f"figures/{name}.{ending}": FORMATS[ending](drawing, theme) for name, drawing in drawn.items()}

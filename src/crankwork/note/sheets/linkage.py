@@ -60,13 +60,13 @@ def linkage_sheets(results: Results, language: Language, paper: Paper) -> Iterat
         known |= _words(results, language)
     subjects: list[tuple[str, str, list[Picture]]] = []
     for name, (title, kinds) in _SHEETS.items():
-        pictures = [Picture(one, known[one]) for kind in kinds for one in known if kind_of(one) == kind]
+        pictures = [Picture(key, known[key]) for kind in kinds for key in known if kind_of(key) == kind]
         # one or two figures would leave a sheet of their own empty
         if subjects and len(pictures) in (1, 2) and len(subjects[-1][2]) + len(pictures) <= _FULL:
-            first, before, others = subjects[-1]
+            first, before, joined_pictures = subjects[-1]
             heading = say(title, language)
             joined = before if len(pictures) == 1 else f"{before}; {heading[:1].lower()}{heading[1:]}"
-            subjects[-1] = first, joined, [*others, *pictures]
+            subjects[-1] = first, joined, [*joined_pictures, *pictures]
         elif pictures:
             subjects.append((name, say(title, language), pictures))
     for name, title, pictures in subjects:
@@ -74,29 +74,29 @@ def linkage_sheets(results: Results, language: Language, paper: Paper) -> Iterat
 
 
 def _words(results: Results, language: Language) -> Pictures:
-    """Return plans at a dozen positions, and what sheets say in words and tables, of a linkage that was drawn."""
+    """Return plans at a dozen positions, and the texts and tables of the sheets, of a linkage that was drawn."""
     machine = results.machine
-    mechanism, (found, _) = machine.mechanism, structure(machine.drawn)
-    style = Style(language, found.links if found is not None else (), period=results.period)
+    mechanism, (analysed, _) = machine.mechanism, structure(machine.drawn)
+    style = Style(language, analysed.links if analysed is not None else (), period=results.period)
     degrees, _ = reached_angles(machine, _DENSE_STEP)
-    nearest = [int(np.argmin(np.abs(degrees - one))) for one in _POSITIONS]
-    shown = [at for at, one in zip(nearest, _POSITIONS, strict=True) if abs(degrees[at] - one) < _DENSE_STEP]
-    at = positions(results, degrees[shown], skeleton(mechanism, style.links), style)
-    drawn: Pictures = {"structure": partial(structure_block, at, found)} if found is not None else {}
-    drawn |= {**motion_tables(at), **reactions_table(at)}
-    return drawn | _plans(at, moving(mechanism, at.degrees))
+    nearest = [int(np.argmin(np.abs(degrees - angle))) for angle in _POSITIONS]
+    shown = [row for row, angle in zip(nearest, _POSITIONS, strict=True) if abs(degrees[row] - angle) < _DENSE_STEP]
+    data = positions(results, degrees[shown], skeleton(mechanism, style.links), style)
+    drawn: Pictures = {"structure": partial(structure_block, data, analysed)} if analysed is not None else {}
+    drawn |= {**motion_tables(data), **reactions_table(data)}
+    return drawn | _plans(data, moving(mechanism, data.degrees))
 
 
-def _plans(at: Positions, moved: Moving) -> Pictures:
-    """Return velocity plans at all positions, acceleration plans at three of them, and what is read on them."""
-    mechanism, style, language, scales = at.results.machine.mechanism, at.style, at.language, Scales()
-    rates = driver_rates(at.results, at.columns)
+def _plans(data: Positions, moved: Moving) -> Pictures:
+    """Return velocity plans at all positions, acceleration plans at three of them, and the values read on them."""
+    mechanism, style, language, scales = data.results.machine.mechanism, data.style, data.language, Scales()
+    rates = driver_rates(data.results, data.columns)
 
-    every = range(len(at.degrees))
-    chosen = [one for one in _ACCELERATIONS if one < len(every)] or [0]
+    rows = range(len(data.degrees))
+    chosen = [row for row in _ACCELERATIONS if row < len(rows)] or [0]
     first, second = rates.first.tolist(), rates.second.tolist()
-    fast = [size_of(velocities(mechanism, moved, one, first[one], style.links)) for one in every]
-    faster = [size_of(accelerations(mechanism, moved, one, first[one], second[one], style.links)) for one in chosen]
+    fast = [size_of(velocities(mechanism, moved, row, first[row], style.links)) for row in rows]
+    faster = [size_of(accelerations(mechanism, moved, row, first[row], second[row], style.links)) for row in chosen]
 
     def moving_at(position: int) -> Drawing:
         plan = velocity_plan(mechanism, moved, position, first[position], style, position, fast)
@@ -106,16 +106,16 @@ def _plans(at: Positions, moved: Moving) -> Pictures:
         plan = acceleration_plan(mechanism, moved, position, first[position], second[position], style, position, faster)
         return scales.kept("a", position, plan)
 
-    moves = [one for one in every if rates.first[one]]
+    moves = [row for row in rows if rates.first[row]]
     plans: Pictures = {
-        "velocity_plans": _grid("velocity_plans", [partial(moving_at, one) for one in every], 4, scales, language),
+        "velocity_plans": _grid("velocity_plans", [partial(moving_at, row) for row in rows], 4, scales, language),
         "acceleration_plans": _grid(
-            "acceleration_plans", [partial(accelerated, one) for one in chosen], 3, scales, language
+            "acceleration_plans", [partial(accelerated, row) for row in chosen], 3, scales, language
         ),
-        "scales": partial(scales_table, at, scales, {"v": moves, "a": chosen}),
+        "scales": partial(scales_table, data, scales, {"v": moves, "a": chosen}),
     }
-    if comparable(at):
-        plans["compared"] = partial(compared_table, at, scales, [one for one in chosen if one in moves])
+    if comparable(data):
+        plans["compared"] = partial(compared_table, data, scales, [row for row in chosen if row in moves])
     return plans
 
 

@@ -29,7 +29,7 @@ _CLASSES = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 # points whose plans are compared, and what a reading on paper is rounded to [mm]
 _MOST_COMPARED, _READING = 3, 1
 # of the largest velocity or acceleration of a table, what is none
-_NOTHING = 1e-6
+_ZERO_TOLERANCE = 1e-6
 
 Draw = Callable[[], Drawing]
 
@@ -48,12 +48,12 @@ class Positions(NamedTuple):
         """The language of its texts."""
         return self.style.language
 
-    def first(self, some: Sequence[int]) -> list[Column]:
-        """Return the columns that say which positions these are."""
-        places = [position_text(float(self.degrees[at]), self.style) for at in some]
+    def first(self, rows: Sequence[int]) -> list[Column]:
+        """Return the columns that name these positions."""
+        places = [position_text(float(self.degrees[row]), self.style) for row in rows]
         drive = symbol("time" if self.style.period else "crank_angle", self.language)
         return [
-            Column(say("columns.position", self.language), [str(at) for at in some]), Column(f"${drive}$", places)
+            Column(say("columns.position", self.language), [str(row) for row in rows]), Column(f"${drive}$", places)
         ]  # fmt: skip
 
     def column(self, key: str, sign: str = "") -> Column:
@@ -65,8 +65,8 @@ class Positions(NamedTuple):
 
     def number_of(self, link: str) -> str:
         """Return the number of a link, or its name where it has none."""
-        found = next((one.number for one in self.shape.members if one.name == link), 0)
-        return str(found) if found else plain(link)
+        own_number = next((member.number for member in self.shape.members if member.name == link), 0)
+        return str(own_number) if own_number else plain(link)
 
 
 def positions(results: Results, degrees: Array, shape: Skeleton, style: Style) -> Positions:
@@ -75,70 +75,70 @@ def positions(results: Results, degrees: Array, shape: Skeleton, style: Style) -
     return Positions(results, columns, degrees, shape, style)
 
 
-def structure_block(at: Positions, found: Structure) -> Drawing:
-    """Draw what the linkage is made of: mobility, formula of structure and class, links, speed and method."""
-    language, results = at.language, at.results
-    count, low, high = len(found.links), found.joints, found.meshes
+def structure_block(data: Positions, analysed: Structure) -> Drawing:
+    """Draw the structure of the linkage: mobility, formula of structure and class, links, speed and method."""
+    language, results = data.language, data.results
+    count, low, high = len(analysed.links), analysed.joints, analysed.meshes
     sum_ = f"3·{count} − 2·{low}" + (f" − {high}" if high else "")
     entries = [
-        f"${symbol('mobility', language)}$ = 3$n$ − 2$p_5$ − $p_4$ = {sum_} = {found.mobility}",
-        f"{found.formula.replace('->', '→')}",
-        f"{say('columns.class', language)}: {_CLASSES[min(found.number, len(_CLASSES) - 1)]}",
+        f"${symbol('mobility', language)}$ = 3$n$ − 2$p_5$ − $p_4$ = {sum_} = {analysed.mobility}",
+        f"{analysed.formula.replace('->', '→')}",
+        f"{say('columns.class', language)}: {_CLASSES[min(analysed.number, len(_CLASSES) - 1)]}",
     ]
     speed = results.solved.speed
-    if speed and not at.style.period:
+    if speed and not data.style.period:
         row = quantity_of("rotational_speed")
         turns = number(float(displayed_values(row, np.asarray(speed))), language)
         entries.append(f"${row.symbol(language)}$ = {turns} {unit_name(row.unit, language)}")
-        told = number(float(f"{speed:.6g}"), language)
-        entries.append(f"${symbol('speed', language)}_1$ = {told} {unit_name('rad/s', language)}")
+        shown = number(float(f"{speed:.6g}"), language)
+        entries.append(f"${symbol('speed', language)}_1$ = {shown} {unit_name('rad/s', language)}")
     entries.append(f"{say('report.method', language)}: {results_method(results, language)}")
-    names = ((number, called(name, language).replace("_", " ")) for number, name in numbered(at.shape) if number)
+    names = ((number, called(name, language).replace("_", " ")) for number, name in numbered(data.shape) if number)
     links = [f"{number} – {plain(name)}" for number, name in names]
-    if any(not one.endswith(f" {one.partition(' ')[0]}") for one in links):
+    if any(not link.endswith(f" {link.partition(' ')[0]}") for link in links):
         entries.append(f"{say('columns.members', language)}: {', '.join(links)}")
     return text_block(entries, say("headings.structure", language), language)
 
 
-def motion_tables(at: Positions) -> dict[str, Draw]:
-    """Return what draws the tables of velocities and of accelerations at all positions."""
-    found: dict[str, Draw] = {}
+def motion_tables(data: Positions) -> dict[str, Draw]:
+    """Return functions that draw the tables of velocities and of accelerations at all positions."""
+    drawn: dict[str, Draw] = {}
     kinds = {
         "velocities": ("point_velocity", "slider_velocity", "link_angular_velocity"),
         "accelerations": ("point_acceleration", "slider_acceleration", "link_angular_acceleration"),
     }
     for name, (points, sliders, links) in kinds.items():
-        columns = [at.column(f"{points}.{joint}") for joint in _joints(at, points)]
-        columns += [at.column(key) for key in _named(at.columns, sliders)]
-        mark = symbol("speed" if name == "velocities" else "angular_acceleration", at.language)
-        for key in _named(at.columns, links):
-            columns.append(at.column(key, f"${mark}_{at.number_of(key.partition('.')[2])}$"))
+        columns = [data.column(f"{points}.{joint}") for joint in _joints(data, points)]
+        columns += [data.column(key) for key in _named(data.columns, sliders)]
+        mark = symbol("speed" if name == "velocities" else "angular_acceleration", data.language)
+        for key in _named(data.columns, links):
+            columns.append(data.column(key, f"${mark}_{data.number_of(key.partition('.')[2])}$"))
         if columns:
-            title = say(f"captions.{name}", at.language)
-            found[name] = partial(table, at.first(range(len(at.degrees))), columns, title, at.language)
-    return found
+            title = say(f"captions.{name}", data.language)
+            drawn[name] = partial(table, data.first(range(len(data.degrees))), columns, title, data.language)
+    return drawn
 
 
-def _joints(at: Positions, kind: str) -> list[str]:
+def _joints(data: Positions, kind: str) -> list[str]:
     """Return the points that are joints or draw a path, and of which results have a column."""
-    shape = at.shape
-    return [name for name in shape.letters if f"{kind}.{name}" in at.columns and name not in shape.centres]
+    shape = data.shape
+    return [name for name in shape.letters if f"{kind}.{name}" in data.columns and name not in shape.centres]
 
 
 def _named(columns: Iterable[str], kind: str) -> list[str]:
     return [key for key in columns if key.startswith(f"{kind}.")]
 
 
-def reactions_table(at: Positions) -> dict[str, Draw]:
-    """Return what draws the table of forces in joints and guides, and of what balances them."""
+def reactions_table(data: Positions) -> dict[str, Draw]:
+    """Return the function that draws the table of forces in joints and guides and of the balancing torque or force."""
     kinds = ("joint_force", "normal_force", "balancing_torque", "driver_force")
-    keys = [key for key in at.columns if key.partition(".")[0] in kinds]
-    keys = any_nonzero(keys, at.columns)
+    keys = [key for key in data.columns if key.partition(".")[0] in kinds]
+    keys = any_nonzero(keys, data.columns)
     if not any("." in key for key in keys):
         return {}
-    columns = [at.column(key) for key in keys]
-    title = say("sheets.reactions", at.language)
-    return {"reactions": partial(table, at.first(range(len(at.degrees))), columns, title, at.language)}
+    columns = [data.column(key) for key in keys]
+    title = say("sheets.reactions", data.language)
+    return {"reactions": partial(table, data.first(range(len(data.degrees))), columns, title, data.language)}
 
 
 class Scales:
@@ -162,9 +162,9 @@ class Scales:
         return self._found.get((sign, position), float("nan"))
 
 
-def scales_table(at: Positions, scales: Scales, seen: Mapping[str, Sequence[int]]) -> Drawing:
+def scales_table(data: Positions, scales: Scales, seen: Mapping[str, Sequence[int]]) -> Drawing:
     """Draw the scales of the plans at all positions; `seen`: which positions have a plan that shows anything."""
-    language, rows, columns = at.language, list[str](), list[list[str]]([] for _ in at.degrees)
+    language, rows, columns = data.language, list[str](), list[list[str]]([] for _ in data.degrees)
     for sign, unit in (("v", "m/s"), ("a", "m/s2")):
         rows.append(f"$μ_{sign}$, ({unit_name(unit, language)})/{unit_name('mm', language)}")
         for position, column in enumerate(columns):
@@ -175,32 +175,32 @@ def scales_table(at: Positions, scales: Scales, seen: Mapping[str, Sequence[int]
     return table([before], positions_, say("sheets.scales", language), language)
 
 
-def compared_table(at: Positions, scales: Scales, some: Sequence[int]) -> Drawing:
-    """Draw what is measured on the plans at some positions beside what is calculated, and the difference."""
-    language, pin = at.language, at.shape.pin
-    points = [one for one in _joints(at, "point_velocity") if one != pin][:_MOST_COMPARED]
-    lines = [(position, name) for position in some for name in points]
-    found: list[Column] = []
+def compared_table(data: Positions, scales: Scales, rows: Sequence[int]) -> Drawing:
+    """Draw measured values on the plans at some positions beside calculated ones, and the difference."""
+    language, pin = data.language, data.shape.pin
+    points = [joint for joint in _joints(data, "point_velocity") if joint != pin][:_MOST_COMPARED]
+    lines = [(position, name) for position in rows for name in points]
+    shown: list[Column] = []
     for sign, key, unit in (("v", "point_velocity", "m/s"), ("a", "point_acceleration", "m/s2")):
-        exact = [float(at.columns[f"{key}.{name}"][position]) for position, name in lines]
+        exact = [float(data.columns[f"{key}.{name}"][position]) for position, name in lines]
         ends = [_read(value, scales.of(sign, position)) for value, (position, _) in zip(exact, lines, strict=True)]
         plans = [end * scales.of(sign, position) for end, (position, _) in zip(ends, lines, strict=True)]
-        # of what is nothing beside the others there is no share
-        least = _NOTHING * max(exact, default=0.0)
-        off = [100 * (one - other) / other if other > least else math.nan
-               for one, other in zip(plans, exact, strict=True)]  # fmt: skip
+        # values that are zero beside the others have no relative difference
+        least = _ZERO_TOLERANCE * max(exact, default=0.0)
+        off = [100 * (drawn - calculated) / calculated if calculated > least else math.nan
+               for drawn, calculated in zip(plans, exact, strict=True)]  # fmt: skip
         per, mm = unit_name(unit, language), unit_name("mm", language)
-        found += [
-            Column(f"${sign}$ {say('sheets.on_plan', language)}, {mm}", [number(one, language) for one in ends]),
+        shown += [
+            Column(f"${sign}$ {say('sheets.on_plan', language)}, {mm}", [number(end, language) for end in ends]),
             Column(f"${sign}$ {say('sheets.graphic', language)}, {per}", numbers(plans, language)),
             Column(f"${sign}$ {say('sheets.analytic', language)}, {per}", numbers(exact, language)),
-            Column(f"Δ${sign}$, %", [_share(one, language) for one in off]),
+            Column(f"Δ${sign}$, %", [_share(share, language) for share in off]),
         ]
     before = [
-        *at.first([position for position, _ in lines]),
-        Column(say("columns.point", language), [node_name(plain(at.shape.letters[name])) for _, name in lines]),
+        *data.first([position for position, _ in lines]),
+        Column(say("columns.point", language), [node_name(plain(data.shape.letters[name])) for _, name in lines]),
     ]
-    return table(before, found, say("sheets.compared", language), language)
+    return table(before, shown, say("sheets.compared", language), language)
 
 
 def _share(value: float, language: Language) -> str:
@@ -214,6 +214,6 @@ def _read(value: float, scale: float) -> float:
     return round(value / scale, _READING) if scale == scale else 0.0  # noqa: PLR0124 - not a number
 
 
-def comparable(at: Positions) -> bool:
+def comparable(data: Positions) -> bool:
     """Return whether there is a point whose velocities can be read on plans."""
-    return any(one != at.shape.pin for one in _joints(at, "point_velocity"))
+    return any(joint != data.shape.pin for joint in _joints(data, "point_velocity"))
