@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,13 +12,13 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.forces import force_functions
+from crankwork.formula.expression import Expression, Operation, Symbol
 from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
 from crankwork.machine import Machine
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.engine_lines import cycle_lines, engine_lines
 from crankwork.note.groups import Group
 from crankwork.note.options import NoteOptions
-from crankwork.note.textbook import TRANSFER, in_one_formula
 from crankwork.note.words import EngineWords
 from crankwork.report.figure_data import figure_title, kind_of
 from crankwork.report.figures import drawings
@@ -29,6 +30,13 @@ from crankwork.units import from_si
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
 _TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "bearing_load_max", "mean_bearing_load")
+# what follows from a transfer function, which stands before it
+_OF_TRANSFER = {
+    f"{key}{order}": f"{transfer}{order}"
+    for key, transfer in (("piston_velocity", "piston_transfer_1"), ("piston_acceleration", "piston_transfer_2"))
+    for order in ("", "_first_order", "_second_order")
+} | {"inertia_acceleration": "piston_transfer_2.inertia"}
+TRANSFER = tuple(_OF_TRANSFER.values())
 
 
 @dataclass
@@ -302,3 +310,36 @@ def _range(key: str, shown: Material) -> str:
     low, high = (words.number(float(value), digits=4) for value in (values.min(), values.max()))
     named = label(key, words.language)
     return words.phrase("seen", quantity=named, low=low, high=f"{high}\u00a0{words.unit(key)}".rstrip())
+
+
+def in_one_formula(lines: Iterable[Line]) -> Iterator[Line]:
+    """Yield lines, the transfer functions of the piston put into what follows from them: v = R ω (sin φ + ...)."""
+    all_lines = list(lines)
+    known = {item.key: item for item in all_lines if isinstance(item, FormulaLine)}
+    joined: dict[str, FormulaLine | None] = {}
+    for key, factor in _OF_TRANSFER.items():
+        line, transfer = known.get(key), known.get(factor)
+        if line is not None and transfer is not None and (product := _joined(line, transfer)) is not None:
+            joined[key], joined[factor] = product, None
+    for each in all_lines:
+        replaced = joined.get(each.key, each)
+        if replaced is not None:
+            yield replaced
+
+
+def _joined(line: FormulaLine, transfer: FormulaLine) -> FormulaLine | None:
+    """Return a product with a transfer function as a product with what that is a product of."""
+    match line.expression, transfer.expression:
+        case (
+            Operation(operator.mul, (Symbol(name), speed)),
+            Operation(operator.mul, (first, second))
+            | Operation(operator.truediv, (Operation(operator.mul, (first, second)), _)) as whole,
+        ):
+            factor: Expression = Operation(operator.mul, (first, speed))
+            if whole.function is operator.truediv:
+                factor = Operation(operator.truediv, (factor, whole.operands[1]))
+            tree = Operation(operator.mul, (factor, second))
+            values = {key: value for key, value in line.values.items() if key != name}
+            named = (*transfer.named, *(symbol for symbol in line.named if symbol[0] != name))
+            return line._replace(values={**transfer.values, **values}, tree=tree, named=named)
+    return None

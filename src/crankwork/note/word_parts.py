@@ -25,11 +25,10 @@ from crankwork.note.document import (
     cell_length,
 )
 from crankwork.note.equations import PrintedEquation, formula_of, legend_rows
-from crankwork.note.layout import Box
+from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering
-from crankwork.note.omml import omml_box
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import Language
 
@@ -58,6 +57,11 @@ _CELL_STYLE = '<w:pStyle w:val="TableText"/>'
 # rows that stay with the heading of their table; LibreOffice loses the others where one alone ends a page
 _TOGETHER = 2
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
+_FONT = '<w:rPr><w:rFonts w:ascii="Cambria Math" w:hAnsi="Cambria Math" w:cs="Cambria Math"/></w:rPr>'
+# normal text keeps a decimal comma tight, where mathematics would put a space after it
+# a parenthesis whose partner stands on another line is literal, or a reader of formulas looks for the partner
+_STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "text": "<m:nor/>",
+           "literal": '<m:lit/><m:sty m:val="p"/>'}  # fmt: skip
 
 
 def runs_xml(runs: Runs, numbers: Numbering, properties: str = "") -> str:
@@ -372,3 +376,45 @@ def figure_xml(block: Figure, words: str, k: int, picture: str, lines: str) -> I
     )
     yield paragraph(inline, "Drawing")
     yield paragraph(text_run(words), "Caption", '<w:jc w:val="center"/>')
+
+
+def omml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
+    """Return a box as elements of Word's mathematics, prefixes `m` and `w` undeclared."""
+    match box:
+        case Letter(text):
+            return _math_run(text, "letter")
+        case Upright(text):
+            return _math_run(text, "text")
+        case Digits(text):
+            return _math_run(text, "text")
+        case Sign(text, "fence"):
+            return _math_run(text, "literal")
+        case Sign(text, _):
+            return _math_run(text or "\u2009", "upright")
+        case Row(parts):
+            return "".join(map(omml_box, parts))
+        case Fraction(top, bottom):
+            return f"<m:f><m:num>{omml_box(top)}</m:num><m:den>{omml_box(bottom)}</m:den></m:f>"
+        case Root(inside):
+            hidden = '<m:radPr><m:degHide m:val="1"/></m:radPr><m:deg/>'
+            return f"<m:rad>{hidden}<m:e>{omml_box(inside)}</m:e></m:rad>"
+        case Fence(inside, marks):
+            ends = f'<m:dPr><m:begChr m:val="{marks[0]}"/><m:endChr m:val="{marks[1]}"/></m:dPr>'
+            return f"<m:d>{ends}<m:e>{omml_box(inside)}</m:e></m:d>"
+        case Script():
+            return _script(box)
+        case Apply(name, argument):
+            return f"<m:func><m:fName>{omml_box(name)}</m:fName><m:e>{omml_box(argument)}</m:e></m:func>"
+
+
+def _math_run(text: str, style: str) -> str:
+    properties = f"<m:rPr>{_STYLES[style]}</m:rPr>{_FONT}"
+    return f'<m:r>{properties}<m:t xml:space="preserve">{xml_text(text)}</m:t></m:r>'
+
+
+def _script(box: Script) -> str:
+    """Return a base with what stands at its foot and head; the name of the element says which of them there are."""
+    kind = ("Sub" if box.below else "") + ("Sup" if box.above else "")
+    below = f"<m:sub>{omml_box(box.below)}</m:sub>" if box.below else ""
+    above = f"<m:sup>{omml_box(box.above)}</m:sup>" if box.above else ""
+    return f"<m:s{kind}><m:e>{omml_box(box.base)}</m:e>{below}{above}</m:s{kind}>"
