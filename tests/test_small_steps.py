@@ -42,7 +42,7 @@ from crankwork.note.words import Words
 from crankwork.page import sliders
 from crankwork.report import drawing, figures
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.film import gif
+from crankwork.show.formats import gif
 from crankwork.show.moving_svg import _short_number, moving_svg
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
 from crankwork.show.theme import fill_colours

@@ -13,8 +13,8 @@ from crankwork.formula.expression import FORMULAS, Operation, evaluate, record, 
 from crankwork.formula.known import Arithmetic, Total, Use, given, total
 from crankwork.formula.lines import FormulaLine, Moment, ValueLine, symbols_of, without_noise
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.note.digits import enough_digits
 from crankwork.note.equations import distinct_values, line_parts, value_symbol
+from crankwork.note.math import enough_digits
 from note.built import broken, every_machine, groups, remembered, results
 
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")

@@ -14,8 +14,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import told
 from crankwork.page import sliders
 from crankwork.studio import answers
-from crankwork.studio.answers import Session, opened_share, shared
-from crankwork.studio.trials import StoppedError
+from crankwork.studio.answers import Session, StoppedError, opened_share, shared
 from crankwork.study.mapped import map_text, mapped
 from each import for_each
 from studio.asked import answer, drawn, rows_of, sketch, typed

@@ -11,15 +11,13 @@ import pytest
 
 from crankwork.working_cycle import (
     charge,
+    closed_gas,
     engine_size,
-    first_law,
     fuels,
     grinevetsky,
     heat_capacities,
     ideal,
     performance,
-    wiebe,
-    woschni,
 )
 from each import for_each
 
@@ -161,17 +159,17 @@ IDEAL: list[Case] = [
 ]
 
 HEAT_RELEASE: list[Case] = [
-    (first_law.gas_mass, (1e5, 6e-4, 300, 400), 5e-4),
-    (first_law.gas_temperature, (2e6, 6e-5, 5e-4, 300), 800),
-    (first_law.gas_heat_ratio, (1.4, -8e-5, 1000), 1.32),
-    (first_law.pressure_rise, (1.4, 5e-5, 2000, 0.5, 100, 2e6, 1e-5), 6.64e6),
-    (wiebe.burning_progress, (6.4, 6.2, 0.8), 0.25),
-    (wiebe.fuel_heat, (5e-5, 44e6, 0.9), 1980),
-    (woschni.woschni_gas_speed, (2.28, 12, 3.24e-3, 5e-4, 400, 1e5, 6e-4, 3e6, 1e6), 48.96),
+    (closed_gas.gas_mass, (1e5, 6e-4, 300, 400), 5e-4),
+    (closed_gas.gas_temperature, (2e6, 6e-5, 5e-4, 300), 800),
+    (closed_gas.gas_heat_ratio, (1.4, -8e-5, 1000), 1.32),
+    (closed_gas.pressure_rise, (1.4, 5e-5, 2000, 0.5, 100, 2e6, 1e-5), 6.64e6),
+    (closed_gas.burning_progress, (6.4, 6.2, 0.8), 0.25),
+    (closed_gas.fuel_heat, (5e-5, 44e6, 0.9), 1980),
+    (closed_gas.woschni_gas_speed, (2.28, 12, 3.24e-3, 5e-4, 400, 1e5, 6e-4, 3e6, 1e6), 48.96),
     # 1024^0.8 = 256, 32^0.8 = 16, 32^-0.2 = 1/2, 1024^0.55 = 32 * 2^0.5
-    (woschni.woschni_coefficient, (1 / 32, 1.024e6, 1024, 32), 834.56 / math.sqrt(2)),
-    (woschni.wall_area, (0.006, 0.007, 3, 0.08, 0.05), 0.025),
-    (woschni.wall_heat_rate, (500, 0.02, 1200, 400, 200), 40),
+    (closed_gas.woschni_coefficient, (1 / 32, 1.024e6, 1024, 32), 834.56 / math.sqrt(2)),
+    (closed_gas.wall_area, (0.006, 0.007, 3, 0.08, 0.05), 0.025),
+    (closed_gas.wall_heat_rate, (500, 0.02, 1200, 400, 200), 40),
 ]
 
 
@@ -187,8 +185,8 @@ def test_a_formula_gives_what_a_calculation_by_hand_gives(
 
 def test_burning_leaves_one_thousandth_and_its_rate_is_its_derivative() -> None:
     """Vibe's 6.908 is the logarithm of 1000 to four digits; burnt is 1 - 1000^-(s^(m + 1))."""
-    assert wiebe.wiebe_burnt_fraction(0.5, 1.0) == pytest.approx(1 - 1000**-0.25, rel=2e-5)
-    assert wiebe.wiebe_burnt_fraction(0.25, 0.5) == pytest.approx(1 - 1000**-0.125, rel=5e-5)
+    assert closed_gas.wiebe_burnt_fraction(0.5, 1.0) == pytest.approx(1 - 1000**-0.25, rel=2e-5)
+    assert closed_gas.wiebe_burnt_fraction(0.25, 0.5) == pytest.approx(1 - 1000**-0.125, rel=5e-5)
     # d(1 - 1000^-(s^2))/ds = 2 s ln 1000 * 1000^-(s^2), over a duration of 0.8
     rate = 2 * 0.5 * math.log(1000) * 1000**-0.25 / 0.8
-    assert wiebe.wiebe_burning_rate(0.5, 1.0, 0.8) == pytest.approx(rate, rel=1e-4)
+    assert closed_gas.wiebe_burning_rate(0.5, 1.0, 0.8) == pytest.approx(rate, rel=1e-4)

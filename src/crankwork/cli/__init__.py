@@ -36,8 +36,11 @@ from crankwork.cli.options import (
     STEP,
     SYSTEM,
     THEME,
+    LocalizedCommand,
+    LocalizedGroup,
+    placeholder,
+    requested_language,
 )
-from crankwork.cli.spoken import LocalizedCommand, LocalizedGroup, placeholder, requested_language
 from crankwork.cli.studies import map_, optimise, sweep
 from crankwork.errors import CrankworkError, DoubtfulError, InputError, MissingExtraError, missing_extras
 from crankwork.locale import Language, Refusal, say, told

@@ -8,8 +8,19 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from crankwork.cli.asked import CommonOptions, drawing_ending, parse_angle_or_time, with_common_options
-from crankwork.cli.options import COMPARE, LANG, LANGUAGE, METHOD, NO_FIGURES, OVERWRITE, PER_AREA, SET, STEP, SYSTEM
-from crankwork.cli.spoken import LocalizedCommand
+from crankwork.cli.options import (
+    COMPARE,
+    LANG,
+    LANGUAGE,
+    METHOD,
+    NO_FIGURES,
+    OVERWRITE,
+    PER_AREA,
+    SET,
+    STEP,
+    SYSTEM,
+    LocalizedCommand,
+)
 from crankwork.errors import CrankworkError
 from crankwork.locale import Refusal
 from crankwork.progress import progress_bar

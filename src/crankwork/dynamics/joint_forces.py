@@ -1,4 +1,8 @@
-"""Forces in the joints of a mechanism, group after group from the last to the driver (Bruyevich)."""
+"""Forces in the joints of a mechanism, group after group from the last to the driver (Bruyevich).
+
+Forces between teeth act where both wheels have the same velocity: on the line of centres, between the axes if they turn
+in opposite senses, beyond one of them if the other is a ring.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Order of a calculation: once per crank angle, once per design, and for every design at every angle."""
+"""Order of a calculation: once per crank angle, once per design, and for every design at every angle; shared sums."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Position analysis: the driver, then one group after another."""
+"""Position analysis: the driver, then one group after another, as numbers or traced values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""The range of the crank of a linkage, and the change points in it."""
+"""The range of the crank of a linkage, the change points in it, and polynomials that replace formulas near them.
+
+At a change point the two branches of a dyad meet and its formulas are 0/0; near it they lose digits with the square of
+the distance. The motion itself is smooth there, so that polynomials through positions farther off, on one branch before
+and on the other after it, give it to rounding.
+"""
 
 from __future__ import annotations
 

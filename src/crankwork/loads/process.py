@@ -1,4 +1,4 @@
-"""The resistance of the process: cutting, pressing, pumping, against the stroke of a piece or the crank angle."""
+"""Loads over a stroke or the crank angle, as numbers or traced values: cutting, pressing, pumping."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Measured pressure treated as requested: choice of the cycle, pegging, smoothing; and checks of the data."""
+"""Measured pressure treated as requested: choice of the cycle, pegging, smoothing; checks of data and phase."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The note of an engine: which sections it has, in which order, by school."""
+"""The note of an engine: its sections in the order of the school; those of one cylinder, and the conclusion."""
 
 from __future__ import annotations
 

@@ -18,7 +18,6 @@ from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, Val
 from crankwork.locale import say, texts
 from crankwork.locale.numbers import number
 from crankwork.note.definitions import definition_box, definition_text
-from crankwork.note.digits import enough_digits, is_exact_pi, whole_degrees
 from crankwork.note.document import Equation
 from crankwork.note.layout import (
     EQUALS,
@@ -36,7 +35,7 @@ from crankwork.note.layout import (
     row,
     width,
 )
-from crankwork.note.math import formula_box
+from crankwork.note.math import enough_digits, formula_box, is_exact_pi, whole_degrees
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage

@@ -1,4 +1,4 @@
-"""The note of a linkage: which sections it has, in which order, by school."""
+"""The note of a linkage: its sections in the order of the school; motion, law of the driver, quality, tables."""
 
 from __future__ import annotations
 
@@ -17,9 +17,8 @@ from crankwork.locale import say
 from crankwork.machine import TransferTable
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.mechanism import Driver
-from crankwork.note.chambers import chambers
 from crankwork.note.document import Block, Citation, Equation, ItemList, Math, Note, Paragraph, Reference, Runs, Table
-from crankwork.note.linkage_data import given_parts, method, structural_analysis, task
+from crankwork.note.linkage_data import chambers, given_parts, method, structural_analysis, task
 from crankwork.note.linkage_forces import balance, efficiency, forces, friction, reduction, torques
 from crankwork.note.linkage_lines import WORST_ANGLES, extreme_of, worst_angles
 from crankwork.note.linkage_material import Material

@@ -1,4 +1,7 @@
-"""A note as PDF, set by Typst: tagged, archivable (PDF/A-2a), the same bytes every time."""
+"""A note as PDF, from Typst markup: tagged, archivable (PDF/A-2a), the same bytes every time.
+
+All text stands in strings of Typst, so that nothing in it is markup.
+"""
 
 from __future__ import annotations
 

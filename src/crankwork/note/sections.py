@@ -1,4 +1,4 @@
-"""A note put together of its sections: those of its school, or those that its document names."""
+"""A note put together of its cover and its sections: those of its school, or those that its document names."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""Notes as Word files: their blocks, styles and pages.
+"""Notes as Word files: their blocks, the order of their figures, styles and pages.
 
-Word has no figures that float, so figures wait for a place where they leave little room empty.
+Word has no figures that float: a figure without room on its page waits until the text after it has filled the page, as
+it would in print. The heights of blocks are estimated; where that is wrong a figure stands a little earlier or later.
 """
 
 from __future__ import annotations

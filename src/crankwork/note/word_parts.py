@@ -1,4 +1,4 @@
-"""Blocks of a note as WordprocessingML: text, tables and equations as elements for the body of a document."""
+"""Blocks of a note as WordprocessingML: text, tables and equations that can be edited, for the body of a document."""
 
 from __future__ import annotations
 

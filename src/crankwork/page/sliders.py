@@ -1,4 +1,4 @@
-"""Live calculation of a page with sliders: the traced calculation, compiled for the browser."""
+"""Live calculation of a page with sliders: the traced calculation, compiled for the browser; figures between."""
 
 from __future__ import annotations
 

@@ -27,8 +27,7 @@ from crankwork.report.language import called, displayed, for_readers, key_unit, 
 from crankwork.report.linkage_drawing import linkage_sketch
 from crankwork.report.linkage_look import scale_text
 from crankwork.report.sketch import Sketch
-from crankwork.show.film import Progress
-from crankwork.show.formats import FILMS, FORMATS
+from crankwork.show.formats import FILMS, FORMATS, Progress
 from crankwork.show.moving import Animation, Part, part
 from crankwork.show.paper import WIDER, marked
 from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, flow_rows, line, text_width

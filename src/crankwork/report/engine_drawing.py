@@ -1,4 +1,4 @@
-"""How an engine is drawn: seen along its shaft, and each bank from the side, with gas, firing and forces."""
+"""How an engine is drawn: seen along its shaft, and each bank from the side, with gas, firing and forces; its sizes."""
 
 from __future__ import annotations
 

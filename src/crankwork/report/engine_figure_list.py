@@ -1,4 +1,4 @@
-"""Which figures there are of a slider-crank and of a whole engine, and what draws each."""
+"""The list of figures of a slider-crank and of an engine, those of the torque and two constructions."""
 
 from __future__ import annotations
 

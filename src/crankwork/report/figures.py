@@ -1,4 +1,4 @@
-"""Figures of results: each that they have what it needs for."""
+"""Figures of results, as many as there are data for, and the figure of a comparison."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a linkage is drawn: its ground, and its links as parts that move."""
+"""How a linkage is drawn: its ground, its links as parts that move, the gas in its chambers, its labels."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The figures of a drawn linkage, and of what is reduced to a driver: which there are, from the results."""
+"""The figures of a drawn linkage, and of what is reduced to a driver: curves, centrodes, force polygons."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The server of the studio, for this computer only: it answers the pages and rejects all other requests."""
+"""The server of the studio, for this computer only: its page, recent files, answers; other requests are rejected."""
 
 from __future__ import annotations
 
@@ -34,8 +34,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import LANGUAGES, Language, Refusal, say, texts, told
 from crankwork.note.live import bar, look
 from crankwork.show.formats import FORMATS
-from crankwork.studio.answers import Session
-from crankwork.studio.trials import StoppedError
+from crankwork.studio.answers import Session, StoppedError
 
 _NAME = "recent.json"
 _MAX_ENTRIES = 8

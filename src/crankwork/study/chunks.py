@@ -1,4 +1,4 @@
-"""Chunks of a study: each chunk number gives the bytes of one Parquet file."""
+"""Chunks of a study: each chunk number gives designs, and the bytes of one Parquet file of their results."""
 
 from __future__ import annotations
 

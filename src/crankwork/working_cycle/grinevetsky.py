@@ -1,4 +1,4 @@
-"""The working cycle by Grinevetsky and Mazing: fuel, charge, compression, burning, expansion, results, size."""
+"""The working cycle by Grinevetsky and Mazing: mixture, charge, compression, combustion, expansion, results, size."""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Ideal cycles of air with constant heat capacities: Otto, Diesel and dual, their formulas and their diagrams."""
+"""Ideal cycles of 1 kg of a gas with constant heat capacities: their formulas and their diagrams.
+
+Points: 1 begins the compression, 2 ends it. Otto: heat up to 3, expansion to 4. Diesel: heat at constant pressure up
+to 3, expansion to 4. Dual: heat at constant volume up to 3, at constant pressure up to 4, expansion to 5.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Working cycles for any cylinder: calculated corners, sharp or rounded, heat release, and misfire."""
+"""Pressures for any cylinder: theoretical diagrams, sharp or rounded, heat release, and misfire.
+
+With heat release the gas is one zone of constant mass from intake closing to exhaust opening; Wiebe's law burns it,
+heat goes to the walls, and the first law is integrated over the crank angle. The rest of the cycle is simplified.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +18,37 @@ from crankwork.formula.worked import Worked
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.extremes import solve_monotone
 from crankwork.loads import gas as gas_formulas
-from crankwork.loads.cycle import quadrature
-from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
+from crankwork.loads.indicator import (
+    DiagramPoint,
+    IndicatorDiagram,
+    Piece,
+    Segment,
+    VolumeAt,
+    quadrature,
+    solve_diagram,
+)
 from crankwork.loads.monotone import hermite
 from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.locale import Refusal
-from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners, DiagramDefinition, Notice
-from crankwork.working_cycle.closed_gas import ClosedGas, closed_gas, volume_when
+from crankwork.working_cycle.closed_gas import (
+    COMPRESSION,
+    EXPANSION,
+    ClosedGas,
+    GasSpeedFactors,
+    burning_progress,
+    closed_gas,
+    gas_heat_ratio,
+    gas_temperature,
+    pressure_rise,
+    volume_when,
+    wall_area,
+    wall_heat_rate,
+    wiebe_burning_rate,
+    wiebe_burnt_fraction,
+    woschni_coefficient,
+    woschni_gas_speed,
+)
 from crankwork.working_cycle.fuels import CycleError
 from crankwork.working_cycle.gas_exchange import connecting_cubic, constant_pressure, from_before_zero, within_cycle
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
@@ -227,7 +254,7 @@ def heat_release(
     work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
     stored = gas.energy_change(trace.temperature[-1])
     # combustion ends before the exhaust opens
-    burnt = wiebe.wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
+    burnt = wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
     memory = {"fuel_heat": worked["fuel_heat"], "heat_released": (worked["fuel_heat"] * burnt).named("heat_released")}
     memory |= {
         key: Known(Found(value, "integral", (pressure,)), key)
@@ -336,7 +363,7 @@ def _hottest(gas: ClosedGas, memory: Mapping[str, Known], column: Known, worked:
     degrees = math.degrees(memory["cylinder_temperature_max_angle"].value)
     volume = volume_when(worked, float(gas.volume_at(np.array([degrees]))[0]), degrees)
     state = at_angle(column, degrees, "cylinder_pressure"), volume
-    hottest = first_law.gas_temperature(*state, worked["gas_mass"], worked["specific_gas_constant"])
+    hottest = gas_temperature(*state, worked["gas_mass"], worked["specific_gas_constant"])
     return hottest.named("cylinder_temperature_max")  # type: ignore[no-any-return]
 
 
@@ -392,33 +419,33 @@ def work_peak(gas: ClosedGas, memory: Mapping[str, Known], worked: Worked) -> No
     worked.known |= {"cylinder_pressure": pressure, "cylinder_volume": volume_when(worked, volume, degrees)}
     worked.known["crank_angle"] = Known(Found(math.radians(degrees), "max_angle", (pressure,), degrees), "crank_angle")
     if start < degrees < end:
-        worked(wiebe.burning_progress)
-        worked(wiebe.wiebe_burnt_fraction)
-        worked(wiebe.wiebe_burning_rate)
+        worked(burning_progress)
+        worked(wiebe_burnt_fraction)
+        worked(wiebe_burning_rate)
     else:
         worked.absent("burning_rate")
-    worked(first_law.gas_temperature)
+    worked(gas_temperature)
     if worked["gas_heat_ratio_slope"].is_absent:
         worked.known["gas_heat_ratio"] = worked["gamma_cyl_0"]
     else:
-        worked(first_law.gas_heat_ratio)
+        worked(gas_heat_ratio)
     if data.has_wall_loss:
-        _work_walls(pressure, worked, woschni.EXPANSION if degrees > start else woschni.COMPRESSION)
+        _work_walls(pressure, worked, EXPANSION if degrees > start else COMPRESSION)
     else:
         worked.absent("wall_heat_rate")
-    worked(first_law.pressure_rise, V_phi=area * slope)
+    worked(pressure_rise, V_phi=area * slope)
 
 
-def _work_walls(pressure: Known, worked: Worked, factor: woschni.GasSpeedFactors) -> None:
+def _work_walls(pressure: Known, worked: Worked, factor: GasSpeedFactors) -> None:
     """Calculate the heat to the walls."""
     motored = worked(gas_formulas.polytropic_pressure, "motored_pressure", p_1=worked["p_shut"])
     higher = pressure if pressure.value > motored.value else motored
-    worked(woschni.woschni_gas_speed, C_speed=factor.piston, C_burn=factor.burning, p_cyl=higher)
-    worked(woschni.woschni_coefficient)
+    worked(woschni_gas_speed, C_speed=factor.piston, C_burn=factor.burning, p_cyl=higher)
+    worked(woschni_coefficient)
     below_head = worked["cylinder_volume"] - worked["clearance_volume"]
     x = (below_head / worked["piston_area"]).named("piston_displacement")
-    worked(woschni.wall_area, pi=math.pi, x=x)
-    worked(woschni.wall_heat_rate, w=(math.pi * worked["rotational_speed"] / 30).named("speed"))
+    worked(wall_area, pi=math.pi, x=x)
+    worked(wall_heat_rate, w=(math.pi * worked["rotational_speed"] / 30).named("speed"))
 
 
 def theoretical_diagram(

@@ -1,7 +1,8 @@
 """The theoretical diagram with corners rounded by valves, ignition and combustion.
 
 Two schools: the Russian one puts c'' at a ratio to the end of compression and b'' halfway between b and the
-exhaust line; the Vietnamese one puts c'' a third of the way up to the peak and b'' in the middle of ab.
+exhaust line; the Vietnamese one puts c'' a third of the way up to the peak and b'' in the middle of ab. A corner whose
+timing is zero stays sharp.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The sheets of a linkage: its structure, plans and motion, the forces in it, its dynamics."""
+"""The sheets of a linkage: its structure, plans and motion, the forces in it, its dynamics; their texts and tables."""
 
 from __future__ import annotations
 
