@@ -41,7 +41,7 @@ class Explained(NamedTuple):
 
 
 class Explanation:
-    """What a value is made of at one crank angle, in degrees."""
+    """The dependencies of a value at one crank angle, in degrees."""
 
     def __init__(self, known: Known, degrees: float, angles_at: Callable[[Any], Angles]) -> None:
         self._angles_at, self._target = angles_at, (known, degrees)
@@ -134,7 +134,7 @@ class Explanation:
 
 
 def _name(known: Known, argument: str) -> str:
-    """Return what tells a value from the same one under another name: its key, or the argument that it stands for."""
+    """Return the name of a value here: its key, or the argument that it stands for."""
     return argument if has_argument_symbol(known, argument) else known.key or argument
 
 

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 class Node:
-    """What a known remembers: its operands, and its value, None where that varies with the crank angle."""
+    """A node of the computation graph: its operands, and its value, None where that varies with the crank angle."""
 
     __slots__ = ("operands", "value")
 
@@ -175,7 +175,7 @@ class Component(Node):
 
 
 class HalfTurns(Node):
-    """How many half turns a direction is ahead of the arc tangent of its slope, so that it never jumps.
+    """Number of half turns that unwraps the arc tangent of a slope to a continuous direction.
 
     `near` is roughly the direction at crank angles, operands are its sine and cosine. [deg] -> [rad]
     """
@@ -277,7 +277,7 @@ class Known:
 
     @property
     def is_absent(self) -> bool:
-        """Whether nobody stated it."""
+        """Whether it is an input that was not stated."""
         return isinstance(self.node, Given) and self.node.is_absent
 
     def named(self, key: str) -> Known:
@@ -368,7 +368,7 @@ def given(key: str, value: float, path: str = "", unit: str = "") -> Known:
 
 
 def absent(key: str, neutral: float = 0.0) -> Known:
-    """Return what nobody stated: the neutral number, whose terms are not printed."""
+    """Return an input that is not stated: a neutral number, whose terms are not printed."""
     return Known(Given(neutral, is_absent=True), key)
 
 

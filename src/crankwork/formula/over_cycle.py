@@ -346,7 +346,7 @@ class OverCycle:
         return peak, self._peak(coefficients[peak], u)
 
     def _tolerance(self, span: Array) -> Array:
-        """Return how far below the top of each column one place of its polynomials may be and count as the largest."""
+        """Return the tolerance below the top of each column within which a place of its polynomials is a candidate."""
         scale, left = np.tile(self._scale, 2), np.tile(self._left.max(axis=1, initial=0.0), 2)
         return np.asarray(np.minimum((_TOLERANCE + 4 * left) * scale, np.maximum(_NEAR_TOP * span, _CONVERGED * scale)))
 

@@ -1,4 +1,4 @@
-"""Formulas drawn from experience hold in a range; what was put in from outside it is told."""
+"""Notices about arguments outside the range in which an empirical formula is valid."""
 
 from __future__ import annotations
 

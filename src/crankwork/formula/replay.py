@@ -72,7 +72,7 @@ _ANGLES, _DEGREES = Known(Node(None)), Known(OfAngle("degrees"))
 
 
 class Program:
-    """What has to be done, in order, to replay some columns.
+    """The steps, in order, that replay some columns.
 
     A step takes columns and numbers out of slots and puts a column into one; the slot of what is spent is used again.
     """
@@ -268,7 +268,7 @@ def _half_turns(node: HalfTurns, degrees: Array, sin: Array, cos: Array) -> Arra
 
 
 def _law(law: Known) -> _Step:
-    """Return what makes a law of pieces: a formula is used on its own stretch, what else varies is cut out."""
+    """Return the step of one law of a piecewise column: a formula on its own interval only, other columns sliced."""
     if law.varies and (isinstance(law.node, Use) or (isinstance(law.node, Table) and law.node.by is None)):
         return _step(law.node)
     return _itself, (law,)

@@ -40,7 +40,7 @@ class Worked:
         self._mark = mark
 
     def __call__(self, function: Callable[..., Any], key: str = "", /, **arguments: Known | float) -> Known:
-        """Return what a registered formula gives, kept under its quantity or a key.
+        """Return the value of a registered formula, stored under its quantity or a key.
 
         `key`: key of the value; by default the quantity that the formula gives; `**others`: arguments that stand for
         something else than the quantity known so far [as the formula takes them].

@@ -69,7 +69,7 @@ def caption(kind: str, number: str, title: str, language: Language) -> str:
 
 
 def continued(number: str, language: Language) -> str:
-    """Return what stands above a table where it goes on."""
+    """Return the caption above the continuation of a table."""
     return say("note.continued", language, number=number)
 
 

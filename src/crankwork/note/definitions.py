@@ -1,4 +1,4 @@
-"""What values without a formula are by definition: integrals over the cycle, which are found numerically."""
+"""Definitions of values without a formula: integrals over the cycle, which are found numerically."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MEANS: Mapping[str, str] = MappingProxyType(
 
 
 def definition_box(key: str, language: Language) -> Box | None:
-    """Return what a value is by definition; None where nothing is to be said."""
+    """Return the definition of a value, None where there is none to print."""
     kind = key.partition(".")[0]
     if kind == "indicated_work":
         return row(Upright("∮"), _over("diagram_pressure", "cylinder_volume", language))

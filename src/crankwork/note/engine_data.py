@@ -1,4 +1,4 @@
-"""What the note of an engine begins with: preface, input data and method."""
+"""The beginning of the note of an engine: preface, input data and method."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _how(material: Material) -> Iterator[Block]:
 
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
-    """Yield what is given, row by row."""
+    """Yield the rows of the input data."""
     words, machine = material.words, material.machine
     # values calculated from them are in the equations after the table
     known = {value.key: value.value for value in in_order(material.results.memory.values()) if _is_stated(value.node)}

@@ -97,7 +97,7 @@ _ROTATING = (
 
 
 def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: float | None = None) -> tuple[Group, ...]:
-    """Return what the note of an engine shows, motion and forces at crank angles. [deg]
+    """Return the groups of lines of the note of an engine, motion and forces at crank angles. [deg]
 
     Forces by default stand as far into the last revolution: of four strokes that is the working one.
     """
@@ -126,7 +126,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
 
 
 def _of_engine(results: Results, engine: Engine, moment: Moment) -> Iterator[Group]:
-    """Yield what is shown of the whole engine."""
+    """Yield the groups of lines of an engine with its cylinders."""
     yield Group("firing", _own(moment, results, _FIRING))
     if "crank_torque" not in results.columns:
         return
@@ -141,7 +141,7 @@ def _of_engine(results: Results, engine: Engine, moment: Moment) -> Iterator[Gro
 
 
 def _uniformity(results: Results) -> tuple[str, ...]:
-    """Return what the evenness of an engine is worked with; a flywheel by several methods stands by itself."""
+    """Return the lines of the speed fluctuation of an engine; a flywheel by several methods has a group of its own."""
     if not results.summary.get("flywheel_inertia.exact"):
         return _UNIFORMITY
     return tuple(key for key in _UNIFORMITY if key not in ("whole_inertia", "flywheel_inertia"))

@@ -1,4 +1,4 @@
-"""What the sections of the note of an engine are made of."""
+"""Data of the sections of the note of an engine."""
 
 from __future__ import annotations
 
@@ -212,7 +212,7 @@ class Material:
         )
 
     def _title(self, name: str) -> str:
-        """Return what a figure shows, of a shaft with several crankpins also which of them."""
+        """Return the caption of a figure, of a shaft with several crankpins also which of them."""
         pins = crankpins(name, self.results.columns)
         engine = self.machine.engine
         several = engine is not None and len({place.throw for place in engine.layout.places}) > 1
@@ -228,7 +228,7 @@ class Material:
 
 
 def _identity(line: Line) -> tuple[object, ...]:
-    """Return what makes two lines the same."""
+    """Return the mark that equal lines share."""
     if not isinstance(line, FormulaLine):
         return (line.key, line.value)
     mark = line.key.partition(".")[2]

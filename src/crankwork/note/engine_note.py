@@ -398,7 +398,7 @@ def sources(material: Material) -> Iterator[Block]:
 
 
 def appendix(material: Material) -> Iterator[Block]:
-    """Yield what no section has given: journals, balance and flywheel in Vietnamese notes, further values, figures."""
+    """Yield the blocks of no section: journals, balance and flywheel in Vietnamese notes, further values, figures."""
     blocks: list[Block] = []
     if material.order == "vi":
         blocks += [*mains(material), *balance(material), *evenness(material)]

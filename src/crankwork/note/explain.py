@@ -121,7 +121,7 @@ def _values(key: str, value: float, language: Language) -> list[str]:
 
 
 class _Places(NamedTuple):
-    """What angles of the tables are called: crank angles, or times where a law with a period drives. [s]"""
+    """Names of the angles of tables: crank angles, or times where a law with a period drives. [s]"""
 
     period: float
     language: Language
@@ -362,7 +362,7 @@ def symbol_of_kind(key: str, language: Language) -> str:
 
 
 def meaning_of_argument(name: str, language: Language) -> tuple[str, str]:
-    """Return the symbol of an argument of formulas and what it means, empty where nobody has to be told."""
+    """Return the symbol and the meaning of an argument of formulas, empty where it is obvious."""
     entry = ARGUMENTS.get(name)
     if entry is None:
         return "", ""

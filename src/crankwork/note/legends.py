@@ -1,4 +1,4 @@
-"""What the symbols of a formula stand for: the lines below an equation, after "where"."""
+"""Meanings of the symbols of a formula: the lines below an equation, after "where"."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _unit(name: str, key: str) -> str:
 
 
 def words_of(name: str, language: Language) -> str:
-    """Return what an argument means whose symbol is not that of a quantity alone."""
+    """Return the meaning of an argument whose symbol is not that of a quantity alone."""
     if has_text(f"arguments.{name}"):
         return say(f"arguments.{name}", language)
     entry = ARGUMENTS[name]

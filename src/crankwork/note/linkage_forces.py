@@ -123,7 +123,7 @@ def torques(material: Material) -> Iterator[Block]:
 
 
 def efficiency(material: Material) -> Iterator[Block]:
-    """Yield what is said of the efficiency of the joints."""
+    """Yield the paragraphs on the efficiency of the joints."""
     words = material.words
     drive = material.machine.drive
     if drive.efficiency == 1 and material.machine.friction:

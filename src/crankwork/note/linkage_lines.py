@@ -109,7 +109,7 @@ def _of_shaft(results: Results) -> tuple[Group, ...]:
 
 
 class _LineFilter:
-    """Lines at one crank angle, each told once."""
+    """Lines at one crank angle, each shown once."""
 
     def __init__(self, results: Results, degrees: float) -> None:
         self._memory, self.degrees = results.memory, degrees

@@ -1,4 +1,4 @@
-"""What the sections of the note of a linkage are made of."""
+"""Data of the sections of the note of a linkage."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is alive in a web page of results: colours, the store of data, the bar of the cursor."""
+"""Interactive parts of a web page of results: colours, the store of data, the bar of the cursor."""
 
 from __future__ import annotations
 

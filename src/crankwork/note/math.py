@@ -59,7 +59,7 @@ _SUMS = (operator.add, operator.sub)
 
 
 class _Printing(NamedTuple):
-    """What a formula is printed with."""
+    """Options of printing a formula."""
 
     values: Mapping[str, float]
     language: Language

@@ -43,7 +43,7 @@ def one_line_widths(
 
 
 def _line(cell: Cell) -> float:
-    """Return how wide a cell is in one line. [em]"""
+    """Return the width of a cell in one line. [em]"""
     if isinstance(cell, Math):
         return width(symbol_box(cell.content)) if isinstance(cell.content, str) else cell_length(cell) * _DIGIT
     return _DIGIT * len(cell) if not any(map(str.isalpha, cell)) else text_width(cell, CAP_HEIGHT)
@@ -56,7 +56,7 @@ def _cell(cell: Cell) -> float:
 
 
 def _parts(runs: Runs) -> list[float]:
-    """Return how wide the parts of a heading are that stand between spaces. [em]"""
+    """Return the widths of the words of a heading. [em]"""
     parts = [0.0]
     for run in runs:
         if isinstance(run, Math):

@@ -42,7 +42,7 @@ def turning_note(results: Results, options: NoteOptions) -> Note:
 
 
 def _task(material: Material) -> Iterator[Block]:
-    """Yield what is asked and what is given."""
+    """Yield the task and the given data."""
     words, machine = material.words, material.machine
     turning = machine.turning
     if turning is None:

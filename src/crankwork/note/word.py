@@ -317,7 +317,7 @@ def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
 
 
 def _left(filled: Array, height: float) -> Array:
-    """Return how much of a page stays empty where a figure comes upon it. [pt]"""
+    """Return the empty height of a page on which a figure is placed. [pt]"""
     return np.where(filled + height > PAGE, PAGE - filled, 0.0)
 
 
@@ -328,7 +328,7 @@ def _fits_here(filled: Array, figure: float, waited: float) -> bool:
 
 
 def _after(filled: Array, block: Block, height: float) -> Array:
-    """Return how far the page is filled after a block; text and tables go on on the next one."""
+    """Return the filled height of the page after a block; text and tables continue on the next one."""
     high = np.full(len(_OFF), height) if isinstance(block, Figure) else height * _OFF
     begins = filled
     if isinstance(block, Table | Heading):

@@ -196,7 +196,7 @@ def table_columns(block: Table, numbers: Numbering) -> Columns:
 
 
 def _word_width(cell: Cell) -> float:
-    """Return how wide the longest word of a cell is, or its symbol, for every half point of its size. [twip]"""
+    """Return the width of the longest word of a cell, or of its symbol, for every half point of its size. [twip]"""
     if isinstance(cell, Math):
         return _DIGIT * cell_length(cell)
     return max((_letters_width(word) for word in cell.split()), default=0.0)
@@ -207,7 +207,7 @@ def _letters_width(word: str) -> float:
 
 
 def _heading_width(runs: Runs, numbers: Numbering, size: int) -> float:
-    """Return how wide the widest part of a heading is that stands between spaces. [twip]"""
+    """Return the width of the widest word of a heading. [twip]"""
     widths = [0.0]
     for run in runs:
         if isinstance(run, Math):

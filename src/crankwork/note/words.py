@@ -29,7 +29,7 @@ _UNNUMBERED = ("preface", "conclusion", "sources", "appendix")
 
 
 class NoteWords(ABC):
-    """What a note says, in one language, forces divided by the piston area if wanted."""
+    """Texts of a note in one language, with forces divided by the piston area if requested."""
 
     def __init__(self, language: Language, *, per_area: bool = False) -> None:
         self.language: Language = language
@@ -129,14 +129,14 @@ class NoteWords(ABC):
 
 
 class EngineWords(NoteWords):
-    """What the note of an engine says."""
+    """Texts of the note of an engine."""
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`, what tells its parts apart in the subscript."""
         return value_symbol(key, self.language)
 
     def meaning(self, name: str) -> str:
-        """Return what a key of the machine file means; the key itself where nobody knows."""
+        """Return the meaning of a key of the machine file, or the key itself if it has no text."""
         key = FILE_KEYS.get(name, name)
         if key in QUANTITIES:
             return QUANTITIES[key].label(self.language)
@@ -155,7 +155,7 @@ class EngineWords(NoteWords):
 
 
 class Words(NoteWords):
-    """What the note of a linkage says, in one language; positions are times where a law with a period drives. [s]
+    """Texts of the note of a linkage in one language; positions are times where a law with a period drives. [s]
 
     `is_partial`: whether the crank goes to and fro between dead positions.
     """
@@ -206,7 +206,7 @@ class Words(NoteWords):
 
 
 def _leading_zeros(value: float) -> int:
-    """Return how many zeros stand after the decimal mark before the first digit, and one more."""
+    """Return one more than the number of zeros between the decimal mark and the first digit."""
     return int(f"{value:.0e}".partition("e-")[2] or 0)
 
 

@@ -51,7 +51,7 @@ def comparison_rows(results: Results, *, per_area: bool = False) -> dict[str, tu
 
 
 def _less(other: float, own: float) -> float:
-    """Return how far a value is above another; what rounding leaves of nothing is nothing."""
+    """Return the difference of two values, zero where only rounding is left."""
     return 0.0 if abs(other - own) <= _ROUNDING * abs(own) else other - own
 
 

@@ -296,7 +296,7 @@ def _lengths(mechanism: Mechanism, machine: Machine | None, language: Language) 
 
 
 def _members(shape: Skeleton, language: Language) -> list[str]:
-    """Return what the numbers stand for."""
+    """Return the names of the numbered links."""
     return [f"{number} – {called(name, language)}" for number, name in numbered(shape)]
 
 

@@ -70,7 +70,7 @@ def _rows(engine: EngineMoving) -> list[list[CylinderMoving]]:
 
 
 def _scale(engine: EngineMoving, size: Sizes, banks: list[list[CylinderMoving]]) -> float:
-    """Return how many millimetres of the paper a metre takes."""
+    """Return the scale, in millimetres of the paper per metre."""
     wide, tall = np.ptp(reach(engine, size), axis=0)
     if not banks:
         return float(min(_TALL / tall, _WIDE_ALONE / wide))
@@ -80,7 +80,7 @@ def _scale(engine: EngineMoving, size: Sizes, banks: list[list[CylinderMoving]])
 
 
 def _ends(row: list[CylinderMoving], size: Sizes) -> list[float]:
-    """Return how far up and down a view from the side reaches. [m]"""
+    """Return the upper and lower ends of a view from the side. [m]"""
     around = max(size.crank + 1.4 * size.pin, size.counterweight)
     heads = [size.head(cylinder) * (1 if cylinder.axis @ row[0].axis > 0 else -1) for cylinder in row]
     return [around, -around, *heads]
@@ -503,7 +503,7 @@ def sizes(machine: Machine, engine: EngineMoving) -> Sizes:
 
 
 def _clearance(machine: Machine, stroke: float) -> float:
-    """Return the height of the clearance volume above the piston, a twentieth of the stroke where nobody says. [m]"""
+    """Return the height of the clearance volume above the piston, by default a twentieth of the stroke. [m]"""
     cylinder = machine.cylinder
     if cylinder and cylinder.clearance_volume is not None:
         return min(cylinder.clearance_volume / (math.pi / 4 * cylinder.bore**2), stroke)
@@ -518,7 +518,7 @@ def _has_counterweights(machine: Machine) -> bool:
 
 
 def _along_shaft(engine: EngineMoving, bore: float) -> tuple[dict[int, float], tuple[float, ...]]:
-    """Return where cylinders and main journals stand; a usual distance apart where nobody says. [m]"""
+    """Return positions of cylinders and main journals, by default at a usual distance. [m]"""
     places, given = engine.layout.places, engine.layout.journal_positions
     throws = 1 + max(place.throw for place in places)
     if given or throws == 1:

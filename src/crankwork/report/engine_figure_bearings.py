@@ -179,7 +179,7 @@ def _mean(engine: EngineDrawn, name: str) -> float:
 
 
 def _spaced_marks(graph: Graph, angles: Array, places: tuple[Array, Array]) -> list[int]:
-    """Return which marks have room for their numbers, those at quarters of a turn first, then at its twelfths."""
+    """Return the marks with room for their numbers, those at quarters of a turn first, then at its twelfths."""
     order = sorted(range(len(angles)), key=lambda k: (angles[k] % 90 > 0, angles[k] % _RAYS > 0, angles[k]))
     on_paper, kept = np.column_stack([graph.across(places[0]), graph.down(places[1])]), list[int]()
     for index in order:
@@ -196,7 +196,7 @@ def _rays(graph: Graph, pole: tuple[float, float], ends: Sequence[Array]) -> Non
 
 
 def _wider(across: float, along: float) -> int:
-    """Return how many times wider a diagram is drawn than it is, 1 unless it would be a stick."""
+    """Return the factor by which a diagram is drawn wider, 1 unless it would be very narrow."""
     share = across / along if along else 1.0
     # on a sheet both scales are round only where one is ten times the other
     factors = (10,) if current_layout().is_sheet else (50, 20, 10, 5)

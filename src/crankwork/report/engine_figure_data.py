@@ -1,4 +1,4 @@
-"""What the figures of a whole engine share: its diagrams, and how values, units and titles are written."""
+"""Shared context of the figures of an engine: its diagrams, and its values, units and titles as text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from crankwork.show.scene import Drawing
 
 @dataclass(frozen=True)
 class EngineDrawn:
-    """What is drawn of a crank gear or an engine: results, computed finer than in tables, and how they are shown."""
+    """Data of the figures of an engine or its crank mechanism: results on a finer grid than tables, as displayed."""
 
     results: Results
     columns: Mapping[str, Array]  # [SI]
@@ -106,7 +106,7 @@ class EngineDrawn:
 
 
 def engine_drawn(results: Results, language: Language, *, per_area: bool) -> EngineDrawn:
-    """Return what the figures share."""
+    """Return the shared context of the figures."""
     area = results.summary.get("piston_area") if per_area else None
     if per_area and area is None and "piston_force" in results.columns:
         raise CrankworkError("forces per piston area need cylinder.bore")

@@ -96,7 +96,7 @@ def _look(cylinder: int) -> tuple[Style, str]:
 
 
 def _of_cylinders(engine: EngineDrawn, count: int) -> list[Row]:
-    """Return what a legend says of the torques of so many cylinders, one line for each way they are dashed."""
+    """Return the legend of the torques of so many cylinders, one line for each dash pattern."""
     rows = []
     for first in range(min(count, len(_DASHES))):
         numbers = ", ".join(str(index + 1) for index in range(first, count, len(_DASHES)))
@@ -359,7 +359,7 @@ _OF_FORCES = ("piston_forces", "rod_forces", "crankpin_forces", "crankpin_polar"
 
 
 def engine_pictures(engine: EngineDrawn) -> dict[str, Callable[[], Drawing]]:
-    """Return what draws each figure of a machine where it is placed."""
+    """Return the functions that draw the figures of a machine in the current layout."""
     listed = figure_list(engine)
     numbered = {name.rstrip("0123456789") for name in listed}
 
@@ -374,7 +374,7 @@ def engine_pictures(engine: EngineDrawn) -> dict[str, Callable[[], Drawing]]:
 
 
 def figure_list(engine: EngineDrawn) -> dict[str, Draw]:
-    """Return what draws each figure of a machine."""
+    """Return the functions that draw the figures of a machine."""
     machine, columns = engine.results.machine, engine.columns
     result = {name: draw for name, (draw, key) in _ONE_CYLINDER.items() if key in columns}
     if machine.engine is None or "crank_torque" not in columns:
@@ -407,7 +407,7 @@ def _polars(engine: EngineDrawn) -> dict[str, Draw]:
 
 
 def _remark(engine: EngineDrawn, kind: str) -> str:
-    """Return what a figure says at its lower left: the frame that its vectors stand in."""
+    """Return the remark at the lower left of a figure: the frame of its vectors."""
     frames = {
         "crankpin_polar": "crank_up",
         "big_end_polar": "rod_up",

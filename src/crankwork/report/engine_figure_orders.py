@@ -177,7 +177,7 @@ def _inertia(engine: EngineDrawn) -> float:
 
 
 def _free(engine: EngineDrawn, panel: str) -> float:
-    """Return what a free force must be to be drawn, or a moment, which is a force over a metre. [N], [N m]"""
+    """Return the least free force that is drawn, or moment, taken as a force at a metre. [N], [N m]"""
     return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
 
 

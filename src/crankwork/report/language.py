@@ -164,12 +164,12 @@ def _part(kind: str, name: str, language: Language) -> str:
 
 
 def called(link: str, language: Language) -> str:
-    """Return what a link is called: the crank has its name from the program."""
+    """Return the name of a link; the crank has its name from the program."""
     return say("report.crank", language) if link == "crank" else link
 
 
 def row_name(name: str, language: Language) -> str:
-    """Return what a row of a listing is called: `crankpin.1` is crankpin 1."""
+    """Return the name of a row of a listing: `crankpin.1` is crankpin 1."""
     kind, _, number = name.partition(".")
     what = say(f"report.{kind}", language)
     if kind in _BY_ORDER:
@@ -211,7 +211,7 @@ def symbol(key: str, language: Language) -> str:
 
 
 def method_name(kinematics: str, order: int, rod: str, language: Language) -> str:
-    """Return how a result was made, in words; `rod` is empty for a machine without one."""
+    """Return the method of a result in words; `rod` is empty for a machine without one."""
     name = say(f"report.{kinematics}", language, order=order)
     return f"{name}; {say(f'report.{rod}', language)}" if rod else name
 

@@ -68,7 +68,7 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
 
 
 class _Scales(NamedTuple):
-    """What a millimetre of the paper is across and upward. [kg m2], [J]"""
+    """Values of a millimetre of the paper across and upward. [kg m2], [J]"""
 
     x: float
     y: float

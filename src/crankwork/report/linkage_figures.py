@@ -101,7 +101,7 @@ _FEWEST, _MOST = 3, 4
 
 
 def linkage_pictures(results: Results, language: Language) -> Pictures:
-    """Return what draws each figure of a linkage where it is placed."""
+    """Return the functions that draw the figures of a linkage in the current layout."""
     style = Style(language, (), results_method(results, language), results.period)
     if results.machine.linkage is None:
         columns = without_rounding(results.columns, results.machine.speed)
@@ -197,7 +197,7 @@ def _points(degrees: Array, known: Mapping[str, Array], style: Style) -> Picture
 
 
 def _named(known: Mapping[str, Array], kind: str) -> list[str]:
-    """Return what a quantity is known of."""
+    """Return the names of the links or points that have a quantity."""
     return [key.partition(".")[2] for key in known if key.startswith(f"{kind}.")]
 
 
@@ -443,7 +443,7 @@ def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style)
 
 
 def _title(quantities: Sequence[Quantity], style: Style, *, has_legend: bool) -> str:
-    """Return what stands beside the vertical axis: the name, or where a legend has the names the symbols."""
+    """Return the title of the vertical axis: the name, or the symbols where a legend has the names."""
     if not has_legend:
         return axis_title(quantities[0], style.language)
     unit = unit_name(quantities[0].unit, style.language)
@@ -514,7 +514,7 @@ def instant_centres(frame: Frame, row: int) -> tuple[Array, Array]:
 
 
 def _seen(path: Array, reach: tuple[Array, Array]) -> float:
-    """Return how much of its way a centre is near a linkage; nothing of one that hardly moves there."""
+    """Return the share of the path of a centre that is near a linkage, zero for one that hardly moves there."""
     near = np.all(np.abs(path - reach[0]) < reach[1], axis=1)
     size = float(np.max(np.ptp(path[near], axis=0))) if np.any(near) else 0.0
     return float(np.mean(near)) if size > _SMALL * float(reach[1][0]) else 0.0
@@ -595,7 +595,7 @@ def _scale(plan: ForcePlan, width: float, height: float) -> float:
 
 
 def _needed(plan: ForcePlan, most: float, columns: int) -> float:
-    """Return how tall a plan is, which is no taller than `most`. [pt]"""
+    """Return the height of a plan, at most `most`. [pt]"""
     scale = _scale(plan, current_layout().width / columns, most)
     return float(np.ptp(_ends(plan), axis=0)[1]) * points_per_mm() / scale + 2 * _MARGIN
 

@@ -1,4 +1,4 @@
-"""What figures of linkages share: a quantity for any key, the axis of what drives, and scales."""
+"""Shared parts of figures of linkages: a quantity for any key, the axis of the driver, and scales."""
 
 from __future__ import annotations
 

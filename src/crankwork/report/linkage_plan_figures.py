@@ -98,7 +98,7 @@ def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is sh
 
 
 def size_of(plan: Plan) -> Size:
-    """Return how wide and tall a plan is, in its unit."""
+    """Return width and height of a plan, in its unit."""
     width, height = np.ptp(_places(_seen(plan)), axis=0)
     return float(width), float(height)
 

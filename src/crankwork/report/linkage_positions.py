@@ -47,7 +47,7 @@ _UNITS = 1.5
 
 
 class _Sheet(NamedTuple):
-    """What is drawn on: a graph in units of the picture, the parts at all angles, which of them are plans."""
+    """A graph in units of the picture, with the parts at all angles and the indices of the plans."""
 
     graph: Graph
     drawn: Scene

@@ -202,7 +202,7 @@ def _add_rails(drawn: Scene, slides: list[_Slide]) -> None:
 
 
 def _slot_reach(drawn: Scene, slide: _Slide) -> float:
-    """Return how far the slots of a piece reach ahead of it along its line."""
+    """Return the extent of the slots of a piece ahead of it along its line."""
     reach = 0.0
     for slot in drawn.slots:
         if slot.carrier == slide.member.name:

@@ -1,4 +1,4 @@
-"""What the reader of results should know, as sentences in three languages by the code of a notice."""
+"""Notices about results as sentences, by their code."""
 
 from __future__ import annotations
 

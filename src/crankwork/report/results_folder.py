@@ -24,7 +24,7 @@ _WORKBOOK = {"xlsxwriter": "tables"}
 
 
 def left_out() -> MissingExtraError | None:
-    """Return what to install for the files that a results folder goes without, if there are any."""
+    """Return the extras to install for files that a results folder lacks, if there are any."""
     missing = missing_extras(_WORKBOOK)
     return MissingExtraError(Refusal("extra_writing", names=["tables.xlsx"]), *missing) if missing else None
 

@@ -1,4 +1,4 @@
-"""What a mechanism looks like before it has its paper."""
+"""Drawings of mechanisms before they are placed on paper."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _THIN, _THICK = 0.06, 0.75
 
 
 def tints(pressures: Sequence[Array]) -> list[Array]:
-    """Return how much of gas is seen, the more the higher its pressure, of all spaces to one scale."""
+    """Return the tints of gas, darker with higher pressure, of all spaces to one scale."""
     if not pressures:
         return []
     low, high = min(map(np.min, pressures)), max(map(np.max, pressures))
@@ -32,7 +32,7 @@ class View(NamedTuple):
 
 
 class Sketch(NamedTuple):
-    """What stands still and what moves, those behind first, in millimetres about an origin of their own."""
+    """Static items and moving parts, those behind first, in millimetres about an origin of their own."""
 
     items: list[Item]
     parts: list[Part]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 def about(results: Results) -> dict[str, str]:
-    """Return what an export says of where it comes from: program, file, method."""
+    """Return the provenance of an export: program, file, method."""
     from importlib.metadata import version  # noqa: PLC0415 - slow to load, and what the screen shows has no need of it
 
     return {
@@ -110,7 +110,7 @@ def by_subject(results: Results) -> dict[str, dict[str, float]]:
 
 
 def met(results: Results, key: str, language: Language) -> str:
-    """Return what is to be said of a check: that it is not met, or that an approximate method explains its residual."""
+    """Return the status of a check: that it is not met, or that an approximate method explains its residual."""
     if key in results.unmet:
         return say("report.not_met", language)
     if key not in results.allowed:
@@ -130,7 +130,7 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 
 
 def results_method(results: Results, language: Language) -> str:
-    """Return how results were made, in words."""
+    """Return the method of results in words."""
     if results.has_positions:
         return say("report.tabulated", language)
     method, masses = results.method, results.machine.masses
@@ -159,7 +159,7 @@ def warning_text(results: Results, language: Language = "en") -> str:
 
 @in_own_units
 def description_text(results: Results, language: Language = "en") -> str:
-    """Return what a machine file describes, in a few lines."""
+    """Return the description of a machine in a few lines."""
     machine, summary = results.machine, results.summary
     keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
     rows = [_row(results, (key, summary[key]), language) for key in keys]
@@ -177,7 +177,7 @@ def _row(
 
 
 def _headline(machine: Machine, summary: Mapping[str, float], language: Language) -> list[str]:
-    """Return what a machine has: a crank gear of known lengths, an engine, a table, a drawing, chambers."""
+    """Return the parts of a machine: a crank mechanism of known lengths, an engine, a table, a drawing, chambers."""
     lines = _crank_gear_lines(machine, summary, language) if "rod_length" in summary else []
     if machine.engine is not None:
         layout = machine.engine.layout

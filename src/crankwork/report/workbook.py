@@ -76,7 +76,7 @@ class _Writer:
             sheet.write_string(row, column, shown, *parts[:1])
 
     def title(self, sheet: Any, column: int, key: str, unit: str) -> None:  # noqa: ANN401 - xlsxwriter has no types
-        """Write what a column is: its name, its symbol with the subscript below, and its unit."""
+        """Write the heading of a column: its name, its symbol with the subscript below, and its unit."""
         named, unit = label(key, self._language), unit_name(unit, self._language)
         parts = self._set(symbol(key, self._language))
         after = f", {unit}" if unit else ""

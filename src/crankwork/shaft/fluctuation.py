@@ -53,7 +53,7 @@ def fluctuation_of_energy(L_exc: Value, W_c: Value) -> Value:
 
 
 def share_of_work(excess: Known, work: Known) -> Known:
-    """Return what part of the work of a cycle, done or taken, the kinetic energy takes and gives."""
+    """Return the ratio of the excess work to the work of a cycle."""
     share: Known = fluctuation_of_energy(excess, work if work.value > 0 else -work)
     return share
 

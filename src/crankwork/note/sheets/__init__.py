@@ -82,7 +82,7 @@ def engine_sheets(results: Results, language: Language, paper: Paper, *, per_are
 
 
 def _data(engine: EngineDrawn) -> Drawing:
-    """Draw what the engine is, in rows."""
+    """Draw the data of the engine in rows."""
     summary, language = engine.results.summary, engine.language
     known = {key: float(summary[key]) for key in _DATA if summary.get(key) is not None}
     entries = [

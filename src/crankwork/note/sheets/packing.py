@@ -41,7 +41,7 @@ _SYMBOL = re.compile(r"/\{([^{}]+)\}([′″]*)")
 
 
 class Picture(NamedTuple):
-    """What draws something where it is placed, its name, and whether its title is written above it."""
+    """A function that draws a picture in the current layout, its name, and whether its title is written above it."""
 
     name: str
     draw: Callable[[], Drawing]
@@ -260,7 +260,7 @@ def _scale(drawing: Drawing, title: str, value: float) -> str:
 
 
 def _unit(title: str) -> str:
-    """Return what stands after the last comma of a title, if no symbol does."""
+    """Return the text after the last comma of a title, if it has no symbol."""
     last = title.rpartition(", ")[2]
     return "" if "/{" in last or last == title else last
 
@@ -299,5 +299,5 @@ def in_grid(
 
 
 def _middle(ink: Box, x: float, y: float) -> tuple[float, float]:
-    """Return how far to move what covers a box until its middle is at a place. [mm]"""
+    """Return the shift that moves the middle of a box to a place. [mm]"""
     return x - ink.left - ink.width / 2, y - ink.bottom - ink.height / 2

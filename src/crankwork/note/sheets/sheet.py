@@ -46,7 +46,7 @@ _BINDING, _EDGE = 20.0, 5.0
 
 
 class Paper(NamedTuple):
-    """What sheets are drawn on: format `A0` to `A3`, millimetre grid, frame, and the title block if they have one."""
+    """The paper of sheets: format `A0` to `A3`, millimetre grid, frame, and the title block if they have one."""
 
     size: Size = "A1"
     has_grid: bool = False
@@ -60,7 +60,7 @@ class Paper(NamedTuple):
 
     @property
     def frame(self) -> Box:
-        """What the frame encloses: a margin of 20 mm to the left, for binding, and of 5 mm elsewhere. [mm]"""
+        """The inside of the frame: a margin of 20 mm to the left, for binding, and of 5 mm elsewhere. [mm]"""
         return self.box.inset(_BINDING, _EDGE, _EDGE, _EDGE)
 
     @property

@@ -19,7 +19,7 @@ _READERS, _NARROWEST, _STEP = 1.15, 0.55, 1.6
 
 
 class TitleBlock(NamedTuple):
-    """What the title block says, in the form of a language; what is empty is left to be filled in by hand.
+    """Texts of the title block, in the form of a language; empty ones are left to be filled in by hand.
 
     `title` replaces that of the sheet, `designation` is the number of the document; `scale`, `mass` and `date` stand
     as they are written.
@@ -46,7 +46,7 @@ class TitleBlock(NamedTuple):
 
 
 def block_of(document: Document, form: Language, author: str = "") -> TitleBlock:
-    """Return what a document says of itself in a title block; `author`: in the place of its own."""
+    """Return the title block of a document; `author` replaces its own."""
     date = printed_date(document.date, form) if document.date is not None else str(document.year or "")
     return TitleBlock(
         form=form,
@@ -102,7 +102,7 @@ def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[I
 
 
 def title_height(block: TitleBlock, title: str) -> float:
-    """Return how tall the letters of a title are where it has its place to itself. [mm]"""
+    """Return the height of the letters of a title that has its place to itself. [mm]"""
     wide, high = (100.0, 14.0) if block.form == "en" else (70.0, 25.0)
     letters = (row.height for row in _written(block.title or title, Box(0, 0, wide, high), block.title_height))
     return min(letters, default=block.title_height)
@@ -233,7 +233,7 @@ def _written(text: str, box: Box, most: float, angle: float = 0.0) -> list[Text]
 
 
 def _width(text: str, height: float) -> float:
-    """Return how wide a text is at most in the letters of a reader. [mm]"""
+    """Return the largest width of a text in the letters of a reader. [mm]"""
     return _READERS * text_width(text, height)
 
 
