@@ -19,7 +19,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 
 from crankwork.browser import script
 from crankwork.description.machine_file import template
-from crankwork.studio.shell import styles
+from crankwork.studio.server import styles
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 # a machine, its fields that are moved; what the six diagrams are asked to take [ms]

@@ -23,26 +23,26 @@ from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
 from crankwork.analysis.rounding import without_rounding
 from crankwork.analysis.stated import StatedFriction
+from crankwork.cli.__init__ import studio
 from crankwork.cli.asked import parse_count
-from crankwork.cli.studio import studio
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
 from crankwork.errors import DoubtfulError
 from crankwork.formula.known import given
 from crankwork.kernel.grid import with_delayed_breakpoints
-from crankwork.loads import dead_centre, monotone
+from crankwork.loads import monotone, treated
 from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.structure import _longest_loop
 from crankwork.note import engine_material
-from crankwork.note.linkage_forces import _rubbing
+from crankwork.note.linkage_forces import _friction_of_joint
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets.sheet import _LAYOUTS
 from crankwork.note.words import Words
-from crankwork.page import alike
-from crankwork.report import comparison_figure, drawing
+from crankwork.page import sliders
+from crankwork.report import drawing, figures
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.film import gif
+from crankwork.show.formats import gif
 from crankwork.show.moving_svg import _short_number, moving_svg
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
 from crankwork.show.theme import fill_colours
@@ -244,7 +244,7 @@ def test_a_moment_of_a_guide_that_is_rounding_beside_the_torques_is_nothing() ->
 
 
 def test_the_first_of_compared_machines_has_solid_lines() -> None:
-    assert list(comparison_figure._STYLES) == [SOLID, DASHED, DASH_DOT, DOTTED]
+    assert list(figures._STYLES) == [SOLID, DASHED, DASH_DOT, DOTTED]
 
 
 def test_a_folder_of_a_study_that_a_full_disk_cannot_hold_is_named(tmp_path, monkeypatch) -> None:
@@ -268,9 +268,9 @@ def test_delayed_breaks_are_closed_unless_they_are_more_than_allowed() -> None:
 
 
 def test_a_bend_that_vanishes_at_the_end_of_the_range_is_found() -> None:
-    for root in (dead_centre._FARTHEST, 1.25, -2.5):
-        assert dead_centre._straight(lambda by, root=root: by - root) == pytest.approx(root, abs=1e-4)
-    assert dead_centre._straight(lambda by: by * by + 1.0) is None
+    for root in (treated._FARTHEST, 1.25, -2.5):
+        assert treated._straight(lambda by, root=root: by - root) == pytest.approx(root, abs=1e-4)
+    assert treated._straight(lambda by: by * by + 1.0) is None
 
 
 def test_abscissas_that_are_remembered_are_found_as_numbers_are() -> None:
@@ -293,7 +293,7 @@ def test_a_title_of_an_axis_is_upright_beside_a_graph_or_below_its_middle() -> N
     box = Box(left=100.0, bottom=200.0, width=300.0, height=150.0)
     upright = [Text((x, 275.0), "y", 9.0, angle=90.0) for x in (60.0, 110.0)]
     below = [Text((x, y), "x", 9.0) for x, y in ((250.0, 180.0), (130.0, 180.0), (250.0, 260.0))]
-    assert [alike.is_title(one, [box]) for one in (*upright, *below)] == [True, False, True, False, False]
+    assert [sliders.is_title(one, [box]) for one in (*upright, *below)] == [True, False, True, False, False]
 
 
 def studied(folder: Path, more: str = ""):
@@ -422,7 +422,7 @@ def test_what_two_points_tell_of_the_share_of_a_field() -> None:
 
 def test_what_rubs_is_written_with_its_values_and_units() -> None:
     joint = StatedFriction("B_upper", {"pin_friction": (0.08, ""), "pin_radius": (0.035, "mm")})
-    words = "".join(one if isinstance(one, str) else "*" for one in _rubbing(joint, Words("en")))
+    words = "".join(one if isinstance(one, str) else "*" for one in _friction_of_joint(joint, Words("en")))
     assert words == "B upper: * = 0.08, * = 35\N{NO-BREAK SPACE}mm"
 
 

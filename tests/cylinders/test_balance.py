@@ -19,8 +19,8 @@ from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.piston import textbook_transfer_2
 from crankwork.kinematics.slider_crank import SliderCrank, piston_transfer_2, rod_swing
-from crankwork.kinematics.textbook import textbook_transfer_2
 from crankwork.method import EXACT, TEXTBOOK
 from each import for_each
 

@@ -7,7 +7,7 @@ import pytest
 
 from crankwork.cylinders import articulated, load_vectors
 from crankwork.dynamics import force_parts, piston_forces
-from crankwork.kinematics import motion_laws, plane_motion, slider_crank, textbook, transfer
+from crankwork.kinematics import motion_laws, piston, plane_motion, slider_crank, transfer
 from crankwork.loads import gas
 from crankwork.shaft import flywheel
 from each import for_each
@@ -27,8 +27,8 @@ CASES = (
     (slider_crank.rod_angular_acceleration, (0.2, 10, 0.5, 8), 24),
     (slider_crank.relative_offset, (0.01, 0.05), 0.2),
     (slider_crank.stroke_central, (0.06,), 0.12),
-    (textbook.textbook_rod_transfer_1, (0.25, 0.8), 0.2),
-    (textbook.textbook_rod_transfer_2, (0.25, 0.8), -0.2),
+    (piston.textbook_rod_transfer_1, (0.25, 0.8), 0.2),
+    (piston.textbook_rod_transfer_2, (0.25, 0.8), -0.2),
     (articulated.articulated_rod_cosine, (0.6, 4, 1, 5), 0.8),
     # a direction in the second quadrant lies a half turn from the arc tangent of its slope
     (plane_motion.direction_of_slope, (0.6, -0.8, 1), math.atan2(0.6, -0.8)),

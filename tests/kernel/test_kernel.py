@@ -15,7 +15,7 @@ from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.derivative import PARTIALS, ByAngle
 from crankwork.kernel.graph import COMPUTE, KernelGraph, number
 from crankwork.kernel.graph import in_order as values_in_order
-from crankwork.kernel.sums import shared
+from crankwork.kernel.plan import shared
 from crankwork.kernel.trace import DesignTraces, Lowering, NotCompiledError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import polytropic_pressure

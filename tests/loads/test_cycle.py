@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from crankwork.loads.cycle import quadrature
+from crankwork.loads.indicator import quadrature
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere

@@ -14,7 +14,7 @@ import click
 
 from crankwork.analysis.results import Notice
 from crankwork.cli import commands
-from crankwork.cli.spoken import option_key, stand_in_key
+from crankwork.cli.options import option_key, stand_in_key
 from crankwork.description import machine_file
 from crankwork.description.schema import TableSpec
 from crankwork.kernel.trace import Reason

@@ -13,11 +13,11 @@ from crankwork.formula.expression import evaluate
 from crankwork.formula.lines import DelayedLine, FormulaLine, ValueLine
 from crankwork.locale import say
 from crankwork.machine import Document
-from crankwork.note.cover import cover
 from crankwork.note.document import Equation, Figure, ItemList, Math, Note, Paragraph, Reference, Table
 from crankwork.note.equations import line_parts
 from crankwork.note.layout import EQUALS
 from crankwork.note.numbering import numbering
+from crankwork.note.sections import cover
 from crankwork.note.web import web
 from crankwork.quantities import LANGUAGES
 from crankwork.sources import source_language

@@ -20,17 +20,17 @@ from crankwork.loads import gas
 from crankwork.note.captions import caption, place_in_source
 from crankwork.note.characters import plain_text
 from crankwork.note.contents import WRITERS, check_format, written_note
-from crankwork.note.digits import enough_digits
 from crankwork.note.document import Citation, Equation, Figure, Heading, Note, Paragraph, Reference, Table
 from crankwork.note.equations import printed_equation, shown_values
 from crankwork.note.layout import SPACE, Fence, Row, Sign, Upright, row, width
 from crankwork.note.legends import legend
+from crankwork.note.math import enough_digits
 from crankwork.note.numbering import numbering
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.symbols import number_box, symbol_box
 from crankwork.quantities import LANGUAGES
 from crankwork.units import UNITS
-from crankwork.working_cycle import combustion
+from crankwork.working_cycle import grinevetsky
 from each import for_each
 
 
@@ -150,11 +150,11 @@ def test_what_adds_up_prints_its_terms():
 def test_a_legend_names_the_unit_in_which_the_formula_takes_a_number_once():
     entries = {one.symbol: one.text for one in legend(STEP, "ru")}
     assert entries == {"S": "ход поршня, м", "n": "частота вращения, мин⁻¹"}
-    kelvin = legend(line(combustion.combustion_kelvin(number(2500.0), number(273.15))), "en")
+    kelvin = legend(line(grinevetsky.combustion_kelvin(number(2500.0), number(273.15))), "en")
     assert kelvin[0].text == "temperature at the end of burning, °C"
     for key, unit in (("compression_celsius", "°C"), ("compression_temperature", "K")):
         heat = (number(one) for one in (0.9, 78000.0, 22.0))
-        entries = legend(line(combustion.isochoric_energy(*heat, number(487.0, key))), "en")
+        entries = legend(line(grinevetsky.isochoric_energy(*heat, number(487.0, key))), "en")
         assert entries[-1].text == f"temperature at the end of compression, {unit}"
 
 

@@ -40,9 +40,9 @@ from crankwork.note.layout import (
 )
 from crankwork.note.math import formula_box
 from crankwork.note.mathml import mathml_box
-from crankwork.note.omml import omml_box
+from crankwork.note.pdf import typst_box
 from crankwork.note.symbols import number_box, symbol_box
-from crankwork.note.typst_math import typst_box
+from crankwork.note.word_parts import omml_box
 from crankwork.quantities import LANGUAGES
 
 MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"

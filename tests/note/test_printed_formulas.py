@@ -13,8 +13,8 @@ from crankwork.formula.expression import FORMULAS, Operation, evaluate, record, 
 from crankwork.formula.known import Arithmetic, Total, Use, given, total
 from crankwork.formula.lines import FormulaLine, Moment, ValueLine, symbols_of, without_noise
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.note.digits import enough_digits
-from crankwork.note.equations import line_parts, told_values, value_symbol
+from crankwork.note.equations import distinct_values, line_parts, value_symbol
+from crankwork.note.math import enough_digits
 from note.built import broken, every_machine, groups, remembered, results
 
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
@@ -129,7 +129,7 @@ def test_every_registered_formula_reads_as_it_computes(formulas):
 
 def missed(step) -> str:
     """Return what is wrong with the numbers of a line, empty if a calculator finds the printed value from them."""
-    *before, value = line_parts(step, "en")[: 1 - len(told_values(step)) or None]
+    *before, value = line_parts(step, "en")[: 1 - len(distinct_values(step)) or None]
     if len(before) < 2:
         return ""
     printed, *terms = (keyed_in(one) for one in (re.split("[\u00a0°%]", value)[0], *terms_of(before[-1])))

@@ -16,8 +16,8 @@ from crankwork.analysis import analyse
 from crankwork.analysis.diagrams import brix_points
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
+from crankwork.kinematics.piston import textbook_displacement
 from crankwork.kinematics.slider_crank import SliderCrank
-from crankwork.kinematics.textbook import textbook_displacement
 from crankwork.note.sheets import Paper, drawn_sheets
 from crankwork.note.sheets.packing import Picture
 from crankwork.note.sheets.sheet import sheets_with

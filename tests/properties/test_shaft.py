@@ -111,7 +111,7 @@ def test_run_down_takes_the_time_of_the_closed_form(inertia, dry, viscous, speed
     assume(inertia * speed**2 / dry < 5000)
     closed = inertia * speed / dry if viscous == 0 else inertia / viscous * math.log1p(viscous * speed / dry)
     rows = np.array([inertia, 0.0, -dry, dry, viscous, 1.0, 0.0, 0.0])[:, None]
-    reduced = fitted(lambda q: rows + 0 * q, np.array([0.0, TURN]), 1.0, TURN, alike=range(8))
+    reduced = fitted(lambda q: rows + 0 * q, np.array([0.0, TURN]), 1.0, TURN, groups=range(8))
     course = Run(FreeMachine(reduced, (0.0, TURN)), 0.3, -speed).until(2 * closed)
     (rested,) = course.events
     assert rested.word == "comes_to_rest"

@@ -24,8 +24,7 @@ from crankwork.machine import Cylinder, Machine
 from crankwork.mechanism.mechanism import RRP, Crank, Mechanism, slider_crank
 from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.film import gif, mp4
-from crankwork.show.formats import FORMATS
+from crankwork.show.formats import FORMATS, gif, mp4
 from crankwork.show.inline import inline_film
 from crankwork.show.moving import data
 from crankwork.show.moving_svg import moving_svg

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from crankwork.shaft.fitted import fitted
-from crankwork.shaft.glide import Glide
+from crankwork.shaft.glide import CompiledIntegrator
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 from crankwork.shaft.transient import FreeMachine, Run
 
@@ -24,11 +24,11 @@ def free(inertia=2.0, potential=None, grows=0.0, falls=0.0, damping=0.0, breaks=
         rows = (inertia, energy(q), grows(q) if callable(grows) else grows, falls, damping, 1.0, 0.0, slope(q))
         return np.stack([np.broadcast_to(one, q.shape) for one in rows])
 
-    reduced = fitted(columns, np.array(breaks), 0.5, TURN, alike=(0, 1, 1, 1, 2, 3, 0, 1))
+    reduced = fitted(columns, np.array(breaks), 0.5, TURN, groups=(0, 1, 1, 1, 2, 3, 0, 1))
     return FreeMachine(reduced, breaks, **other)
 
 
-@pytest.fixture(params=[Run, pytest.param(Glide, marks=pytest.mark.compiled)], ids=["arrays", "compiled"])
+@pytest.fixture(params=[Run, pytest.param(CompiledIntegrator, marks=pytest.mark.compiled)], ids=["arrays", "compiled"])
 def run(request):
     """Steps of arrays, and the same steps compiled."""
     return request.param

@@ -12,7 +12,7 @@ import pytest
 
 from crankwork import cli
 from crankwork.description.machine_file import template
-from crankwork.studio.recent import Recent, recent
+from crankwork.studio.server import Recent, recent
 from studio.test_server import talked
 
 
@@ -52,7 +52,7 @@ def test_where_nothing_can_be_kept_nothing_is_offered(cache, monkeypatch):
 
 
 def test_programs_that_open_machines_at_once_lose_none(cache):
-    program = "import sys; from crankwork.studio.recent import *; recent(Recent(sys.argv[1], ''))"
+    program = "import sys; from crankwork.studio.server import *; recent(Recent(sys.argv[1], ''))"
     environment = os.environ | {"PYTHONPATH": str(Path(cli.__file__).parents[2])}
     running = [subprocess.Popen([sys.executable, "-c", program, str(number)], env=environment) for number in range(6)]
     assert [one.wait() for one in running] == [0] * 6

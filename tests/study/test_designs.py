@@ -10,7 +10,7 @@ import pytest
 from scipy import stats
 
 from crankwork.description.machine_file import template
-from crankwork.study.designs import designs_of
+from crankwork.study.chunks import designs_of
 from crankwork.study.study_file import read_study
 
 HEAD = 'machine = "machine.toml"\nvalues = "stroke"\n[designs]\n'

@@ -11,16 +11,13 @@ import pytest
 
 from crankwork.working_cycle import (
     charge,
-    combustion,
+    closed_gas,
     engine_size,
-    first_law,
     fuels,
+    grinevetsky,
     heat_capacities,
-    ideal_formulas,
-    mixture,
+    ideal,
     performance,
-    wiebe,
-    woschni,
 )
 from each import for_each
 
@@ -52,16 +49,16 @@ FUEL: list[Case] = [
     (fuels.lower_heating_value, (0.85, 0.15, 0.02), 44.0572e6),
     (fuels.air_mass_needed, (0.84, 0.14, 0.1), 326 / 23),
     (fuels.air_amount_needed, (0.84, 0.12, 0.032), 99 / 208),
-    (mixture.fresh_charge_amount, (0.9, 0.5, 125), 0.458),
-    (mixture.carbon_monoxide, (0.9, 0.6, 0.5), 0.013),
-    (mixture.hydrogen_left, (0.6, 0.013), 0.0078),
-    (mixture.carbon_dioxide, (0.84, 0.013), 0.057),
-    (mixture.water, (0.14, 0.0078), 0.0622),
-    (mixture.oxygen_left, (1.5, 0.5), 0.052),
-    (mixture.nitrogen, (1.25, 0.5), 0.495),
-    (mixture.products, (0.057, 0.013, 0.0622, 0.0078, 0.052, 0.495), 0.687),
-    (mixture.molar_change_ideal, (0.54, 0.5), 1.08),
-    (mixture.heat_lost_incomplete, (0.9, 0.5), 5.9975e6),
+    (grinevetsky.fresh_charge_amount, (0.9, 0.5, 125), 0.458),
+    (grinevetsky.carbon_monoxide, (0.9, 0.6, 0.5), 0.013),
+    (grinevetsky.hydrogen_left, (0.6, 0.013), 0.0078),
+    (grinevetsky.carbon_dioxide, (0.84, 0.013), 0.057),
+    (grinevetsky.water, (0.14, 0.0078), 0.0622),
+    (grinevetsky.oxygen_left, (1.5, 0.5), 0.052),
+    (grinevetsky.nitrogen, (1.25, 0.5), 0.495),
+    (grinevetsky.products, (0.057, 0.013, 0.0622, 0.0078, 0.052, 0.495), 0.687),
+    (grinevetsky.molar_change_ideal, (0.54, 0.5), 1.08),
+    (grinevetsky.heat_lost_incomplete, (0.9, 0.5), 5.9975e6),
 ]
 
 HEATS: list[Case] = [
@@ -85,26 +82,26 @@ HEATS: list[Case] = [
 ]
 
 COMBUSTION: list[Case] = [
-    (combustion.molar_change, (1.1, 0.25), 1.08),
-    (combustion.working_mixture_heat, (44e6, 4e6, 0.5, 0.25), 64000),
-    (combustion.isochoric_energy, (0.9, 80000, 21, 400), 80400),
-    (combustion.dual_energy, (0.8, 75000, 22, 8, 1.5, 500, 250, 1.1), 77800),
-    (combustion.isobaric_heat_constant, (20.5, 8.25), 28.75),
+    (grinevetsky.molar_change, (1.1, 0.25), 1.08),
+    (grinevetsky.working_mixture_heat, (44e6, 4e6, 0.5, 0.25), 64000),
+    (grinevetsky.isochoric_energy, (0.9, 80000, 21, 400), 80400),
+    (grinevetsky.dual_energy, (0.8, 75000, 22, 8, 1.5, 500, 250, 1.1), 77800),
+    (grinevetsky.isobaric_heat_constant, (20.5, 8.25), 28.75),
     # 1.05 (20 + 0.0025 * 2400) 2400 = 65520 and 1.1 (18 + 0.0025 * 2800) 2800 = 77000
-    (combustion.burnt_celsius, (20, 0.0025, 65520, 1.05), 2400),
-    (combustion.burnt_temperature, (18, 0.0025, 77000, 1.1), 2800),
-    (combustion.combustion_kelvin, (2400, 273), 2673),
-    (combustion.isochoric_pressure, (1.6e6, 1.05, 2500, 750), 5.6e6),
-    (combustion.dual_pressure, (4e6, 1.75), 7e6),
-    (combustion.pressure_rise_ratio, (6.6e6, 1.65e6), 4),
+    (grinevetsky.burnt_celsius, (20, 0.0025, 65520, 1.05), 2400),
+    (grinevetsky.burnt_temperature, (18, 0.0025, 77000, 1.1), 2800),
+    (grinevetsky.combustion_kelvin, (2400, 273), 2673),
+    (grinevetsky.isochoric_pressure, (1.6e6, 1.05, 2500, 750), 5.6e6),
+    (grinevetsky.dual_pressure, (4e6, 1.75), 7e6),
+    (grinevetsky.pressure_rise_ratio, (6.6e6, 1.65e6), 4),
     # of a Vietnamese course work: 0.85 * 5.98
-    (combustion.real_combustion_pressure, (5.98e6,), 5.083e6),
-    (combustion.cut_off, (1.04, 2200, 1.6, 1100), 1.3),
-    (combustion.afterexpansion, (16.8, 1.4), 12),
-    (combustion.expansion_pressure, (6.4e6, 16, 1.25), 2e5),
-    (combustion.expansion_temperature, (2400, 16, 1.25), 1200),
-    (combustion.residual_temperature_found, (1600, 8e5, 1e5, 1.5), 800),
-    (combustion.residual_temperature_deviation, (1030, 1000), 0.03),
+    (grinevetsky.real_combustion_pressure, (5.98e6,), 5.083e6),
+    (grinevetsky.cut_off, (1.04, 2200, 1.6, 1100), 1.3),
+    (grinevetsky.afterexpansion, (16.8, 1.4), 12),
+    (grinevetsky.expansion_pressure, (6.4e6, 16, 1.25), 2e5),
+    (grinevetsky.expansion_temperature, (2400, 16, 1.25), 1200),
+    (grinevetsky.residual_temperature_found, (1600, 8e5, 1e5, 1.5), 800),
+    (grinevetsky.residual_temperature_deviation, (1030, 1000), 0.03),
 ]
 
 PERFORMANCE: list[Case] = [
@@ -139,40 +136,40 @@ PERFORMANCE: list[Case] = [
 ]
 
 IDEAL: list[Case] = [
-    (ideal_formulas.isochoric_heat, (287, 1.4), 717.5),
-    (ideal_formulas.compressed_temperature, (300, 16, 1.25), 600),
-    (ideal_formulas.compressed_pressure, (1e5, 16, 1.25), 3.2e6),
-    (ideal_formulas.isochorically_heated, (600, 720e3, 720), 1600),
-    (ideal_formulas.isobarically_heated, (600, 1e6, 1.25, 800), 1600),
-    (ideal_formulas.dually_heated, (900, 1e6, 800, 650, 1.25), 1700),
-    (ideal_formulas.raised_temperature, (1.5, 600), 900),
-    (ideal_formulas.raised_pressure, (1.5, 4e6), 6e6),
-    (ideal_formulas.temperature_ratio, (900, 600), 1.5),
-    (ideal_formulas.expanded_temperature, (2000, 2, 32, 1.25), 1000),
-    (ideal_formulas.expanded_pressure, (6.4e6, 2, 32, 1.25), 2e5),
-    (ideal_formulas.heat_at_constant_volume, (720, 1600, 600), 720e3),
-    (ideal_formulas.isobaric_heat_added, (1.25, 800, 1600, 600), 1e6),
-    (ideal_formulas.dual_heat_added, (800, 900, 650, 1.25, 1700), 1e6),
-    (ideal_formulas.ideal_work, (800, 350), 450),
-    (ideal_formulas.thermal_efficiency, (450, 900), 0.5),
-    (ideal_formulas.otto_efficiency, (16, 1.25), 0.5),
+    (ideal.isochoric_heat, (287, 1.4), 717.5),
+    (ideal.compressed_temperature, (300, 16, 1.25), 600),
+    (ideal.compressed_pressure, (1e5, 16, 1.25), 3.2e6),
+    (ideal.isochorically_heated, (600, 720e3, 720), 1600),
+    (ideal.isobarically_heated, (600, 1e6, 1.25, 800), 1600),
+    (ideal.dually_heated, (900, 1e6, 800, 650, 1.25), 1700),
+    (ideal.raised_temperature, (1.5, 600), 900),
+    (ideal.raised_pressure, (1.5, 4e6), 6e6),
+    (ideal.temperature_ratio, (900, 600), 1.5),
+    (ideal.expanded_temperature, (2000, 2, 32, 1.25), 1000),
+    (ideal.expanded_pressure, (6.4e6, 2, 32, 1.25), 2e5),
+    (ideal.heat_at_constant_volume, (720, 1600, 600), 720e3),
+    (ideal.isobaric_heat_added, (1.25, 800, 1600, 600), 1e6),
+    (ideal.dual_heat_added, (800, 900, 650, 1.25, 1700), 1e6),
+    (ideal.ideal_work, (800, 350), 450),
+    (ideal.thermal_efficiency, (450, 900), 0.5),
+    (ideal.otto_efficiency, (16, 1.25), 0.5),
     # 1.5 * 4^1.5 = 12, 16^0.5 = 4
-    (ideal_formulas.dual_efficiency, (16, 1.5, 1.5, 4), 18 / 29),
-    (ideal_formulas.ideal_mean_pressure, (420e3, 1e5, 8, 300, 400), 400e3),
+    (ideal.dual_efficiency, (16, 1.5, 1.5, 4), 18 / 29),
+    (ideal.ideal_mean_pressure, (420e3, 1e5, 8, 300, 400), 400e3),
 ]
 
 HEAT_RELEASE: list[Case] = [
-    (first_law.gas_mass, (1e5, 6e-4, 300, 400), 5e-4),
-    (first_law.gas_temperature, (2e6, 6e-5, 5e-4, 300), 800),
-    (first_law.gas_heat_ratio, (1.4, -8e-5, 1000), 1.32),
-    (first_law.pressure_rise, (1.4, 5e-5, 2000, 0.5, 100, 2e6, 1e-5), 6.64e6),
-    (wiebe.burning_progress, (6.4, 6.2, 0.8), 0.25),
-    (wiebe.fuel_heat, (5e-5, 44e6, 0.9), 1980),
-    (woschni.woschni_gas_speed, (2.28, 12, 3.24e-3, 5e-4, 400, 1e5, 6e-4, 3e6, 1e6), 48.96),
+    (closed_gas.gas_mass, (1e5, 6e-4, 300, 400), 5e-4),
+    (closed_gas.gas_temperature, (2e6, 6e-5, 5e-4, 300), 800),
+    (closed_gas.gas_heat_ratio, (1.4, -8e-5, 1000), 1.32),
+    (closed_gas.pressure_rise, (1.4, 5e-5, 2000, 0.5, 100, 2e6, 1e-5), 6.64e6),
+    (closed_gas.burning_progress, (6.4, 6.2, 0.8), 0.25),
+    (closed_gas.fuel_heat, (5e-5, 44e6, 0.9), 1980),
+    (closed_gas.woschni_gas_speed, (2.28, 12, 3.24e-3, 5e-4, 400, 1e5, 6e-4, 3e6, 1e6), 48.96),
     # 1024^0.8 = 256, 32^0.8 = 16, 32^-0.2 = 1/2, 1024^0.55 = 32 * 2^0.5
-    (woschni.woschni_coefficient, (1 / 32, 1.024e6, 1024, 32), 834.56 / math.sqrt(2)),
-    (woschni.wall_area, (0.006, 0.007, 3, 0.08, 0.05), 0.025),
-    (woschni.wall_heat_rate, (500, 0.02, 1200, 400, 200), 40),
+    (closed_gas.woschni_coefficient, (1 / 32, 1.024e6, 1024, 32), 834.56 / math.sqrt(2)),
+    (closed_gas.wall_area, (0.006, 0.007, 3, 0.08, 0.05), 0.025),
+    (closed_gas.wall_heat_rate, (500, 0.02, 1200, 400, 200), 40),
 ]
 
 
@@ -188,8 +185,8 @@ def test_a_formula_gives_what_a_calculation_by_hand_gives(
 
 def test_burning_leaves_one_thousandth_and_its_rate_is_its_derivative() -> None:
     """Vibe's 6.908 is the logarithm of 1000 to four digits; burnt is 1 - 1000^-(s^(m + 1))."""
-    assert wiebe.wiebe_burnt_fraction(0.5, 1.0) == pytest.approx(1 - 1000**-0.25, rel=2e-5)
-    assert wiebe.wiebe_burnt_fraction(0.25, 0.5) == pytest.approx(1 - 1000**-0.125, rel=5e-5)
+    assert closed_gas.wiebe_burnt_fraction(0.5, 1.0) == pytest.approx(1 - 1000**-0.25, rel=2e-5)
+    assert closed_gas.wiebe_burnt_fraction(0.25, 0.5) == pytest.approx(1 - 1000**-0.125, rel=5e-5)
     # d(1 - 1000^-(s^2))/ds = 2 s ln 1000 * 1000^-(s^2), over a duration of 0.8
     rate = 2 * 0.5 * math.log(1000) * 1000**-0.25 / 0.8
-    assert wiebe.wiebe_burning_rate(0.5, 1.0, 0.8) == pytest.approx(rate, rel=1e-4)
+    assert closed_gas.wiebe_burning_rate(0.5, 1.0, 0.8) == pytest.approx(rate, rel=1e-4)

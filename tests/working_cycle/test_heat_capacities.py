@@ -6,6 +6,7 @@ from crankwork.formula.known import Known, given
 from crankwork.formula.worked import Worked
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs
 from crankwork.working_cycle.fuels import FUELS, burning
+from crankwork.working_cycle.grinevetsky import mixture
 from crankwork.working_cycle.heat_capacities import (
     LOW_LIMIT,
     ZERO_CELSIUS,
@@ -18,7 +19,6 @@ from crankwork.working_cycle.heat_capacities import (
     product_coefficients,
     residual_heat,
 )
-from crankwork.working_cycle.mixture import mixture
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere

@@ -23,11 +23,16 @@ from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.monotone import hermite, hermite_slope
 from crankwork.loads.pressure import remembered_pressure
-from crankwork.working_cycle.first_law import internal_energy_change
+from crankwork.working_cycle.closed_gas import (
+    EXPANSION,
+    internal_energy_change,
+    wiebe_burning_rate,
+    wiebe_burnt_fraction,
+    woschni_coefficient,
+    woschni_gas_speed,
+)
 from crankwork.working_cycle.heat_data import HeatReleaseData, stages
-from crankwork.working_cycle.heat_release import HeatReleaseResult, heat_release
-from crankwork.working_cycle.wiebe import wiebe_burning_rate, wiebe_burnt_fraction
-from crankwork.working_cycle.woschni import EXPANSION, woschni_coefficient, woschni_gas_speed
+from crankwork.working_cycle.pressures import HeatReleaseResult, heat_release
 from each import for_each
 from engines import cylinder_volumes
 

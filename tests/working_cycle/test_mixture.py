@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from crankwork.formula.worked import Worked
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel, burning
-from crankwork.working_cycle.mixture import mixture
+from crankwork.working_cycle.grinevetsky import mixture
 
 pytestmark = pytest.mark.elsewhere
 

@@ -17,9 +17,8 @@ from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import CycleError
 from crankwork.working_cycle.grinevetsky import grinevetsky
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
-from crankwork.working_cycle.pressures import CornerPressure
+from crankwork.working_cycle.pressures import CornerPressure, theoretical_diagram
 from crankwork.working_cycle.rounding import Timing
-from crankwork.working_cycle.theoretical_diagram import theoretical_diagram
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere

@@ -162,7 +162,7 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
     memory, cycle = solved.memory, origins.cycle_angle(solved.machine)
     if "piston_force" not in memory:
         return {}
-    found = over.errors(*(key for key in (f"{one}_error" for one in _WRONG_FORCES) if key in over.knowns))
+    found = over.errors(*(key for key in (f"{one}_error" for one in _WRONG_FORCES) if key in over.columns))
     found |= over.extremes(*(key for key in _PUSHING if key in memory))
     if "rotating_inertia_force" in memory:
         found["rotating_inertia_force"] = memory["rotating_inertia_force"]

@@ -173,11 +173,11 @@ def balance_memory(whole: WholeEngine, balance: EngineBalance) -> dict[str, Know
         keys = [f"free_force.{row}" for row, other in balance.rows.items() if other.order == one.order]
         parts = [found[key] for key in keys if key in found] if name.startswith("residual") else _parts(name, found)
         told = _told(whole, balance, found, one.order) if name.startswith("residual") else {}
-        sums = Found(one.force.largest, "vector_sum", parts, by=told.get("force"))
+        sums = Found(one.force.largest, "vector_sum", parts, argument=told.get("force"))
         force = found.setdefault(f"free_force.{name}", Known(sums, f"free_force.{name}"))
         rest = {"free_force_min": one.force.least, "free_force_direction": math.radians(one.force.direction)}
         if has_moments:
-            moment = Known(Found(one.moment.largest, "vector_sum", parts, by=told.get("moment")))
+            moment = Known(Found(one.moment.largest, "vector_sum", parts, argument=told.get("moment")))
             found.setdefault(f"free_moment.{name}", moment)
             rest["free_moment_min"] = one.moment.least
         found |= {f"{key}.{name}": Known(Found(value, "vector_sum", (force,))) for key, value in rest.items()}
@@ -250,7 +250,7 @@ def _order_forces(whole: WholeEngine, balance: EngineBalance) -> dict[str, Known
             acceleration = of.get("inertia_acceleration", of["piston_acceleration"])
             is_plain = "inertia_acceleration" not in of and not of_slaves
             by = _coefficient(of, order, balance.harmonics.coefficients[at]) if is_plain else None
-            amplitude = Found(float(row[at]), "harmonic", (acceleration,), by=by)
+            amplitude = Found(float(row[at]), "harmonic", (acceleration,), argument=by)
             coefficient = Known(amplitude, f"acceleration_coefficient.{name}")
             force = order_inertia_force(
                 of["reciprocating_mass"], memory["crank_radius"], memory["speed"], coefficient
@@ -349,7 +349,7 @@ def _best_weights(whole: WholeEngine, balance: EngineBalance, memory: Mapping[st
     coefficient = memory.get("acceleration_coefficient.1")
     if coefficient is not None and not balance.knuckles:
         by = coefficient * round(part / coefficient.value, _DIGITS)
-    share = Known(Found(part, "vector_share", free, by=by))
+    share = Known(Found(part, "vector_share", free, argument=by))
     share = share.named("best_balanced_share")
     moments = [
         total(f"best_counterweight_moment.{pin + 1}", [

@@ -343,7 +343,7 @@ def load_values(
 def _reversal(over: OverCycle, extremes: Mapping[str, Known]) -> dict[str, Known]:
     key = "bearing_force_x.small_end"
     peaks = extremes["bearing_force_x_max.small_end"].value, extremes["bearing_force_x_min.small_end"].value
-    turned, of = reversal(*over.stretches(key), peaks), (over.knowns[key],)
+    turned, of = reversal(*over.stretches(key), peaks), (over.columns[key],)
     found = {"reversal_duration": math.radians(turned.duration), "reversal_ratio": turned.ratio}
     return {
         name: Known(Procedure(value, "reversal", of, reversal_of_polynomials, part), name)
@@ -376,16 +376,16 @@ def wear_memory(whole: WholeEngine, memory: Mapping[str, Known], samples: Sample
     for pin, load in loads.crankpins.items():
         of = memory[f"crankpin_radial_force.{pin}"], memory[f"crankpin_tangential_force.{pin}"]
         sums = wear_sums(load, rays=rays)
-        table = Known(Table(OnRays(sums), "wear", of=of), f"wear_sum.crankpin.{pin}")
+        table = Known(Table(OnRays(sums), "wear", operands=of), f"wear_sum.crankpin.{pin}")
         name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
         angle = math.radians(oil_hole(sums).angle)
         by = Known(Procedure(angle, "oil_hole", of, OilHoleOfPolynomials(_WEAR_STEP, rays), 0))
-        hole = Found(angle, "oil_hole", (table,), by=by)
+        hole = Found(angle, "oil_hole", (table,), argument=by)
         found |= {table.key: table, name: Known(hole, name)}
     for at, load in enumerate(loads.mains, start=1):
         of = memory[f"{_X}.main_journal.{at}"], memory[f"{_Y}.main_journal.{at}"]
         key = f"wear_sum.main_journal.{at}"
-        found[key] = Known(Table(OnRays(wear_sums(load, rays=rays)), "wear", of=of), key)
+        found[key] = Known(Table(OnRays(wear_sums(load, rays=rays)), "wear", operands=of), key)
     return found
 
 

@@ -172,7 +172,7 @@ def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[s
         else:
             total = memory["total_torque"]
             parts = (Known(Harmonic(float(getattr(all_, part)[at]), total, part, order)) for part in ("cosine", "sine"))
-            of_all = Known(Found(float(all_.amplitude[at]), "fourier", (total,), by=amplitude_of_harmonic(*parts)))
+            of_all = Known(Found(float(all_.amplitude[at]), "fourier", (total,), None, amplitude_of_harmonic(*parts)))
         of_all = of_all.named(f"total_harmonic_amplitude.{order:g}")
         found |= {known.key: known for known in (cosine, sine, amplitude, phase, star, of_all)}
     return found

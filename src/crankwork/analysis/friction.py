@@ -118,9 +118,9 @@ def friction_of(solved: SolvedLinkage, running: Running, memory: Mapping[str, Kn
 
 def mean_values(over: OverCycle) -> Iterator[Known]:
     """Yield the mean loss over a cycle, and the efficiency that the work of a cycle gives; nothing without friction."""
-    if "friction_power" in over.knowns:
+    if "friction_power" in over.columns:
         yield over.mean("friction_power", "mean_friction_power")
-    if "torque_with_friction" in over.knowns:
+    if "torque_with_friction" in over.columns:
         keys = "static_torque", "torque_with_friction"
         ideal, actual = (over.mean(key, f"{key}.mean") for key in keys)
         if 0 < ideal.value <= actual.value:

@@ -324,7 +324,7 @@ def _summary(
 ) -> dict[str, Known]:
     machine, law = solved.machine, solved.machine.mechanism.driver.law
     result = {**_given_values(machine), **quality}
-    keys = [key for key in over.knowns if key.partition(".")[0] not in FOLLOWED and not over.is_nothing(key)]
+    keys = [key for key in over.columns if key.partition(".")[0] not in FOLLOWED and not over.is_zero(key)]
     extremes, pivoted = over.extremes(*keys), pivoted_links(machine.mechanism)
     for key in keys:
         kind, dot, name = key.partition(".")
@@ -347,7 +347,7 @@ def _summary(
                 result |= _at_time(extreme, angle, law) if law else {f"{kind}_{word}_angle{dot}{name}": angle}
     if is_whole and law is None:
         result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
-    if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.knowns:
+    if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.columns:
         # inertia does no work in a cycle, friction does
         torque = "torque_with_friction" if has_friction(machine.drive, over) else "static_torque"
         needed = over.mean(torque, "mean_driving_torque")

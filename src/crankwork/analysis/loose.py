@@ -34,7 +34,7 @@ from crankwork.locale import Refusal
 from crankwork.machine import Machine, Transient
 from crankwork.shaft.fitted import fitted
 from crankwork.shaft.slipping import Slipping
-from crankwork.shaft.transient import LIGHT, OWN, RATE, FreeMachine, Way
+from crankwork.shaft.transient import LIGHT, OWN, RATE, Direction, FreeMachine
 
 _WIDTH = math.pi / 8
 _LOOKS, _HALVINGS, _NOTHING = 2001, 60, 1e-12
@@ -70,7 +70,7 @@ class Loose:
         motor = self.machine.drive.motor
         return self.machine.drive.inertia + self.flywheel + (motor.reduced_inertia if motor else 0.0)
 
-    def moved(self, piece: Piece, angle: Array, way: Way = 1) -> Motion:
+    def moved(self, piece: Piece, angle: Array, way: Direction = 1) -> Motion:
         """Return the motion of a branch at crank angles, forwards or backwards. [rad]"""
         paths = self.paths.setdefault(piece.low, {})
         motion = linkage_motion(piece.mechanism, CrankGrid.from_radians(angle), paths=paths)
@@ -170,7 +170,7 @@ class Loose:
         """What its coordinate feels."""
         wanted, ends = self.wanted, self.chart.ends
         breaks = np.unique(np.concatenate([ends, *(self._breaks(one) for one in self.chart.pieces)]))
-        reduced = fitted(self._columns, breaks, _WIDTH, self.chart.period, alike=(*_ALIKE, *self._alike))
+        reduced = fitted(self._columns, breaks, _WIDTH, self.chart.period, groups=(*_ALIKE, *self._alike))
         # towards dead positions the derivatives by the crank angle are differences of infinite terms
         dead = self.chart.pieces[0].turns_back
         reduced = reduced.with_slopes((0, 6), (1, 7)) if dead else reduced

@@ -68,7 +68,7 @@ def quality_of(over: OverCycle) -> tuple[dict[str, Known], tuple[Notice, ...]]:
     """Return the extreme transmission and pressure angles, and notices of those that are unusual."""
     result: dict[str, Known] = {}
     told: list[Notice] = []
-    keys = [key for key in over.knowns if key.partition(".")[0] in ("transmission_cosine", "pressure_sine")]
+    keys = [key for key in over.columns if key.partition(".")[0] in ("transmission_cosine", "pressure_sine")]
     extremes = over.extremes(*keys)
     for key in keys:
         kind, _, name = key.partition(".")
@@ -107,7 +107,7 @@ def rocks(pivoted: Collection[str], key: str, travel: float) -> bool:
 def time_ratios(over: OverCycle, summary: Mapping[str, Known]) -> Iterator[tuple[str, Known]]:
     """Yield the time of the slower stroke over that of the faster one, of what turns back twice in a turn."""
     turns = (over.edges[-1] - over.edges[0]) / _TURN
-    for key in over.knowns:
+    for key in over.columns:
         kind, _, name = key.partition(".")
         ends = [f"{kind}_{word}_angle.{name}" for word in ("max", "min")]
         if kind not in ("slider_displacement", "link_angle") or ends[0] not in summary:

@@ -71,7 +71,7 @@ class Balance(NamedTuple):
 
 def has_friction(drive: Drive, over: OverCycle) -> bool:
     """Return whether friction counts in what drives a linkage: it is known, and no efficiency stands for it."""
-    return "torque_with_friction" in over.knowns and drive.losses != "machine"
+    return "torque_with_friction" in over.columns and drive.losses != "machine"
 
 
 def balance_of(
@@ -223,7 +223,7 @@ def _wheels(
     inertia, load = balance.inertia_curve, balance.curve
     found = [flywheel(inertia, load, w.value, wanted.value, way, balance.excess) for way in WAYS]
     of = balance.torque, balance.inertia
-    ways = {f"flywheel_inertia.{one.way}": _wheel(one, inertia, w, wanted, of) for one in found}
+    ways = {f"flywheel_inertia.{one.method}": _wheel(one, inertia, w, wanted, of) for one in found}
     wheel = ways["flywheel_inertia.exact"]
     return {"flywheel_inertia": wheel, **ways}, {}, wheel
 
@@ -249,14 +249,14 @@ def _rotor(motor: GearedMotor) -> dict[str, Known]:
 
 def _excess(one: Flywheel, slopes: tuple[Known, ...], of: tuple[Known, ...]) -> Known:
     """Return the excess work in the sense of one way, by the slopes of its tangents if it has any."""
-    if one.way == "energy":
+    if one.method == "energy":
         return Known(Found(one.excess, "range", of), "excess_work")
-    return Known(Found(one.excess, "tangents", (*of, *slopes)), f"excess_work.{one.way}")
+    return Known(Found(one.excess, "tangents", (*of, *slopes)), f"excess_work.{one.method}")
 
 
 def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Known, ...]) -> Known:
     """Return the flywheel of one way; zero where the machine needs none."""
-    key, way = f"flywheel_inertia.{one.way}", one.way
+    key, way = f"flywheel_inertia.{one.method}", one.method
     slopes = tuple(
         slope(w, wanted).named(f"wittenbauer_slope.{way}.{word}")
         for word, slope in zip(("largest", "least"), _SLOPES.get(way, ()), strict=False)

@@ -79,7 +79,7 @@ def _memory(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str
             return given(key, values[0], f"{path}[1]") if values[0] else absent(key)
         if path:
             return Known(Table(StatedRows(degrees, values, path), "given"), key)
-        return Known(Table(Rows(degrees, values), "positions", of=of), key)
+        return Known(Table(Rows(degrees, values), "positions", operands=of), key)
 
     def part(body: TabulatedBody) -> Known:
         path = f"transfer.bodies.{body.name}"

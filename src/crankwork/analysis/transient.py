@@ -28,7 +28,7 @@ from crankwork.locale import Refusal
 from crankwork.mechanism.joints import names_of_pivots
 from crankwork.shaft.collocation import gauss
 from crankwork.shaft.glide import Followed
-from crankwork.shaft.transient import RATE, Course, Run, Way
+from crankwork.shaft.transient import RATE, Direction, Run, Trajectory
 
 # share of the energy that may be missed across dead positions of the crank, beside which its angle says little
 _ACROSS = 1e-6
@@ -132,10 +132,10 @@ class _Cycles:
             self._progress(run.time / self._time)
         if self._until == "rest":
             return run.is_over
-        if self._until == "time" or not run.course.steps or math.isinf(self._period):
+        if self._until == "time" or not run.trajectory.steps or math.isinf(self._period):
             return False
-        step, turned = run.course.steps[-1], run.course.turned[-1]
-        ahead = self._place + self._period * len(self.times) * run.way - turned
+        step, turned = run.trajectory.steps[-1], run.trajectory.turned[-1]
+        ahead = self._place + self._period * len(self.times) * run.direction - turned
         ended = abs(step.end[0] - ahead) < _AT_PERIOD
         for time in [step.time + step.length] if ended else step.crossings(lambda q, _: q - ahead)[:1]:
             self.times.append(time)
@@ -143,7 +143,7 @@ class _Cycles:
         last = self.rates[-_SAME_CYCLES - 1 :]
         if len(last) <= _SAME_CYCLES or np.ptp(last) > _STEADY * abs(last[-1]):
             return False
-        run.tell("steady")
+        run.record_event("steady")
         return True
 
     def against(self, summary: Mapping[str, Known]) -> dict[str, float]:
@@ -154,7 +154,7 @@ class _Cycles:
         return {"steady_cycle": abs(mean / summary["steady_speed"].value - 1)}
 
 
-def _history(loose: Loose, course: Course) -> Listing:
+def _history(loose: Loose, course: Trajectory) -> Listing:
     """Return the motion as a table over time: crank, sliding pieces, joint forces, energies."""
     step = loose.wanted.step or course.end / _ROWS
     times = np.asarray(np.arange(math.floor(course.end / step * (1 + 1e-12)) + 1) * step, dtype=float)
@@ -196,7 +196,7 @@ class _Filled:
         self.columns.setdefault(key, np.full(self.count, np.nan))[rows] = values
 
 
-def _events(chart: Chart, course: Course) -> dict[str, Listing]:
+def _events(chart: Chart, course: Trajectory) -> dict[str, Listing]:
     """Return the table of what happens; none where nothing does."""
     if not course.events:
         return {}
@@ -211,7 +211,7 @@ def _events(chart: Chart, course: Course) -> dict[str, Listing]:
     return {"transient_events": Listing(columns, tuple(names))}
 
 
-def _missing(loose: Loose, course: Course) -> float:
+def _missing(loose: Loose, course: Trajectory) -> float:
     """Return by how much energy gained and work done differ, over the largest kinetic energy. [-]
 
     Energies are those of speed and place, the work that of powers between, on a grid of its own.
@@ -234,7 +234,7 @@ def _missing(loose: Loose, course: Course) -> float:
     return float(np.ptp(kinetic + potential - done)) / largest if largest else 0.0
 
 
-def _lost_at_stops(loose: Loose, course: Course) -> Array:
+def _lost_at_stops(loose: Loose, course: Trajectory) -> Array:
     """Return what each stop takes of the kinetic energy. [J]"""
     met = [one for one in course.events if one.word == "stop"]
     if not met:
@@ -244,7 +244,7 @@ def _lost_at_stops(loose: Loose, course: Course) -> Array:
     return np.asarray(kinetic_energy(inertia, rate) * (1 - loose.wanted.restitution**2))
 
 
-def _energies(loose: Loose, course: Course, times: Array) -> tuple[Array, Array]:
+def _energies(loose: Loose, course: Trajectory, times: Array) -> tuple[Array, Array]:
     """Return kinetic and potential energy at some times. [J]"""
     u, v, _ = course.at(times)
     crank, found = loose.chart.crank(u), np.empty((2, times.size))
@@ -256,7 +256,7 @@ def _energies(loose: Loose, course: Course, times: Array) -> tuple[Array, Array]
     return np.asarray(found[0]), np.asarray(found[1])
 
 
-def _power(loose: Loose, course: Course, times: Array) -> Array:
+def _power(loose: Loose, course: Trajectory, times: Array) -> Array:
     """Return the power of the driver and of the loads without a potential energy. [W]"""
     u, v, a = course.at(times)
     crank = loose.chart.crank(u)
@@ -269,7 +269,7 @@ def _power(loose: Loose, course: Course, times: Array) -> Array:
     ):
         return np.asarray(power)
     for piece, here, angle in loose.chart.places(u):
-        ways: tuple[Way, Way] = (1, -1)
+        ways: tuple[Direction, Direction] = (1, -1)
         for way in ways:
             rows = speed[here] * way > 0
             if rows.any():
@@ -293,7 +293,7 @@ def _lost(loose: Loose, piece: Piece, motion: Motion, rates: tuple[Array, Array]
         return friction_forces(running, loose.machine.friction).power_loss
 
 
-def _told(loose: Loose, course: Course) -> Iterator[Notice]:
+def _told(loose: Loose, course: Trajectory) -> Iterator[Notice]:
     """Yield what keeps it from starting, and what happens on the way: the first time of each."""
     missing = _missing_torque(loose)
     stays = bool(course.events) and course.events[0].time == 0 and course.events[0].word == "comes_to_rest"
@@ -312,7 +312,7 @@ def _told(loose: Loose, course: Course) -> Iterator[Notice]:
             yield Notice(f"transient_{word}", {"time": event.time, "angle": angle, "speed": speed, "count": count})
 
 
-def _not_yet(loose: Loose, course: Course) -> Iterator[Notice]:
+def _not_yet(loose: Loose, course: Trajectory) -> Iterator[Notice]:
     """Yield that the time was up before what was waited for."""
     waited = {"rest": "comes_to_rest", "steady": "steady"}.get(loose.wanted.until)
     if waited is not None and all(one.word != waited for one in course.events):
@@ -325,7 +325,7 @@ def _missing_torque(loose: Loose) -> float:
     if not drive or loose.wanted.speed:
         return 0.0
     felt, start = loose.felt, loose.chart.coordinate(loose.wanted.start)
-    way: Way = 1 if drive * float(felt.reduced(np.array([start]))[RATE][0]) > 0 else -1
+    way: Direction = 1 if drive * float(felt.reduced(np.array([start]))[RATE][0]) > 0 else -1
     u = np.array([felt.placed(float(loose.chart.within(np.array([start]))[0][0]), way)])
     inertia, rate = (float(felt.reduced(u)[row][0]) for row in (0, RATE))
     return (

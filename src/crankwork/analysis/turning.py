@@ -87,7 +87,7 @@ class _Turned(NamedTuple):
 
 
 def _has_course(turning: Turning) -> bool:
-    return all(one.has_course for one in turning.diagrams.values())
+    return all(one.is_complete for one in turning.diagrams.values())
 
 
 def _speed(machine: Machine) -> Known:
@@ -182,7 +182,7 @@ def _mean(over: OverCycle, machine: Machine, turning: Turning, table: str, w: Kn
     at_once = works_at_once(machine, turning, table, key, w)
     period = given("cycle_angle", diagram.period, f"{table}.period")
     evened = (at_once.named("stroke_work") / period).named("mean_torque")
-    return evened if over.is_nothing(key) else (mean.named("mean_torque.stretched") + evened).named("mean_torque")
+    return evened if over.is_zero(key) else (mean.named("mean_torque.stretched") + evened).named("mean_torque")
 
 
 def _curve(over: OverCycle, key: str) -> Curve:

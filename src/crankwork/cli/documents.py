@@ -8,8 +8,19 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from crankwork.cli.asked import CommonOptions, drawing_ending, parse_angle_or_time, with_common_options
-from crankwork.cli.options import COMPARE, LANG, LANGUAGE, METHOD, NO_FIGURES, OVERWRITE, PER_AREA, SET, STEP, SYSTEM
-from crankwork.cli.spoken import LocalizedCommand
+from crankwork.cli.options import (
+    COMPARE,
+    LANG,
+    LANGUAGE,
+    METHOD,
+    NO_FIGURES,
+    OVERWRITE,
+    PER_AREA,
+    SET,
+    STEP,
+    SYSTEM,
+    LocalizedCommand,
+)
 from crankwork.errors import CrankworkError
 from crankwork.locale import Refusal
 from crankwork.progress import progress_bar
@@ -127,7 +138,9 @@ def draw(options: CommonOptions, output: str, place: str | None, *, forces: bool
     results = options.results()
     angle_or_time = None if place is None else parse_angle_or_time(place, "time" if results.period else "angle")
     with progress_bar() as progress:
-        drawing = drawn(results, ending, options.theme, angle_or_time, options.language, forces=forces, told=progress)
+        drawing = drawn(
+            results, ending, options.theme, angle_or_time, options.language, forces=forces, progress=progress
+        )
     files.write_files({output: drawing}, overwrite=options.overwrite)
     options.print_written(output)
     options.raise_if_unverified(results)

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from crankwork.cli.asked import CommonOptions, parse_count, parse_formats, with_common_options
-from crankwork.cli.options import FORMAT, JSON, LANG, NO_FIGURES, OVERWRITE, SET, SYSTEM, THEME
-from crankwork.cli.spoken import LocalizedCommand
+from crankwork.cli.options import FORMAT, JSON, LANG, NO_FIGURES, OVERWRITE, SET, SYSTEM, THEME, LocalizedCommand
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import Refusal, say
 from crankwork.progress import counting, progress_bar

@@ -1,37 +1,58 @@
-"""Forces in the joints of a mechanism, group after group from the last to the driver (Bruyevich)."""
+"""Forces in the joints of a mechanism, group after group from the last to the driver (Bruyevich).
+
+Forces between teeth act where both wheels have the same velocity: on the line of centres, between the axes if they turn
+in opposite senses, beyond one of them if the other is a ring.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
 
 from crankwork.dynamics.dyad_forces import (
     OnGuide,
     Vector,
     force_across,
     force_along,
+    force_along_x,
+    force_along_y,
     prp_forces,
     rpp_forces,
     rpr_forces,
     rrp_forces,
     rrr_forces,
 )
-from crankwork.dynamics.force_passages import bridged_forces
 from crankwork.dynamics.force_system import cylinder_force, motor_group, solved_group
-from crankwork.dynamics.gears import meshes, on_cranks
 from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, link_wrenches, moment_of
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, reaction_wrench
 from crankwork.dynamics.running import Running
-from crankwork.formula.expression import Value
-from crankwork.formula.known import named
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Known, Pieces, Table, is_known, named
+from crankwork.formula.replay import Program
+from crankwork.kinematics.bridges import BEYOND
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.memory import interpolant_of
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, LinkMotor
+from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
+from crankwork.mechanism.passage import ChangePointFit, ChangePointPassage, Polynomial
+
+_DEGREE, _NODES = 12, 40
+# forces lose one digit more than the motion they follow from: their nodes lie farther off
+_NEAREST, _REACH = 0.25, 1.5
+_SMOOTH = 1e-8
+# without a common limit, the change point itself has no value [deg]
+_ANGLE_TOLERANCE = 1e-6
+_SOURCE = "artobolevsky_1988, ch. 13"
 
 
 def joint_forces(running: Running) -> JointForces:
@@ -216,3 +237,152 @@ def _reaction(joint: Joint, force: Vector | OnGuide) -> Reaction:
             return GuideForce(
                 joint, named(force[0], f"normal_force.{joint.name}"), named(force[1], f"normal_moment.{joint.name}")
             )
+
+
+def bridged_forces(reactions: dict[Joint, Reaction], passage: ChangePointPassage) -> dict[Joint, Reaction]:
+    """Return traced reactions of a dyad that passes change points; numbers stay as they are."""
+    if not all(isinstance(value, Known) for force in reactions.values() for value in force[1:]):
+        return reactions
+    columns: dict[str, Known] = {
+        f"{number}.{index}": value
+        for number, force in enumerate(reactions.values())
+        for index, value in enumerate(force[1:])
+    }
+    varying = {key: column for key, column in columns.items() if column.varies}
+    ends: list[float] = []
+    laws: dict[str, list[Known]] = {key: [] for key in varying}
+    for bridge in passage.bridges:
+        nodes = _nodes(bridge)
+        values = Program(varying)(CrankGrid.from_degrees(bridge.degrees + nodes))
+        # a force that is negligible against the others is rough from rounding
+        width, tolerance = bridge.width, _SMOOTH * max(float(np.max(np.abs(value))) for value in values.values())
+        fits = {key: _limit(bridge.degrees, nodes, value, tolerance) for key, value in values.items()}
+        if any(fit is None for fit in fits.values()):
+            width, unknown = _ANGLE_TOLERANCE, Polynomial(bridge.degrees, _ANGLE_TOLERANCE, (np.nan,))
+            fits = dict.fromkeys(values, unknown)
+        ends += [bridge.degrees - width, bridge.degrees + width]
+        for key, law in fits.items():
+            if law is not None:
+                laws[key] += [varying[key], Known(Table(law, "change_point"), varying[key].key)]
+    for key, traced in varying.items():
+        columns[key] = Known(Pieces([*ends, BEYOND], (*laws[key], traced)), traced.key)
+    result: dict[Joint, Reaction] = {}
+    for number, reaction in enumerate(reactions.values()):
+        first, second = columns[f"{number}.0"], columns[f"{number}.1"]
+        if isinstance(reaction, PinForce):
+            result[reaction.joint] = PinForce(reaction.joint, first, second)
+        else:
+            result[reaction.joint] = GuideForce(reaction.joint, first, second)
+    return result
+
+
+def _nodes(bridge: ChangePointFit) -> Array:
+    """Return angles on both sides of a change point, relative to it. [deg]"""
+    near, far = _NEAREST * bridge.width, _REACH * bridge.width
+    nodes = np.cos(np.pi * (2 * np.arange(_NODES // 2) + 1) / _NODES)
+    offsets = np.sqrt((near**2 + far**2) / 2 + (far**2 - near**2) / 2 * nodes)
+    return np.concatenate([-offsets, offsets[::-1]])
+
+
+def _limit(degrees: float, nodes: Array, values: Array, tolerance: float) -> Polynomial | None:
+    """Return the polynomial through values on both sides of a change point, or None if its error is too large."""
+    reach = float(np.max(np.abs(nodes)))
+    powers = chebyshev.chebvander(nodes / reach, _DEGREE)
+    coefficients = np.linalg.lstsq(powers, values, rcond=None)[0]
+    if not np.max(np.abs(powers @ coefficients - values)) <= tolerance:
+        return None
+    return Polynomial(degrees, reach, tuple(map(float, coefficients)))
+
+
+class Mesh(NamedTuple):
+    """The force on the teeth of a geared crank, across the line of centres and along it, arrays of shape (n,). [N]"""
+
+    link: str
+    across: Value  # To the left of the direction from the driving pivot to its own
+    separating: Value  # Away from the other teeth, never negative
+    # Along the fixed axes
+    x: Value
+    y: Value
+
+
+class Centres(NamedTuple):
+    """The line of centres of two wheels: its length, and its direction from the driving wheel. [m]"""
+
+    distance: Value
+    cos: Value
+    sin: Value
+
+
+@formula("link_length", _SOURCE)
+def centre_distance(r_x: Value, r_y: Value) -> Value:
+    """Distance of the axes of two wheels."""
+    return np.sqrt(r_x**2 + r_y**2)
+
+
+@formula("tooth_force", _SOURCE)
+def tooth_force(M_1: Value, i_g: Value, a_w: Value) -> Value:
+    """Force between teeth across the line of centres, from the moment of what the wheel of a geared crank carries."""
+    return M_1 * (1 - i_g) / a_w
+
+
+@formula("separating_force", _SOURCE)
+def separating_force(F_z: Value, mu_p: Value) -> Value:
+    """Force between teeth along the line of centres, where that across it is positive."""
+    return F_z * np.tan(mu_p)
+
+
+def centres(crank: Crank, geared: GearedCrank) -> Centres:
+    """Return the line of centres of the wheels of two cranks."""
+    x, y = (its - mine for its, mine in zip(geared.pivot, crank.pivot, strict=True))
+    distance = named(centre_distance(x, y), f"link_length.{geared.link}.centres")
+    return Centres(
+        distance,
+        named(x / distance, f"line_cos.{geared.link}.centres"),
+        named(y / distance, f"line_sin.{geared.link}.centres"),
+    )
+
+
+def meshes(crank: Crank, motion: Motion, wrenches: Wrenches) -> Iterator[Mesh]:
+    """Yield the forces on the teeth of geared cranks whose pressure angle is given.
+
+    `wrenches`: on every link, without bearings and teeth.
+    """
+    for geared in crank.geared:
+        if geared.pressure_angle is None:
+            continue
+        line, moment = centres(crank, geared), wrenches[geared.link].moment
+        if is_known(moment) and moment.is_absent:
+            continue
+        across = named(tooth_force(moment, geared.ratio, line.distance), f"tooth_force.{geared.link}")
+        separating = _separating_force(across, geared, motion)
+        along = -separating if _is_inside(geared) else separating
+        x = named(force_along_x(along, line.cos, across, line.sin), f"joint_force_x.{geared.link}.teeth")
+        y = named(force_along_y(along, line.sin, across, line.cos), f"joint_force_y.{geared.link}.teeth")
+        yield Mesh(geared.link, across, separating, x, y)
+
+
+def _is_inside(geared: GearedCrank) -> bool:
+    """Return whether one of the wheels is a ring, so that teeth push the other towards its centre."""
+    ratio: Any = geared.ratio
+    return bool((ratio.value if is_known(ratio) else ratio) > 0)
+
+
+def _separating_force(across: Value, geared: GearedCrank, motion: Motion) -> Value:
+    """Return the force that separates the wheels, on either flank."""
+    angle, key = geared.pressure_angle, f"separating_force.{geared.link}"
+    if not is_known(across):
+        return separating_force(np.abs(across), angle)
+    push, pull = named(separating_force(across, angle), key), named(separating_force(-across, angle), key)
+    if not across.varies:
+        return push if across.value >= 0 else pull
+    ends, is_pull = interpolant_of(motion.grid)({"": across}).stretches("")
+    return Known(Pieces(ends, tuple(pull if is_pulling else push for is_pulling in is_pull)), key)
+
+
+def on_cranks(crank: Crank, meshes_by_link: Mapping[str, Mesh]) -> dict[str, tuple[Value, Value]]:
+    """Return the tooth forces on the crank and the geared cranks, along the fixed axes. [N]"""
+    forces: dict[str, tuple[Value, Value]] = {name: (item.x, item.y) for name, item in meshes_by_link.items()}
+    for mesh in meshes_by_link.values():
+        x, y = forces.get(crank.link, (0.0, 0.0))
+        forces[crank.link] = (x - mesh.x, y - mesh.y)
+    return forces

@@ -107,13 +107,13 @@ def formula(
         entry = FORMULAS[function.__name__] = Formula(function, quantity, source, unit, constants, valid, printed)
 
         @functools.wraps(function)
-        def compute_or_remember(*operands: Any) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
+        def compute_or_trace(*operands: Any) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
             if is_known(*operands):
                 return Known(Use(entry, operands), quantity)
-            # by way of the entry, as what is remembered does, so that `instead` reaches both
+            # through the entry, as in replays, so that `instead` replaces both
             return entry.function(*operands)
 
-        return cast("Function", compute_or_remember)
+        return cast("Function", compute_or_trace)
 
     return register
 
@@ -208,7 +208,7 @@ _OPERATOR_OF: dict[np.ufunc, Callable[..., Any]] = {
 
 
 def _operation(function: Callable[..., Any], *operands: object) -> Operation:
-    return Operation(function, tuple(one if isinstance(one, Expression) else Number(one) for one in operands))
+    return Operation(function, tuple(item if isinstance(item, Expression) else Number(item) for item in operands))
 
 
 def record(function: Callable[..., Any], absent: Collection[str] = ()) -> Expression:
@@ -236,7 +236,7 @@ def evaluate(tree: Expression, values: Mapping[str, Any]) -> Any:  # noqa: ANN40
         case Number(value):
             return value
         case Operation(function, operands):
-            return function(*(evaluate(one, values) for one in operands))
+            return function(*(evaluate(operand, values) for operand in operands))
     raise TypeError(f"{tree!r} is not part of a formula")
 
 
@@ -281,7 +281,7 @@ def _text(tree: Expression, values: Mapping[str, str], language: Language) -> tu
         case Operation(np.sqrt, (operand,)):
             return f"√({_text(operand, values, language)[0]})", _ATOM
         case Operation(function, operands):
-            inside = [_text(one, values, language)[0] for one in operands]
+            inside = [_text(argument, values, language)[0] for argument in operands]
             return _function_text(function, inside, language), _ATOM
     raise TypeError(f"{tree!r} is not part of a formula")
 
@@ -373,8 +373,8 @@ def fold(tree: Expression) -> Expression:
     """
     if not isinstance(tree, Operation):
         return tree
-    operands = tuple(fold(one) for one in tree.operands)
-    numbers = [one.value if isinstance(one, Number) else None for one in operands]
+    operands = tuple(fold(operand) for operand in tree.operands)
+    numbers = [operand.value if isinstance(operand, Number) else None for operand in operands]
     function = tree.function
     is_power = function in (operator.pow, np.power)
     if None not in numbers and (is_power or any(was != is_ for was, is_ in zip(tree.operands, operands, strict=True))):

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 class Node:
-    """What a known remembers: its operands, and its value, None where that varies with the crank angle."""
+    """A node of the computation graph: its operands, and its value, None where that varies with the crank angle."""
 
     __slots__ = ("operands", "value")
 
@@ -56,14 +56,14 @@ class OfAngle(Node):
 class Use(Node):
     """A formula with its operands; plain numbers among them are constants of the analysis.
 
-    `retold`: the same value for any numbers, where an operand is the one of several that counts with these numbers.
+    `general_form`: expression valid for all inputs; `inputs` hold only the branch taken for these.
     """
 
-    __slots__ = ("formula", "inputs", "retold")
+    __slots__ = ("formula", "general_form", "inputs")
 
-    def __init__(self, formula: Formula, inputs: tuple[Known | float, ...], retold: Known | None = None) -> None:
+    def __init__(self, formula: Formula, inputs: tuple[Known | float, ...], general_form: Known | None = None) -> None:
         self.value, self.operands = _value(formula.function, inputs)
-        self.formula, self.inputs, self.retold = formula, inputs, retold
+        self.formula, self.inputs, self.general_form = formula, inputs, general_form
 
 
 class Arithmetic(Node):
@@ -90,9 +90,9 @@ class Delayed(Node):
 
     __slots__ = ("by", "cycle", "of")
 
-    def __init__(self, of: Known, by: float, cycle: float) -> None:
-        super().__init__(of.node.value, (of,))
-        self.of, self.by, self.cycle = of, by, cycle
+    def __init__(self, column: Known, shift: float, cycle: float) -> None:
+        super().__init__(column.node.value, (column,))
+        self.of, self.by, self.cycle = column, shift, cycle
 
 
 class Chosen(Node):
@@ -100,30 +100,30 @@ class Chosen(Node):
 
     __slots__ = ()
 
-    def __init__(self, of: Known, first: Known, second: Known) -> None:
-        super().__init__((first if of.value > 0 else second).value, (of, first, second))
+    def __init__(self, condition: Known, first: Known, second: Known) -> None:
+        super().__init__((first if condition.value > 0 else second).value, (condition, first, second))
 
 
 class Pieces(Node):
     """Laws that follow one another over the crank angle; each owns its end and not its start. [deg]
 
     A law is a formula of columns that stand beside the pieces, a table, or a value. `knots` are further angles where
-    the column is not smooth. An end may be a known. `retold` gives the same column made of nothing but knowns, where
-    laws are tables that an analysis worked out in numbers.
+    the column is not smooth. An end may be a known. `general_form` gives the column as an expression valid for all
+    inputs, where laws are tables of numbers.
     """
 
-    __slots__ = ("ends", "knots", "places", "retold")
+    __slots__ = ("ends", "general_form", "knots", "places")
 
     def __init__(
         self,
         ends: Iterable[float | Known],
         laws: tuple[Known, ...],
         knots: Iterable[float] = (),
-        retold: Callable[[], Known] | None = None,
+        general_form: Callable[[], Known] | None = None,
     ) -> None:
         super().__init__(None, laws)
-        self.places, self.retold = tuple(ends), retold
-        self.ends = np.array([plain(one) for one in self.places], dtype=float)
+        self.places, self.general_form = tuple(ends), general_form
+        self.ends = np.array([plain(end) for end in self.places], dtype=float)
         self.knots = (*self.ends.tolist(), *knots)
 
 
@@ -141,11 +141,11 @@ class Table(Node):
         function: Callable[[Array], Array],
         word: str,
         knots: Iterable[float] = (),
-        of: Iterable[Known] = (),
-        by: Known | None = None,
+        operands: Iterable[Known] = (),
+        argument: Known | None = None,
     ) -> None:
-        super().__init__(None, of if by is None else (by, *of))
-        self.function, self.word, self.knots, self.by = function, word, tuple(knots), by
+        super().__init__(None, operands if argument is None else (argument, *operands))
+        self.function, self.word, self.knots, self.by = function, word, tuple(knots), argument
 
 
 class Root(Node):
@@ -157,8 +157,8 @@ class Root(Node):
 
     __slots__ = ("knots", "residuals", "solve")
 
-    def __init__(self, solve: Callable[[Any], Array], of: Iterable[Known] = ()) -> None:
-        super().__init__(None, of)
+    def __init__(self, solve: Callable[[Any], Array], operands: Iterable[Known] = ()) -> None:
+        super().__init__(None, operands)
         self.solve: Callable[[Any], Array] = solve
         self.residuals: tuple[Known, ...] = ()
         self.knots: tuple[float, ...] = ()
@@ -169,13 +169,13 @@ class Component(Node):
 
     __slots__ = ("at",)
 
-    def __init__(self, root: Root, at: int) -> None:
+    def __init__(self, root: Root, index: int) -> None:
         super().__init__(None, (Known(root),))
-        self.at = at
+        self.at = index
 
 
 class HalfTurns(Node):
-    """How many half turns a direction is ahead of the arc tangent of its slope, so that it never jumps.
+    """Number of half turns that unwraps the arc tangent of a slope to a continuous direction.
 
     `near` is roughly the direction at crank angles, operands are its sine and cosine. [deg] -> [rad]
     """
@@ -198,13 +198,18 @@ class Found(Node):
     __slots__ = ("at", "by", "word")
 
     def __init__(
-        self, value: float, word: str, of: Iterable[Known] = (), at: float | None = None, by: Known | None = None
+        self,
+        value: float,
+        word: str,
+        operands: Iterable[Known] = (),
+        angle: float | None = None,
+        argument: Known | None = None,
     ) -> None:
-        super().__init__(float(value), of)
-        self.word, self.at, self.by = word, at, by
+        super().__init__(float(value), operands)
+        self.word, self.at, self.by = word, angle, argument
 
     @property
-    def retold(self) -> Known | None:
+    def general_form(self) -> Known | None:
         """The same value made of nothing but knowns, where there is such a way."""
         return None if self.word in ("at", "reached") else self.by
 
@@ -214,8 +219,8 @@ class Harmonic(Found):
 
     __slots__ = ("order", "part")
 
-    def __init__(self, value: float, of: Known, part: str, order: float) -> None:
-        super().__init__(value, "fourier", (of,))
+    def __init__(self, value: float, column: Known, part: str, order: float) -> None:
+        super().__init__(value, "fourier", (column,))
         self.part, self.order = part, order
 
 
@@ -232,11 +237,11 @@ class Procedure(Found):
         self,
         value: float,
         word: str,
-        of: Iterable[Known],
+        operands: Iterable[Known],
         function: Callable[[Array, Array], Sequence[float]],
         part: int,
     ) -> None:
-        super().__init__(value, word, of)
+        super().__init__(value, word, operands)
         self.function, self.part = function, part
 
 
@@ -272,7 +277,7 @@ class Known:
 
     @property
     def is_absent(self) -> bool:
-        """Whether nobody stated it."""
+        """Whether it is an input that was not stated."""
         return isinstance(self.node, Given) and self.node.is_absent
 
     def named(self, key: str) -> Known:
@@ -363,7 +368,7 @@ def given(key: str, value: float, path: str = "", unit: str = "") -> Known:
 
 
 def absent(key: str, neutral: float = 0.0) -> Known:
-    """Return what nobody stated: the neutral number, whose terms are not printed."""
+    """Return an input that is not stated: a neutral number, whose terms are not printed."""
     return Known(Given(neutral, is_absent=True), key)
 
 
@@ -388,18 +393,19 @@ def plain(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
     return value.value if isinstance(value, Known) else value
 
 
-def chosen(of: Any, first: Any, second: Any) -> Any:  # noqa: ANN401 - numbers, arrays of them, or of knowns
+def chosen(condition: Any, first: Any, second: Any) -> Any:  # noqa: ANN401 - numbers, arrays of them, or of knowns
     """Return the first of two values where another is above zero, else the second."""
-    if any(isinstance(one, np.ndarray) and one.dtype == object for one in (of, first, second)):
-        return np.frompyfunc(chosen, 3, 1)(of, first, second)
-    if is_known(of, first, second):
-        return Known(Chosen(*(one if isinstance(one, Known) else Known(Given(one)) for one in (of, first, second))))
-    return np.where(of > 0, first, second)[()]
+    if any(isinstance(value, np.ndarray) and value.dtype == object for value in (condition, first, second)):
+        return np.frompyfunc(chosen, 3, 1)(condition, first, second)
+    if is_known(condition, first, second):
+        values = (condition, first, second)
+        return Known(Chosen(*(value if isinstance(value, Known) else Known(Given(value)) for value in values)))
+    return np.where(condition > 0, first, second)[()]
 
 
-def delayed(known: Known, by: float, cycle: float, key: str) -> Known:
+def delayed(known: Known, shift: float, cycle: float, key: str) -> Known:
     """Return a column every value of which comes later by an angle, the cycle closed; both in degrees."""
-    return Known(Delayed(known, by % cycle, cycle), key) if by % cycle else known.named(key)
+    return Known(Delayed(known, shift % cycle, cycle), key) if shift % cycle else known.named(key)
 
 
 def is_known(*values: object) -> bool:
@@ -407,13 +413,13 @@ def is_known(*values: object) -> bool:
     return Known in map(type, values)
 
 
-def in_order(knowns: Iterable[Known], *, into: Callable[[Node], Sequence[Known]] | None = None) -> Iterator[Known]:
-    """Yield everything that knowns are made of, operands before what is made of them, each node once.
+def in_order(values: Iterable[Known], *, into: Callable[[Node], Sequence[Known]] | None = None) -> Iterator[Known]:
+    """Yield values and all their dependencies, operands before their results, each node once.
 
-    `into`: what of a node to look into; its operands otherwise.
+    `into`: returns the dependencies of a node to follow; its operands by default.
     """
     done: set[int] = set()
-    stack: list[Known | None] = list(reversed(tuple(knowns)))
+    stack: list[Known | None] = list(reversed(tuple(values)))
     # what is made of operands on the stack, each after a gap below them
     made: list[Known] = []
     while stack:
@@ -431,15 +437,15 @@ def in_order(knowns: Iterable[Known], *, into: Callable[[Node], Sequence[Known]]
                 yield known
 
 
-def breaks_of(knowns: Iterable[Known], cycle: float, start: float = 0.0) -> Array:
-    """Return the crank angles where columns are not smooth, from start to end of the cycle. [deg]
+def breaks_of(columns: Iterable[Known], cycle: float, start: float = 0.0) -> Array:
+    """Return the breakpoints of columns, angles where they are not smooth, with start and end of the cycle. [deg]
 
     `cycle` and `start`: length and beginning of the cycle [deg].
     """
-    found = _breaks(tuple(knowns), {})
-    inside = start + np.mod(np.array(sorted(found), dtype=float) - start, cycle)
+    breaks = _breaks(tuple(columns), {})
+    inside = start + np.mod(np.array(sorted(breaks), dtype=float) - start, cycle)
     edges = distinct(np.concatenate([[start], inside, [start + cycle]]))
-    # corners that only rounding has set apart are one
+    # breakpoints that differ by rounding only are merged
     kept = edges[np.append(np.diff(edges) > _SAME_ANGLE, True)]
     kept[0] = start
     return np.asarray(kept)
@@ -454,34 +460,34 @@ def distinct(values: Array) -> Array:
     return np.asarray(ordered[np.append(True, np.diff(ordered) > 0)]) if ordered.size else ordered
 
 
-def _breaks(knowns: tuple[Known, ...], memo: dict[int, frozenset[float]]) -> frozenset[float]:
-    for known in in_order(knowns, into=_varying):
+def _breaks(columns: tuple[Known, ...], memo: dict[int, frozenset[float]]) -> frozenset[float]:
+    for known in in_order(columns, into=_varying):
         node = known.node
         # operands mostly share their breaks: a set as it is, joined only to what is not in it
-        found: frozenset[float] = frozenset()
-        for one in node.operands:
-            others = memo.get(id(one.node), found)
-            found = others if not found else found if others <= found else found | others
+        breaks: frozenset[float] = frozenset()
+        for operand in node.operands:
+            operand_breaks = memo.get(id(operand.node), breaks)
+            breaks = operand_breaks if not breaks else breaks if operand_breaks <= breaks else breaks | operand_breaks
         if isinstance(node, Pieces | Table | Root):
-            found |= frozenset(node.knots)
+            breaks |= frozenset(node.knots)
         elif isinstance(node, Delayed):
-            found = frozenset((one + node.by) % node.cycle for one in found)
-        if found and known.varies:
-            memo[id(node)] = found
-    return frozenset().union(*(memo.get(id(one.node), ()) for one in knowns))
+            breaks = frozenset((angle + node.by) % node.cycle for angle in breaks)
+        if breaks and known.varies:
+            memo[id(node)] = breaks
+    return frozenset().union(*(memo.get(id(column.node), ()) for column in columns))
 
 
 def _varying(node: Node) -> tuple[Known, ...]:
-    return tuple(one for one in node.operands if one.varies)
+    return tuple(operand for operand in node.operands if operand.varies)
 
 
 def _value(function: Callable[..., Any], inputs: Sequence[Known | float]) -> tuple[float | None, tuple[Known, ...]]:
-    """Return the value of what does not vary with the crank angle, at once, and the knowns among what it is made of."""
-    numbers, knowns = list[float | None](), list[Known]()
-    for one in inputs:
-        if isinstance(one, Known):
-            knowns.append(one)
-            numbers.append(one.node.value)
+    """Return the value of a constant expression, or None if it varies with the crank angle, and its traced operands."""
+    numbers, operands = list[float | None](), list[Known]()
+    for value in inputs:
+        if isinstance(value, Known):
+            operands.append(value)
+            numbers.append(value.node.value)
         else:
-            numbers.append(one)
-    return None if None in numbers else float(function(*numbers)), tuple(knowns)
+            numbers.append(value)
+    return None if None in numbers else float(function(*numbers)), tuple(operands)

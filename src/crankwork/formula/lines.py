@@ -36,7 +36,7 @@ from crankwork.quantities import QUANTITIES, base_key
 # an angle that was found is printed with ten digits; no such rest of a term reaches the other
 _NOISE, _LARGEST_NOISE = 1e-10, 1e-4
 # in SI: shorter than the nucleus of an atom
-_NOTHING = 1e-15
+_ZERO_TOLERANCE = 1e-15
 # what stands at an angle is the column itself there
 _AT_AN_ANGLE = ("at", "max", "min")
 
@@ -92,7 +92,7 @@ Line = FormulaLine | ValueLine | SumLine | DelayedLine
 
 
 def without_noise(line: Line) -> Line:
-    """Return a line as it is printed: zero stands for what rounding alone has left of larger terms."""
+    """Return a line as it is printed: values that are rounding noise become zero."""
     match line:
         case FormulaLine(noise=noise) if noise:
             values = {name: 0.0 if name in noise else value for name, value in line.values.items()}
@@ -100,7 +100,7 @@ def without_noise(line: Line) -> Line:
         case ValueLine(is_noise=True):
             return line._replace(value=0.0)
         case SumLine(terms=terms):
-            terms = tuple(ValueLine(one.key, 0.0 if one.is_noise else one.value) for one in terms)
+            terms = tuple(ValueLine(term.key, 0.0 if term.is_noise else term.value) for term in terms)
             return line._replace(terms=terms, value=0.0 if line.is_noise else line.value)
     return line
 
@@ -124,16 +124,16 @@ class Moment:
         if known.node.value is not None:
             return known.node.value
         if id(known.node) not in self._values:
-            made = {str(id(one.node)): one for one in self._made_of(known)}
+            made = {str(id(operand.node)): operand for operand in self._made_of(known)}
             columns = Program(made)(self._angles_at(np.array([self.degrees])))
-            self._values |= {id(one.node): (one.node, float(columns[key][0])) for key, one in made.items()}
+            self._values |= {id(operand.node): (operand.node, float(columns[key][0])) for key, operand in made.items()}
         return self._values[id(known.node)][1]
 
     def is_noise(self, known: Known) -> bool:
-        """Return whether a value is only what rounding has left of larger terms: beside them it is printed as zero."""
+        """Return whether a value is rounding noise of larger terms, which is printed as zero."""
         size = abs(self.value(known))
-        if size > _LARGEST_NOISE or size < _NOTHING:
-            return 0 < size < _NOTHING
+        if size > _LARGEST_NOISE or size < _ZERO_TOLERANCE:
+            return 0 < size < _ZERO_TOLERANCE
         match self.law(known).node:
             case OfAngle(function="sin" | "cos"):
                 return size <= _NOISE
@@ -142,20 +142,20 @@ class Moment:
         return False
 
     def _is_noise(self, operand: Known | float) -> bool:
-        return self.is_noise(operand) if isinstance(operand, Known) else 0 < abs(operand) < _NOTHING
+        return self.is_noise(operand) if isinstance(operand, Known) else 0 < abs(operand) < _ZERO_TOLERANCE
 
     def law(self, known: Known) -> Known:
-        """Return a known as it is here: of pieces the law of this crank angle, under the same name."""
+        """Return the law of a piecewise value at this crank angle, under the same name; other values as they are."""
         node = known.node
         while isinstance(node, Pieces):
-            at = min(int(np.searchsorted(node.ends, self.degrees, side="left")), len(node.operands) - 1)
-            node = node.operands[at].node
+            index = min(int(np.searchsorted(node.ends, self.degrees, side="left")), len(node.operands) - 1)
+            node = node.operands[index].node
         return Known(node, known.key)
 
-    def steps(self, knowns: Iterable[Known]) -> Iterator[Line]:
-        """Yield the lines of knowns, each after the lines of what it is made of, each once."""
+    def steps(self, traced_values: Iterable[Known]) -> Iterator[Line]:
+        """Yield the lines of values, each after the lines of its operands, each once."""
         done: set[tuple[object, str]] = set()
-        stack = [(one, False) for one in reversed(tuple(knowns))]
+        stack = [(traced, False) for traced in reversed(tuple(traced_values))]
         while stack:
             known, is_open = stack.pop()
             law = self.law(known)
@@ -169,14 +169,14 @@ class Moment:
             done.add(mark)
             stack.append((known, True))
             if isinstance(law.node, Use | Arithmetic | Total):
-                stack.extend((one, False) for one in reversed(law.node.operands) if _is_made(one))
+                stack.extend((operand, False) for operand in reversed(law.node.operands) if _is_made(operand))
 
     def same(self, known: Known) -> object:
-        """Return what a known shares with others that were made of the same in the same way."""
+        """Return the mark shared by all values that the same operation gives from the same operands."""
         if id(known.node) in self._marks:
             return self._marks[id(known.node)][1]
-        for one in in_order([known]):
-            node, mark = one.node, object()
+        for traced in in_order([known]):
+            node, mark = traced.node, object()
             if id(node) in self._marks:
                 continue
             if isinstance(node, Use | Arithmetic):
@@ -201,12 +201,12 @@ class Moment:
             case Arithmetic() if key:
                 return self._step(known.named(key), Symbol("_"), {"_": Known(known.node)})
             case Total(operands=terms):
-                shown = tuple(self._term(one) for one in terms if not one.is_absent)
-                return SumLine(key, shown, self.value(known), _is_nothing(*_sum_of(shown)))
-            case Delayed(of=of, by=by, cycle=cycle):
-                return DelayedLine(key, of.key, (self.degrees - by) % cycle, self.value(known))
-            case Found(word=word, at=at, operands=(column,)) if at is not None and word in _AT_AN_ANGLE:
-                return Moment(self._angles_at, at).step(column.named(known.key))
+                shown = tuple(self._term(term) for term in terms if not term.is_absent)
+                return SumLine(key, shown, self.value(known), _is_zero(*_sum_of(shown)))
+            case Delayed(of=column, by=shift, cycle=cycle):
+                return DelayedLine(key, column.key, (self.degrees - shift) % cycle, self.value(known))
+            case Found(word=word, at=angle, operands=(operand,)) if angle is not None and word in _AT_AN_ANGLE:
+                return Moment(self._angles_at, angle).step(operand.named(known.key))
         return ValueLine(key, self.value(known), self.is_noise(known))
 
     def _term(self, known: Known) -> ValueLine:
@@ -221,23 +221,23 @@ class Moment:
         inlined = _Inlined(taken)
         tree = fold(inlined.tree(tree))
         used = symbols_of(tree)
-        values = {name: one if not isinstance(one, Known) else self.value(one) for name, one in inlined.taken.items()}
+        values = {name: self.value(item) if isinstance(item, Known) else item for name, item in inlined.taken.items()}
         operands = {
-            name: self._of_own_angle(one)
-            for name, one in inlined.taken.items()
-            if isinstance(one, Known) and name in used
+            name: self._of_own_angle(operand)
+            for name, operand in inlined.taken.items()
+            if isinstance(operand, Known) and name in used
         }
         named = tuple(
-            (name, self._marked(one.key, one)) for name, one in operands.items() if self._is_renamed(name, one)
+            (name, self._marked(item.key, item)) for name, item in operands.items() if self._is_renamed(name, item)
         )
         formula = known.node.formula if isinstance(known.node, Use) else _written_in_place(known)
         shown = {name: values[name] for name in used}
-        noise = {name for name, one in inlined.taken.items() if name in shown and self._is_noise(one)}
+        noise = {name for name, operand in inlined.taken.items() if name in shown and self._is_noise(operand)}
         value = self.value(known)
         if 0 < abs(value) <= _LARGEST_NOISE:
             with suppress(ZeroDivisionError):
-                printed = {name: 0.0 if name in noise else one for name, one in shown.items()}
-                noise |= {""} if _is_nothing(*_with_size(tree, printed)) else set()
+                printed = {name: 0.0 if name in noise else shown_value for name, shown_value in shown.items()}
+                noise |= {""} if _is_zero(*_with_size(tree, printed)) else set()
         return FormulaLine(known.key, formula, shown, value, named, tree, frozenset(noise))
 
     def _of_own_angle(self, known: Known) -> Known:
@@ -252,46 +252,46 @@ class Moment:
         return bool(operand.key) if self._mark and operand.varies else is_renamed(name, operand)
 
     def _made_of(self, known: Known) -> Iterator[Known]:
-        """Yield what can be replayed at this crank angle of all that a known is made of."""
+        """Yield the dependencies of a value that can be replayed at this crank angle."""
         stack, done = [known], set()
         while stack:
-            one = self.law(stack.pop())
-            if id(one.node) in done or not one.varies:
+            operand = self.law(stack.pop())
+            if id(operand.node) in done or not operand.varies:
                 continue
-            done.add(id(one.node))
-            if isinstance(one.node, Root):
+            done.add(id(operand.node))
+            if isinstance(operand.node, Root):
                 continue
-            yield one
-            if not isinstance(one.node, Delayed):
-                stack.extend(one.node.operands)
+            yield operand
+            if not isinstance(operand.node, Delayed):
+                stack.extend(operand.node.operands)
 
 
-def _is_nothing(value: float, size: float) -> bool:
+def _is_zero(value: float, size: float) -> bool:
     return abs(value) <= _NOISE * size
 
 
 def _sum_of(terms: Sequence[ValueLine]) -> tuple[float, float]:
-    values = [0.0 if one.is_noise else one.value for one in terms]
+    values = [0.0 if term.is_noise else term.value for term in terms]
     return sum(values), max(map(abs, values), default=0.0)
 
 
 def _with_size(tree: Expression, values: Mapping[str, float]) -> tuple[float, float]:
-    """Return the value of a tree, and how large the terms are that it is left of."""
+    """Return the value of a tree, and the magnitude of its largest terms."""
     match tree:
         case Operation(function, operands):
-            (value, size), *others = (_with_size(one, values) for one in operands)
-            other, other_size = others[0] if others else (1.0, 0.0)
+            (value, size), *remaining = (_with_size(operand, values) for operand in operands)
+            other, other_size = remaining[0] if remaining else (1.0, 0.0)
             with np.errstate(all="ignore"):
-                found = float(function(value, other) if others else function(value))
+                result = float(function(value, other) if remaining else function(value))
             if function in (operator.add, operator.sub):
-                return found, max(size, other_size)
+                return result, max(size, other_size)
             if function is operator.mul:
-                return found, max(size * abs(other), abs(value) * other_size)
+                return result, max(size * abs(other), abs(value) * other_size)
             if function is operator.truediv:
-                return found, size / abs(other)
+                return result, size / abs(other)
             if function is operator.neg:
-                return found, size
-            return found, 1.0 if function in (np.sin, np.cos) else abs(found)
+                return result, size
+            return result, 1.0 if function in (np.sin, np.cos) else abs(result)
         case Symbol(name):
             return values[name], abs(values[name])
         case Number(value):
@@ -304,7 +304,7 @@ class _Inlined:
 
     def __init__(self, taken: dict[str, Known | float]) -> None:
         self.taken: dict[str, Known | float] = {}
-        self._trees = {name: self._tree_of(name, one) for name, one in taken.items()}
+        self._trees = {name: self._tree_of(name, operand) for name, operand in taken.items()}
 
     def tree(self, tree: Expression) -> Expression:
         """Return a recorded formula with the operands it has here."""
@@ -312,7 +312,7 @@ class _Inlined:
             case Symbol(name):
                 return self._trees[name]
             case Operation(function, operands):
-                return Operation(function, tuple(self.tree(one) for one in operands))
+                return Operation(function, tuple(self.tree(operand) for operand in operands))
         return tree
 
     def _tree_of(self, name: str, operand: Known | float) -> Expression:
@@ -326,7 +326,7 @@ class _Inlined:
         if isinstance(operand.node, Arithmetic) and (not operand.key or name == "_"):
             parts = operand.node.inputs
             return Operation(
-                operand.node.function, tuple(self._tree_of(f"{name}.{i}", one) for i, one in enumerate(parts))
+                operand.node.function, tuple(self._tree_of(f"{name}.{i}", part) for i, part in enumerate(parts))
             )
         if isinstance(operand.node, OfAngle) and name not in ARGUMENTS:
             # no argument gives a symbol here
@@ -347,8 +347,8 @@ _OF_ORDER = {
 
 
 def _written_in_place(known: Known) -> Formula:
-    """Return plain arithmetic under the name of a quantity as a formula that nobody is quoted for."""
-    return Formula(lambda one: one, base_key(known.key), "")
+    """Return plain arithmetic under the name of a quantity as a formula without a source."""
+    return Formula(lambda value: value, base_key(known.key), "")
 
 
 def _is_made(known: Known) -> bool:
@@ -379,12 +379,12 @@ def is_renamed(name: str, operand: Known) -> bool:
 
 def symbols_of(tree: Expression) -> tuple[str, ...]:
     """Return the names of the symbols of a tree, in order, each once."""
-    found: dict[str, None] = {}
+    names: dict[str, None] = {}
     stack = [tree]
     while stack:
-        one = stack.pop()
-        if isinstance(one, Symbol):
-            found[one.name] = None
-        elif isinstance(one, Operation):
-            stack.extend(reversed(one.operands))
-    return tuple(found)
+        node = stack.pop()
+        if isinstance(node, Symbol):
+            names[node.name] = None
+        elif isinstance(node, Operation):
+            stack.extend(reversed(node.operands))
+    return tuple(names)

@@ -26,8 +26,8 @@ _DEGREES = np.arange(_NODES.size)
 _AT_NODES = legendre.legvander(_NODES, _NODES.size - 1)
 _FROM_VALUES = (_AT_NODES * _WEIGHTS[:, None]).T * ((2 * _DEGREES + 1) / 2)[:, None]
 # closer towards the ends, as the zeros of polynomials are
-_APART = math.pi / 24
-_LOOK = -np.cos(np.arange(25) * _APART)
+_NODE_SPACING = math.pi / 24
+_LOOK = -np.cos(np.arange(25) * _NODE_SPACING)
 _AT_LOOK = legendre.legvander(_LOOK, _NODES.size - 1)
 # derivatives of the Legendre polynomials: at both ends, and as sums of them
 _SLOPE_AT_ENDS = np.stack([(-1.0) ** (_DEGREES + 1), np.ones(_NODES.size)]) * _DEGREES * (_DEGREES + 1) / 2
@@ -37,11 +37,11 @@ _CONVERGED = 1e-12
 _PARTS = 3
 _CUTS = 9
 _NO_BETTER = 0.03
-_PATIENT = 1
+_MAX_STALLS = 1
 # of equal values, whatever rounding says, the first counts
 _PLATEAU = 1e-13
 # of the size of a column, what two places of its polynomials must differ by to be told apart
-_UNSURE = 1e-9
+_TOLERANCE = 1e-9
 _NEAR_TOP = 0.05
 _ROUGH = 0.05
 # of the largest column of its quantity: a column below is followed as far as rounding lets it
@@ -88,7 +88,7 @@ class OverCycle:
 
     def __init__(
         self,
-        knowns: Mapping[str, Known],
+        columns: Mapping[str, Known],
         angles_at: Callable[[Any], Angles],
         cycle: float,
         start: float = 0.0,
@@ -96,11 +96,11 @@ class OverCycle:
         size_of: Mapping[str, str] = MappingProxyType({}),
         program: Program | None = None,
     ) -> None:
-        self._program, self._angles_at = program or Program(knowns), angles_at
-        self._row = {key: at for at, key in enumerate(knowns)}
-        self.knowns = dict(knowns)
-        self._is_root = np.array([_is_root(one) for one in knowns.values()], dtype=bool)
-        self.breaks = breaks_of(knowns.values(), cycle, start)
+        self._program, self._angles_at = program or Program(columns), angles_at
+        self._row = {key: row for row, key in enumerate(columns)}
+        self.columns = dict(columns)
+        self._is_root = np.array([_is_root(column) for column in columns.values()], dtype=bool)
+        self.breaks = breaks_of(columns.values(), cycle, start)
         parts = np.maximum(1, np.ceil(np.diff(self.breaks) / _WIDTH - 1e-9)).astype(int)
         within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
         start_of, width = np.repeat(self.breaks[:-1], parts), np.repeat(np.diff(self.breaks) / parts, parts)
@@ -121,24 +121,24 @@ class OverCycle:
             low, high, coefficients = low[is_coarse], high[is_coarse], coefficients[:, is_coarse]
             if not low.size:
                 break
-            if cut == _PATIENT:
+            if cut == _MAX_STALLS:
                 self._is_erratic = self._differs_here(low, high, own)
             between = np.linspace(low, high, _PARTS + 1)
             low, high = between[:-1].ravel(), between[1:].ravel()
             coefficients = self._fit(low, high)
             # what is no nearer in any part is rounding, and no polynomial follows it
             better = self._left_out(coefficients).reshape(-1, _PARTS, low.size // _PARTS).min(axis=1)
-            hopeless = rounding[:, is_coarse] | ((better > _NO_BETTER * left[:, is_coarse]) & (cut >= _PATIENT))
+            hopeless = rounding[:, is_coarse] | ((better > _NO_BETTER * left[:, is_coarse]) & (cut >= _MAX_STALLS))
             rounding = np.concatenate([hopeless | self._is_erratic[:, None]] * _PARTS, axis=1)
         done.append((low, high, coefficients))
-        self._low, self._high = (np.concatenate([one[at] for one in done]) for at in (0, 1))
+        self._low, self._high = (np.concatenate([batch[field] for batch in done]) for field in (0, 1))
         order = np.argsort(self._low)
         self._low, self._high = self._low[order], self._high[order]
         self._coefficients = np.empty((len(self._row), order.size, _NODES.size))
         place, start = np.argsort(order), 0
-        for some, _, part in done:
-            self._coefficients[:, place[start : start + some.size]] = part
-            start += some.size
+        for low_ends, _, part in done:
+            self._coefficients[:, place[start : start + low_ends.size]] = part
+            start += low_ends.size
         # what is left out, and what a column may rise by from its mean, in each interval
         self._left = self._left_out(self._coefficients)
         self._rise = np.abs(self._coefficients) @ np.minimum(_DEGREES, 1.0)
@@ -149,23 +149,24 @@ class OverCycle:
         values = self._at_nodes(low, high).reshape(-1, _NODES.size)
         return np.asarray((values @ _FROM_VALUES.T).reshape(len(self._row), low.size, _NODES.size))
 
-    def _at_nodes(self, low: Array, high: Array, aside: float = 0.0) -> Array:
-        """Return what follows each column at the nodes of intervals, or beside them [deg], a row for each column."""
+    def _at_nodes(self, low: Array, high: Array, offset: float = 0.0) -> Array:
+        """Return interpolated values of columns at the nodes of intervals, or at an offset [deg]: a row for each."""
         degrees = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
-        values = self._program.rows(self._angles_at(degrees.ravel() + aside), self._row)
+        values = self._program.rows(self._angles_at(degrees.ravel() + offset), self._row)
         values[self._is_root] **= 2
         return values
 
     def _differs_here(self, low: Array, high: Array, size: Array) -> NDArray[np.bool_]:
-        """Return which columns differ from themselves at crank angles that are as good as the same."""
+        """Return which columns change noticeably under a negligible change of the crank angle."""
         values = self._at_nodes(low, high)
-        apart = np.max(np.abs(self._at_nodes(low, high, _HERE) - values), axis=1)
-        return np.asarray(apart > _ERRATIC * np.maximum(size, np.max(np.abs(values), axis=1)))
+        differences = np.max(np.abs(self._at_nodes(low, high, _HERE) - values), axis=1)
+        return np.asarray(differences > _ERRATIC * np.maximum(size, np.max(np.abs(values), axis=1)))
 
     def _of_rounding(self, size: Array) -> Array:
-        """Return for each column what of it is not rounding beside the largest one of its quantity."""
+        """Return for each column the magnitude above rounding relative to the largest of its quantity."""
         kinds = [key.partition(".")[0] for key in self._row]
-        largest = {kind: max(one for one, of in zip(size, kinds, strict=True) if of == kind) for kind in set(kinds)}
+        pairs = list(zip(kinds, size, strict=True))
+        largest = {kind: max(value for other, value in pairs if other == kind) for kind in kinds}
         of_kind = np.array([largest[kind] for kind in kinds])
         return _SMALL * np.where(self._is_root, np.sqrt(size * of_kind), of_kind)
 
@@ -183,17 +184,17 @@ class OverCycle:
     def _integrals_of_roots(self) -> Array:
         """The integral of the root of the polynomials of each column."""
         widths = np.radians(self._high - self._low)
-        row, of = np.nonzero(self._is_root[:, None] & np.ones(widths.size, dtype=bool))
+        row, interval = np.nonzero(self._is_root[:, None] & np.ones(widths.size, dtype=bool))
         limits = _CONVERGED * np.sqrt(self._scale)[row]
-        found = integrals_of_roots(self._coefficients[row, of], limits) * widths[of]
-        return np.asarray(np.bincount(row, found, minlength=len(self._row)), dtype=float)
+        integrals = integrals_of_roots(self._coefficients[row, interval], limits) * widths[interval]
+        return np.asarray(np.bincount(row, integrals, minlength=len(self._row)), dtype=float)
 
     def mean(self, key: str, name: str) -> Known:
         """Return the mean of a column under a name; what rounding leaves of nothing is nothing."""
         mean = self.integral(key) / float(np.radians(self._high[-1] - self._low[0]))
         if abs(mean) <= _PLATEAU * self._plain(self._scale)[self._row[key]]:
             mean = 0.0
-        return Known(Found(mean, "mean", (self.knowns[key],)), name)
+        return Known(Found(mean, "mean", (self.columns[key],)), name)
 
     def polynomials(self, key: str) -> Array:
         """Return the Legendre coefficients of a column between `edges`, shape (intervals, degrees)."""
@@ -206,7 +207,7 @@ class OverCycle:
         """Crank angles between which every column is as good as a polynomial. [deg]"""
         return np.append(self._low, self._high[-1])
 
-    def is_nothing(self, key: str) -> bool:
+    def is_zero(self, key: str) -> bool:
         """Return whether a column is zero everywhere."""
         return not np.any(self._coefficients[self._row[key]])
 
@@ -221,9 +222,9 @@ class OverCycle:
             return np.empty(0)
         coefficients = self.polynomials(key).copy()
         coefficients[:, 0] -= level
-        looked = coefficients @ _AT_LOOK.T
-        looked[np.abs(looked) <= _ZERO * max(self._scale[row], abs(level))] = 0.0
-        below = looked < 0
+        samples = coefficients @ _AT_LOOK.T
+        samples[np.abs(samples) <= _ZERO * max(self._scale[row], abs(level))] = 0.0
+        below = samples < 0
         interval, place = np.nonzero(below[:, 1:] != below[:, :-1])
         inside = self._zeros(coefficients[interval], _LOOK[place], _LOOK[place + 1], below[interval, place])
         middle, half = (self._low + self._high) / 2, (self._high - self._low) / 2
@@ -233,7 +234,7 @@ class OverCycle:
     def stretches(self, key: str) -> tuple[list[float], list[bool]]:
         """Return where stretches of one sign end, the last at the end of the cycle, and whether each is negative."""
         start, end = float(self._low[0]), float(self._high[-1])
-        inner = [one for one in self.crossings(key).tolist() if start + _AT_EDGE < one < end - _AT_EDGE]
+        inner = [crossing for crossing in self.crossings(key).tolist() if start + _AT_EDGE < crossing < end - _AT_EDGE]
         edges = np.array([start, *inner, end])
         middle = (edges[1:] + edges[:-1]) / 2
         interval = np.searchsorted(self._low, middle, side="right") - 1
@@ -242,11 +243,11 @@ class OverCycle:
         values = legendre.legval(u, self._coefficients[self._row[key], interval].T, tensor=False)
         ends: list[float] = []
         signs: list[bool] = []
-        for at, negative in zip(edges[1:].tolist(), (values < 0).tolist(), strict=True):
+        for edge, negative in zip(edges[1:].tolist(), (values < 0).tolist(), strict=True):
             if signs and signs[-1] == negative:
-                ends[-1] = at
+                ends[-1] = edge
             else:
-                ends.append(at)
+                ends.append(edge)
                 signs.append(negative)
         return ends, signs
 
@@ -255,11 +256,11 @@ class OverCycle:
         result = {}
         for key in keys:
             kind, dot, name = key.partition(".")
-            of = (self.knowns[key],)
-            for word, found in zip(("max", "min"), self.largest_and_least[key], strict=True):
+            operands = (self.columns[key],)
+            for word, (value, degrees) in zip(("max", "min"), self.largest_and_least[key], strict=True):
                 extreme, angle = f"{kind}_{word}{dot}{name}", f"{kind}_{word}_angle{dot}{name}"
-                result[extreme] = Known(Found(found.value, word, of, found.at), extreme)
-                result[angle] = Known(Found(float(np.radians(found.at)), f"{word}_angle", of, found.at), angle)
+                result[extreme] = Known(Found(value, word, operands, degrees), extreme)
+                result[angle] = Known(Found(float(np.radians(degrees)), f"{word}_angle", operands, degrees), angle)
         return result
 
     def errors(self, *keys: str) -> dict[str, Known]:
@@ -268,7 +269,7 @@ class OverCycle:
         for key in keys:
             largest, least = self.largest_and_least[key]
             worst = largest if largest.value >= -least.value else least
-            result[key] = Known(Found(abs(worst.value), "error", (self.knowns[key],), worst.at), key)
+            result[key] = Known(Found(abs(worst.value), "error", (self.columns[key],), worst.at), key)
         return result
 
     @cached_property
@@ -278,14 +279,17 @@ class OverCycle:
             return {}
         count = len(self._row)
         rows, angles, equal = self._may_stand()
-        every = distinct(angles)
-        values = self._program.rows(self._angles_at(every), self._row)
+        ordered = distinct(angles)
+        values = self._program.rows(self._angles_at(ordered), self._row)
         # where one may stand counts for the other too, so that no largest is below its least
         either = _Places(np.concatenate([rows, (rows + count) % (2 * count)]), np.tile(angles, 2), equal)
-        first = self._first_of_equal(either, every, np.concatenate([values, -values]))
+        first = self._first_of_equal(either, ordered, np.concatenate([values, -values]))
         return {
-            key: (Extreme(float(column[one]), float(every[one])), Extreme(float(column[other]), float(every[other])))
-            for key, column, one, other in zip(self._row, values, first[:count], first[count:], strict=True)
+            key: (
+                Extreme(float(column[largest]), float(ordered[largest])),
+                Extreme(float(column[least]), float(ordered[least])),
+            )
+            for key, column, largest, least in zip(self._row, values, first[:count], first[count:], strict=True)
         }
 
     def _may_stand(self) -> _Places:
@@ -293,7 +297,7 @@ class OverCycle:
         at_ends = self._coefficients @ _AT_LOOK[[0, -1]].T
         at_ends = np.concatenate([at_ends, -at_ends])
         top, least = at_ends.max(axis=(1, 2), initial=-np.inf), at_ends.min(axis=(1, 2), initial=np.inf)
-        high, middle = top - self._spare(top - least), self._coefficients[:, :, 0]
+        high, middle = top - self._tolerance(top - least), self._coefficients[:, :, 0]
         # what no polynomial follows is rounding, and its peaks are none
         is_smooth = self._rise > np.maximum(self._left / _ROUGH, _ZERO) * self._scale[:, None]
         is_high = (np.concatenate([middle, -middle]) + np.tile(self._rise, (2, 1)) >= high[:, None]).reshape(
@@ -302,19 +306,19 @@ class OverCycle:
         side, row, interval = np.nonzero(is_high & is_smooth)
         inside = np.where(side[:, None], -1.0, 1.0) * self._coefficients[row, interval]
         row = row + side * len(self._row)
-        looked = inside @ _AT_LOOK.T
-        np.maximum.at(top, row, looked.max(axis=1))
-        one, u = self._peaks(inside, looked, looked >= (top - _NEAR_TOP * (top - least))[row, None])
-        row, interval, at_peaks = row[one], interval[one], legendre.legval(u, inside[one].T, tensor=False)
+        samples = inside @ _AT_LOOK.T
+        np.maximum.at(top, row, samples.max(axis=1))
+        peak, u = self._peaks(inside, samples, samples >= (top - _NEAR_TOP * (top - least))[row, None])
+        row, interval, at_peaks = row[peak], interval[peak], legendre.legval(u, inside[peak].T, tensor=False)
         np.maximum.at(top, row, at_peaks)
-        high = top - self._spare(top - least)
+        high = top - self._tolerance(top - least)
         # what the column is before and after an edge; the end of the cycle is its start
         before, after = np.roll(at_ends[:, :, 1], 1, axis=1), at_ends[:, :, 0]
         at_edges = np.maximum(before, after) >= high[:, None]
         edge = np.nonzero(np.append(at_edges, at_edges[:, :1], axis=1))
         jumps = np.abs(after - before) > _JUMP * np.tile(self._scale, 2)[:, None]
         jump = np.nonzero(jumps & (after >= high[:, None]))
-        row, interval, u = (one[at_peaks >= high[row]] for one in (row, interval, u))
+        row, interval, u = (peak_values[at_peaks >= high[row]] for peak_values in (row, interval, u))
         peaks = (self._low[interval] + self._high[interval]) / 2 + (self._high - self._low)[interval] / 2 * u
         beyond = self._low[jump[1]] + BEYOND
         top, least = self._plain(top), self._plain(least)
@@ -328,41 +332,41 @@ class OverCycle:
         is_root = np.resize(self._is_root, values.shape)
         return np.where(is_root, np.sign(values) * np.sqrt(np.abs(values)), values)
 
-    def _peaks(self, coefficients: Array, looked: Array, is_high: NDArray[np.bool_]) -> tuple[NDArray[np.intp], Array]:
+    def _peaks(self, coefficients: Array, samples: Array, is_high: NDArray[np.bool_]) -> tuple[NDArray[np.intp], Array]:
         """Return which polynomials have a peak that is high up, and the places of peaks, from -1 to 1."""
-        inner = looked[:, 1:-1]
-        one, place = np.nonzero((inner >= looked[:, :-2]) & (inner >= looked[:, 2:]) & is_high[:, 1:-1])
+        inner = samples[:, 1:-1]
+        peak, place = np.nonzero((inner >= samples[:, :-2]) & (inner >= samples[:, 2:]) & is_high[:, 1:-1])
         # a peak may hide between an edge and the first look beside it: there the column rises away from the edge
         slope = coefficients @ _SLOPE_AT_ENDS.T
-        low = np.flatnonzero((looked[:, 0] >= looked[:, 1]) & (slope[:, 0] > 0) & is_high[:, 0])
-        high = np.flatnonzero((looked[:, -1] >= looked[:, -2]) & (slope[:, 1] < 0) & is_high[:, -1])
-        beside = (_LOOK[1] + _LOOK[0]) / 2
-        one = np.concatenate([one, low, high])
-        u = np.concatenate([_LOOK[place + 1], np.full(low.size, beside), np.full(high.size, -beside)])
-        return one, self._peak(coefficients[one], u)
+        low = np.flatnonzero((samples[:, 0] >= samples[:, 1]) & (slope[:, 0] > 0) & is_high[:, 0])
+        high = np.flatnonzero((samples[:, -1] >= samples[:, -2]) & (slope[:, 1] < 0) & is_high[:, -1])
+        edge_start = (_LOOK[1] + _LOOK[0]) / 2
+        peak = np.concatenate([peak, low, high])
+        u = np.concatenate([_LOOK[place + 1], np.full(low.size, edge_start), np.full(high.size, -edge_start)])
+        return peak, self._peak(coefficients[peak], u)
 
-    def _spare(self, span: Array) -> Array:
-        """Return how far below the top of each column one place of its polynomials may be and count as the largest."""
+    def _tolerance(self, span: Array) -> Array:
+        """Return the tolerance below the top of each column within which a place of its polynomials is a candidate."""
         scale, left = np.tile(self._scale, 2), np.tile(self._left.max(axis=1, initial=0.0), 2)
-        return np.asarray(np.minimum((_UNSURE + 4 * left) * scale, np.maximum(_NEAR_TOP * span, _CONVERGED * scale)))
+        return np.asarray(np.minimum((_TOLERANCE + 4 * left) * scale, np.maximum(_NEAR_TOP * span, _CONVERGED * scale)))
 
-    def _first_of_equal(self, places: _Places, every: Array, values: Array) -> NDArray[np.intp]:
+    def _first_of_equal(self, places: _Places, ordered: Array, values: Array) -> NDArray[np.intp]:
         """Return for each row at which of the angles its value is largest, of those that it may stand at."""
         rows, angles = places.rows, places.angles
-        place = np.searchsorted(every, angles)
+        place = np.searchsorted(ordered, angles)
         seen, largest = values[rows, place], np.full(len(values), -np.inf)
         np.maximum.at(largest, rows, seen)
         is_equal = seen >= (largest - places.equal)[rows]
         rows, place, angles = rows[is_equal], place[is_equal], angles[is_equal]
-        first, edge = np.full(len(values), every.size), np.full(len(values), every.size)
+        first, edge = np.full(len(values), ordered.size), np.full(len(values), ordered.size)
         np.minimum.at(first, rows, place)
         # an edge is meant where rounding alone tells the angle from it
         begins = self._low[np.searchsorted(self._low, angles, side="right") - 1] == angles
-        near = begins & (angles - every[first[rows]] < _AT_EDGE)
+        near = begins & (angles - ordered[first[rows]] < _AT_EDGE)
         np.minimum.at(edge, rows[near], place[near])
         # a column of nothing but rounding has its largest anywhere
-        first = np.where(first < every.size, first, np.argmax(values, axis=1))
-        return np.where(edge < every.size, edge, first)
+        first = np.where(first < ordered.size, first, np.argmax(values, axis=1))
+        return np.where(edge < ordered.size, edge, first)
 
     def _zeros(self, coefficients: Array, low: Array, high: Array, starts_below: NDArray[np.bool_]) -> Array:
         """Return the zero of each polynomial between two places of different sign: Newton steps, kept between them."""
@@ -385,7 +389,10 @@ class OverCycle:
         """Return the peak of each polynomial near a place from -1 to 1: Newton steps, kept where it rises to one."""
         first = _DERIVATIVE @ coefficients.T
         slopes, around = np.stack([first, _DERIVATIVE @ first], axis=1), np.arccos(-u)
-        low, high = -np.cos(np.maximum(around - _APART, 0.0)), -np.cos(np.minimum(around + _APART, math.pi))
+        low, high = (
+            -np.cos(np.maximum(around - _NODE_SPACING, 0.0)),
+            -np.cos(np.minimum(around + _NODE_SPACING, math.pi)),
+        )
         for _ in range(_STEPS if u.size else 0):
             slope, bend = legendre.legval(u, slopes, tensor=False)
             low, high = np.where(slope > 0, u, low), np.where(slope > 0, high, u)
@@ -409,30 +416,30 @@ def integrals_of_roots(coefficients: Array, limits: Array, slopes: Array | None 
     """
     result = np.zeros(len(coefficients))
     # what rounding leaves a polynomial unsure by
-    unsure = _EVALUATED * np.abs(coefficients).sum(axis=1)
-    of = np.arange(len(coefficients))
-    low, high = np.full(of.size, -1.0), np.ones(of.size)
+    rounding = _EVALUATED * np.abs(coefficients).sum(axis=1)
+    row = np.arange(len(coefficients))
+    low, high = np.full(row.size, -1.0), np.ones(row.size)
     squares = coefficients @ np.concatenate([_AT_NODES, _AT_LOOK]).T
     for cut in range(_CUTS + 1):
         roots = np.sqrt(np.maximum(squares, 0.0))
         fitted = roots[:, : _NODES.size] @ _FROM_VALUES.T
         # a corner beyond the outermost node shows between the nodes only
         missed = np.max(np.abs(roots[:, _NODES.size :] - fitted @ _AT_LOOK.T), axis=1, initial=0.0)
-        least, little = roots.min(axis=1, initial=np.inf), unsure[of]
-        enough = np.maximum(limits[of], little / np.maximum(least + np.sqrt(little), 1e-300))
+        least, little = roots.min(axis=1, initial=np.inf), rounding[row]
+        enough = np.maximum(limits[row], little / np.maximum(least + np.sqrt(little), 1e-300))
         is_coarse = (np.abs(fitted[:, -2]) + np.abs(fitted[:, -1]) + _LITTLE * missed > enough) & (cut < _CUTS)
-        np.add.at(result, of, np.where(is_coarse, 0.0, (high - low) / 2 * fitted[:, 0]))
+        np.add.at(result, row, np.where(is_coarse, 0.0, (high - low) / 2 * fitted[:, 0]))
         if slopes is not None:
             u = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
             weights = np.where(is_coarse, 0.0, high - low)[:, None] * _WEIGHTS / 8
             with np.errstate(divide="ignore", invalid="ignore"):
                 weights = np.where(roots[:, : _NODES.size] > 0, weights / roots[:, : _NODES.size], 0.0)
-            np.add.at(slopes, of, np.einsum("nq,nqj->nj", weights, legendre.legvander(u, _NODES.size - 1)))
-        of = np.tile(of[is_coarse], _PARTS)
+            np.add.at(slopes, row, np.einsum("nq,nqj->nj", weights, legendre.legvander(u, _NODES.size - 1)))
+        row = np.tile(row[is_coarse], _PARTS)
         between = np.linspace(low[is_coarse], high[is_coarse], _PARTS + 1)
         low, high = between[:-1].ravel(), between[1:].ravel()
-        if not of.size:
+        if not row.size:
             break
         u = (low + high) / 2 + (high - low) / 2 * np.concatenate([_NODES, _LOOK])[:, None]
-        squares = legendre.legval(u, coefficients[of].T, tensor=False).T
+        squares = legendre.legval(u, coefficients[row].T, tensor=False).T
     return result

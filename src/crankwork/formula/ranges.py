@@ -1,4 +1,4 @@
-"""Formulas drawn from experience hold in a range; what was put in from outside it is told."""
+"""Notices about arguments outside the range in which an empirical formula is valid."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ CODE = "formula_range"
 
 
 def range_notices(
-    knowns: Iterable[Known], angles: Angles | None = None
+    traced_values: Iterable[Known], angles: Angles | None = None
 ) -> Iterator[tuple[str, Mapping[str, float | str]]]:
     """Yield where formulas that knowns are made of are used outside the range that their source vouches for.
 
@@ -21,7 +21,7 @@ def range_notices(
     `angles`: where to look at operands that vary with the crank angle; without it they are not looked at [rad].
     """
     farthest: dict[tuple[str, str], tuple[float, Mapping[str, float | str]]] = {}
-    for node in (one.node for one in in_order(knowns)):
+    for node in (traced.node for traced in in_order(traced_values)):
         if not isinstance(node, Use):
             continue
         for name, operand in zip(node.formula.arguments, node.inputs, strict=True):
@@ -30,12 +30,12 @@ def range_notices(
             low, high = node.formula.valid[name]
             values = _values(operand, angles)
             outside = np.maximum(low - values, values - high)
-            at = int(np.argmax(outside)) if values.size else 0
+            index = int(np.argmax(outside)) if values.size else 0
             key = (node.formula.name, name)
-            if values.size and outside[at] > max(0.0, farthest.get(key, (0.0, {}))[0]):
+            if values.size and outside[index] > max(0.0, farthest.get(key, (0.0, {}))[0]):
                 about: dict[str, float | str] = {"quantity": node.formula.quantity, "argument": name}
-                farthest[key] = float(outside[at]), about | {"value": float(values[at]), "low": low, "high": high}
-    yield from ((CODE, said) for _, said in farthest.values())
+                farthest[key] = float(outside[index]), about | {"value": float(values[index]), "low": low, "high": high}
+    yield from ((CODE, values_of_notice) for _, values_of_notice in farthest.values())
 
 
 def _values(operand: Known | float, angles: Angles | None) -> Array:

@@ -56,7 +56,7 @@ class Angles(Protocol):
         """Return the grid of angles larger by some degrees."""
         ...
 
-    def earlier(self, by: Array, cycle: float) -> tuple[Self, NDArray[np.intp]]:
+    def earlier(self, shifts: Array, cycle: float) -> tuple[Self, NDArray[np.intp]]:
         """Return the distinct angles that lie earlier in the cycle by each of some amounts, and their places."""
         ...
 
@@ -72,24 +72,25 @@ _ANGLES, _DEGREES = Known(Node(None)), Known(OfAngle("degrees"))
 
 
 class Program:
-    """What has to be done, in order, to replay some columns.
+    """The steps, in order, that replay some columns.
 
     A step takes columns and numbers out of slots and puts a column into one; the slot of what is spent is used again.
     """
 
-    def __init__(self, knowns: Mapping[str, Known]) -> None:
-        self.knowns = dict(knowns)
+    def __init__(self, columns: Mapping[str, Known]) -> None:
+        self.columns = dict(columns)
         steps: dict[int, _Step] = {}
         late: list[Delayed] = []
 
-        def beside(node: Node) -> list[Known]:
+        def varying_operands(node: Node) -> list[Known]:
             if isinstance(node, Delayed):
                 late.append(node)
                 return []
             _, inputs = steps[id(node)] = _step(node)
-            return [one for one in inputs if type(one) is Known and one.node.value is None and one is not _ANGLES]
+            return [item for item in inputs if type(item) is Known and item.varies and item is not _ANGLES]
 
-        order = [one.node for one in in_order((one for one in knowns.values() if one.varies), into=beside)]
+        varying = (column for column in columns.values() if column.varies)
+        order = [column.node for column in in_order(varying, into=varying_operands)]
         # what pieces lead over a change point is nought by nought there and used beside it only; a link that stands
         # still has no instant centre
         self._invalid: Literal["ignore", "warn"] = "ignore" if any(map(_may_have_no_value, order)) else "warn"
@@ -109,22 +110,22 @@ class Program:
         """Yield of each step the slot of what it makes, its function, and what takes its operands out of the slots."""
         slots, slot_of, free = self._slots, self._slot_of, list[int]()
         last = {
-            id(one.node): at
-            for at, (_, _, inputs) in enumerate(steps)
-            for one in inputs
-            if type(one) is Known and one.node.value is None
+            id(step_input.node): step_index
+            for step_index, (_, _, inputs) in enumerate(steps)
+            for step_input in inputs
+            if type(step_input) is Known and step_input.node.value is None
         }
-        for kept in (_ANGLES, *self.knowns.values()):
+        for kept in (_ANGLES, *self.columns.values()):
             last.pop(id(kept.node), None)
-        for at, (made, function, inputs) in enumerate(steps):
+        for index, (made, function, inputs) in enumerate(steps):
             taken = []
-            for one in inputs:
-                key = id(one.node) if type(one) is Known else id(one)
+            for operand in inputs:
+                key = id(operand.node) if type(operand) is Known else id(operand)
                 slot = slot_of.get(key)
                 if slot is None:
                     slot = slot_of[key] = len(slots)
-                    slots.append(one.node.value if type(one) is Known else one)
-                elif last.get(key) == at:
+                    slots.append(operand.node.value if type(operand) is Known else operand)
+                elif last.get(key) == index:
                     del last[key]
                     free.append(slot)
                 taken.append(slot)
@@ -137,11 +138,11 @@ class Program:
 
     def __call__(self, angles: Angles) -> dict[str, Array]:
         """Return the columns at crank angles, by key; what does not vary with the angle is repeated. [SI]"""
-        return dict(zip(self.knowns, self.rows(angles), strict=True))
+        return dict(zip(self.columns, self.rows(angles), strict=True))
 
     def rows(self, angles: Angles, keys: Iterable[str] | None = None) -> Array:
         """Return the columns at crank angles, or those of some keys, each a row. [SI]"""
-        count, kept = len(angles), self.knowns.values() if keys is None else [self.knowns[key] for key in keys]
+        count, kept = len(angles), self.columns.values() if keys is None else [self.columns[key] for key in keys]
         rows = np.empty((len(kept), count))
         wanted = []
         for row, known in zip(rows, kept, strict=True):
@@ -208,7 +209,7 @@ class _Earlier:
     def __init__(self, nodes: list[Delayed], cycle: float) -> None:
         self._nodes, self._cycle = nodes, cycle
         self._by = np.array(sorted({node.by for node in nodes}))
-        self._row = {float(one): at for at, one in enumerate(self._by)}
+        self._row = {float(shift): index for index, shift in enumerate(self._by)}
         self._program = Program({str(id(node.of.node)): node.of for node in nodes})
 
     def __call__(self, angles: Angles) -> dict[int, Array]:
@@ -218,7 +219,7 @@ class _Earlier:
 
 
 def _step(node: Node) -> _Step:
-    """Return how a column is made of others at the same angles."""
+    """Return the function that computes a column, and its operands at the same angles."""
     match node:
         case Use():
             return node.formula.function, node.inputs
@@ -229,8 +230,11 @@ def _step(node: Node) -> _Step:
         case Total():
             return _sum, node.operands
         case Pieces():
-            laws = [_law(one) for one in node.operands]
-            return partial(_piece_by_piece, node.ends, laws), (_DEGREES, *itertools.chain(*(one for _, one in laws)))
+            laws = [_law(law) for law in node.operands]
+            return partial(_piece_by_piece, node.ends, laws), (
+                _DEGREES,
+                *itertools.chain(*(inputs for _, inputs in laws)),
+            )
         case Table():
             return partial(_read, node.function), (_DEGREES if node.by is None else node.by,)
         case Root():
@@ -251,8 +255,8 @@ def _sum(*terms: Array) -> Array:
     return np.asarray(functools.reduce(operator.add, terms))
 
 
-def _read(function: Callable[[Array], Array], at: Array) -> Array:
-    return np.asarray(function(np.asarray(at)), dtype=float)
+def _read(function: Callable[[Array], Array], argument: Array) -> Array:
+    return np.asarray(function(np.asarray(argument)), dtype=float)
 
 
 def _solved(root: Root, *columns: Array) -> Array:
@@ -264,7 +268,7 @@ def _half_turns(node: HalfTurns, degrees: Array, sin: Array, cos: Array) -> Arra
 
 
 def _law(law: Known) -> _Step:
-    """Return what makes a law of pieces: a formula is used on its own stretch, what else varies is cut out."""
+    """Return the step of one law of a piecewise column: a formula on its own interval only, other columns sliced."""
     if law.varies and (isinstance(law.node, Use) or (isinstance(law.node, Table) and law.node.by is None)):
         return _step(law.node)
     return _itself, (law,)
@@ -279,9 +283,9 @@ def _piece_by_piece(ends: Array, laws: list[_Step], degrees: Array, *columns: Ar
     law_of = np.minimum(np.searchsorted(ends, degrees, side="left"), len(laws) - 1)
     first = list(itertools.accumulate((len(inputs) for _, inputs in laws), initial=0))
     result = np.empty(degrees.size)
-    for at, rows in _stretches(law_of):
-        taken = (one[rows] if isinstance(one, np.ndarray) else one for one in columns[first[at] : first[at + 1]])
-        result[rows] = laws[at][0](*taken)
+    for index, rows in _stretches(law_of):
+        taken = columns[first[index] : first[index + 1]]
+        result[rows] = laws[index][0](*(item[rows] if isinstance(item, np.ndarray) else item for item in taken))
     return result
 
 
@@ -292,4 +296,4 @@ def _stretches(law_of: NDArray[np.intp]) -> Iterator[tuple[int, slice | NDArray[
         edges = [0, *(np.flatnonzero(step) + 1).tolist(), law_of.size]
         yield from ((int(law_of[first]), slice(first, end)) for first, end in itertools.pairwise(edges) if end > first)
     else:
-        yield from ((at, np.flatnonzero(law_of == at)) for at in sorted(set(law_of.tolist())))
+        yield from ((index, np.flatnonzero(law_of == index)) for index in sorted(set(law_of.tolist())))

@@ -39,22 +39,22 @@ class Worked:
         self.found: dict[str, Known] = {}
         self._mark = mark
 
-    def __call__(self, function: Callable[..., Any], key: str = "", /, **others: Known | float) -> Known:
-        """Return what a registered formula gives, kept under its quantity or a key.
+    def __call__(self, function: Callable[..., Any], key: str = "", /, **arguments: Known | float) -> Known:
+        """Return the value of a registered formula, stored under its quantity or a key.
 
         `key`: key of the value; by default the quantity that the formula gives; `**others`: arguments that stand for
         something else than the quantity known so far [as the formula takes them].
         """
         formula = FORMULAS[function.__name__]
-        taken = {name: others[name] if name in others else self._operand(name) for name in formula.arguments}
+        taken = {name: arguments[name] if name in arguments else self._operand(name) for name in formula.arguments}
         try:
             with np.errstate(all="ignore"):
-                found: Known = function(*taken.values())
+                result: Known = function(*taken.values())
         except ArithmeticError:
             raise _no_number(formula, taken) from None
-        if not found.varies and not math.isfinite(found.value):
+        if not result.varies and not math.isfinite(result.value):
             raise _no_number(formula, taken)
-        return self.keep(found.named(key or formula.quantity))
+        return self.keep(result.named(key or formula.quantity))
 
     def _operand(self, name: str) -> Known:
         return self.known[name] if name in self.known else self.known[ARGUMENTS[name].quantity]
@@ -87,10 +87,10 @@ class Worked:
 
 def _no_number(formula: Formula, taken: Mapping[str, Known | float]) -> CrankworkError:
     """Return the refusal of operands from which no number follows, by the names that they have."""
-    named = {name: one for name, one in taken.items() if isinstance(one, Known) and not one.is_absent}
+    named = {name: operand for name, operand in taken.items() if isinstance(operand, Known) and not operand.is_absent}
     made_of = [
-        Refusal("operand", quantity=_quantity(one.key or ARGUMENTS[name].quantity), value=one.value)
-        for name, one in named.items()
+        Refusal("operand", quantity=_quantity(operand.key or ARGUMENTS[name].quantity), value=operand.value)
+        for name, operand in named.items()
     ]
     return CrankworkError(Refusal("no_number", quantity=_quantity(formula.quantity), operands=made_of))
 

@@ -139,20 +139,20 @@ class DesignTraces:
     def dependencies(self, node: Node) -> Sequence[Known]:
         """Return the dependencies of a node, those of its general form if it has one."""
         match node:
-            case Pieces(retold=retold) if retold is not None:
+            case Pieces(general_form=retold) if retold is not None:
                 return (self.general_form(node),)
             case Pieces(places=places):
                 return (*node.operands, *(place for place in places if isinstance(place, Known)))
-            case Found(by=argument, retold=retold) if argument is not None:
+            case Found(by=argument, general_form=retold) if argument is not None:
                 return (*node.operands, argument) if retold is None else (retold,)
-            case Use(retold=retold) if retold is not None:
+            case Use(general_form=retold) if retold is not None:
                 return (retold,)
         return node.operands
 
     def general_form(self, node: Pieces) -> Known:
         """Return the general form of pieces."""
-        if id(node) not in self._general_forms and node.retold is not None:
-            self._general_forms[id(node)] = node.retold()
+        if id(node) not in self._general_forms and node.general_form is not None:
+            self._general_forms[id(node)] = node.general_form()
         return self._general_forms[id(node)]
 
     def counterparts(self, node: Node) -> tuple[Node, ...]:
@@ -199,7 +199,7 @@ def _have_same_structure(first: Node, second: Node) -> bool:
         case Delayed(by=a, cycle=c), Delayed(by=b, cycle=d):
             return (a, c) == (b, d)
         case Pieces(), Pieces():
-            return first.retold is not None or _end_at_same_angles(_plain(first.places), _plain(second.places))
+            return first.general_form is not None or _end_at_same_angles(_plain(first.places), _plain(second.places))
         case Procedure(function=f, part=a), Procedure(function=g, part=b):
             return f == g and a == b
         case Harmonic(order=a, part=b), Harmonic(order=c, part=d):
@@ -282,7 +282,7 @@ class Lowering:
         """Return the operands that are needed at the same angle before a node."""
         if node.value is not None and not self._designs.differs[id(node)]:
             return ()
-        if isinstance(node, Pieces | Use) and node.retold is not None:
+        if isinstance(node, Pieces | Use) and node.general_form is not None:
             return self._designs.dependencies(node)
         return () if isinstance(node, Delayed | Found) else node.operands
 
@@ -305,7 +305,7 @@ class Lowering:
         match node:
             case Given():
                 return self._designs.linear_dependence(node, self.graph)
-            case Use(retold=retold) if retold is not None:
+            case Use(general_form=retold) if retold is not None:
                 return self._as_value(value_of(retold))
             case Use() | Arithmetic():
                 function = node.formula.function if isinstance(node, Use) else node.function
@@ -319,7 +319,7 @@ class Lowering:
             case Harmonic():
                 return self._harmonic(self.value(node.operands[0]), node)
             case Found():
-                return self._found(known, node) if node.retold is None else self.value(node.retold)
+                return self._found(known, node) if node.general_form is None else self.value(node.general_form)
             case Root() | Component():
                 raise NotCompiledError("solved", known.key)
         return self._of_angles(known, value_of, shift, fixed)
@@ -332,7 +332,7 @@ class Lowering:
                 return self._of_angle(node, shift, fixed)
             case Delayed():
                 return self._delayed(node, shift, fixed)
-            case Pieces(retold=retold) if retold is not None:
+            case Pieces(general_form=retold) if retold is not None:
                 return self._as_value(value_of(self._designs.general_form(node)))
             case Pieces():
                 return self._pieces(known, node, value_of, shift, fixed)

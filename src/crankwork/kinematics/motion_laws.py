@@ -228,7 +228,7 @@ class _Own:
         """Yield the intervals between breaks: end, share of the travel, normalised velocity and acceleration."""
         for begin, end in itertools.pairwise((0.0, *self.breaks, 1.0)):
             share, rate, second = (
-                Known(Table(_Part(self.law, order, begin, end), "own_law", by=z), key)
+                Known(Table(_Part(self.law, order, begin, end), "own_law", argument=z), key)
                 for order, key in enumerate(("way_share", "way_share_1", "way_share_2"))
             )
             yield end, (share, rate, second)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from crankwork.formula.expression import Value
-from crankwork.kinematics import textbook
+from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.series import series_transfer
 from crankwork.kinematics.slider_crank import (
@@ -49,8 +48,8 @@ def piston_motion(slider_crank: SliderCrank, grid: CrankGrid, method: Method = E
     angle = rod_angle(swing.sin, swing.cos)
     piston = piston_transfer(slider_crank, grid, method, swing, lam)
     if method.kinematics == "textbook":
-        rod_1 = textbook.textbook_rod_transfer_1(lam, grid.cos)
-        rod_2 = textbook.textbook_rod_transfer_2(lam, grid.sin)
+        rod_1 = textbook_rod_transfer_1(lam, grid.cos)
+        rod_2 = textbook_rod_transfer_2(lam, grid.sin)
         return PistonMotion(piston, Transfer(angle, rod_1, rod_2), swing)
     rod_1 = rod_transfer_1(lam, grid.cos, swing.cos)
     rod_2 = rod_transfer_2(rod_1, lam, grid.sin, swing.sin, swing.cos)
@@ -94,9 +93,9 @@ def textbook_piston(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = Non
     r, _, e = slider_crank
     lam = slider_crank.rod_ratio if lam is None else lam
     return Transfer(
-        textbook.textbook_displacement(r, grid.cos, lam, grid.cos_2, e, grid.sin),
-        textbook.textbook_transfer_1(r, grid.sin, lam, grid.sin_2, e, grid.cos),
-        textbook.textbook_transfer_2(r, grid.cos, lam, grid.cos_2, e, grid.sin),
+        textbook_displacement(r, grid.cos, lam, grid.cos_2, e, grid.sin),
+        textbook_transfer_1(r, grid.sin, lam, grid.sin_2, e, grid.cos),
+        textbook_transfer_2(r, grid.cos, lam, grid.cos_2, e, grid.sin),
     )
 
 
@@ -120,3 +119,33 @@ def only_rod(mechanism: Mechanism) -> RRP | None:
         case (RRP(guide_link="") as rod,):
             return rod
     return None
+
+
+@formula("piston_displacement", "kolchin_demidov_2008, ch. 6")
+def textbook_displacement(r: Value, cos_phi: Value, lam: Value, cos_2phi: Value, e: Value, sin_phi: Value) -> Value:
+    """Piston displacement in two terms, and what an offset of the cylinder adds."""
+    return r * ((1 - cos_phi) + lam / 4 * (1 - cos_2phi)) - lam * e * sin_phi
+
+
+@formula("piston_transfer_1", "kolchin_demidov_2008, ch. 6")
+def textbook_transfer_1(r: Value, sin_phi: Value, lam: Value, sin_2phi: Value, e: Value, cos_phi: Value) -> Value:
+    """First transfer function of the piston in two terms, dx/dphi, and what an offset of the cylinder adds."""
+    return r * (sin_phi + lam / 2 * sin_2phi) - lam * e * cos_phi
+
+
+@formula("piston_transfer_2", "kolchin_demidov_2008, ch. 6")
+def textbook_transfer_2(r: Value, cos_phi: Value, lam: Value, cos_2phi: Value, e: Value, sin_phi: Value) -> Value:
+    """Second transfer function of the piston in two terms, d2x/dphi2, and what an offset of the cylinder adds."""
+    return r * (cos_phi + lam * cos_2phi) + lam * e * sin_phi
+
+
+@formula("rod_transfer_1", "khurmi_gupta_2005, ch. 15")
+def textbook_rod_transfer_1(lam: Value, cos_phi: Value) -> Value:
+    """First transfer function of the rod to first order, dbeta/dphi."""
+    return lam * cos_phi
+
+
+@formula("rod_transfer_2", "khurmi_gupta_2005, ch. 15")
+def textbook_rod_transfer_2(lam: Value, sin_phi: Value) -> Value:
+    """Second transfer function of the rod to first order, d2beta/dphi2."""
+    return -lam * sin_phi

@@ -1,30 +1,33 @@
-"""Position analysis: the driver, then one group after another."""
+"""Position analysis: the driver, then one group after another, as numbers or traced values."""
 
 from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from crankwork.errors import GeometryError
-from crankwork.formula.known import Root, absent, is_known, named
+from crankwork.formula.expression import Value, formula
+from crankwork.formula.known import Component, Known, Root, absent, given, is_known, named
+from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.assembly import assembly_error, singular_between, unassembled
 from crankwork.kinematics.bridges import branch_sign, change_point_replacement
-from crankwork.kinematics.chain_memory import remembered_chain
+from crankwork.kinematics.closing import ChainBoundary, is_stretched
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.driving import geared_motion, opened_pair, third_side_motion
 from crankwork.kinematics.dyads import (
     Closure,
+    DrivenAngle,
     LinkMotion,
     Through,
     crank_motion,
     fixed_guide,
     fixed_point,
     guide_on_link,
+    in_link_frame,
     is_zero,
     named_link,
     named_point,
@@ -36,13 +39,14 @@ from crankwork.kinematics.dyads import (
     rrr_motion,
     unchanged,
 )
-from crankwork.kinematics.loops import ChainPath
+from crankwork.kinematics.loops import ChainMotion, ChainPath
 from crankwork.kinematics.motion_laws import extent, law_at
+from crankwork.kinematics.plane_motion import cosine_of_direction, sine_of_direction, sine_of_turned
 from crankwork.kinematics.sliding_dyads import prp_motion, rpp_motion, rpr_motion
 from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.locale import Refusal
-from crankwork.mechanism.chain import Chain
-from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
+from crankwork.mechanism.chain import Chain, ChainLink
+from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide
 from crankwork.mechanism.joints import group_links, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
@@ -51,6 +55,8 @@ from crankwork.mechanism.passage import ChangePointPassage
 _REST_TOLERANCE = 1e-12
 # positions of a driver at which a linkage with a motion law is checked; intervals between them are checked too
 _SCAN_POINTS = 361
+_SOURCE = "artobolevsky_1988, ch. 4"
+_KEYS = ("point_x", "point_y", "link_angle")
 
 
 @dataclass
@@ -357,3 +363,152 @@ def _title(group: Dyad | Chain) -> Refusal:
         case Chain():
             return Refusal("group_of", names=", ".join(link.name for link in group.links))
     return Refusal("dyad_of", kind=type(group).__name__, first=pair[0], second=pair[1])
+
+
+@formula("link_length", _SOURCE)
+def third_side(l_i: Value, l_k: Value, cos_g: Value) -> Value:
+    """Third side of a triangle, from two sides and the angle between them."""
+    return np.sqrt(l_i**2 + l_k**2 - 2 * l_i * l_k * cos_g)
+
+
+@formula("link_length_1", _SOURCE)
+def third_side_1(l_i: Value, l_k: Value, sin_g: Value, l_s: Value) -> Value:
+    """First derivative of the third side of a triangle by the angle between the other two."""
+    return l_i * l_k * sin_g / l_s
+
+
+@formula("link_length_2", _SOURCE)
+def third_side_2(l_i: Value, l_k: Value, cos_g: Value, l_1: Value, l_s: Value) -> Value:
+    """Second derivative of the third side of a triangle by the angle between the other two."""
+    return (l_i * l_k * cos_g - l_1**2) / l_s
+
+
+@formula("doubled_area", _SOURCE)
+def opened_area(l_s: Value, l_1: Value) -> Value:
+    """Twice the area of a triangle whose third side grows with the angle across from it."""
+    return l_s * l_1
+
+
+@formula("link_angle_1", _SOURCE)
+def opened_rate(theta_1: Value, l_i: Value, l_k: Value, l_s: Value) -> Value:
+    """First transfer function of the first of two sides of a triangle, by the angle between them."""
+    return theta_1 + ((l_i**2 - l_k**2) / l_s**2 - 1) / 2
+
+
+@formula("link_angle_2", _SOURCE)
+def opened_rate_1(theta_2: Value, l_1: Value, theta_k1: Value, theta_1: Value, l_s: Value) -> Value:
+    """Second transfer function of two sides of a triangle, by the angle between them."""
+    return theta_2 - l_1 * (1 + 2 * (theta_k1 - theta_1)) / l_s
+
+
+def opened_pair(motor: LinkMotor, dyad: RRR, line: LinkMotion, length: Transfer) -> DrivenAngle:
+    """Return the rates of a dyad formed by the two links of a motor, from the third side of their triangle.
+
+    Valid with the links in line too, where the formulas of a dyad are 0/0. `line`, `length`: of the third side.
+    """
+    is_first = dyad.link_a == motor.links[0]
+    area = opened_area(length.position, length.position_1)
+    first = opened_rate(line.angle_1, *motor.sides, length.position)
+    rates = (first, first + 1.0) if is_first else (first + 1.0, first)
+    rate_1 = opened_rate_1(line.angle_2, length.position_1, first, line.angle_1, length.position)
+    return DrivenAngle(area if is_first else -area, *rates, rate_1)
+
+
+def third_side_motion(motor: LinkMotor, grid: CrankGrid) -> Transfer:
+    """Return the length of the third side of the triangle that a motor between two links opens. [m]"""
+    (a, b), name = motor.sides, motor.link
+    cos, sin = plane.cosine_of_direction(grid.angle + motor.angle), plane.sine_of_direction(grid.angle + motor.angle)
+    cos, sin = named(cos, f"line_cos.{name}"), named(sin, f"line_sin.{name}")
+    length = named(third_side(a, b, cos), f"link_length.{name}")
+    length_1 = named(third_side_1(a, b, sin, length), f"link_length_1.{name}")
+    return Transfer(length, length_1, named(third_side_2(a, b, cos, length_1, length), f"link_length_2.{name}"))
+
+
+def geared_motion(geared: GearedCrank, crank: Crank, grid: CrankGrid) -> LinkMotion:
+    """Return the motion of a crank that gears turn with the driving one, its frame at its pivot."""
+    rate = geared.ratio * crank.direction
+    angle = rate * grid.angle if is_zero(geared.start) else geared.start + rate * grid.angle
+    cos, sin = plane.cosine_of_direction(angle), plane.sine_of_direction(angle)
+    if is_known(cos):
+        return LinkMotion(fixed_point(geared.pivot), cos, sin, rate, absent("link_angle_2"))
+    return LinkMotion(fixed_point(geared.pivot), cos, sin, np.full_like(cos, rate), np.zeros_like(cos))
+
+
+def remembered_chain(chain: Chain, boundary: ChainBoundary, root: Root) -> ChainMotion:
+    """Return the traced motion of a chain of links, with points, frames and distances by the formulas of any link.
+
+    `root`: gives the coordinates of all links and their derivatives; its residuals are set here.
+    """
+    count = 3 * len(chain.links)
+
+    def coordinate(link: int, which: int) -> Transfer:
+        keys = (f"{_KEYS[which]}{order}.{chain.links[link].name}" for order in ("", "_1", "_2"))
+        return Transfer(*(Known(Component(root, 3 * link + which + k * count), key) for k, key in enumerate(keys)))
+
+    frames: dict[str, LinkMotion] = {}
+    for k, link in enumerate(chain.links):
+        angle = coordinate(k, 2)
+        cos, sin = cosine_of_direction(angle.position), sine_of_direction(angle.position)
+        frame = LinkMotion(PointMotion(coordinate(k, 0), coordinate(k, 1)), cos, sin, *angle[1:])
+        frames[link.name] = named_link(frame, link.name)
+    places = {
+        (link.name, name): named_point(
+            point_on_guide(frames[link.name], boundary.lengths[link.name])
+            if is_stretched(link, name, boundary)
+            else _point(frames[link.name], name, place, _path(chain, link, name)),
+            name,
+        )
+        for link in chain.links
+        for name, place in link.points.items()
+    }
+    points: dict[str, PointMotion] = {}
+    for (_, name), place in places.items():
+        points.setdefault(name, place)
+    lines = {
+        slide.link: guide_on_link(frames[slide.guide.link], slide.guide)
+        if slide.guide.link in frames
+        else boundary.guide(slide.guide)
+        for slide in chain.slides
+    }
+    root.residuals = (
+        *_pins(chain, places, points | {name: boundary.points[name] for name in chain.known}),
+        *_slides(chain, frames, lines),
+    )
+    sliders = {link: in_link_frame(line, frames[link].origin).x for link, line in lines.items()}
+    own = {name: point for name, point in points.items() if name not in chain.known}
+    return ChainMotion(own, frames, sliders, None)
+
+
+def _path(chain: Chain, link: ChainLink, name: str) -> str:
+    """Return the path of a point in a description; the second joint of a bar is stated by the length."""
+    if any(slide.link == link.name for slide in chain.slides):
+        return f"sliders.{link.name}.points.{name}"
+    return f"links.{link.name}.length" if [*link.points].index(name) == 1 else f"links.{link.name}.points.{name}"
+
+
+def _point(frame: LinkMotion, name: str, place: tuple[float, float], path: str) -> PointMotion:
+    along, across = place
+    is_bar = path.endswith(".length")
+    return point_on_link(
+        frame,
+        given(f"point_along.{name}", along, path if is_bar else f"{path}[1]") if along else absent("point_along"),
+        given(f"point_across.{name}", across, f"{path}[2]") if across else absent("point_across"),
+        name,
+    )
+
+
+def _pins(chain: Chain, places: dict[tuple[str, str], PointMotion], anchors: dict[str, PointMotion]) -> Iterator[Known]:
+    """Yield the residuals of the pins, along x and y."""
+    for (_, name), place in places.items():
+        shared = name in chain.known or place is not anchors[name]
+        for axis, end, anchor in zip("xy", place, anchors[name], strict=True):
+            if shared:
+                yield (end.position - anchor.position).named(f"distance_{axis}.{name}")
+
+
+def _slides(chain: Chain, frames: dict[str, LinkMotion], lines: dict[str, LinkMotion]) -> Iterator[Known]:
+    """Yield the residuals of the slides: distance from the guide, and the sine of the angle to it."""
+    for slide in chain.slides:
+        frame, line = frames[slide.link], lines[slide.link]
+        yield in_link_frame(line, frame.origin).y.position.named(f"guide_across.{slide.link}")
+        yield sine_of_turned(frame.sin, line.cos, -frame.cos, line.sin).named(f"guide_sine.{slide.link}")

@@ -292,7 +292,7 @@ def _space(name: str, chamber: Chamber, walls: tuple[_Wall, ...], over: OverCycl
     # during a dwell of the driver only its first angle is a dead centre
     moves = np.abs(volumes - np.roll(volumes, 1)) > _STILL * swept.value
     kept = tuple(angle for angle, moved in zip(turning, moves.tolist(), strict=True) if moved)
-    return _Space(walls, volume, over.knowns[rate], swept, clearance, ratio, period, kept)
+    return _Space(walls, volume, over.columns[rate], swept, clearance, ratio, period, kept)
 
 
 def _at_zero(rate: str, over: OverCycle, period: float) -> Iterator[float]:

@@ -18,7 +18,6 @@ from crankwork.errors import CrankworkError
 from crankwork.formula.known import Known
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.extremes import solve_monotone
-from crankwork.loads.cycle import quadrature
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 from crankwork.locale import Refusal
@@ -26,7 +25,6 @@ from crankwork.locale import Refusal
 Law = Literal["constant", "polytropic", "rounded"]
 # Cylinder volume [m3], or its derivative [m3/rad], of crank angles [deg].
 VolumeAt = Callable[[Array], Array]
-
 _CLOSING = 1e-3
 # pieces that end nearer than this to where the next begins leave no gap [deg]
 _SAME_ANGLE = 1e-5
@@ -38,6 +36,9 @@ _SAME_PLACE = 1e-12
 _SAMPLES = 5
 # share of the largest volume that counts as zero
 _EMPTY = 1e-7
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+# Longest interval that gets one set of eight nodes. [deg]
+_WIDTH = 15.0
 
 
 class DiagramError(CrankworkError):
@@ -453,3 +454,19 @@ def _check_closed(segments: list[Segment], stated: float, path: str) -> None:
     highest = max(float(np.max(np.abs(segment.pressures))) for segment in segments)
     if abs(first - last) > 0.02 * highest:
         raise DiagramError(f"{path}.pieces", Refusal("diagram_open", first=first / 1e6, last=last / 1e6))
+
+
+def quadrature(breaks: Array) -> tuple[Array, Array]:
+    """Return Gauss-Legendre nodes and weights between the breaks (press_2007, sec. 4.6).
+
+    Crank angles [deg] and weights [rad]; the sum of weight times integrand is the integral over angle. `breaks`:
+    ascending crank angles between which the integrand is smooth [deg].
+    """
+    edges = np.concatenate([
+        np.linspace(start, end, max(1, int(np.ceil((end - start) / _WIDTH))), endpoint=False)
+        for start, end in itertools.pairwise(breaks)
+    ] + [breaks[-1:]])  # fmt: skip
+    middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
+    nodes = middle[:, None] + half[:, None] * _NODES
+    weights = np.radians(half)[:, None] * _WEIGHTS
+    return nodes.ravel(), weights.ravel()

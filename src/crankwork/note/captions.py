@@ -58,9 +58,9 @@ LANGUAGE_TAGS: dict[Language, str] = {"en": "en-GB", "ru": "ru-RU", "vi": "vi-VN
 
 
 def note_text(key: str, language: Language, **values: str) -> str:
-    """Return a text of a note, also one that stands under another key; headings and captions have a capital letter."""
-    found = say(_SAME.get(key, key), language, **values)
-    return found if key.startswith("columns.") else capital(found)
+    """Return a text of a note, also one under another key; headings and captions have a capital letter."""
+    text = say(_SAME.get(key, key), language, **values)
+    return text if key.startswith("columns.") else capital(text)
 
 
 def caption(kind: str, number: str, title: str, language: Language) -> str:
@@ -69,7 +69,7 @@ def caption(kind: str, number: str, title: str, language: Language) -> str:
 
 
 def continued(number: str, language: Language) -> str:
-    """Return what stands above a table where it goes on."""
+    """Return the caption above the continuation of a table."""
     return say("note.continued", language, number=number)
 
 
@@ -83,7 +83,7 @@ def place_in_source(place: str, language: Language) -> str:
     """
     # a remark in parentheses is in English
     place = place if language == "en" else _REMARK.sub("", place)
-    return _PLACE.sub(lambda found: say(f"places.{found[0]}", language), place)
+    return _PLACE.sub(lambda match: say(f"places.{match[0]}", language), place)
 
 
 def printed_date(date: dt.date, language: Language) -> str:

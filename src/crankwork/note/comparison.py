@@ -11,7 +11,7 @@ from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.words import NoteWords
 from crankwork.report.comparison import comparison_rows, shown_names
-from crankwork.report.language import displayed, key_unit, label, told_as
+from crankwork.report.language import display_key, displayed, key_unit, label
 
 _LABEL = "compared"
 _DIGITS = 3
@@ -20,24 +20,24 @@ _DIGITS = 3
 def comparison_blocks(
     results: Results, words: NoteWords, heading: Heading, caption: str, *, per_area: bool = False
 ) -> Iterator[Block]:
-    """Yield the heading and the single values by each name; nothing where nothing is compared."""
+    """Yield the heading and the single values by each name; nothing without a comparison."""
     compared = results.compared
     if compared is None:
         return
     yield heading
-    own, *others = shown_names(compared, words.language)
+    own, *other_names = shown_names(compared, words.language)
     key = "compared_methods" if compared.is_of_methods else "compared_machines"
     yield words.paragraph(key, table=Reference(_LABEL), own=own)
     titles: list[Runs] = [(words.column("quantity"),), (words.column("unit"),), (own,)]
-    for other in others:
+    for other in other_names:
         titles += [(other,), ("Δ",)]
     rows = [
         (
-            label(told_as(key, results) if key in results.memory else key, words.language),
+            label(display_key(key, results) if key in results.memory else key, words.language),
             printed_unit(key_unit(key, per_area=per_area), words.language) or "–",
             words.number(values[0]),
             # after the own value come another and how far it is above it
-            *(words.number(one, digits=_DIGITS if at % 2 else 6) for at, one in enumerate(values[1:])),
+            *(words.number(value, digits=_DIGITS if index % 2 else 6) for index, value in enumerate(values[1:])),
         )
         for key, values in comparison_rows(results, per_area=per_area).items()
         if not key.partition(".")[0].endswith(("_max_angle", "_min_angle", "_max_time", "_min_time"))
@@ -62,10 +62,10 @@ _MOST = 12
 def main_numbers(results: Results, words: NoteWords) -> Iterator[Block]:
     """Yield the numbers that matter, one in a line."""
     summary = results.summary
-    some = [
-        key for one in _KEYS if not any(other in summary for other in _SAME.get(one, ())) for key in _of(one, summary)
+    keys = [
+        key for kind in _KEYS if not any(same in summary for same in _SAME.get(kind, ())) for key in _of(kind, summary)
     ]
-    items = [_item(key, results, words) for key in some[:_MOST]]
+    items = [_item(key, results, words) for key in keys[:_MOST]]
     if items:
         yield words.paragraph("numbers")
         yield ItemList(tuple(items))
@@ -82,7 +82,7 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
 def _item(key: str, results: Results, words: NoteWords) -> Runs:
     unit = printed_unit(key_unit(key), words.language)
     name = say("report.exact", words.language) if key.endswith(".exact") else ""
-    own = told_as(key, results).removesuffix(".exact")
-    told = label(own, words.language) + (f", {name}" if name else "")
+    own = display_key(key, results).removesuffix(".exact")
+    title = label(own, words.language) + (f", {name}" if name else "")
     value = words.number(displayed(key, results.summary[key]), digits=5)
-    return (f"{told}, ", Math(words.symbol(own)), f" = {value}\u00a0{unit}".rstrip("\u00a0"))
+    return (f"{title}, ", Math(words.symbol(own)), f" = {value}\u00a0{unit}".rstrip("\u00a0"))

@@ -55,8 +55,8 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
     drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area)
     formats = {"pdf": page, "svg": svg, "dxf": dxf}
     return {
-        f"-sheet-{number}.{ending}": written(one.drawing)
-        for number, one in enumerate(drawn, start=1)
+        f"-sheet-{number}.{ending}": written(sheet.drawing)
+        for number, sheet in enumerate(drawn, start=1)
         for ending, written in formats.items()
     }
 

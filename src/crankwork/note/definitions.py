@@ -1,4 +1,4 @@
-"""What values without a formula are by definition: integrals over the cycle, which are found numerically."""
+"""Definitions of values without a formula: integrals over the cycle, which are found numerically."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MEANS: Mapping[str, str] = MappingProxyType(
 
 
 def definition_box(key: str, language: Language) -> Box | None:
-    """Return what a value is by definition; None where nothing is to be said."""
+    """Return the definition of a value, None where there is none to print."""
     kind = key.partition(".")[0]
     if kind == "indicated_work":
         return row(Upright("∮"), _over("diagram_pressure", "cylinder_volume", language))
@@ -36,10 +36,10 @@ def definition_box(key: str, language: Language) -> Box | None:
 
 
 def definition_text(key: str, language: Language) -> str:
-    """Return the same as one line of text, empty where nothing is to be said."""
+    """Return the definition as one line of text, empty where there is none."""
     kind = key.partition(".")[0]
     named = (*_MEANS, *_MEANS.values(), "crank_angle", "cycle_angle", "kinetic_energy_change")
-    names = {one: QUANTITIES[one].symbol(language) for one in named}
+    names = {name: QUANTITIES[name].symbol(language) for name in named}
     if kind == "indicated_work":
         return f"∮ {QUANTITIES['diagram_pressure'].symbol(language)} d{QUANTITIES['cylinder_volume'].symbol(language)}"
     if key == "excess_work":
@@ -53,12 +53,12 @@ def definition_text(key: str, language: Language) -> str:
 _BEYOND = {"total_torque": ("mean_total_torque", ""), "static_torque": ("mean_driving_torque", "−")}
 
 
-def integral_text(of: str, language: Language) -> str:
-    """Return what is integrated over the crank angle of a torque beyond its mean, empty where it is none."""
-    if of not in _BEYOND:
+def integral_text(torque_key: str, language: Language) -> str:
+    """Return the integral of a torque beyond its mean over the crank angle, empty for other keys."""
+    if torque_key not in _BEYOND:
         return ""
-    mean, sign = _BEYOND[of]
-    torque, mean, phi = (QUANTITIES[one].symbol(language) for one in (of, mean, "crank_angle"))
+    mean, sign = _BEYOND[torque_key]
+    torque, mean, phi = (QUANTITIES[name].symbol(language) for name in (torque_key, mean, "crank_angle"))
     return f"{sign}∫({torque} − {mean}) d{phi}"
 
 

@@ -56,8 +56,8 @@ Runs = tuple[Run, ...]
 
 def listed(labels: Sequence[str]) -> Runs:
     """Return references with commas between them."""
-    first, *others = (Reference(one) for one in labels)
-    return (first, *(run for one in others for run in (", ", one)))
+    first, *further = (Reference(label) for label in labels)
+    return (first, *(run for reference in further for run in (", ", reference)))
 
 
 # letters of a line of the cover, and how many lines fit
@@ -193,9 +193,9 @@ class TitlePage:
 
     @property
     def is_crowded(self) -> bool:
-        """Whether so much stands on it that it fits in small letters only."""
-        every = [*self.institution, *self.above, *self.below, *(name for one in self.people for name in one.names)]
-        return sum(-(-len(one) // _COVER_LINE) for one in every) > _COVER_LINES
+        """Whether it has so many lines that they fit in small letters only."""
+        texts = [*self.institution, *self.above, *self.below, *(name for man in self.people for name in man.names)]
+        return sum(-(-len(text) // _COVER_LINE) for text in texts) > _COVER_LINES
 
 
 @dataclass(frozen=True)

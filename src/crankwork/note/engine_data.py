@@ -1,4 +1,4 @@
-"""What the note of an engine begins with: preface, input data and method."""
+"""The beginning of the note of an engine: preface, input data and method."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def method(material: Material) -> Iterator[Block]:
 
 
 def _how(material: Material) -> Iterator[Block]:
-    """Yield method, constants, crank-to-rod ratio of every stage, and what is followed."""
+    """Yield method, constants, crank-to-rod ratio of every stage, and conventions."""
     words, results = material.words, material.results
     yield words.paragraph(
         "method",
@@ -68,14 +68,14 @@ def _how(material: Material) -> Iterator[Block]:
         yield words.paragraph("one_ratio", ratio=words.number(ratio))
     yield words.paragraph("conventions")
     if "piston_force" in results.columns:
-        yield words.paragraph("references", **{name: Citation(one) for name, one in _SOURCES.items()})
+        yield words.paragraph("references", **{name: Citation(source) for name, source in _SOURCES.items()})
 
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
-    """Yield what is given, row by row."""
+    """Yield the rows of the input data."""
     words, machine = material.words, material.machine
-    # what is worked out of them stands in the equations after the table
-    known = {one.key: one.value for one in in_order(material.results.memory.values()) if _is_stated(one.node)}
+    # values calculated from them are in the equations after the table
+    known = {value.key: value.value for value in in_order(material.results.memory.values()) if _is_stated(value.node)}
     if "crank_radius" in known:
         known.pop("stroke", None)
     known |= {"rotational_speed": machine.speed, "angular_acceleration": machine.angular_acceleration}
@@ -124,10 +124,10 @@ def _masses(material: Material) -> Iterator[tuple[Cell, ...]]:
 
 
 def _rod(material: Material) -> dict[str, float]:
-    """Return the mass of the rod and where it is, of a rod whose parts follow from that."""
+    """Return the mass of the rod and its centre, for a rod whose parts follow from them."""
     memory = material.results.memory
     behind = in_order([memory[key] for key in ("reciprocating_mass", "correction_couple") if key in memory])
-    known = {one.key: one.value for one in behind if one.key in _OF_ROD and isinstance(one.value, float)}
+    known = {traced.key: traced.value for traced in behind if traced.key in _OF_ROD and isinstance(traced.value, float)}
     if "small_end_share" in known:
         known.pop("rod_centre_distance", None)
     return {key: known[key] for key in _OF_ROD if key in known} if "rod_mass" in known else {}
@@ -148,6 +148,6 @@ def _sizes(bearings: Bearings, words: EngineWords) -> Iterator[tuple[Cell, ...]]
 
 
 def cycle_keys(material: Material) -> list[str]:
-    """Return what is given or chosen for the working cycle: its values that no line gives."""
-    given = {one.key for one in cycle_quantities.ROWS} - {one.key for one in material.cycle}
+    """Return the keys of the inputs of the working cycle: its values without a line."""
+    given = {row.key for row in cycle_quantities.ROWS} - {line.key for line in material.cycle}
     return [key for key in material.summary if key in given and key not in _ELSEWHERE]

@@ -57,12 +57,12 @@ _TORQUES = (
     "crank_torque.", "throw_torque.", "total_torque", "crankpin_torque.", "journal_torque.", "reduced_inertia",
     "reduced_inertia_1",
 )  # fmt: skip
-_OF_SLAVE = (
+_OF_ARTICULATED = (
     "piston_displacement", "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force",
     "side_force", "rod_force", "radial_force", "tangential_force", "knuckle_couple", "knuckle_side_force",
 )  # fmt: skip
 _BEARINGS = tuple(
-    one
+    prefix
     for kind in (
         "big_end_inertia_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "big_end_load",
         "weight_force.piston", "transverse_weight.piston", "piston_pin_force", "side_force.small_end", "small_end_load",
@@ -71,15 +71,15 @@ _BEARINGS = tuple(
         "unbalance_tangential_force.counterweights", "journal_share",
         "bearing_force_x", "bearing_force_y", "main_journal_load",
     )
-    for one in (kind, f"{kind}.")
+    for prefix in (kind, f"{kind}.")
 )  # fmt: skip
 _LOADS = tuple(
-    one
+    prefix
     for kind in (
         "mean_bearing_load", "bearing_load_max", "bearing_load_ratio", "bearing_pressure", "bearing_pressure_max",
         "mean_crankpin_load", "reversal_duration", "reversal_ratio",
     )
-    for one in (kind, f"{kind}.")
+    for prefix in (kind, f"{kind}.")
 )  # fmt: skip
 _UNIFORMITY = (
     "mean_torque", "mean_torque.indicated.", "mean_torque.indicated", "excess_work", "work_per_cycle",
@@ -98,25 +98,25 @@ _ROTATING = (
 
 
 def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: float | None = None) -> tuple[Group, ...]:
-    """Return what the note of an engine shows, motion and forces at crank angles. [deg]
+    """Return the groups of lines of the note of an engine, motion and forces at crank angles. [deg]
 
     Forces by default stand as far into the last revolution: of four strokes that is the working one.
     """
-    machine, at = results.machine, degrees
-    there = machine.cycle - _TURN + at if force_degrees is None else force_degrees
-    moving, loaded = results.moment(at), results.moment(there)
+    machine, angle = results.machine, degrees
+    force_angle = machine.cycle - _TURN + angle if force_degrees is None else force_degrees
+    moving, loaded = results.moment(angle), results.moment(force_angle)
     has_forces, has_gas = "piston_force" in results.memory, results.solved.space is not None
     groups = [
         Group("cycle", tuple(_cycle(results))),
         Group("geometry", _own(moving, results, _GEOMETRY)),
         Group("speed", _own(moving, results, _SPEED)),
-        Group("motion", _followed(moving, results, _MOTION), at),
-        Group("harmonics", _own(moving, results, _HARMONICS), at),
+        Group("motion", _followed(moving, results, _MOTION), angle),
+        Group("harmonics", _own(moving, results, _HARMONICS), angle),
         Group("extremes", _own(moving, results, _EXTREMES)),
         Group("masses", _followed(moving, results, _MASSES)),
         Group("gas", _own(loaded, results, (*_space(results), *_points(results)))),
-        Group("forces", _followed(loaded, results, _FORCES if has_forces else ()), there),
-        Group("reduction", _own(loaded, results, _of_cylinder(machine, _REDUCTION if has_forces else ())), there),
+        Group("forces", _followed(loaded, results, _FORCES if has_forces else ()), force_angle),
+        Group("reduction", _own(loaded, results, _of_cylinder(machine, _REDUCTION if has_forces else ())), force_angle),
         Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES)),
         Group("power", _own(loaded, results, _of_cylinder(machine, _POWER if has_gas else ()))),
     ]
@@ -127,7 +127,7 @@ def engine_lines(results: Results, degrees: float = _DEGREES, force_degrees: flo
 
 
 def _of_engine(results: Results, engine: Engine, moment: Moment) -> Iterator[Group]:
-    """Yield what is shown of the whole engine."""
+    """Yield the groups of lines of an engine with its cylinders."""
     yield Group("firing", _own(moment, results, _FIRING))
     if "crank_torque" not in results.columns:
         return
@@ -150,17 +150,17 @@ def _of_cylinder(machine: Machine, keys: Iterable[str]) -> tuple[str, ...]:
 
 
 def _uniformity(results: Results) -> tuple[str, ...]:
-    """Return what the evenness of an engine is worked with; a flywheel by several methods stands by itself."""
+    """Return the lines of the speed fluctuation of an engine; a flywheel by several methods has a group of its own."""
     if not results.summary.get("flywheel_inertia.exact"):
         return _UNIFORMITY
     return tuple(key for key in _UNIFORMITY if key not in ("whole_inertia", "flywheel_inertia"))
 
 
 def _own(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
-    """Return the lines of keys themselves, of one that ends in a point of all its parts: what is given has none."""
+    """Return the lines of keys, of a key that ends in a point those of all its parts; inputs have none."""
     memory = results.memory
-    wanted = (key for one in keys for key in (_parts(results, one) if one.endswith(".") else (one,)) if key in memory)
-    return tuple(moment.step(memory[key]) for key in wanted if not isinstance(memory[key].node, GivenNode))
+    keys = (key for kind in keys for key in (_parts(results, kind) if kind.endswith(".") else (kind,)) if key in memory)
+    return tuple(moment.step(memory[key]) for key in keys if not isinstance(memory[key].node, GivenNode))
 
 
 def _parts(results: Results, start: str) -> list[str]:
@@ -180,12 +180,12 @@ def _points(results: Results) -> list[str]:
 
 def _later_forces(results: Results) -> list[str]:
     """Return the tangential forces that are those of cylinder 1, only later."""
-    memory, found = results.memory, []
+    memory, later = results.memory, []
     for key in _parts(results, "tangential_force."):
         node = memory[key].node
         if isinstance(node, Delayed) and node.of.node is memory["tangential_force"].node:
-            found.append(key)
-    return found
+            later.append(key)
+    return later
 
 
 def _followed(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
@@ -209,49 +209,49 @@ def _cycle(results: Results) -> Iterator[Line]:
     if not lines:
         return
     values = results.solved.space.calculated.values
-    last = {line.key: at for at, line in enumerate(lines)}
-    others = {"displacement"} if results.machine.engine is not None else set()
+    last = {line.key: row for row, line in enumerate(lines)}
+    rounded = {"displacement"} if results.machine.engine is not None else set()
 
     def key_of(key: str) -> str:
-        return f"{key}.cycle" if f"{key}.cycle" in results.summary or key in others else key
+        return f"{key}.cycle" if f"{key}.cycle" in results.summary or key in rounded else key
 
-    end = max((at for at, key in enumerate(values) if key in last), default=-1)
+    end = max((row for row, key in enumerate(values) if key in last), default=-1)
     known = [
-        (at, ValueLine(key_of(key), value))
-        for at, (key, value) in enumerate(values.items())
+        (row, ValueLine(key_of(key), value))
+        for row, (key, value) in enumerate(values.items())
         if key not in last and key_of(key) in results.summary
     ]
-    yield from (one for at, one in known if at < end)
-    for at, line in enumerate(lines):
-        key = key_of(line.key) if at == last[line.key] else f"{line.key}.before_rounding"
+    yield from (known_line for row, known_line in known if row < end)
+    for index, line in enumerate(lines):
+        key = key_of(line.key) if index == last[line.key] else f"{line.key}.before_rounding"
         yield _of_cycle(line, key_of)._replace(key=key)
-    yield from (one for at, one in known if at > end)
+    yield from (known_line for row, known_line in known if row > end)
 
 
 def _of_cycle(line: Line, key_of: Callable[[str], str]) -> Line:
     """Return a line of a cycle, its operands under the keys that they have in the results."""
     if not isinstance(line, FormulaLine):
         return line
-    told = {name for name, _ in line.named}
-    entries = {name: ARGUMENTS[name] for name in symbols_of(line.expression) if name in ARGUMENTS and name not in told}
-    own = [(name, key_of(one.quantity)) for name, one in entries.items() if one.pattern == "{}" and one.quantity]
+    named = {name for name, _ in line.named}
+    entries = {name: ARGUMENTS[name] for name in symbols_of(line.expression) if name in ARGUMENTS and name not in named}
+    own = [(name, key_of(item.quantity)) for name, item in entries.items() if item.pattern == "{}" and item.quantity]
     return line._replace(named=(*line.named, *((name, key) for name, key in own if key != entries[name].quantity)))
 
 
 def _articulated(results: Results, engine: Engine, degrees: float) -> Group:
     """Return motion and forces of the first cylinder with an articulated rod, at its own crank angle."""
-    number, at, own = first_slave(engine), degrees, []
-    for key in _OF_SLAVE:
+    number, angle, own = first_articulated(engine), degrees, []
+    for key in _OF_ARTICULATED:
         known = results.memory.get(f"{key}.{number}")
         if known is None:
             continue
         if isinstance(known.node, Delayed):
-            at, known = (degrees - known.node.by) % known.node.cycle, known.node.of
+            angle, known = (degrees - known.node.by) % known.node.cycle, known.node.of
         own.append(known.named(key))
-    return Group("articulated", tuple(results.moment(at, str(number)).steps(own)), at)
+    return Group("articulated", tuple(results.moment(angle, str(number)).steps(own)), angle)
 
 
-def first_slave(engine: Engine) -> int:
+def first_articulated(engine: Engine) -> int:
     """Return the number of the first cylinder with an articulated rod, 0 if none has one."""
     return next((number for number, rod in enumerate(engine.slaves, start=1) if rod is not None), 0)
 
@@ -267,13 +267,13 @@ def _major_harmonics(results: Results) -> Iterator[str]:
 
 
 def _orders(results: Results, engine: Engine) -> Iterator[str]:
-    """Yield what each order of the inertia forces comes to; of articulated rods those of two cylinders."""
+    """Yield the keys of each order of the inertia forces; of articulated rods those of two cylinders."""
     names = results.listings["balance"].names if "balance" in results.listings else ()
     for name in names:
         row, _, order = name.partition(".")
         if row == "reciprocating":
-            for of in (order, f"{order}.1", f"{order}.{first_slave(engine)}"):
-                yield from (f"{kind}.{of}" for kind in _OF_ORDER)
+            for suffix in (order, f"{order}.1", f"{order}.{first_articulated(engine)}"):
+                yield from (f"{kind}.{suffix}" for kind in _OF_ORDER)
 
 
 def _weights(results: Results) -> Iterator[str]:

@@ -1,8 +1,9 @@
-"""What the sections of the note of an engine are made of."""
+"""Data of the sections of the note of an engine."""
 
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,13 +12,13 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.forces import force_functions
+from crankwork.formula.expression import Expression, Operation, Symbol
 from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
 from crankwork.machine import Machine
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.engine_lines import cycle_lines, engine_lines
 from crankwork.note.groups import Group
 from crankwork.note.options import NoteOptions
-from crankwork.note.textbook import TRANSFER, in_one_formula
 from crankwork.note.words import EngineWords
 from crankwork.report.figure_data import figure_title, kind_of
 from crankwork.report.figures import drawings
@@ -29,6 +30,13 @@ from crankwork.units import from_si
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
 _TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "bearing_load_max", "mean_bearing_load")
+# what follows from a transfer function, which stands before it
+_OF_TRANSFER = {
+    f"{key}{order}": f"{transfer}{order}"
+    for key, transfer in (("piston_velocity", "piston_transfer_1"), ("piston_acceleration", "piston_transfer_2"))
+    for order in ("", "_first_order", "_second_order")
+} | {"inertia_acceleration": "piston_transfer_2.inertia"}
+TRANSFER = tuple(_OF_TRANSFER.values())
 
 
 @dataclass
@@ -39,7 +47,7 @@ class Material:
     options: NoteOptions  # Language and what else is chosen
     has_engine: bool = True  # Whether the machine says what engine it is, and not only its crank gear is known
     _shown: set[tuple[object, ...]] = field(default_factory=set)
-    _told: set[str] = field(default_factory=set)
+    _shown_figures: set[str] = field(default_factory=set)
     _keys: set[str] = field(default_factory=set)
     _formulas: set[str] = field(default_factory=set)
 
@@ -79,22 +87,22 @@ class Material:
     @cached_property
     def columns(self) -> dict[str, Array]:
         """Columns over the crank angle by key, in the units in which they are shown."""
-        found = {key: self.shown(key, values) for key, values in self.results.columns.items()}
+        columns = {key: self.shown(key, values) for key, values in self.results.columns.items()}
         # rod functions belong to forces: a machine of which only the motion is known does not need them
-        return found | (force_functions(self.results) if "piston_force" in found else {})
+        return columns | (force_functions(self.results) if "piston_force" in columns else {})
 
     @cached_property
     def listings(self) -> dict[str, dict[str, Array]]:
         """Tables that do not run over the crank angle by name: columns by key, in the units in which they are shown."""
         return {
-            name: {key: self.shown(key, values) for key, values in one.columns.items()}
-            for name, one in self.results.listings.items()
+            name: {key: self.shown(key, values) for key, values in listing.columns.items()}
+            for name, listing in self.results.listings.items()
         }
 
     @cached_property
     def groups(self) -> dict[str, Group]:
         """Lines of the memory by the name of their group."""
-        return {one.name: one for one in engine_lines(self.results)}
+        return {group.name: group for group in engine_lines(self.results)}
 
     @cached_property
     def cycle(self) -> tuple[Line, ...]:
@@ -111,31 +119,33 @@ class Material:
     def equations(self, group: str, *kinds: str, first: bool = False) -> list[Block]:
         """Return equations of the lines of a group that the note has not shown yet.
 
-        What results without a formula and stands in a table is left to the table.
+        Lines without a formula that are in a table are left to the table.
         """
         lines = self.groups[group].lines if group in self.groups else ()
-        some = [one for one in lines if not kinds or one.key.partition(".")[0] in kinds]
-        some = [one for one in some if not (isinstance(one, ValueLine) and one.key.partition(".")[0] in _TABLED)]
-        return self.worked(_first(some) if first else some)
+        selected = [line for line in lines if not kinds or line.key.partition(".")[0] in kinds]
+        selected = [
+            row for row in selected if not isinstance(row, ValueLine) or row.key.partition(".")[0] not in _TABLED
+        ]
+        return self.worked(_first(selected) if first else selected)
 
     def worked(self, lines: Iterable[Line]) -> list[Block]:
         """Return equations of lines that the note has not shown yet."""
-        found: list[Block] = []
+        blocks: list[Block] = []
         if self.results.method.kinematics == "textbook":
             lines = list(lines)
-            self._formulas |= {_formula_name(one) for one in lines if one.key in TRANSFER}
+            self._formulas |= {_formula_name(step) for step in lines if step.key in TRANSFER}
             lines = in_one_formula(lines)
-        for one in map(self._plain, lines):
-            mark = _identity(one)
+        for line in map(self._plain, lines):
+            mark = _identity(line)
             if mark in self._shown:
                 continue
             self._shown.add(mark)
-            defined = one.key if isinstance(one, ValueLine) else ""
-            area = self.summary["piston_area"] if self.per_area and is_per_area(one.key) else 0.0
-            found.append(Equation(one, symbol=self.words.symbol(one.key), defined=defined, area=area))
-            self._keys.add(one.key)
-            self._formulas.add(_formula_name(one))
-        return found
+            defined = line.key if isinstance(line, ValueLine) else ""
+            area = self.summary["piston_area"] if self.per_area and is_per_area(line.key) else 0.0
+            blocks.append(Equation(line, symbol=self.words.symbol(line.key), defined=defined, area=area))
+            self._keys.add(line.key)
+            self._formulas.add(_formula_name(line))
+        return blocks
 
     def _plain(self, line: Line) -> Line:
         """Return a line of the cycle, values without the mark of the cycle where the diagram gives the same."""
@@ -162,47 +172,47 @@ class Material:
 
     def worked_at(self, group: str) -> Iterator[Block]:
         """Yield the sentence that says at which crank angle a group is worked."""
-        found = self.groups.get(group)
-        if found is not None and found.degrees is not None:
-            yield self.words.paragraph("worked_at", value=self.words.amount(math.radians(found.degrees), "deg"))
+        lines = self.groups.get(group)
+        if lines is not None and lines.degrees is not None:
+            yield self.words.paragraph("worked_at", value=self.words.amount(math.radians(lines.degrees), "deg"))
 
     def presented(self, tables: Iterable[Table | None] = (), names: Iterable[str] = ()) -> Iterator[Block]:
         """Yield tables and figures after a sentence that refers to them by number."""
-        some = [one for one in tables if one is not None]
-        drawn = [self._figure(name) for name in names if name in self.drawn and name not in self._told]
+        shown_tables = [table for table in tables if table is not None]
+        drawn = [self._figure(name) for name in names if name in self.drawn and name not in self._shown_figures]
         sides = {
-            "tables": [one.label for one in some if one.label],
-            "figures": [one.label for one in drawn],
+            "tables": [table.label for table in shown_tables if table.label],
+            "figures": [figure.label for figure in drawn],
         }
         known = {side: listed(labels) for side, labels in sides.items() if labels}
-        said: list[Run] = []
+        sentences: list[Run] = []
         for side, runs in known.items():
             sentence = self.words.sentence(f"see_{side if len(sides[side]) > 1 else side[:-1]}", **{side: runs})
-            said += [" ", *sentence] if said else sentence
-        if said:
-            yield Paragraph(tuple(said))
-        yield from some
+            sentences += [" ", *sentence] if sentences else sentence
+        if sentences:
+            yield Paragraph(tuple(sentences))
+        yield from shown_tables
         yield from drawn
 
     def remaining_figures(self) -> list[str]:
         """Return the names of figures that no section has shown."""
-        left = [name for name in self.drawn if name not in self._told]
+        left = [name for name in self.drawn if name not in self._shown_figures]
         return [name for name in left if self.has_engine or not name.startswith("main_")]
 
     def remaining_lines(self) -> list[Block]:
         """Return equations of lines that no section has shown: single values, and formulas that are new."""
-        every = (one for group in self.groups.values() for one in group.lines)
-        lines = [one for one in every if not isinstance(one, ValueLine | DelayedLine)]
+        all_lines = (line for group in self.groups.values() for line in group.lines)
+        lines = [line for line in all_lines if not isinstance(line, ValueLine | DelayedLine)]
         if not self.has_engine:
-            lines = [one for one in lines if not one.key.startswith(_OF_ENGINES)]
+            lines = [line for line in lines if not line.key.startswith(_OF_ENGINES)]
         return self.worked(
-            one
-            for one in lines
-            if one.key not in self._keys and (one.key in self.summary or _formula_name(one) not in self._formulas)
+            line
+            for line in lines
+            if line.key not in self._keys and (line.key in self.summary or _formula_name(line) not in self._formulas)
         )
 
     def _title(self, name: str) -> str:
-        """Return what a figure shows, of a shaft with several crankpins also which of them."""
+        """Return the caption of a figure, of a shaft with several crankpins also which of them."""
         pins = crankpins(name, self.results.columns)
         engine = self.machine.engine
         several = engine is not None and len({place.throw for place in engine.layout.places}) > 1
@@ -212,13 +222,13 @@ class Material:
         return self.words.phrase("of_pin" if len(pins) == 1 else "of_pins", title=title, pins=", ".join(pins))
 
     def _figure(self, name: str) -> Figure:
-        self._told.add(name)
+        self._shown_figures.add(name)
         title = self._title(name)
         return Figure(self.drawn[name], title, f"{title}. {seen(name, self)}".rstrip(". ") + ".", label=f"f:{name}")
 
 
 def _identity(line: Line) -> tuple[object, ...]:
-    """Return what makes two lines the same."""
+    """Return the mark that equal lines share."""
     if not isinstance(line, FormulaLine):
         return (line.key, line.value)
     mark = line.key.partition(".")[2]
@@ -229,17 +239,17 @@ def _formula_name(line: Line) -> str:
     """Return the name of the formula of a line; of a sum what it sums, of arithmetic in place what it gives."""
     if not isinstance(line, FormulaLine):
         return line.key.partition(".")[0]
-    return line.formula.name if line.formula.source else "".join(one for one in line.key if not one.isdigit())
+    return line.formula.name if line.formula.source else "".join(letter for letter in line.key if not letter.isdigit())
 
 
 def _first(lines: list[Line]) -> Iterator[Line]:
     """Yield the first line of each formula, and for each quantity the first value without one."""
     seen: set[tuple[str, str]] = set()
-    for one in lines:
-        mark = (_formula_name(one), one.key.partition(".")[0])
+    for line in lines:
+        mark = (_formula_name(line), line.key.partition(".")[0])
         if mark not in seen:
             seen.add(mark)
-            yield one
+            yield line
 
 
 _SHOWN: Mapping[str, tuple[str, ...]] = {
@@ -276,7 +286,7 @@ def seen(name: str, shown: Material) -> str:
         keys = tuple(f"{key}.{pin}" for pin in pins for key in keys)
     if name in _OVER_CYCLE:
         keys = shown.results.groups.get(_OVER_CYCLE[name], ())
-    return "; ".join(one for one in (_range(key, shown) for key in keys) if one)
+    return "; ".join(text for text in (_range(key, shown) for key in keys) if text)
 
 
 def crankpins(name: str, columns: Iterable[str]) -> tuple[str, ...]:
@@ -294,9 +304,42 @@ def _range(key: str, shown: Material) -> str:
     """Return the least and the largest value of a column or listing, in words."""
     words, values = shown.words, shown.columns.get(key)
     if values is None:
-        values = next((one[key] for one in shown.listings.values() if key in one), None)
+        values = next((listing[key] for listing in shown.listings.values() if key in listing), None)
     if values is None or not len(values):
         return ""
-    low, high = (words.number(float(one), digits=4) for one in (values.min(), values.max()))
+    low, high = (words.number(float(value), digits=4) for value in (values.min(), values.max()))
     named = label(key, words.language)
     return words.phrase("seen", quantity=named, low=low, high=f"{high}\u00a0{words.unit(key)}".rstrip())
+
+
+def in_one_formula(lines: Iterable[Line]) -> Iterator[Line]:
+    """Yield lines, the transfer functions of the piston put into what follows from them: v = R ω (sin φ + ...)."""
+    all_lines = list(lines)
+    known = {item.key: item for item in all_lines if isinstance(item, FormulaLine)}
+    joined: dict[str, FormulaLine | None] = {}
+    for key, factor in _OF_TRANSFER.items():
+        line, transfer = known.get(key), known.get(factor)
+        if line is not None and transfer is not None and (product := _joined(line, transfer)) is not None:
+            joined[key], joined[factor] = product, None
+    for each in all_lines:
+        replaced = joined.get(each.key, each)
+        if replaced is not None:
+            yield replaced
+
+
+def _joined(line: FormulaLine, transfer: FormulaLine) -> FormulaLine | None:
+    """Return a product with a transfer function as a product with what that is a product of."""
+    match line.expression, transfer.expression:
+        case (
+            Operation(operator.mul, (Symbol(name), speed)),
+            Operation(operator.mul, (first, second))
+            | Operation(operator.truediv, (Operation(operator.mul, (first, second)), _)) as whole,
+        ):
+            factor: Expression = Operation(operator.mul, (first, speed))
+            if whole.function is operator.truediv:
+                factor = Operation(operator.truediv, (factor, whole.operands[1]))
+            tree = Operation(operator.mul, (factor, second))
+            values = {key: value for key, value in line.values.items() if key != name}
+            named = (*transfer.named, *(symbol for symbol in line.named if symbol[0] != name))
+            return line._replace(values={**transfer.values, **values}, tree=tree, named=named)
+    return None

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from crankwork.note.document import Block, Math, Reference, Runs, Table
-from crankwork.note.engine_lines import first_slave
+from crankwork.note.engine_lines import first_articulated
 from crankwork.note.engine_material import Material
 from crankwork.note.engine_tables import angle_table, column_table, folded, listing_table
 from crankwork.note.flywheel import flywheel_by_methods
@@ -82,7 +82,7 @@ def _total_table(material: Material) -> Table | None:
     force = material.results.columns["total_torque"] / material.summary["crank_radius"]
     unit = words.unit("tangential_force")
     texts: list[tuple[Runs, Sequence[str]]] = [
-        (words.titled("crank_angle"), [words.number(float(one)) for one in material.results.grid.degrees])
+        (words.titled("crank_angle"), [words.number(float(angle)) for angle in material.results.grid.degrees])
     ]
     texts += [(words.titled(key), words.column_texts(columns[key].tolist())) for key in keys]
     texts.append(((Math("ΣT"), f", {unit}"), words.column_texts(material.shown("tangential_force", force).tolist())))
@@ -130,8 +130,8 @@ def unrolled(material: Material) -> Iterator[Block]:
 
 def _statistics(material: Material) -> Iterator[Block]:
     """Yield means and ratios of the loads, worked for the crankpin."""
-    found = material.equations("bearing_loads", *_STATISTICS, first=True)
-    yield from material.intro("loads", found)
+    blocks = material.equations("bearing_loads", *_STATISTICS, first=True)
+    yield from material.intro("loads", blocks)
 
 
 def big_end(material: Material) -> Iterator[Block]:
@@ -170,12 +170,12 @@ def _articulated(material: Material) -> Iterator[Block]:
     words, engine = material.words, material.machine.engine
     if engine is None or "articulated" not in material.groups:
         return
-    number = first_slave(engine)
-    at, own = (
+    number = first_articulated(engine)
+    of_crankpin, own = (
         words.amount(math.radians(material.groups[name].degrees or 0.0), "deg") for name in ("bearings", "articulated")
     )
     shown: Runs = (Math(words.symbol(f"crank_angle.{number}")), f" = {own}")
-    yield words.paragraph("articulated", number=str(number), value=at, own=shown)
+    yield words.paragraph("articulated", number=str(number), value=of_crankpin, own=shown)
     yield from material.equations("articulated")
 
 

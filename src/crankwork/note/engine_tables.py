@@ -39,7 +39,7 @@ def long_table(
     if not present:
         return None
     rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
-    columns = [((words.titled("crank_angle")), [words.number(float(one)) for one in degrees[rows]])]
+    columns = [((words.titled("crank_angle")), [words.number(float(angle)) for angle in degrees[rows]])]
     for key in present:
         texts = words.column_texts(material.columns[key][rows].tolist(), decimals=(decimals or {}).get(key))
         columns.append((words.titled(key), texts))
@@ -54,8 +54,8 @@ def folded(table: Table) -> Table:
         return table
     height = -(-len(rows) // parts)
     filled = rows + [("",) * count] * (height * parts - len(rows))
-    beside = zip(*(filled[part * height : (part + 1) * height] for part in range(parts)), strict=True)
-    joined = [tuple(entry for row in one for entry in row) for one in beside]
+    side_by_side = zip(*(filled[part * height : (part + 1) * height] for part in range(parts)), strict=True)
+    joined = [tuple(entry for row in joined_rows for entry in row) for joined_rows in side_by_side]
     return replace(table, headings=table.headings * parts, rows=joined, align=table.align * parts)
 
 
@@ -79,15 +79,15 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
     if sheet is None:
         return None
     columns: list[tuple[Runs, Sequence[str]]] = []
-    # of a crank gear of its own nobody knows the journals
-    rows = [k for k, one in enumerate(sheet.names) if material.has_engine or not one.startswith("main_journal")]
+    # a crank mechanism by itself has no known journals
+    rows = [k for k, row_key in enumerate(sheet.names) if material.has_engine or not row_key.startswith("main_journal")]
     if sheet.names:
         columns.append(((words.column("row"),), [row_name(sheet.names[k], words.language) for k in rows]))
     for key, column in material.listings[name].items():
         values = column[rows] if sheet.names else column
         if sheet.names and not np.any(np.nan_to_num(values)):
             continue
-        entries = [words.number(float(one)) for one in values] if not columns else words.column_texts(values.tolist())
+        entries = [words.number(float(item)) for item in values] if not columns else words.column_texts(values.tolist())
         columns.append((words.titled(key), entries))
     table = column_table(caption, columns, words)
     return replace(table, align=("l" if sheet.names else "c") + table.align[1:])
@@ -95,11 +95,11 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
 
 def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: EngineWords) -> Table:
     """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry."""
-    found = list(rows)
+    entries = list(rows)
     titles: list[str | Runs] = ["quantity", "symbol", "value", "unit"]
-    if any(len(one) > len(titles) for one in found):
+    if any(len(row) > len(titles) for row in entries):
         titles.append((words.column("at") + " ", Math(words.symbol("crank_angle"))))
-    return words.table(caption, titles, found, "lcrcr"[: len(titles)], f"t:{caption}")
+    return words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}")
 
 
 def value_row(key: str, value: float, words: EngineWords, *, area: float | None = None) -> tuple[Cell, ...]:

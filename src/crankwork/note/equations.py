@@ -18,7 +18,6 @@ from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, Val
 from crankwork.locale import say, texts
 from crankwork.locale.numbers import number
 from crankwork.note.definitions import definition_box, definition_text
-from crankwork.note.digits import enough_digits, is_exact_pi, whole_degrees
 from crankwork.note.document import Equation
 from crankwork.note.layout import (
     EQUALS,
@@ -36,7 +35,7 @@ from crankwork.note.layout import (
     row,
     width,
 )
-from crankwork.note.math import formula_box
+from crankwork.note.math import enough_digits, formula_box, is_exact_pi, whole_degrees
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
@@ -130,7 +129,7 @@ def own_key(key: str) -> str:
 
 
 def value_symbol(key: str, language: Language) -> str:
-    """Return the symbol of a value as `base_subscript`, what tells it from others of its quantity in the subscript."""
+    """Return the symbol of a value as `base_subscript`, with its marks in the subscript."""
     kind, *names = own_key(key).split(".")
     if base_key(kind) not in QUANTITIES:
         return kind
@@ -139,13 +138,13 @@ def value_symbol(key: str, language: Language) -> str:
         return owned_symbol(kind, shown, ".".join(names), language)
     known = texts("marks", language)
     if kind in _OF_ORDERS and names and names[0] in _WITHOUT_ORDER:
-        # what turns with the shaft has no order
+        # rotating parts have no order
         shown = shown.partition("_")[0]
     if kind in _OF_HARMONICS and names:
         return f"{shown}{',' if '_' in shown else '_'}{number(float('.'.join(names)), language)}"
     marks = [known.get(name, name) for name in names]
-    # a point or a number tells parts of a quantity apart; a whole word would make no symbol
-    below = ",".join(one for one, name in zip(marks, names, strict=True) if name in known or len(one) <= _SHORT_NAME)
+    # points and numbers are marks; a whole word would be too long for a subscript
+    below = ",".join(mark for mark, name in zip(marks, names, strict=True) if name in known or len(mark) <= _SHORT_NAME)
     if kind in _AT_POINTS and below:
         # the clearance volume has the subscript that the point at the end of compression has
         below = f"({below})"
@@ -176,7 +175,7 @@ def _definition(block: Equation, language: Language) -> tuple[Box, ...]:
 
 
 def _parts(step: Line | Formula, language: Language) -> Iterator[Box]:
-    """Yield what stands between the signs of equality."""
+    """Yield the boxes between the equal signs."""
     match step:
         case Formula():
             yield formula_box(record(step.shown), None, language)
@@ -186,20 +185,20 @@ def _parts(step: Line | Formula, language: Language) -> Iterator[Box]:
             yield formula_box(
                 step.expression, values, language, digits=enough_digits(step), symbols=_symbols(step, language)
             )
-        case DelayedLine(of=of, degrees=degrees):
-            yield row(symbol_box(value_symbol(of, language)), Fence(value_box(degrees, "deg", language)))
+        case DelayedLine(of=column, degrees=degrees):
+            yield row(symbol_box(value_symbol(column, language)), Fence(value_box(degrees, "deg", language)))
         case SumLine(terms=terms):
             if len(terms) <= _MANY:
                 yield _sum_of_symbols(step, language)
             if len(terms) > 1:
                 digits = enough_digits(step)
-                yield _joined([number_box(one.value, language, digits)[0] for one in terms])
-    for value, unit in told_values(step):
+                yield _joined([number_box(term.value, language, digits)[0] for term in terms])
+    for value, unit in distinct_values(step):
         yield value_box(value, unit, language)
 
 
 def _sum_of_symbols(step: SumLine, language: Language) -> Box:
-    return _joined([symbol_box(value_symbol(one.key, language)) for one in step.terms])
+    return _joined([symbol_box(value_symbol(term.key, language)) for term in step.terms])
 
 
 def formula_of(step: FormulaLine, language: Language) -> Box:
@@ -241,14 +240,14 @@ def shown_values(step: Line) -> list[tuple[float, str]]:
     return [(step.value, stated), (float(from_si(si, shown)), shown)]
 
 
-def told_values(step: Line) -> list[tuple[float, str]]:
-    """Return the values that a line ends with: nothing is the same in two units, but for degrees."""
-    first, *others = shown_values(step)
-    return [first, *others] if first[0] or any(value for value, _ in others) else [first]
+def distinct_values(step: Line) -> list[tuple[float, str]]:
+    """Return the values at the end of a line, once where both units give the same number; degrees keep both."""
+    first, *further = shown_values(step)
+    return [first, *further] if first[0] or any(value for value, _ in further) else [first]
 
 
-def _same_dimension(one: str, other: str) -> bool:
-    return one == other or (one in UNITS and other in UNITS and UNITS[one].dimension == UNITS[other].dimension)
+def _same_dimension(first: str, second: str) -> bool:
+    return first == second or (first in UNITS and second in UNITS and UNITS[first].dimension == UNITS[second].dimension)
 
 
 def value_box(value: float, unit: str, language: Language) -> Box:
@@ -271,39 +270,39 @@ def _plain(block: Equation, language: Language) -> str:
     step = block.step
     parts = [block.symbol or equation_symbol(step, language)]
     if block.defined:
-        parts += [one for one in (definition_text(block.defined, language),) if one]
+        parts += [part for part in (definition_text(block.defined, language),) if part]
     if isinstance(step, Formula):
         return " = ".join([*parts, text(record(step.shown), None, language)])
-    told = " = ".join([*parts, *line_parts(step, language)])
+    equation = " = ".join([*parts, *line_parts(step, language)])
     if not block.area:
-        return told
+        return equation
     symbol, value, unit = _per_area(block, language)
-    return f"{told}; {symbol} = {value_text(value, unit, language)}"
+    return f"{equation}; {symbol} = {value_text(value, unit, language)}"
 
 
 def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = MappingProxyType({})) -> list[str]:
-    """Return what stands between the signs of equality of a line, as text: symbols, numbers, values with units.
+    """Return the parts of a line between the equal signs, as text: symbols, numbers, values with units.
 
     `symbols`: those that stand for some operands here, by argument name.
     """
     parts, digits = [], enough_digits(step)
     if isinstance(step, FormulaLine):
-        put_in = {name: one for name, one in step.values.items() if not is_exact_pi(name, one)}
-        printed = {name: number(one, language, digits=digits) for name, one in put_in.items()}
+        put_in = {name: value for name, value in step.values.items() if not is_exact_pi(name, value)}
+        printed = {name: number(value, language, digits=digits) for name, value in put_in.items()}
         shown = {**_symbols(step, language), **symbols}
         printed |= _angles(step, language)
         parts = [text(step.expression, shown, language), text(step.expression, printed, language)]
     elif isinstance(step, DelayedLine):
         parts = [f"{value_symbol(step.of, language)}({value_text(step.degrees, 'deg', language)})"]
     elif isinstance(step, SumLine) and step.terms:
-        names = [value_symbol(one.key, language) for one in step.terms]
-        numbers = [number(one.value, language, digits=digits) for one in step.terms]
+        names = [value_symbol(term.key, language) for term in step.terms]
+        numbers = [number(term.value, language, digits=digits) for term in step.terms]
         parts = [" + ".join(names), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
     while parts and parts[-1] == number(step.value, language):
         # the same number follows with its unit
         parts.pop()
-    parts += [value_text(value, unit, language) for value, unit in told_values(step)]
-    return [one for at, one in enumerate(parts) if not at or one != parts[at - 1]]
+    parts += [value_text(value, unit, language) for value, unit in distinct_values(step)]
+    return [part for index, part in enumerate(parts) if not index or part != parts[index - 1]]
 
 
 def _angles(step: FormulaLine, language: Language) -> dict[str, str]:

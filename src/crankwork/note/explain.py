@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from crankwork.analysis.results import Results
 from crankwork.description.origins import Origin
-from crankwork.formula.explained import Explained, Explanation, goes_by_argument, is_given
+from crankwork.formula.explained import Explained, Explanation, has_argument_symbol, is_given
 from crankwork.formula.expression import symbol
 from crankwork.formula.known import (
     Arithmetic,
@@ -29,12 +29,12 @@ from crankwork.locale import capital, has_text, say, texts
 from crankwork.locale.numbers import number
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text, integral_text
-from crankwork.note.equations import OF_LINKS, line_parts, shown_values, told_values, value_symbol, value_text
+from crankwork.note.equations import OF_LINKS, distinct_values, line_parts, shown_values, value_symbol, value_text
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
-from crankwork.report.language import in_own_units, label, told_as
+from crankwork.report.language import display_key, in_own_units, label
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 
@@ -42,7 +42,7 @@ _OF_ANGLE = re.compile(r"^(sin|cos|tan) ?")
 _OF_CYCLE = frozenset(row.key for row in cycle.ROWS)
 _OWNERS = {"stroke": "of_piston"}
 # what is found of the whole course of a column, and how many rows of that are told at most [deg]
-_OF_COURSES = ("mean", "harmonic_mean", "integral", "fourier", "range")
+_OVER_CYCLE = ("mean", "harmonic_mean", "integral", "fourier", "range")
 _COARSE, _FEWEST, _MOST = 30.0, 5, 25
 _FENCES = re.compile(r"[() ]")
 
@@ -59,22 +59,22 @@ def _path(path: str, _: Iterable[float]) -> str:
 def explanation(
     results: Results, key: str, at: float | None = None, language: Language = "en", place: Place = _path
 ) -> str:
-    """Return how a value came about, down to what is given.
+    """Return how a value is calculated, down to the inputs.
 
-    `key`: key of a column, of a single value, or of what lies between them; `at`: crank angle [deg] or time [s] of what
-    varies;
+    `key`: key of a column, of a single value, or of an intermediate one; `at`: crank angle [deg] or time [s], for one
+    that varies;
     `place`: says where a value comes from that is said to stand at a path of the machine file.
     """
     value = results.value(key, at)
     known = results.memory.get(key)
     degrees, places = 0.0 if at is None else results.degrees_of(at), _Places(results.period, language)
-    asked = known is not None and not known.varies
+    is_constant = known is not None and not known.varies
     explained = None if known is None else Explanation(known, degrees, type(results.grid).from_degrees)
     if known is not None and explained is not None and explained.moment(None).is_noise(known):
         value = 0.0
-    where = "" if at is None or asked else f"({places(degrees)})"
-    shown = " = ".join([f"{value_symbol(told_as(key, results), language)}{where}", *_values(key, value, language)])
-    head = [f"{capital(label(told_as(key, results), language)) if _has_label(key) else key}: {shown}"]
+    where = "" if at is None or is_constant else f"({places(degrees)})"
+    shown = " = ".join([f"{value_symbol(display_key(key, results), language)}{where}", *_values(key, value, language)])
+    head = [f"{capital(label(display_key(key, results), language)) if _has_label(key) else key}: {shown}"]
     if explained is None:
         return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"
     return "\n".join([*head, *_Printed(explained, places, place, _shown_rows(results))]) + "\n"
@@ -88,15 +88,15 @@ def key_lines(results: Results, language: Language = "en") -> list[str]:
     sign = f"({QUANTITIES['time' if results.period else 'crank_angle'].symbol(language)})"
     varying = {key for key in keys if key in results.columns and results.memory[key].varies}
     return [
-        f"{key:<{wide}}  {sign if key in varying else '   '}  {label(told_as(key, results), language)}".rstrip()
+        f"{key:<{wide}}  {sign if key in varying else '   '}  {label(display_key(key, results), language)}".rstrip()
         for key in keys
     ]
 
 
 def _shown_rows(results: Results) -> list[float]:
-    """Return rows of the tables at which a column is told whose whole course counts. [deg]"""
+    """Return the rows of the tables at which a column is listed that is evaluated over the whole cycle. [deg]"""
     rows: list[float] = results.grid.degrees.tolist()
-    coarse = [one for one in rows if one % _COARSE == 0]
+    coarse = [row for row in rows if row % _COARSE == 0]
     return coarse if _FEWEST <= len(coarse) <= _MOST else rows[:: -(-len(rows) // _MOST)]
 
 
@@ -117,11 +117,11 @@ def _values(key: str, value: float, language: Language) -> list[str]:
     """Return a value in SI and in the unit of the tables, where it is that of a quantity."""
     if base_key(key) not in QUANTITIES:
         return [number(value, language)]
-    return [value_text(one, unit, language) for one, unit in shown_values(ValueLine(key, value))]
+    return [value_text(shown_value, unit, language) for shown_value, unit in shown_values(ValueLine(key, value))]
 
 
 class _Places(NamedTuple):
-    """What angles of the tables are called: crank angles, or times where a law with a period drives. [s]"""
+    """Names of the angles of tables: crank angles, or times where a law with a period drives. [s]"""
 
     period: float
     language: Language
@@ -153,67 +153,67 @@ class _Printed:
         self._own: dict[str, str] = {}
 
     def __iter__(self) -> Iterator[str]:
-        every = list(self._explanation)
-        self._own = told_apart([one.known.key for one in every], self._language)
-        made = [one for one in every if not is_given(one)]
-        # what does not vary is known before anything that does
+        explained = list(self._explanation)
+        self._own = distinct_symbols([item.known.key for item in explained], self._language)
+        made = [item for item in explained if not is_given(item)]
+        # constants come before everything that varies
         later = _later(made)
-        steady = [one for one in made if id(one.known.node) not in later]
-        moving = [one for one in made if id(one.known.node) in later]
+        steady = [item for item in made if id(item.known.node) not in later]
+        moving = [item for item in made if id(item.known.node) in later]
         yield from self._section(self._places.steady, steady)
-        here: float | None = None
-        told: dict[str, None] = {}
-        for one in moving:
-            angle = self._angle_of(one)
-            if angle is not None and angle != here:
+        current: float | None = None
+        printed: dict[str, None] = {}
+        for entry in moving:
+            angle = self._angle_of(entry)
+            if angle is not None and angle != current:
                 yield from ("", self._places.at(angle))
-                here, told = angle, {}
-            lines = [line for line in self._lines([one]) if line not in told]
-            told |= dict.fromkeys(lines)
+                current, printed = angle, {}
+            lines = [line for line in self._lines([entry]) if line not in printed]
+            printed |= dict.fromkeys(lines)
             yield from lines
-        yield from self._given([one for one in every if is_given(one)])
-        yield from self._legend(every)
+        yield from self._given([item for item in explained if is_given(item)])
+        yield from self._legend(explained)
         if self._sources:
             yield from ("", say("explain.sources", self._language))
             yield from (f"  [{count}] {cite(source)}" for source, count in self._sources.items())
 
-    def _angle_of(self, one: Explained) -> float | None:
+    def _angle_of(self, entry: Explained) -> float | None:
         """Return the crank angle that a line belongs to."""
-        return one.known.node.at if isinstance(one.known.node, Found) else one.degrees
+        return entry.known.node.at if isinstance(entry.known.node, Found) else entry.degrees
 
-    def _section(self, title: str, some: Iterable[Explained]) -> Iterator[str]:
-        lines = dict.fromkeys(self._lines(some))
+    def _section(self, title: str, entries: Iterable[Explained]) -> Iterator[str]:
+        lines = dict.fromkeys(self._lines(entries))
         if lines:
             yield from ("", title, *lines)
 
-    def _lines(self, some: Iterable[Explained]) -> Iterator[str]:
-        for one in some:
-            line = self._line(one)
+    def _lines(self, entries: Iterable[Explained]) -> Iterator[str]:
+        for entry in entries:
+            line = self._line(entry)
             if line:
                 yield f"  {line}"
-                yield from self._courses(one)
+                yield from self._rows_of_columns(entry)
 
-    def _courses(self, one: Explained) -> Iterator[str]:
-        """Yield the columns that a value was found of over the cycle, at some rows of the tables."""
-        node = one.known.node
-        if not isinstance(node, Found | Table) or node.word not in _OF_COURSES:
+    def _rows_of_columns(self, entry: Explained) -> Iterator[str]:
+        """Yield the columns that a value over the cycle is taken from, at some rows of the tables."""
+        node = entry.known.node
+        if not isinstance(node, Found | Table) or node.word not in _OVER_CYCLE:
             return
         for column in (part for part in node.operands if part.key and part.varies):
-            told: list[str] = []
-            for at in self._rows:
-                step = ValueLine(column.key, self._explanation.moment(at).value(column))
+            samples: list[str] = []
+            for row in self._rows:
+                step = ValueLine(column.key, self._explanation.moment(row).value(column))
                 value, unit = shown_values(step)[-1] if base_key(column.key) in QUANTITIES else (step.value, "")
-                told.append(f"{self._places(at)}: {number(value, self._language, digits=5)}".replace(" ", "\u00a0"))
+                samples.append(f"{self._places(row)}: {number(value, self._language, digits=5)}".replace(" ", "\u00a0"))
             unit_text = printed_unit(unit, self._language)
             head = f"{self._symbol(column)}{f', {unit_text}' if unit_text else ''} – "
-            yield from textwrap.wrap(head + "; ".join(told), 116, initial_indent="    ", subsequent_indent="      ",
+            yield from textwrap.wrap(head + "; ".join(samples), 116, initial_indent="    ", subsequent_indent="      ",
                                      break_long_words=False, break_on_hyphens=False)  # fmt: skip
 
     def _symbol(self, known: Known, argument: str = "") -> str:
         match known.node:
             case OfAngle(function=function, multiple=multiple, shift=shift) if not has_own_symbol(known):
                 return of_angle(function, multiple, shift, self._language)
-        if known.key and not goes_by_argument(known, argument):
+        if known.key and not has_argument_symbol(known, argument):
             return self._own.get(known.key) or value_symbol(known.key, self._language)
         return symbol(argument, self._language) if argument in ARGUMENTS else "?"
 
@@ -222,85 +222,85 @@ class _Printed:
         if not isinstance(step, FormulaLine) or not self._own:
             return {}
         entries = {name: ARGUMENTS[name] for name in step.values if name in ARGUMENTS}
-        found = {name: one.pattern.format(self._own[one.quantity]) for name, one in entries.items()
-                 if one.quantity in self._own and not one.extra}  # fmt: skip
-        return found | {name: self._own[key] for name, key in step.named if key in self._own}
+        symbols = {name: argument.pattern.format(self._own[argument.quantity]) for name, argument in entries.items()
+                 if argument.quantity in self._own and not argument.extra}  # fmt: skip
+        return symbols | {name: self._own[key] for name, key in step.named if key in self._own}
 
-    def _line(self, one: Explained) -> str:
+    def _line(self, entry: Explained) -> str:
         """Return the line of a value."""
-        known, language = one.known, self._language
-        parts = [self._symbol(known, one.argument)]
-        parts += [value_symbol(one.own, language)] if one.own not in ("", known.key) else []
+        known, language = entry.known, self._language
+        parts = [self._symbol(known, entry.argument)]
+        parts += [value_symbol(entry.own, language)] if entry.own not in ("", known.key) else []
         match known.node:
             case OfAngle():
-                return " = ".join(_once([*parts, *self._angle_parts(one)]))
+                return " = ".join(_once([*parts, *self._angle_parts(entry)]))
             case Use() | Arithmetic() | Total():
-                step = without_noise(self._explanation.moment(one.degrees).step(known))
-                parts = ["0"] if one.residual else parts
-                parts += [say(f"memory.{one.word}", language)] if one.word else []
-                found = line_parts(step, language, self._symbols(step))
-                parts += found[: -len(told_values(step))] if one.residual else found
+                step = without_noise(self._explanation.moment(entry.degrees).step(known))
+                parts = ["0"] if entry.residual else parts
+                parts += [say(f"memory.{entry.word}", language)] if entry.word else []
+                line_texts = line_parts(step, language, self._symbols(step))
+                parts += line_texts[: -len(distinct_values(step))] if entry.residual else line_texts
                 source = step.formula.source if isinstance(step, FormulaLine) else ""
-                return " = ".join(_once(parts)) + self._cited(source) + self._held(one)
-            case Delayed(of=of, by=by, cycle=cycle) if one.degrees is not None:
-                before = _angle((one.degrees - by) % cycle, language)
-                parts = [f"{parts[0]}({_angle(one.degrees, language)})", f"{self._symbol(of)}({before})"]
-            case Found(word="at", operands=of, at=at) if at is not None:
-                parts += [f"{self._symbol(column)}({self._places(at)})" for column in of[:1]]
-            case Found(word="sine" | "cosine" as word, operands=(of,)):
-                of_degrees = _angle(float(from_si(of.value, "deg")), language)
+                return " = ".join(_once(parts)) + self._cited(source) + self._held(entry)
+            case Delayed(of=column, by=shift, cycle=cycle) if entry.degrees is not None:
+                before = _angle((entry.degrees - shift) % cycle, language)
+                parts = [f"{parts[0]}({_angle(entry.degrees, language)})", f"{self._symbol(column)}({before})"]
+            case Found(word="at", operands=operands, at=angle) if angle is not None:
+                parts += [f"{self._symbol(column)}({self._places(angle)})" for column in operands[:1]]
+            case Found(word="sine" | "cosine" as word, operands=(operand,)):
+                of_degrees = _angle(float(from_si(operand.value, "deg")), language)
                 parts.append(f"{'sin' if word == 'sine' else 'cos'} {of_degrees}")
-            case Found(word=word, operands=of, at=at):
+            case Found(word=word, operands=operands, at=angle):
                 defined = definition_text(known.key, language) if known.key else ""
                 parts += [defined] if defined else []
-                parts.append(self._found(word, of, at))
-            case Table(word=word, operands=of):
-                integral = integral_text(of[0].key, language) if of and word == "integral" else ""
+                parts.append(self._found(word, operands, angle))
+            case Table(word=word, operands=operands):
+                integral = integral_text(operands[0].key, language) if operands and word == "integral" else ""
                 parts += [*([integral] if integral else []), say(f"memory.{word}", language)]
             case Component():
                 parts.append(say("explain.root", language))
             case HalfTurns():
                 parts.append(say("explain.half_turns", language))
-        return " = ".join(_once([*parts, *self._own_values(one)])) + self._held(one)
+        return " = ".join(_once([*parts, *self._own_values(entry)])) + self._held(entry)
 
-    def _found(self, word: str, of: tuple[Known, ...], at: float | None) -> str:
-        """Return what was found of what: of columns that are not followed here with the key to ask for."""
+    def _found(self, word: str, operands: tuple[Known, ...], angle: float | None) -> str:
+        """Return a procedure and its operands as text, with the keys of columns that are not followed here."""
         columns = ", ".join(
-            self._symbol(part) + (f": {label(part.key.partition('.')[0], self._language)}" if at is None else "")
-            for part in of
+            self._symbol(part) + (f": {label(part.key.partition('.')[0], self._language)}" if angle is None else "")
+            for part in operands
             if part.key and part.varies
         )
         words = say(f"memory.{word}", self._language)
-        where = "" if at is None else say("explain.where", self._language, angle=self._places(at))
+        where = "" if angle is None else say("explain.where", self._language, angle=self._places(angle))
         return f"{words}{f' ({columns})' if columns else ''}{where}"
 
-    def _own_values(self, one: Explained) -> list[str]:
-        return [value_text(*pair, self._language) for pair in self._shown(one)]
+    def _own_values(self, entry: Explained) -> list[str]:
+        return [value_text(*pair, self._language) for pair in self._shown(entry)]
 
-    def _shown(self, one: Explained) -> list[tuple[float, str]]:
+    def _shown(self, entry: Explained) -> list[tuple[float, str]]:
         """Return a value in the units in which it is printed, each with its unit."""
-        node, key = one.known.node, one.known.key
+        node, key = entry.known.node, entry.known.key
         if isinstance(node, Given) and node.unit:
-            return [(one.value, node.unit)]
+            return [(entry.value, node.unit)]
         if key and base_key(key) in QUANTITIES:
-            return shown_values(ValueLine(key, one.value))
-        return [(one.value, argument_unit(one.argument) if one.argument in ARGUMENTS else "")]
+            return shown_values(ValueLine(key, entry.value))
+        return [(entry.value, argument_unit(entry.argument) if entry.argument in ARGUMENTS else "")]
 
-    def _angle_parts(self, one: Explained) -> list[str]:
-        node, degrees = one.known.node, one.degrees
+    def _angle_parts(self, entry: Explained) -> list[str]:
+        node, degrees = entry.known.node, entry.degrees
         if not isinstance(node, OfAngle) or degrees is None:
             return []
-        whole = _angle(node.multiple * degrees + node.shift, self._language)
+        angle = _angle(node.multiple * degrees + node.shift, self._language)
         turned = of_angle(node.function, node.multiple, node.shift, self._language)
         if node.function == "angle":
-            return [turned, whole, value_text(one.value, "rad", self._language)]
+            return [turned, angle, value_text(entry.value, "rad", self._language)]
         name = {"one_minus_sin": "1 − sin ", "one_plus_sin": "1 + sin "}.get(node.function, f"{node.function} ")
-        return [turned, f"{name}{whole}", number(one.value, self._language)]
+        return [turned, f"{name}{angle}", number(entry.value, self._language)]
 
-    def _held(self, one: Explained) -> str:
-        if one.stretch is None:
+    def _held(self, entry: Explained) -> str:
+        if entry.stretch is None:
             return ""
-        start, end = (self._places(edge) for edge in one.stretch)
+        start, end = (self._places(edge) for edge in entry.stretch)
         return f"   ({say('explain.holds', self._language, start=start, end=end)})"
 
     def _cited(self, source: str) -> str:
@@ -309,28 +309,28 @@ class _Printed:
         self._sources.setdefault(source.partition(",")[0], len(self._sources) + 1)
         return f"   {Numbering((), {}, self._sources, self._language).citation(source)}"
 
-    def _given(self, some: list[Explained]) -> Iterator[str]:
+    def _given(self, entries: list[Explained]) -> Iterator[str]:
         lines = []
-        for one in some:
-            node = one.known.node
+        for entry in entries:
+            node = entry.known.node
             if not isinstance(node, Given):
                 continue
-            shown = self._shown(one)
-            si = float(to_si(one.value, node.unit)) if node.unit in UNITS else one.value
+            shown = self._shown(entry)
+            si = float(to_si(entry.value, node.unit)) if node.unit in UNITS else entry.value
             numbers = [si, *(number for number, _ in shown)]
             file, _, row = node.path.partition(":")
             if row:
                 where = say("explain.line", self._language, path=file, line=row)
             else:
                 where = self._place(node.path, numbers) if node.path else say("explain.taken", self._language)
-            values = [self._symbol(one.known, one.argument), *(value_text(*pair, self._language) for pair in shown)]
+            values = [self._symbol(entry.known, entry.argument), *(value_text(*pair, self._language) for pair in shown)]
             lines.append(f"  {' = '.join(values)}   {where}")
         if lines:
             yield from ("", capital(say("captions.data", self._language)), *dict.fromkeys(lines))
 
-    def _legend(self, every: list[Explained]) -> Iterator[str]:
-        """Yield what the symbols mean: each quantity once, whatever its point or link."""
-        meanings = dict.fromkeys(self._meaning(one) for one in every)
+    def _legend(self, explained: list[Explained]) -> Iterator[str]:
+        """Yield the meanings of the symbols: each quantity once, whatever its point or link."""
+        meanings = dict.fromkeys(self._meaning(entry) for entry in explained)
         entries = [f"{shown} – {words}".replace(" ", "\u00a0", 2) for shown, words in meanings if words]
         if entries:
             yield ""
@@ -338,13 +338,13 @@ class _Printed:
             yield from textwrap.wrap("; ".join(entries), 116, initial_indent="  ", subsequent_indent="  ",
                                      break_long_words=False, break_on_hyphens=False)  # fmt: skip
 
-    def _meaning(self, one: Explained) -> tuple[str, str]:
+    def _meaning(self, entry: Explained) -> tuple[str, str]:
         """Return a symbol as it stands for all its points and links, and its words."""
-        known, language = one.known, self._language
+        known, language = entry.known, self._language
         if isinstance(known.node, OfAngle) and not has_own_symbol(known):
             return value_symbol("crank_angle", language), label("crank_angle", language)
-        if not known.key or goes_by_argument(known, one.argument):
-            return meaning_of_argument(one.argument, language)
+        if not known.key or has_argument_symbol(known, entry.argument):
+            return meaning_of_argument(entry.argument, language)
         kind, _, part = known.key.partition(".")
         if kind not in QUANTITIES:
             return "", ""
@@ -362,7 +362,7 @@ def symbol_of_kind(key: str, language: Language) -> str:
 
 
 def meaning_of_argument(name: str, language: Language) -> tuple[str, str]:
-    """Return the symbol of an argument of formulas and what it means, empty where nobody has to be told."""
+    """Return the symbol and the meaning of an argument of formulas, empty where it is obvious."""
     entry = ARGUMENTS.get(name)
     if entry is None:
         return "", ""
@@ -371,38 +371,38 @@ def meaning_of_argument(name: str, language: Language) -> tuple[str, str]:
     return (value_symbol(entry.quantity, language), label(entry.quantity, language)) if entry.quantity else ("", "")
 
 
-def told_apart(keys: Iterable[str], language: Language) -> dict[str, str]:
-    """Return symbols with the mark of their owner, of quantities whose letters mean something else here too."""
+def distinct_symbols(keys: Iterable[str], language: Language) -> dict[str, str]:
+    """Return symbols with the mark of their owner, for quantities whose letters have another meaning here too."""
     kinds: dict[str, set[str]] = {}
     for key in {"crank_angle", *keys} - {""}:
         for shown in (value_symbol(key, language), symbol_of_kind(key, language)):
             kinds.setdefault(_OF_ANGLE.sub("", shown), set()).add(base_key(key.partition(".")[0]))
-    marks, found = texts("marks", language), {}
+    marks, symbols = texts("marks", language), {}
     for key in keys:
         shown, owner = value_symbol(key, language), "cycle" if key in _OF_CYCLE else _OWNERS.get(key)
         if owner and len(kinds.get(shown, ())) > 1:
-            found[key] = f"{shown}{',' if '_' in shown else '_'}{marks[owner]}"
-    return found
+            symbols[key] = f"{shown}{',' if '_' in shown else '_'}{marks[owner]}"
+    return symbols
 
 
-def _later(made: list[Explained]) -> set[int]:
-    """Return what stands at a crank angle, and what is made of that: the nodes."""
-    found: set[int] = set()
-    for one in made:
-        if one.degrees is not None or _stands_at(one) or _is_made_of(one.known, found):
-            found.add(id(one.known.node))
-    return found
+def _later(calculated: list[Explained]) -> set[int]:
+    """Return the nodes that belong to a crank angle, and all that depend on them."""
+    varying: set[int] = set()
+    for entry in calculated:
+        if entry.degrees is not None or _is_at_angle(entry) or _is_made_of(entry.known, varying):
+            varying.add(id(entry.known.node))
+    return varying
 
 
 def _is_made_of(known: Known, nodes: set[int]) -> bool:
     parts = known.node.operands
-    written = (one for one in parts if isinstance(one.node, Arithmetic) and not one.key)
-    return any(id(one.node) in nodes for one in parts) or any(_is_made_of(one, nodes) for one in written)
+    written = (part for part in parts if isinstance(part.node, Arithmetic) and not part.key)
+    return any(id(part.node) in nodes for part in parts) or any(_is_made_of(operand, nodes) for operand in written)
 
 
-def _stands_at(one: Explained) -> bool:
-    """Return whether a value was found of columns at a crank angle."""
-    node = one.known.node
+def _is_at_angle(entry: Explained) -> bool:
+    """Return whether a procedure took a value from columns at a crank angle."""
+    node = entry.known.node
     return isinstance(node, Found) and node.at is not None and bool(node.operands)
 
 
@@ -412,9 +412,9 @@ def has_own_symbol(known: Known) -> bool:
 
 
 def _once(parts: list[str]) -> list[str]:
-    """Return parts without those that say the same as the one before: sin θ = sin(θ)."""
+    """Return parts without those that repeat the one before: sin θ = sin(θ)."""
     plain = [_FENCES.sub("", part) for part in parts]
-    return [part for at, part in enumerate(parts) if not at or plain[at] != plain[at - 1]]
+    return [part for index, part in enumerate(parts) if not index or plain[index] != plain[index - 1]]
 
 
 def of_angle(function: str, multiple: int, shift: float, language: Language) -> str:

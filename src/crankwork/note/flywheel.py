@@ -19,7 +19,7 @@ _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
 
 
 def values_by_method(memory: Mapping[str, Known]) -> Iterator[Known]:
-    """Yield what each method of finding the flywheel is worked with: its excess work, slopes, and inertias."""
+    """Yield the excess work, slopes and inertias of each method of finding the flywheel."""
     for key in memory:
         for known in in_order([memory[key]]) if key.startswith("flywheel_inertia.") else ():
             kind = known.key.partition(".")[0]

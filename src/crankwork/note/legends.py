@@ -1,4 +1,4 @@
-"""What the symbols of a formula stand for: the lines below an equation, after "where"."""
+"""Meanings of the symbols of a formula: the lines below an equation, after "where"."""
 
 from __future__ import annotations
 
@@ -32,27 +32,27 @@ _NAMED_ONLY = Argument("")
 def legend(
     step: FormulaLine | Formula, language: Language, known: frozenset[str] = frozenset()
 ) -> tuple[Explanation, ...]:
-    """Return what the symbols of a formula stand for, each with the unit in which the formula takes it."""
-    found: dict[str, Explanation] = {}
+    """Return the meanings of the symbols of a formula, each with the unit in which the formula takes it."""
+    explanations: dict[str, Explanation] = {}
     named = dict(step.named) if isinstance(step, FormulaLine) else {}
     for name in _arguments(step):
         entry = ARGUMENTS.get(name, _NAMED_ONLY)
         unit = _unit(name, named.get(name, "")) if name in ARGUMENTS else ""
         after = f", {printed_unit(unit, language)}" if unit else ""
         for key in _explaining(name, named):
-            if key in known or key in found:
+            if key in known or key in explanations:
                 continue
             if key == f"argument:{name}":
                 shown = symbol(name, language)
-                if not any(one in QUANTITIES and QUANTITIES[one].symbol(language) == shown for one in known):
-                    found[key] = Explanation(shown, words_of(name, language) + after)
+                if not any(given in QUANTITIES and QUANTITIES[given].symbol(language) == shown for given in known):
+                    explanations[key] = Explanation(shown, words_of(name, language) + after)
             else:
                 own = entry.pattern == "{}" or name in named
                 meaning = _meaning(key, language)
                 # some names of quantities end in their unit
                 shown = value_symbol(own_key(named.get(name, key)), language)
-                found[key] = Explanation(shown, meaning.removesuffix(after) + after * own)
-    return tuple(found.values())
+                explanations[key] = Explanation(shown, meaning.removesuffix(after) + after * own)
+    return tuple(explanations.values())
 
 
 def explained(blocks: Iterable[Block], language: Language, *, with_results: bool = False) -> Iterator[Block]:
@@ -84,7 +84,7 @@ def _unit(name: str, key: str) -> str:
 
 
 def words_of(name: str, language: Language) -> str:
-    """Return what an argument means whose symbol is not that of a quantity alone."""
+    """Return the meaning of an argument whose symbol is not that of a quantity alone."""
     if has_text(f"arguments.{name}"):
         return say(f"arguments.{name}", language)
     entry = ARGUMENTS[name]

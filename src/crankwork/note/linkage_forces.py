@@ -17,7 +17,7 @@ from crankwork.note.words import Words, in_display_unit, named
 from crankwork.report.not_drawn import not_drawn
 from crankwork.report.tables import any_nonzero
 
-_STATICS, _WORK, _EFFICIENCY = (f"artobolevsky_1988, ch. {one}" for one in (13, 15, 14))
+_STATICS, _WORK, _EFFICIENCY = (f"artobolevsky_1988, ch. {chapter}" for chapter in (13, 15, 14))
 _BALANCE = "den_hartog_1956, ch. 5"
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
@@ -45,25 +45,25 @@ def forces(material: Material) -> Iterator[Block]:
     keys = material.nonzero("joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment")
     yield from material.table("reactions", keys, label="reactions")
     yield from material.figures("joint_forces", "force_plans")
-    for one in not_drawn(material.results, words.language):
-        yield Paragraph((f"{one[0].upper()}{one[1:]}.",))
+    for notice in not_drawn(material.results, words.language):
+        yield Paragraph((f"{notice[0].upper()}{notice[1:]}.",))
     yield from _lever(material)
 
 
 def _lever(material: Material) -> Iterator[Block]:
-    """Yield the balancing torque by five routes at every position, with their largest difference."""
+    """Yield the balancing torque by five methods at every position, with their largest difference."""
     words = material.words
-    routes, apart = torque_by_routes(material.results, material.positions)
-    of_routes = {f"balancing_torque.{name}": one for name, one in routes.items()}
+    routes, gaps = torque_by_routes(material.results, material.positions)
+    of_routes = {f"balancing_torque.{name}": values for name, values in routes.items()}
     printed = without_rounding({**material.columns, **of_routes}, material.machine.speed)
     if not any_nonzero(of_routes, printed):
-        # how far rounding is apart beside itself says nothing
-        routes, apart = {name: printed[key] for name, key in zip(routes, of_routes, strict=True)}, np.zeros_like(apart)
+        # differences of rounding noise mean nothing
+        routes, gaps = {name: printed[key] for name, key in zip(routes, of_routes, strict=True)}, np.zeros_like(gaps)
     yield words.heading("lever", 2)
-    largest = words.number(100.0 * float(np.max(apart, initial=0.0)), digits=2)
+    largest = words.number(100.0 * float(np.max(gaps, initial=0.0)), digits=2)
     yield words.paragraph("lever", source=Citation(_WORK), difference=largest)
     shown = [_route(name, values, words) for name, values in routes.items()]
-    percent = [words.number(one, digits=2) for one in (100.0 * apart).tolist()]
+    percent = [words.number(difference, digits=2) for difference in (100.0 * gaps).tolist()]
     shown.append(Column((words.column("difference"),), percent))
     yield from material.tabulated("routes", shown, label="routes")
     yield from material.figures("zhukovsky_lever")
@@ -123,7 +123,7 @@ def torques(material: Material) -> Iterator[Block]:
 
 
 def efficiency(material: Material) -> Iterator[Block]:
-    """Yield what is said of the efficiency of the joints."""
+    """Yield the paragraphs on the efficiency of the joints."""
     words = material.words
     drive = material.machine.drive
     if drive.efficiency == 1 and material.machine.friction:
@@ -153,12 +153,12 @@ _JOINTS = ("friction_torque", "friction_force", "joint_force_with_friction", "no
 def friction(material: Material) -> Iterator[Block]:
     """Yield the section about friction in the joints."""
     words, columns, summary = material.words, material.columns, material.results.summary
-    rubbing = stated_friction(material.machine)
-    if not rubbing or "friction_power" not in columns:
+    joints = stated_friction(material.machine)
+    if not joints or "friction_power" not in columns:
         return
     yield words.heading("friction")
     yield words.paragraph("rubbing")
-    yield ItemList(tuple(_rubbing(one, words) for one in rubbing))
+    yield ItemList(tuple(_friction_of_joint(joint, words) for joint in joints))
     yield words.paragraph("with_friction", source=Citation(_SOURCE))
     yield from material.worked("friction")
     keys = any_nonzero([*named(columns, *_WITH_FRICTION), "friction_power", *named(columns, *_JOINTS)], columns)
@@ -170,12 +170,12 @@ def friction(material: Material) -> Iterator[Block]:
     yield from material.figures("friction")
 
 
-def _rubbing(one: StatedFriction, words: Words) -> Runs:
-    """Return a joint that rubs in words."""
+def _friction_of_joint(joint: StatedFriction, words: Words) -> Runs:
+    """Return the friction of a joint in words."""
     runs: list[Run] = []
-    for key, (value, unit) in one.amounts.items():
+    for key, (value, unit) in joint.amounts.items():
         runs += [
-            ", " if runs else f"{one.name.replace('_', ' ')}: ",
+            ", " if runs else f"{joint.name.replace('_', ' ')}: ",
             Math(words.symbol(key)),
             f" = {words.amount(value, unit)}",
         ]

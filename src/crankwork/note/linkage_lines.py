@@ -46,85 +46,85 @@ _STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_w
 _POWER_OF_SHAFT = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
 _EXCESS = ("excess_work", "energy_fluctuation")
 _WHEEL_OF_SHAFT = ("speed_fluctuation", "whole_inertia", "flywheel_inertia", *WHEEL_SIZES, "recovery_torque")
-_COURSE_OF_SHAFT = (
+_COLUMNS_OF_SHAFT = (
     "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
 )  # fmt: skip
 
 
 def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group, ...]:
-    """Return what the note of a linkage shows at a crank angle, or the nearest one that it reaches, each once. [deg]"""
+    """Return the lines of the note of a linkage at a crank angle, or the nearest that it reaches, each once. [deg]"""
     if results.machine.turning is not None:
         return _of_shaft(results)
     reached = results.grid.degrees
     if degrees is None or results.machine.linkage is None:
         # what was given as a table is known at its rows only
-        at = float(reached[np.argmin(np.abs(reached - (_DEGREES if degrees is None else degrees)))])
+        angle = float(reached[np.argmin(np.abs(reached - (_DEGREES if degrees is None else degrees)))])
     else:
-        at = float(np.clip(degrees, reached[0], reached[-1]))
-    told = Told(results, at)
+        angle = float(np.clip(degrees, reached[0], reached[-1]))
+    new = _LineFilter(results, angle)
     groups = [
-        Group("structure", told.lines(["mobility"])),
-        Group("speed", told.lines(["speed"]) if results.method.pi != math.pi else ()),
-        told.group("driver", _DRIVER),
-        told.group("motion", _MOTION),
-        _centres(results, told),
+        Group("structure", new.lines(["mobility"])),
+        Group("speed", new.lines(["speed"]) if results.method.pi != math.pi else ()),
+        new.group("driver", _DRIVER),
+        new.group("motion", _MOTION),
+        _centres(results, new),
         Group("transmission", tuple(_transmission(results))),
-        Group("charges", told.lines(_CHARGES)),
-        told.group("chambers", _CHAMBERS),
-        Group("gas_work", told.lines(_GAS_WORK)),
-        Group("delivery", told.lines(DELIVERY)),
-        Group("inertia_loads", told.of(_inertia(results)), told.degrees),
-        told.group("joint_forces", _JOINTS),
-        told.group("shaking", _SHAKING),
-        Group("counterweight", told.lines(_COUNTERWEIGHT)),
-        told.group("driver_force", ("driver_force", "driver_torque", "driver_power")),
-        told.group("reduction", _REDUCTION),
-        told.group("torques", _TORQUES),
+        Group("charges", new.lines(_CHARGES)),
+        new.group("chambers", _CHAMBERS),
+        Group("gas_work", new.lines(_GAS_WORK)),
+        Group("delivery", new.lines(DELIVERY)),
+        Group("inertia_loads", new.of(_inertia(results)), new.degrees),
+        new.group("joint_forces", _JOINTS),
+        new.group("shaking", _SHAKING),
+        Group("counterweight", new.lines(_COUNTERWEIGHT)),
+        new.group("driver_force", ("driver_force", "driver_torque", "driver_power")),
+        new.group("reduction", _REDUCTION),
+        new.group("torques", _TORQUES),
         Group("efficiency", tuple(_efficiency(results))),
-        _friction(results, told),
-        Group("flywheel", tuple(_flywheel(results, told))),
-        Group("motor", told.lines(["motor_power", "inertia_on_crank"])),
+        _friction(results, new),
+        Group("flywheel", tuple(_flywheel(results, new))),
+        Group("motor", new.lines(["motor_power", "inertia_on_crank"])),
     ]
     return tuple(group for group in groups if group.lines)
 
 
 def _of_shaft(results: Results) -> tuple[Group, ...]:
-    """Return what the note of a shaft with torques on it shows, at the position nearest to their greatest value."""
+    """Return the lines of the note of a shaft, at the position nearest to the greatest value of its torque."""
     peaks = (results.memory.get(f"{key}_max") for key in ("turning_moment", "load_torque"))
-    at = next((one.node.at for one in peaks if one is not None and isinstance(one.node, Found)), None)
-    row = int(np.argmin(np.abs(results.grid.degrees - (at or 0.0))))
-    told, turning = Told(results, float(results.grid.degrees[row])), results.machine.turning
+    angle = next((peak.node.at for peak in peaks if peak is not None and isinstance(peak.node, Found)), None)
+    row = int(np.argmin(np.abs(results.grid.degrees - (angle or 0.0))))
+    new, turning = _LineFilter(results, float(results.grid.degrees[row])), results.machine.turning
     given = turning.diagrams if turning is not None else {}
     acting = [key for table, key in (("torque", "turning_moment"), ("load", "load_torque")) if table in given]
-    course = [key for key in results.columns if key in _COURSE_OF_SHAFT]
+    columns = [key for key in results.columns if key in _COLUMNS_OF_SHAFT]
     groups = (
-        Group("stretches", told.lines(_STRETCHES)),
-        told.group("turning_moments", acting if course else ()),
-        Group("shaft_power", told.lines(_POWER_OF_SHAFT)),
-        Group("energy_extremes", told.lines(_EXCESS if course else ("kinetic_energy_change", *_EXCESS))),
-        Group("flywheel", told.lines(_WHEEL_OF_SHAFT)),
-        told.group("shaft_course", course),
+        Group("stretches", new.lines(_STRETCHES)),
+        new.group("turning_moments", acting if columns else ()),
+        Group("shaft_power", new.lines(_POWER_OF_SHAFT)),
+        Group("energy_extremes", new.lines(_EXCESS if columns else ("kinetic_energy_change", *_EXCESS))),
+        Group("flywheel", new.lines(_WHEEL_OF_SHAFT)),
+        new.group("shaft_course", columns),
     )
     return tuple(group for group in groups if group.lines)
 
 
-class Told:
-    """Lines at one crank angle, each told once."""
+class _LineFilter:
+    """Lines at one crank angle, each shown once."""
 
     def __init__(self, results: Results, degrees: float) -> None:
         self._memory, self.degrees = results.memory, degrees
         self._moment = results.moment(degrees)
-        self._told: set[tuple[str, float]] = set()
+        self._shown: set[tuple[str, float]] = set()
 
-    def of(self, knowns: Iterable[Known]) -> tuple[Line, ...]:
-        """Return the lines of knowns that have not been told; of what is nothing but a number, only if asked for."""
-        found, wanted = [], [one for one in knowns if not one.is_absent]
-        asked = {one.key for one in wanted}
-        for one in self._moment.steps(wanted):
-            if (one.key, one.value) not in self._told and (one.key in asked or not isinstance(one, ValueLine)):
-                self._told.add((one.key, one.value))
-                found.append(one)
-        return tuple(found)
+    def of(self, values: Iterable[Known]) -> tuple[Line, ...]:
+        """Return the lines of values that were not shown before; of plain numbers only those asked for."""
+        lines, present = [], [traced for traced in values if not traced.is_absent]
+        keys = {value.key for value in present}
+        for step in self._moment.steps(present):
+            if (step.key, step.value) not in self._shown and (step.key in keys or not isinstance(step, ValueLine)):
+                self._shown.add((step.key, step.value))
+                lines.append(step)
+        return tuple(lines)
 
     def lines(self, kinds: Iterable[str]) -> tuple[Line, ...]:
         """Return the lines of what the memory has of some kinds."""
@@ -136,15 +136,15 @@ class Told:
         return Group(name, self.lines(kinds), self.degrees)
 
 
-def _centres(results: Results, told: Told) -> Group:
+def _centres(results: Results, new: _LineFilter) -> Group:
     """Return the instant centres of links; where one of them does not turn, at the nearest position where all do."""
     keys = [key for key in results.columns if key.partition(".")[0] in _CENTRES]
     degrees = results.grid.degrees
     turning = np.all([np.isfinite(results.columns[key]) for key in keys], axis=0)
-    shown = degrees[turning & ((degrees == told.degrees) | (degrees % _DEGREES == 0))] if keys else degrees[:0]
+    shown = degrees[turning & ((degrees == new.degrees) | (degrees % _DEGREES == 0))] if keys else degrees[:0]
     if not shown.size:
         return Group("instant_centres", ())
-    nearest = float(shown[np.argmin(np.abs(shown - told.degrees))])
+    nearest = float(shown[np.argmin(np.abs(shown - new.degrees))])
     moment = results.moment(nearest)
     return Group("instant_centres", tuple(moment.step(results.memory[key]) for key in keys), nearest)
 
@@ -158,10 +158,10 @@ class Extreme(NamedTuple):
 
 
 def extreme_of(results: Results, key: str) -> Extreme | None:
-    """Return the extreme that a single value is, or that it is made of; none if it is not made of one."""
-    for one in in_order([results.memory[key]]) if key in results.memory else ():
-        if isinstance(one.node, Found) and one.node.at is not None:
-            return Extreme(one.key, one, one.node.at)
+    """Return the extreme that a single value is or depends on; None if there is none."""
+    for traced in in_order([results.memory[key]]) if key in results.memory else ():
+        if isinstance(traced.node, Found) and traced.node.at is not None:
+            return Extreme(traced.key, traced, traced.node.at)
     return None
 
 
@@ -203,19 +203,19 @@ def _efficiency(results: Results) -> Iterator[Line]:
             yield moment.step(known)
 
 
-def _friction(results: Results, told: Told) -> Group:
-    """Return what the friction in each joint comes to, and the efficiency, where the forces are known."""
-    moment = results.moment(told.degrees)
+def _friction(results: Results, new: _LineFilter) -> Group:
+    """Return the lines of the friction in each joint, and of the efficiency where the forces are known."""
+    moment = results.moment(new.degrees)
     keys = [key for key in results.columns if key.partition(".")[0] in _FRICTION]
     if not all(math.isfinite(moment.value(results.memory[key])) for key in keys):
         return Group("friction", ())
     ratio = results.memory.get("instantaneous_efficiency")
-    is_told = ratio is not None and math.isfinite(moment.value(ratio))
-    lines = (*told.lines(_FRICTION), *((moment.step(ratio),) if ratio is not None and is_told else ()))
-    return Group("friction", (*lines, *told.lines(("mean_efficiency",))), told.degrees)
+    has_ratio = ratio is not None and math.isfinite(moment.value(ratio))
+    lines = (*new.lines(_FRICTION), *((moment.step(ratio),) if ratio is not None and has_ratio else ()))
+    return Group("friction", (*lines, *new.lines(("mean_efficiency",))), new.degrees)
 
 
-def _flywheel(results: Results, told: Told) -> Iterator[Line]:
+def _flywheel(results: Results, new: _LineFilter) -> Iterator[Line]:
     """Yield the flywheel by every method; the excess work of each is found over the turn."""
     memory = results.memory
     if "excess_work" not in memory:
@@ -224,5 +224,5 @@ def _flywheel(results: Results, told: Told) -> Iterator[Line]:
         if known.key.startswith("excess_work"):
             yield ValueLine(known.key, known.value)
         else:
-            yield from told.of([known])
-    yield from told.lines(["work_per_cycle", "energy_fluctuation", *WHEEL_SIZES])
+            yield from new.of([known])
+    yield from new.lines(["work_per_cycle", "energy_fluctuation", *WHEEL_SIZES])

@@ -1,4 +1,4 @@
-"""What the sections of the note of a linkage are made of."""
+"""Data of the sections of the note of a linkage."""
 
 from __future__ import annotations
 
@@ -85,15 +85,13 @@ class Material:
     @cached_property
     def groups(self) -> dict[str, Group]:
         """Lines of the memory by the name of their group, worked where the plans are drawn."""
-        is_drawn = self.machine.linkage is not None
-        return {
-            one.name: one for one in linkage_lines(self.results, worked_position(self.results) if is_drawn else None)
-        }
+        position = worked_position(self.results) if self.machine.linkage is not None else None
+        return {group.name: group for group in linkage_lines(self.results, position)}
 
     def lines(self, group: str, *kinds: str) -> tuple[Line, ...]:
         """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
         lines = self.groups[group].lines if group in self.groups else ()
-        return tuple(one for one in lines if not kinds or one.key.partition(".")[0] in kinds)
+        return tuple(line for line in lines if not kinds or line.key.partition(".")[0] in kinds)
 
     def equations(self, group: str, *kinds: str) -> Iterator[Block]:
         """Yield the equations of a group, or those of it that give some quantities."""
@@ -101,10 +99,10 @@ class Material:
 
     def worked_at(self, group: str) -> Iterator[Block]:
         """Yield the sentence that says at which crank angle, or when, a group is worked."""
-        found = self.groups.get(group)
-        if found is not None and found.degrees is not None:
+        shown_group = self.groups.get(group)
+        if shown_group is not None and shown_group.degrees is not None:
             key = "worked_time" if self.words.period else "worked_position"
-            yield self.words.paragraph(key, value=self.words.place_text(found.degrees))
+            yield self.words.paragraph(key, value=self.words.place_text(shown_group.degrees))
 
     def worked(self, group: str, *kinds: str) -> Iterator[Block]:
         """Yield the equations of a group after the sentence that says where it is worked."""
@@ -135,13 +133,13 @@ class Material:
 
     def figures(self, *names: str) -> Iterator[Block]:
         """Yield figures, those that there are, after sentences that refer to them by number."""
-        drawn = [one for name in names for one in self.drawn if kind_of(one) == name]
+        drawn = [figure_name for name in names for figure_name in self.drawn if kind_of(figure_name) == name]
         built = [name for name in drawn if name in _CONSTRUCTED]
-        others = [name for name in drawn if name not in built]
-        said = [(("see_construction", "see_constructions"), built), (("see_figure", "see_figures"), others)]
+        plain = [name for name in drawn if name not in built]
+        sentences = [(("see_construction", "see_constructions"), built), (("see_figure", "see_figures"), plain)]
         # by their numbers
-        for keys, some in sorted((one for one in said if one[1]), key=lambda one: drawn.index(one[1][0])):
-            references = listed([f"figure:{name}" for name in some])
-            yield self.words.paragraph(keys[len(some) > 1], figures=references)
+        for keys, shown in sorted((item for item in sentences if item[1]), key=lambda item: drawn.index(item[1][0])):
+            references = listed([f"figure:{name}" for name in shown])
+            yield self.words.paragraph(keys[len(shown) > 1], figures=references)
         for name in drawn:
             yield self.words.figure(name, self.drawn[name])

@@ -15,7 +15,7 @@ from crankwork.note.linkage_material import Material
 from crankwork.note.linkage_tables import equations, position_tables, quantity_columns
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.words import Words, named
-from crankwork.report.language import displayed, key_unit, label, told_as
+from crankwork.report.language import display_key, displayed, key_unit, label
 from crankwork.report.notices import notice_text
 from crankwork.report.tables import any_nonzero
 
@@ -71,15 +71,15 @@ def checks(material: Material) -> Iterator[Block]:
     if results.checks:
         yield words.paragraph("identities")
         rows = [
-            (say(f"report.{key}", words.language), words.number(100.0 * one, digits=2))
-            for key, one in results.checks.items()
+            (say(f"report.{key}", words.language), words.number(100.0 * check, digits=2))
+            for key, check in results.checks.items()
         ]
         yield words.table("identities", ("identity", "difference"), rows, "lr", "checks")
     elif results.has_positions:
         yield words.paragraph("no_checks")
     if results.notices:
         yield words.paragraph("notices")
-        yield ItemList(tuple((notice_text(one.code, one.values, words.language),) for one in results.notices))
+        yield ItemList(tuple((notice_text(notice.code, notice.values, words.language),) for notice in results.notices))
 
 
 def conclusion(material: Material) -> Iterator[Block]:
@@ -101,20 +101,20 @@ def _row(key: str, material: Material) -> tuple[str, ...]:
     words, summary = material.words, material.summary
     kind, dot, name = key.partition(".")
     angle = summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
-    at = summary.get(f"{kind}_time{dot}{name}") if angle is None else float(np.degrees(angle))
+    angle_or_time = summary.get(f"{kind}_time{dot}{name}") if angle is None else float(np.degrees(angle))
     return (
-        label(told_as(key, material.results), words.language)
+        label(display_key(key, material.results), words.language)
         if not key.startswith("flywheel_inertia.")
         else _wheel(key, words),
         words.number(displayed(key, summary[key])),
         printed_unit(key_unit(key), words.language) or "–",
-        "" if at is None else words.number(at, digits=4),
+        "" if angle_or_time is None else words.number(angle_or_time, digits=4),
     )
 
 
 def _wheel(key: str, words: Words) -> str:
-    kind, _, way = key.partition(".")
-    return f"{label(kind, words.language)}, {words.way(way)}"
+    kind, _, method = key.partition(".")
+    return f"{label(kind, words.language)}, {words.way(method)}"
 
 
 def appendix(material: Material) -> Iterator[Block]:

@@ -51,19 +51,19 @@ def position_tables(
     if not columns:
         return
     count = len(degrees)
-    places = [words.place(float(one)) for one in degrees]
+    places = [words.place(float(angle)) for angle in degrees]
     heading: Runs = (places[0][0], ", °") if places[0][2] == "deg" else words.titled("time")
     before = [Column(heading, [words.number(value) for _, value, _ in places])]
     if first is not None:
         before.insert(0, Column((words.column("position"),), [str(first + k) for k in range(count)]))
-    for part, some in enumerate(_parts(columns), start=1):
-        shown = [*before, *some]
-        rows = list(zip(*(one.entries for one in shown), strict=True))
+    for part, columns_of_part in enumerate(_parts(columns), start=1):
+        shown = [*before, *columns_of_part]
+        rows = list(zip(*(column.entries for column in shown), strict=True))
         yield Table(
             words.caption(caption) if part == 1 else "",
-            tuple(one.heading for one in shown),
+            tuple(column.heading for column in shown),
             rows,
-            align="c" * len(before) + "r" * len(some),
+            align="c" * len(before) + "r" * len(columns_of_part),
             label=label if part == 1 else "",
         )
 
@@ -78,8 +78,8 @@ def _parts(columns: Sequence[Column]) -> Iterator[Sequence[Column]]:
 
 def equations(steps: Iterable[Line], words: NoteWords, *, marks: Mapping[str, str] | None = None) -> Iterator[Equation]:
     """Yield equations of lines."""
-    for one in steps:
-        yield Equation(one, symbol=_mark(one.key, words, marks))
+    for step in steps:
+        yield Equation(step, symbol=_mark(step.key, words, marks))
 
 
 def _mark(key: str, words: NoteWords, marks: Mapping[str, str] | None) -> str:

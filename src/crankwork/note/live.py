@@ -1,4 +1,4 @@
-"""What is alive in a web page of results: colours, the store of data, the bar of the cursor."""
+"""Interactive parts of a web page of results: colours, the store of data, the bar of the cursor."""
 
 from __future__ import annotations
 
@@ -63,10 +63,10 @@ def stored(data: dict[str, Any]) -> str:
 def packed(values: Array, digits: int = 5) -> dict[str, Any]:
     """Return numbers of a column with as many decimals as give the largest that many digits.
 
-    Whole numbers of the last decimal, each as what it adds to the one before; `x` where there is none.
+    Integers of the last decimal, each as the difference to the one before; `x` for no number.
     """
     values = np.asarray(values, dtype=float)
-    # what is divided by the rest of a difference is no number either
+    # quotients by rounding noise are no numbers either
     known = np.abs(values) < _ENDLESS
     largest = float(np.max(np.abs(values[known]), initial=0.0))
     is_whole = bool(np.all(values[known] == np.rint(values[known]))) and largest < 10.0**digits
@@ -76,15 +76,15 @@ def packed(values: Array, digits: int = 5) -> dict[str, Any]:
     while decimals and not np.any(counts % 10):
         counts, decimals = counts // 10, decimals - 1
     steps = iter(np.diff(counts, prepend=0).tolist())
-    return {"d": decimals, "v": " ".join(str(next(steps)) if one else "x" for one in known.tolist())}
+    return {"d": decimals, "v": " ".join(str(next(steps)) if is_known else "x" for is_known in known.tolist())}
 
 
 def unpacked(column: Mapping[str, Any]) -> Array:
     """Return the numbers of a packed column; not a number where there is none."""
     steps = column["v"].split(" ")
-    known = np.array([one != "x" for one in steps])
+    known = np.array([step != "x" for step in steps])
     values = np.full(len(steps), np.nan)
-    values[known] = np.cumsum([int(one) for one in steps if one != "x"]) / 10.0 ** column["d"]
+    values[known] = np.cumsum([int(step) for step in steps if step != "x"]) / 10.0 ** column["d"]
     return values
 
 
@@ -97,24 +97,24 @@ def page_data(
     *,
     only_read: bool = False,
 ) -> dict[str, Any]:
-    """Return what a page keeps of results: columns at the rows of the tables, graphs of figures, the film.
+    """Return the data of a page of results: columns at the rows of the tables, graphs of figures, the animation.
 
-    `only_read`: of the columns those that are read at the cursor of a figure.
+    `only_read`: only columns that are read at the cursor of a figure.
     """
     columns = without_rounding(results.columns, results.machine.speed)
     axis = "time" if results.period else "crank_angle"
-    read = {curve for one in drawn.values() for plot in one.plots for curve in plot.curves} | {"time"}
+    read = {curve for drawing in drawn.values() for plot in drawing.plots for curve in plot.curves} | {"time"}
     known = {
-        key: displayed_column(key, one)
-        for key, one in columns.items()
+        key: displayed_column(key, column)
+        for key, column in columns.items()
         if key != "crank_angle" and (key in read or not only_read)
     }
     rows = known.pop("time") if results.period else results.grid.degrees
     return {
         "axis": axis,
         "rows": _column(axis, rows, language),
-        "columns": {key: _column(key, one, language) for key, one in known.items()},
-        "figures": {name: figure_data(one) for name, one in drawn.items()},
+        "columns": {key: _column(key, column, language) for key, column in known.items()},
+        "figures": {name: figure_data(drawing) for name, drawing in drawn.items()},
         **({} if film is None else {"film": _film_data(film, results.period)}),
     }
 
@@ -126,15 +126,15 @@ def _column(key: str, values: Array, language: Language) -> dict[str, Any]:
 
 def _film_data(film: Animation, period: float) -> dict[str, Any]:
     """Return a film for a page; `period` of the law that drives, where tables go by time. [s]"""
-    told, tracks = moving_data(film), dict[str, int]()
+    data, tracks = moving_data(film), dict[str, int]()
     parts = {
         name: {
-            key: [tracks.setdefault(_steps(one), len(tracks))] if isinstance(one, list) else one
-            for key, one in own.items()
+            key: [tracks.setdefault(_steps(value), len(tracks))] if isinstance(value, list) else value
+            for key, value in own.items()
         }
-        for name, own in told["parts"].items()
+        for name, own in data["parts"].items()
     }
-    kept = {key: told[key] for key in ("angles", "seconds", "turns")}
+    kept = {key: data[key] for key in ("angles", "seconds", "turns")}
     return kept | {"parts": parts, "tracks": list(tracks), "degrees": 360.0 / period if period else 1.0}
 
 

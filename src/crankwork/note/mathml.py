@@ -60,11 +60,11 @@ def _sign(text: str, kind: str) -> str:
 
 def _script(box: Script) -> str:
     base, above = mathml_box(box.base), box.above
-    first, *others = above.parts if isinstance(above, Row) else (above,)
+    first, *further = above.parts if isinstance(above, Row) else (above,)
     if isinstance(first, Upright) and not first.text.strip("′″"):
         # raised by browsers once more, primes stand far above
-        base, above = f"<mrow>{base}{mathml_box(first)}</mrow>", Row(tuple(others)) if others else None
+        base, above = f"<mrow>{base}{mathml_box(first)}</mrow>", Row(tuple(further)) if further else None
     kind = ("sub" if box.below else "") + ("sup" if above else "")
     if not kind:
         return base
-    return f"<m{kind}>{base}{''.join(mathml_box(one) for one in (box.below, above) if one)}</m{kind}>"
+    return f"<m{kind}>{base}{''.join(mathml_box(part) for part in (box.below, above) if part)}</m{kind}>"

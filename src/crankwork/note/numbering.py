@@ -49,7 +49,7 @@ class Numbering(NamedTuple):
         return f"[{number}, {place_in_source(place.strip(), self.language)}]" if place.strip() else f"[{number}]"
 
     def words(self, run: str | Bold | Reference | Citation) -> str:
-        """Return what a run says that is no mathematics."""
+        """Return the text of a run that is no mathematics."""
         match run:
             case Bold(words):
                 return words
@@ -60,7 +60,7 @@ class Numbering(NamedTuple):
         return run
 
     def mark(self, block: Equation, number: str, between: str = "\u2002") -> str:
-        """Return what stands beside an equation: its source and its number."""
+        """Return the source and the number of an equation, printed beside it."""
         source = equation_source(block)
         return between.join(([self.citation(source)] if source else []) + ([f"({number})"] if number else []))
 
@@ -112,7 +112,7 @@ def equation_source(block: Equation) -> str:
 
 
 def _source_numbers(note: Note) -> dict[str, int]:
-    keys = list(dict.fromkeys([*(one.partition(",")[0] for one in _cited(note)), *note.sources]))
+    keys = list(dict.fromkeys([*(key.partition(",")[0] for key in _cited(note)), *note.sources]))
     unknown = [key for key in keys if key not in sources()]
     if unknown:
         raise CrankworkError(f'the bibliography has no "{unknown[0]}"; add it to sources.bib or cite another source')

@@ -1,4 +1,4 @@
-"""What the writer of a note may choose."""
+"""Options of a note."""
 
 from __future__ import annotations
 

@@ -1,16 +1,97 @@
-"""A note as PDF, set by Typst: tagged, archivable (PDF/A-2a), the same bytes every time."""
+"""A note as PDF, from Typst markup: tagged, archivable (PDF/A-2a), the same bytes every time.
+
+All text stands in strings of Typst, so that nothing in it is markup.
+"""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.locale import Refusal
-from crankwork.note.document import Note
-from crankwork.note.numbering import numbering
-from crankwork.note.typst_parts import typst_source
+from crankwork.formula.expression import Expression, text
+from crankwork.formula.lines import FormulaLine
+from crankwork.locale import Refusal, say
+from crankwork.note.captions import LANGUAGE_TAGS, caption, continued
+from crankwork.note.characters import typst_string
+from crankwork.note.document import (
+    Bibliography,
+    Block,
+    Bold,
+    Contents,
+    Equation,
+    Figure,
+    Heading,
+    ItemList,
+    Math,
+    Note,
+    PageBreak,
+    Paragraph,
+    Run,
+    Runs,
+    Table,
+    TitlePage,
+)
+from crankwork.note.equations import formula_of, legend_rows, line_parts, printed_equation
+from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright, width
+from crankwork.note.math import formula_box
+from crankwork.note.numbering import Numbering, numbering
+from crankwork.note.symbols import symbol_box
+from crankwork.note.table_width import SIZES, fits, one_line_widths
+from crankwork.quantities import Language
+from crankwork.show.place import MM
+from crankwork.show.svg import svg
+from crankwork.sources import cite
 
 _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.DOTALL)
+_SETTINGS = """
+#set page(paper: "a4", margin: (left: 25mm, right: 15mm, top: 20mm, bottom: 20mm), numbering: "1")
+#set text(font: "Libertinus Serif", size: 12pt, hyphenate: true)
+#set par(leading: 0.78em, spacing: 0.95em, justify: true)
+#show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
+#show heading: set block(above: 1.5em, below: 0.9em, sticky: true)
+#show heading: set par(justify: false)
+#show heading.where(level: 1): set text(size: 15pt)
+#show heading.where(level: 2): set text(size: 13pt)
+#show heading.where(level: 3): set text(size: 12pt)
+#set table(stroke: 0.4pt + black, inset: (x: 4pt, y: 3.2pt))
+#set list(marker: [–])
+#let fitted(line) = layout(size => {
+  let wide = measure(line).width
+  if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
+})
+#let lines(number, ..all) = block(width: 100%, breakable: false, above: 1.1em, below: 1.1em, grid(
+  columns: (1fr, auto), column-gutter: 0.8em,
+  align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
+  grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
+))
+#let drawing(body, words) = figure(
+  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: auto,
+)
+#set page(foreground: context {
+  let begun = ()
+  for one in query(<begins>) {
+    let at = one.location().position()
+    if at.page == here().page() and one.value in begun { place(top + left, dx: 25mm, dy: at.y, one.value) }
+    begun.push(one.value)
+  }
+})
+#let again(count, words) = (
+  table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
+)
+#let above(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.6em, words)
+#let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
+"""
+_TOGETHER = 16
+# a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
+_SURELY_FITS, _LETTER = 33.5, 0.5
+# height of a line of a table [em], and what is free above and below it [pt]
+_LINE, _INSET = 0.66, 3.2
+# a word that may be wider than a column of the cover
+_LONG_WORD = re.compile(r"\S{28,}")
+_ALIGN = {"l": "left", "c": "center", "r": "right"}
+_SIGNS = {"·": "dot.op", "": "thin", "/": "slash", "(": "paren.l", ")": "paren.r", ",": "comma thin", ";": '";" thin'}
+_PRIMES = {"′": "prime", "″": "prime.double", "‴": "prime.triple"}
 
 
 def pdf(note: Note) -> bytes:
@@ -34,3 +115,253 @@ def _missing_character(text: str) -> CrankworkError:
     shown = re.sub(r"\\u\{([0-9a-fA-F]+)\}", lambda code: chr(int(code[1], 16)), text)
     codes = " ".join(f"U+{ord(character):04X}" for character in shown)
     return CrankworkError(Refusal("glyph_missing", character=shown, codes=codes))
+
+
+def typst_source(note: Note, numbers: Numbering) -> str:
+    """Return a note as the source of a Typst document."""
+    year, month, day = (note.date.year, note.date.month, note.date.day) if note.date else (2000, 1, 1)
+    authors = "".join(f"{typst_string(author)}, " for author in note.authors)
+    language, _, region = LANGUAGE_TAGS[note.language].partition("-")
+    date = f"datetime(year: {year}, month: {month}, day: {day})"
+    parts = [
+        f"#set document(title: {typst_string(note.title)}, author: ({authors}), date: {date})",
+        f"#set document(keywords: {typst_string(note.provenance)})",
+        f'#set text(lang: "{language}", region: "{region}")' + _SETTINGS,
+    ]
+    turned = False
+    for block, number in zip(note.blocks, numbers.blocks, strict=True):
+        wide = isinstance(block, Table) and block.wide
+        if wide != turned:
+            parts.append("#page(flipped: true)[" if wide else "]")
+            turned = wide
+        parts.extend(_block(block, number, note, numbers))
+    return "\n".join([*parts, "]" if turned else "", ""])
+
+
+def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterator[str]:  # noqa: C901 - one case per block
+    """Yield the markup of a block."""
+    match block:
+        case Heading(level, words):
+            yield f"#heading(level: {level}, {typst_string(f'{number} {words}'.strip())})"
+        case Paragraph(runs):
+            yield f"#par[{_runs(runs, numbers)}]"
+        case Equation():
+            yield from _equation(block, number, numbers)
+        case Table():
+            yield from _table(block, number, numbers)
+        case Figure():
+            yield _figure(block, number, note.language)
+        case ItemList(items):
+            yield f"#list({', '.join(f'[{_runs(item, numbers)}]' for item in items)})"
+        case PageBreak():
+            yield "#pagebreak(weak: true)"
+        case Contents():
+            title = typst_string(say("note.contents", note.language))
+            yield f"#outline(title: {title}, depth: 2, indent: 1em)"
+        case TitlePage():
+            yield _title_page(block, note)
+        case Bibliography():
+            yield "#enum(" + ", ".join(typst_string(cite(key)) for key in numbers.sources) + ")"
+
+
+def _runs(runs: Runs, numbers: Numbering) -> str:
+    return "".join(_run(run, numbers) for run in runs)
+
+
+def _run(run: Run, numbers: Numbering) -> str:
+    if isinstance(run, Math):
+        return _inline(run.content, numbers.language)
+    words = typst_string(numbers.words(run))
+    return f"#strong({words});" if isinstance(run, Bold) else f"#{words};"
+
+
+def _inline(content: str | Expression | FormulaLine, language: Language) -> str:
+    if isinstance(content, str):
+        return _math(symbol_box(content), content)
+    if isinstance(content, FormulaLine):
+        return _math(formula_of(content, language), line_parts(content, language)[0])
+    return _math(formula_box(content, None, language), text(content, language=language))
+
+
+def _math(box: Box, words: str) -> str:
+    return f"#math.equation(alt: {typst_string(words)}, ${typst_box(box)}$);"
+
+
+def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]:
+    printed = printed_equation(block, numbers.language)
+    mark = numbers.mark(block, number)
+    drawn, free = [], _SURELY_FITS - _LETTER * len(mark)
+    for k, line in enumerate(printed.lines):
+        # what is read aloud is the whole equation once
+        words = typst_string(printed.text if k == 0 else "…")
+        set_line = f"math.equation(block: true, alt: {words}, $ {typst_box(line)} $)"
+        drawn.append(f"fitted({set_line})" if width(line) > free else set_line)
+    yield f"#lines({typst_string(mark)}, {', '.join(drawn)})"
+    if block.legend:
+        cells = ", ".join(
+            f"{typst_string(where)}, [{_math(box, entry.symbol)}#{typst_string(words)}]"
+            for (where, box, words), entry in zip(legend_rows(block, numbers.language), block.legend, strict=True)
+        )
+        yield f"#block(breakable: false, grid(columns: 2, column-gutter: 0.6em, row-gutter: 0.7em, {cells}))"
+
+
+def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
+    count = len(block.headings)
+    size = next((letters for letters in SIZES if fits(block.headings, block.rows, letters, wide=block.wide)), SIZES[-1])
+    align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
+    # a short table stays on one page with its caption
+    is_whole = len(block.rows) <= _TOGETHER
+    if is_whole:
+        yield "#block(breakable: false)["
+    above = typst_string(caption("table", number, block.caption, numbers.language))
+    yield f"#{'above' if is_whole else 'over'}({above})"
+    headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
+    rows = ",\n".join(
+        ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
+        for row in block.rows
+    )
+    again = "" if is_whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
+    header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
+    yield (
+        f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
+        f"align(center, table({_columns(block, size, marked=not is_whole)}, align: ({align},), {header},\n{rows}))\n}}"
+    )
+    if is_whole:
+        yield "]"
+
+
+def _heading(runs: Runs, numbers: Numbering) -> str:
+    """Return a heading of a column; a fraction alone is as high as it is, which in a line of text it would not be."""
+    match runs:
+        case (Math(str(content)),) if isinstance(box := symbol_box(content), Fraction):
+            return f"#math.equation(block: true, alt: {typst_string(content)}, $ {typst_box(box)} $);"
+    return _runs(runs, numbers)
+
+
+def _cell(cell: Math, numbers: Numbering) -> str:
+    """Return mathematics in a table; a formula is as high as it is, which in a line of text it would not be."""
+    if not isinstance(cell.content, FormulaLine):
+        return _run(cell, numbers)
+    words = typst_string(line_parts(cell.content, numbers.language)[0])
+    return f"#math.equation(block: true, alt: {words}, $ {typst_box(formula_of(cell.content, numbers.language))} $);"
+
+
+def _columns(block: Table, size: float, *, marked: bool) -> str:
+    """Return the columns of a table, and its rows where each is one line; measuring them would take most of the time.
+
+    `marked`: whether a row that says where the table goes on stands above its header.
+    """
+    widths = one_line_widths(block.headings, block.rows, size, wide=block.wide)
+    if not widths:
+        return f"columns: {len(block.headings)}"
+    columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
+    if any(isinstance(cell, Math) for row in block.rows for cell in row):
+        return columns
+    return f"{columns}, rows: ({'auto, auto' if marked else 'auto'}, {_LINE * size + 2 * _INSET:.2f}pt)"
+
+
+def _figure(block: Figure, number: str, language: Language) -> str:
+    width = block.drawing.width / MM
+    data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
+    words = typst_string(caption("figure", number, block.caption, language))
+    image = (
+        f'layout(size => image(bytes("{data}"), format: "svg", alt: {typst_string(block.alt)}, '
+        f"width: calc.min({width:.2f}pt, size.width)))"
+    )
+    return f"#drawing({image}, {words})"
+
+
+def _breakable(text: str) -> str:
+    """Return a text of the cover as a string, words that no line holds divided anywhere."""
+    return typst_string(_LONG_WORD.sub(lambda word: "\u200b".join(word[0]), text))
+
+
+def _title_page(page: TitlePage, note: Note) -> str:
+    """Return the cover: whose it is at the head, the title in the middle, people below, place and year at the foot."""
+    small = 0.62 if page.is_crowded else 1.0
+
+    def lines(texts: tuple[str, ...], size: float, weight: int = 400) -> str:
+        boxes = ", ".join(f"text(size: {size * small:.1f}pt, weight: {weight}, {_breakable(entry)})" for entry in texts)
+        return f"#stack(spacing: {0.9 * small:.2f}em, {boxes})\n" if texts else ""
+
+    # the strokes of signatures stand under names that are written by hand
+    sign = "box(width: 32mm, height: 0.9em, stroke: (bottom: 0.4pt))"
+    people = ", ".join(
+        f"{typst_string(person.label + ':' if k == 0 else '')}, {sign if person.signs else '[]'}, {_breakable(name)}"
+        for person in page.people
+        for k, name in enumerate(person.names)
+    )
+    columns = "(auto, auto, 1fr)" if any(person.signs for person in page.people) else "(auto, 0pt, auto)"
+    grid = f"grid(columns: {columns}, column-gutter: 0.7em, row-gutter: 0.9em, align: left + bottom, {people})"
+    body = (
+        f"{lines(page.institution, 13)}#v(1fr)\n{lines(page.above, 15)}#v(0.8em)\n{lines((note.headline,), 20, 700)}"
+        f"#v(0.8em)\n{lines(page.below, 14)}#v(1fr)\n"
+    )
+    if people:
+        width = 100 if page.is_crowded else 75
+        sized = f"#set text(size: {12 * small:.1f}pt)\n#align(left, {grid})"
+        body += f"#align(right, block(width: {width}%)[{sized}])\n#v(1fr)\n"
+    return (
+        "#page(numbering: none)[#set par(justify: false, leading: 0.55em)\n#set text(hyphenate: false)\n"
+        f"#set align(center)\n{body}{lines((page.place,), 12) if page.place else ''}]"
+    )
+
+
+def typst_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
+    """Return a box as Typst mathematics."""
+    match box:
+        case Letter(text):
+            return _letter(text)
+        case Upright(text):
+            return _upright(text)
+        case Digits(text):
+            # a number of Typst stands closer to its sign than a string does, and has no decimal comma
+            return text.replace(",", '","')
+        case Sign(text, kind):
+            return "minus" if text == "−" and kind == "prefix" else _SIGNS.get(text, text)
+        case Row(parts):
+            return " ".join(map(typst_box, parts))
+        case Fraction(top, bottom):
+            return f"frac({typst_box(top)}, {typst_box(bottom)})"
+        case Root(inside):
+            return f"sqrt({typst_box(inside)})"
+        case Fence(inside, marks):
+            return f"lr({marks[0]} {typst_box(inside)} {marks[1]})"
+        case Script(base, below, above):
+            feet = f", b: {typst_box(below)}" if below else ""
+            return f"attach({_base(base)}{feet}{f', t: {typst_box(above)}' if above else ''})"
+        case Apply(name, argument):
+            return f"{_name(name)} {typst_box(argument)}"
+
+
+def _letter(text: str) -> str:
+    """Return a variable; the fonts of mathematics have slanted Latin and Greek letters, the others come from text."""
+    if len(text) == 1 and (text.isascii() or "α" <= text <= "ω"):
+        return text
+    if len(text) == 1 and "Α" <= text <= "Ω":
+        return f"italic({text})"
+    return f'#text(font: "Libertinus Serif", style: "italic", {typst_string(text)})'
+
+
+def _upright(text: str) -> str:
+    if text == "\u2009":
+        return "med"
+    if len(text) == 1 and "Α" <= text <= "Ω":
+        return text
+    if text in ("°", "%"):
+        return text
+    # a string keeps its distance
+    if text == "d":
+        return "upright(d)"
+    return _PRIMES.get(text) or typst_string(text)
+
+
+def _base(base: Box) -> str:
+    return f"op({typst_string(base.text)})" if isinstance(base, Upright) and len(base.text) > 1 else typst_box(base)
+
+
+def _name(name: Box) -> str:
+    """Return the name of a function, which keeps its distance from what follows."""
+    if isinstance(name, Script):
+        return typst_box(name)
+    return f"op({typst_box(name)})"

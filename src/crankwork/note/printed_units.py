@@ -45,5 +45,5 @@ def _in_russian(word: str) -> str:
     name = unit_name(word, "ru")
     if name != word or word not in UNITS:
         return name
-    spelled = (other for other, one in UNITS.items() if one == UNITS[word] and _CYRILLIC.fullmatch(other))
+    spelled = (other for other, unit in UNITS.items() if unit == UNITS[word] and _CYRILLIC.fullmatch(other))
     return next(spelled, word)

@@ -61,23 +61,23 @@ def symbol_box(symbol: str) -> Box:
         return _sum_box(symbol)
     if symbol.isdecimal():
         return Digits(symbol)
-    if found := _FUNCTION.fullmatch(symbol):
-        rest = found["rest"]
+    if match := _FUNCTION.fullmatch(symbol):
+        rest = match["rest"]
         inside = _sum_box(rest[1:-1]) if rest.startswith("(") and rest.endswith(")") else None
-        return Apply(Upright(found["name"]), Fence(inside) if inside else symbol_box(rest))
-    if found := _MULTIPLE.fullmatch(symbol):
-        return row(Digits(found["count"]), symbol_box(found["rest"]))
-    if (found := _SUBSTANCE.fullmatch(symbol)) and _LOW.search(symbol):
-        return Script(Letter(found["base"]), _substance_box(found["below"]))
+        return Apply(Upright(match["name"]), Fence(inside) if inside else symbol_box(rest))
+    if match := _MULTIPLE.fullmatch(symbol):
+        return row(Digits(match["count"]), symbol_box(match["rest"]))
+    if (match := _SUBSTANCE.fullmatch(symbol)) and _LOW.search(symbol):
+        return Script(Letter(match["base"]), _substance_box(match["below"]))
     marks, low = "".join(_MARKS.findall(symbol)), "".join(_LOW.findall(symbol)).translate(_LOWERED)
-    found = _PLAIN.fullmatch(_LOW.sub("", _MARKS.sub("", symbol)))
-    if not found:
+    match = _PLAIN.fullmatch(_LOW.sub("", _MARKS.sub("", symbol)))
+    if not match:
         return Upright(symbol)
-    below = (found["below"] or "") + low
+    below = (match["below"] or "") + low
     if not below and not marks:
-        return _base_box(found["base"])
+        return _base_box(match["base"])
     return Script(
-        _base_box(found["base"]), Upright(below) if below else None, Upright(marks.replace("²", "2")) if marks else None
+        _base_box(match["base"]), Upright(below) if below else None, Upright(marks.replace("²", "2")) if marks else None
     )
 
 
@@ -116,15 +116,15 @@ def number_box(value: float, language: Language, digits: int = 6) -> tuple[Box, 
     (Digits(text='0,5'), True)
     """
     text = number(value, language, digits=digits)
-    found = _NUMBER.fullmatch(text)
-    if not found:
+    match = _NUMBER.fullmatch(text)
+    if not match:
         return Upright({"inf": "∞"}.get(text, text)), True
-    parts: list[Box] = [MINUS] if found["sign"] else []
-    mantissa, exponent = found["mantissa"], found["exponent"]
+    parts: list[Box] = [MINUS] if match["sign"] else []
+    mantissa, exponent = match["mantissa"], match["exponent"]
     if mantissa:
         parts.append(Digits(mantissa))
     if not exponent:
-        return (row(*parts), False) if found["sign"] else (parts[0], True)
+        return (row(*parts), False) if match["sign"] else (parts[0], True)
     above = Digits(exponent.lstrip("⁻").translate(_LEVEL))
     ten = Script(Digits("10"), None, row(MINUS, above) if exponent.startswith("⁻") else above)
     return row(*parts, *((DOT,) if mantissa else ()), ten), False
@@ -151,11 +151,11 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     >>> owned_symbol("joint_force_x", "R_x", "A", "en"), owned_symbol("point_x", "x", "upper rod.guide", "en")
     ('R_x,A', 'x_upper-rod,g')
     """
-    told = own_name(kind, name)
+    shown_name = own_name(kind, name)
     # of the centre of mass of a link
-    owner, *parts = told.split(" ", 1) if told.startswith("S ") else told.split(".")
+    owner, *parts = shown_name.split(" ", 1) if shown_name.startswith("S ") else shown_name.split(".")
     marks = texts("marks", language)
-    names = [called(owner, language), *(marks[one] if one in _PARTS else called(one, language) for one in parts)]
+    names = [called(owner, language), *(marks[part] if part in _PARTS else called(part, language) for part in parts)]
     name = subscript(".".join(names))
     if "_i" in shown and not kind.startswith("indicated"):
         return shown.replace("_i", f"_{name}", 1)

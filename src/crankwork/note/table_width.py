@@ -20,32 +20,30 @@ _DIGIT, _LETTER, _SPACE = 0.5, 0.52, 0.3
 def fits(headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, *, wide: bool = False) -> bool:
     """Return whether a table fits on a page with letters of a size, no word of it divided."""
     columns = list(zip(*rows, strict=True)) or [()] * len(headings)
-    ems = sum(
-        max(*_parts(runs), *(_cell(one) for one in column), 0.0) for runs, column in zip(headings, columns, strict=True)
-    )
+    ems = sum(max(*_parts(runs), *map(_cell, column), 0.0) for runs, column in zip(headings, columns, strict=True))
     return ems * size + _SIDES * len(headings) <= (WIDE_PAGE if wide else PAGE)
 
 
 def one_line_widths(
     headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, *, wide: bool = False
 ) -> list[float]:
-    """Return how wide columns are in which every entry is one line, none if they are too wide together. [pt]
+    """Return the widths of columns in which every entry is one line, none if they are too wide together. [pt]
 
     Headings stand in one line too where there is room for all of them.
     """
     entries = [max(map(_line, column), default=0.0) for column in zip(*rows, strict=True)] or [0.0] * len(headings)
     page = WIDE_PAGE if wide else PAGE
     parts = [_parts(runs) for runs in headings]
-    for words in ([sum(some) + _SPACE * (len(some) - 1) for some in parts], [max(some) for some in parts]):
+    for words in ([sum(pieces) + _SPACE * (len(pieces) - 1) for pieces in parts], [max(pieces) for pieces in parts]):
         ems = [max(entry, word) for entry, word in zip(entries, words, strict=True)]
-        widths = [one * size + _SIDES for one in ems]
+        widths = [width_in_em * size + _SIDES for width_in_em in ems]
         if sum(widths) <= page:
             return widths
     return []
 
 
 def _line(cell: Cell) -> float:
-    """Return how wide a cell is in one line. [em]"""
+    """Return the width of a cell in one line. [em]"""
     if isinstance(cell, Math):
         return width(symbol_box(cell.content)) if isinstance(cell.content, str) else cell_length(cell) * _DIGIT
     return _DIGIT * len(cell) if not any(map(str.isalpha, cell)) else text_width(cell, CAP_HEIGHT)
@@ -58,13 +56,13 @@ def _cell(cell: Cell) -> float:
 
 
 def _parts(runs: Runs) -> list[float]:
-    """Return how wide the parts of a heading are that stand between spaces. [em]"""
+    """Return the widths of the words of a heading. [em]"""
     parts = [0.0]
     for run in runs:
         if isinstance(run, Math):
             parts[-1] += width(symbol_box(run.content)) if isinstance(run.content, str) else 0.0
         elif isinstance(run, str):
-            first, *others = (_LETTER * len(one) for one in run.split(" "))
+            first, *further = (_LETTER * len(word) for word in run.split(" "))
             parts[-1] += first
-            parts += others
+            parts += further
     return parts

@@ -42,7 +42,7 @@ def turning_note(results: Results, options: NoteOptions) -> Note:
 
 
 def _task(material: Material) -> Iterator[Block]:
-    """Yield what is asked and what is given."""
+    """Yield the task and the given data."""
     words, machine = material.words, material.machine
     turning = machine.turning
     if turning is None:
@@ -63,7 +63,7 @@ def _task(material: Material) -> Iterator[Block]:
 
 
 def _items(material: Material, table: str) -> Iterator[Runs]:
-    """Yield what a torque is made of, in words."""
+    """Yield the terms of a torque, in words."""
     words, turning = material.words, material.machine.turning
     diagram = turning.diagrams[table] if turning is not None else None
     if diagram is None:
@@ -73,22 +73,22 @@ def _items(material: Material, table: str) -> Iterator[Runs]:
     if diagram.points:
         yield words.sentence("item_points", count=str(len(diagram.points)))
     for order, sine, cosine in diagram.harmonics:
-        sine_, cosine_ = (words.amount(one, "N*m") for one in (sine, cosine))
+        sine_, cosine_ = (words.amount(amplitude, "N*m") for amplitude in (sine, cosine))
         yield words.sentence("item_order", order=words.number(order), sine=sine_, cosine=cosine_)
-    for one in diagram.strokes:
-        values = {"work": words.amount(one.work, "J"), "start": words.amount(one.start, "deg")}
-        if one.over:
-            shape = words.phrase(f"shape_{one.shape}")
-            yield words.sentence("item_stretch", over=words.amount(one.over, "deg"), shape=shape, **values)
+    for stroke in diagram.strokes:
+        values = {"work": words.amount(stroke.work, "J"), "start": words.amount(stroke.start, "deg")}
+        if stroke.over:
+            shape = words.phrase(f"shape_{stroke.shape}")
+            yield words.sentence("item_stretch", over=words.amount(stroke.over, "deg"), shape=shape, **values)
         else:
             yield words.sentence("item_blow", **values)
     if diagram.loops:
-        shown = "; ".join(words.amount(one, "J") for one in diagram.loops)
+        shown = "; ".join(words.amount(loop, "J") for loop in diagram.loops)
         yield words.sentence("item_loops", works=shown)
     if diagram.excess is not None:
         yield words.sentence("item_excess", work=words.amount(diagram.excess, "J"))
     if len(diagram.delays) > 1:
-        delays = ", ".join(words.number(math.degrees(one)) for one in diagram.delays)
+        delays = ", ".join(words.number(math.degrees(delay)) for delay in diagram.delays)
         yield words.sentence("item_cylinders", count=str(len(diagram.delays)), delays=delays)
 
 
@@ -120,9 +120,9 @@ def _excess(material: Material) -> Iterator[Block]:
     if listing is not None:
         yield words.paragraph("extremes_of_energy")
         columns = [
-            (key, words.column_texts(in_display_unit(key, one.tolist()))) for key, one in listing.columns.items()
+            (key, words.column_texts(in_display_unit(key, column.tolist()))) for key, column in listing.columns.items()
         ]
-        rows = list(zip(*(one for _, one in columns), strict=True))
+        rows = list(zip(*(texts for _, texts in columns), strict=True))
         titles = [words.titled(key) for key, _ in columns]
         yield words.table("energy_extremes", titles, rows, "r" * len(columns), "extremes")
     yield from material.equations("energy_extremes")
@@ -138,7 +138,7 @@ def _flywheel(material: Material) -> Iterator[Block]:
         yield from equations(lines, words)
 
 
-def _course(material: Material) -> Iterator[Block]:
+def _columns_and_speed(material: Material) -> Iterator[Block]:
     """Yield the table over the angle, and the speed."""
     words, results = material.words, material.results
     shown = [key for key in _COLUMNS if key in results.columns]
@@ -149,8 +149,8 @@ def _course(material: Material) -> Iterator[Block]:
         yield words.paragraph("speed_of_shaft")
     yield from material.equations("shaft_course")
     degrees = results.grid.degrees
-    every = math.ceil(degrees.size / _MOST_ROWS)
-    rows = np.unique(np.append(np.arange(0, degrees.size, every), degrees.size - 1))
+    stride = math.ceil(degrees.size / _MOST_ROWS)
+    rows = np.unique(np.append(np.arange(0, degrees.size, stride), degrees.size - 1))
     columns = {key: results.columns[key][rows] for key in shown}
     tabulated = [
         Column(words.titled(key), words.column_texts(in_display_unit(key, columns[key].tolist()), digits=_DIGITS[key]))
@@ -161,6 +161,6 @@ def _course(material: Material) -> Iterator[Block]:
 
 
 _SECTIONS: dict[str, Section] = {
-    "task": _task, "moments": _moments, "energy": _excess, "flywheel": _flywheel, "law_of_motion": _course,
+    "task": _task, "moments": _moments, "energy": _excess, "flywheel": _flywheel, "law_of_motion": _columns_and_speed,
     "comparison": comparison, "checks": checks, "conclusion": conclusion, "sources": sources,
 }  # fmt: skip

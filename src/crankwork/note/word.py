@@ -1,14 +1,22 @@
-"""A note as a Word file: styles, equations, tables and figures that can be edited there, the same bytes every time."""
+"""Notes as Word files: their blocks, the order of their figures, styles and pages.
+
+Word has no figures that float: a figure without room on its page waits until the text after it has filled the page, as
+it would in print. The heights of blocks are estimated; where that is wrong a figure stands a little earlier or later.
+"""
 
 from __future__ import annotations
 
 import datetime as dt
 import io
+import math
 import zipfile
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from crankwork.analysis import Array
 from crankwork.errors import MissingExtraError
 from crankwork.locale import Refusal
 from crankwork.note.captions import LANGUAGE_TAGS, caption
@@ -21,19 +29,22 @@ from crankwork.note.document import (
     Figure,
     Heading,
     ItemList,
+    Math,
     Note,
     PageBreak,
     Paragraph,
+    Runs,
     Table,
     TitlePage,
 )
-from crankwork.note.equations import printed_equation
+from crankwork.note.equations import legend_rows, printed_equation
+from crankwork.note.layout import Apply, Box, Fence, Fraction, Root, Row, Script
 from crankwork.note.numbering import Numbering, numbering
-from crankwork.note.word_flow import block_height, equation_height, flow, table_height
 from crankwork.note.word_parts import (
     EQUATION_WIDTH,
     PAGE_BREAK,
     PREFIXES,
+    Columns,
     contents_xml,
     cover_xml,
     equation_xml,
@@ -45,17 +56,68 @@ from crankwork.note.word_parts import (
     table_xml,
     text_run,
 )
-from crankwork.note.word_styles import FOOTER, set_pages, set_styles
+from crankwork.quantities import Language
 from crankwork.show.pdf import pngs
+from crankwork.show.place import MM
+from crankwork.show.scene import CAP_HEIGHT, text_width
 from crankwork.show.svg import svg
 from crankwork.sources import cite
 
 if TYPE_CHECKING:
     from docx.document import Document
 
+if TYPE_CHECKING:
+    from docx.document import Document
+    from docx.section import Section
+
+
 _EPOCH = dt.datetime(2000, 1, 1, tzinfo=dt.UTC)
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 _PIXELS_PER_INCH = 110.0
+# of a page: height and width of its text, and what may stay empty for a figure that keeps to its section [pt]
+PAGE, _WIDTH, _EMPTY = 728.0, 481.0, 150.0
+# how high blocks may be beside what is estimated, and how much text a figure waits for until it stands anywhere [pt]
+_OFF, _LONG = np.linspace(0.97, 1.03, 15), 1.5 * PAGE
+# lines of text and of mathematics; what a line of a legend and a fraction have more; what stands after a paragraph [pt]
+_LINE, _MATHS, _ENTRY, _HIGHER, _AFTER = 16.0, 16.4, 2.3, 12.0, 6.0
+_CAPTION, _BEGINS = 17.0 + _LINE, 90.0
+_HEADINGS = {1: 46.0, 2: 37.0, 3: 33.0}
+_SIZE = 12.0
+# before the words of a legend and of an item [pt]; as wide as a symbol in the line, about
+_INDENT, _ITEM, _SYMBOL = 48.0, 21.0, 6 * "x"
+_FONT = "Times New Roman"
+_WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
+_CENTRE, _LEFT, _BOTH = "center", "left", "both"
+FOOTER = (
+    '<w:p><w:pPr><w:jc w:val="center"/></w:pPr><w:r><w:fldChar w:fldCharType="begin"/></w:r>'
+    '<w:r><w:instrText xml:space="preserve"> PAGE </w:instrText></w:r><w:r><w:fldChar w:fldCharType="end"/></w:r></w:p>'
+)
+# identifier: name, size in half points, bold, alignment, space before and after in twentieths of a point, further
+_STYLES = {
+    "Normal": ("Normal", 24, False, _LEFT, 0, 80, ""),
+    "BodyText": ("Body Text", 24, False, _BOTH, 0, 120, ""),
+    "Heading1": ("heading 1", 30, True, _LEFT, 360, 160, "<w:keepNext/><w:keepLines/>"),
+    "Heading2": ("heading 2", 26, True, _LEFT, 280, 120, "<w:keepNext/><w:keepLines/>"),
+    "Heading3": ("heading 3", 24, True, _LEFT, 240, 100, "<w:keepNext/><w:keepLines/>"),
+    "Title": ("Title", 40, True, _CENTRE, 240, 240, ""),
+    "Subtitle": ("Subtitle", 28, False, _CENTRE, 0, 240, ""),
+    "TitleLine": ("Title Line", 24, False, _CENTRE, 0, 80, ""),
+    "Caption": ("caption", 24, False, _CENTRE, 120, 120, ""),
+    "Drawing": ("Drawing", 24, False, _CENTRE, 160, 0, "<w:keepNext/>"),
+    "TableText": ("Table Text", 20, False, _LEFT, 0, 0, ""),
+    "ContentsTitle": ("Contents Title", 30, True, _LEFT, 240, 160, "<w:keepNext/>"),
+    "Item": ("Item", 24, False, _BOTH, 0, 60, ""),
+    "TOC1": ("toc 1", 24, False, _LEFT, 0, 60, ""),
+    "TOC2": ("toc 2", 24, False, _LEFT, 0, 60, ""),
+}
+_TABS = '<w:tabs><w:tab w:val="right" w:leader="dot" w:pos="9638"/></w:tabs>'
+_PLACES = {
+    "Item": ("", '<w:ind w:left="425" w:hanging="425"/>'),
+    "TOC1": (_TABS, ""),
+    "TOC2": (_TABS, '<w:ind w:left="240"/>'),
+}
+_LEVELS = {"Heading1": 0, "Heading2": 1, "Heading3": 2}
+_TIGHT = ("TableText", "TitleLine")
 
 
 def word(note: Note) -> bytes:
@@ -70,7 +132,7 @@ def word(note: Note) -> bytes:
     set_styles(document, note.language)
     writer = _Writer(document, note, numbers)
     set_pages(document.sections[0], wide=False)
-    document.sections[0].different_first_page_header_footer = any(isinstance(one, TitlePage) for one in note.blocks)
+    document.sections[0].different_first_page_header_footer = any(isinstance(block, TitlePage) for block in note.blocks)
     writer.footer()
     writer.write()
     stream = io.BytesIO()
@@ -90,17 +152,17 @@ class _Writer:
         self._figures = 0
         self._pictures = _pictures(note)
         self._printed = {
-            id(one): printed_equation(one, note.language, EQUATION_WIDTH)
-            for one in note.blocks
-            if isinstance(one, Equation)
+            id(block): printed_equation(block, note.language, EQUATION_WIDTH)
+            for block in note.blocks
+            if isinstance(block, Equation)
         }
-        self._columns = {id(one): table_columns(one, numbers) for one in note.blocks if isinstance(one, Table)}
+        self._columns = {id(block): table_columns(block, numbers) for block in note.blocks if isinstance(block, Table)}
 
     def write(self) -> None:
-        """Add the blocks of the note, figures where there is room for them."""
+        """Add the blocks of the note, figures where they fit."""
         blocks = self._note.blocks
         headings = len(_headings(self._note, self._numbers))
-        for k in flow(blocks, [self._height(one, headings) for one in blocks]):
+        for k in flow(blocks, [self._height(item, headings) for item in blocks]):
             block = blocks[k]
             self.turn(wide=isinstance(block, Table) and block.wide)
             self.block(block, self._numbers.blocks[k])
@@ -180,14 +242,14 @@ class _Writer:
 def _pictures(note: Note) -> dict[int, tuple[bytes, bytes]]:
     """Return figures as lines and as pixels, those of one size made at once."""
     sizes: dict[tuple[float, float], list[Figure]] = defaultdict(list)
-    for one in note.blocks:
-        if isinstance(one, Figure):
-            sizes[one.drawing.width, one.drawing.height].append(one)
+    for block in note.blocks:
+        if isinstance(block, Figure):
+            sizes[block.drawing.width, block.drawing.height].append(block)
     made: dict[int, tuple[bytes, bytes]] = {}
-    for some in sizes.values():
-        drawn = [svg(one.drawing) for one in some]
-        pictures = pngs([one.drawing for one in some], "print", _PIXELS_PER_INCH, drawn)
-        made |= {id(one): pair for one, pair in zip(some, zip(drawn, pictures, strict=True), strict=True)}
+    for figures in sizes.values():
+        drawn = [svg(figure.drawing) for figure in figures]
+        pictures = pngs([figure.drawing for figure in figures], "print", _PIXELS_PER_INCH, drawn)
+        made |= {id(figure): pair for figure, pair in zip(figures, zip(drawn, pictures, strict=True), strict=True)}
     return made
 
 
@@ -232,3 +294,164 @@ def _reproducible(data: bytes) -> bytes:
             entry.compress_type = zipfile.ZIP_STORED if name.endswith(".png") else zipfile.ZIP_DEFLATED
             new.writestr(entry, old.read(name))
     return stream.getvalue()
+
+
+def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
+    """Yield the places of blocks in the order in which they are written; `heights`: how high each is. [pt]"""
+    waiting: list[int] = []
+    filled, waited, is_heading = np.zeros(len(_OFF)), 0.0, False
+    for k, (block, height) in enumerate(zip(blocks, heights, strict=True)):
+        if isinstance(block, Figure) and (waiting or _left(filled, height).max() > _EMPTY):
+            waiting.append(k)
+            continue
+        is_new = isinstance(block, PageBreak | TitlePage) or (isinstance(block, Table) and block.wide)
+        while waiting and not is_heading and (is_new or _fits_here(filled, heights[waiting[0]], waited)):
+            figure, waited = waiting.pop(0), 0.0
+            filled = _after(filled, blocks[figure], heights[figure])
+            yield figure
+        yield k
+        is_heading = isinstance(block, Heading)
+        waited += height if waiting else 0.0
+        filled = np.zeros(len(_OFF)) if is_new else _after(filled, block, height)
+    yield from waiting
+
+
+def _left(filled: Array, height: float) -> Array:
+    """Return the empty height of a page on which a figure is placed. [pt]"""
+    return np.where(filled + height > PAGE, PAGE - filled, 0.0)
+
+
+def _fits_here(filled: Array, figure: float, waited: float) -> bool:
+    """Return whether a waiting figure is placed here: it leaves little empty, or does so on average and waited long."""
+    left = _left(filled, figure)
+    return bool(left.max() <= _EMPTY or (waited > _LONG and left.mean() <= _EMPTY))
+
+
+def _after(filled: Array, block: Block, height: float) -> Array:
+    """Return the filled height of the page after a block; text and tables continue on the next one."""
+    high = np.full(len(_OFF), height) if isinstance(block, Figure) else height * _OFF
+    begins = filled
+    if isinstance(block, Table | Heading):
+        # neither caption and header nor a heading stand alone at the foot of a page; a header stands on every page
+        least = _BEGINS if isinstance(block, Table) else height + 2 * _LINE
+        begins = np.where(filled + least > PAGE, 0.0, filled)
+        high = high + 2 * _LINE * ((begins + high) // PAGE)
+    # of an equation the lines that explain it
+    is_divided = isinstance(block, Table | Paragraph | ItemList | Contents) or bool(getattr(block, "legend", ()))
+    return np.where(begins + high <= PAGE, begins + high, (begins + high) % PAGE if is_divided else high)
+
+
+def equation_height(block: Equation, lines: Sequence[Row], language: Language) -> float:
+    """Return about how high the lines of an equation and its legend are. [pt]"""
+    legend = sum(
+        _LINE * _lines((words,), _WIDTH - _INDENT) + _ENTRY + _HIGHER * (_high(symbol) - 1.0)
+        for _, symbol, words in legend_rows(block, language)
+    )
+    return sum(_MATHS + _HIGHER * (_high(row) - 1.0) for row in lines) + (legend or 2.0)
+
+
+def table_height(block: Table, columns: Columns) -> float:
+    """Return about how high a table is. [pt]"""
+    size, row = columns.size / 2, columns.row_height
+    tall = any(isinstance(run, Math) and not isinstance(run.content, str) for runs in block.headings for run in runs)
+    rows = row * len(block.rows) or size * sum(
+        max(
+            1.44 if isinstance(cell, Math) else 1.18 * _lines((cell,), width / 20 - 6.0, size)
+            for cell, width in zip(cells, columns.widths, strict=True)
+        )
+        for cells in block.rows
+    )
+    return rows + (2.4 + 1.2 * tall) * size + _CAPTION + 0.7 * _LINE
+
+
+def block_height(block: Block, headings: int, sources: Iterable[str]) -> float:
+    """Return about how high another block is; `headings`, `sources`: how many the note has, what it cites. [pt]"""
+    match block:
+        case Heading(level):
+            return _HEADINGS[min(level, 3)]
+        case Paragraph(runs):
+            return _LINE * _lines(runs) + _AFTER
+        case Figure(drawing=drawing):
+            return drawing.height / MM * min(1.0, _WIDTH / (drawing.width / MM)) + _CAPTION
+        case ItemList(items):
+            return sum(_LINE * _lines(item, _WIDTH - _ITEM) + 3 for item in items)
+        case Contents():
+            return _HEADINGS[1] + (_LINE + 3) * headings
+        case Bibliography():
+            return sum(_LINE * _lines((cite(source),), _WIDTH - _ITEM) + 3 for source in sources)
+        case _:
+            return 0.0
+
+
+def _lines(runs: Runs, width: float = _WIDTH, size: float = _SIZE) -> int:
+    wide = sum(text_width(run if isinstance(run, str) else _SYMBOL, CAP_HEIGHT) for run in runs)
+    return max(1, math.ceil(wide * size / width))
+
+
+def _high(box: Box | None) -> float:
+    """Return about how high a box is. [lines]"""
+    match box:
+        case None:
+            return 0.0
+        case Row(parts):
+            return max(map(_high, parts), default=1.0)
+        case Fraction(top, bottom):
+            return _high(top) + _high(bottom) + 0.2
+        case Root(inside) | Fence(inside):
+            return _high(inside) + 0.1
+        case Script(base, below, above):
+            return _high(base) + 0.3 * _high(below) + 0.4 * _high(above)
+        case Apply(name, argument):
+            return max(_high(name), _high(argument))
+        case _:
+            return 1.0
+
+
+def set_styles(document: Document, language: Language) -> None:
+    """Give a document the styles of a note and its language."""
+    from docx.oxml import parse_xml  # noqa: PLC0415 - an optional part
+
+    styles: Any = document.styles.element
+    tag = LANGUAGE_TAGS[language]
+    for name in _STYLES:
+        for old in styles.xpath(f'w:style[@w:styleId="{name}"]'):
+            styles.remove(old)
+        styles.append(parse_xml(_style(name)))
+    defaults = styles.xpath("w:docDefaults/w:rPrDefault/w:rPr")[0]
+    for old in defaults.xpath("w:lang|w:rFonts"):
+        defaults.remove(old)
+    defaults.insert(0, parse_xml(f'<w:rFonts xmlns:w="{_WORD}" {_fonts()}/>'))
+    defaults.append(parse_xml(f'<w:lang xmlns:w="{_WORD}" w:val="{tag}" w:eastAsia="{tag}" w:bidi="ar-SA"/>'))
+
+
+def _fonts() -> str:
+    return " ".join(f'w:{kind}="{_FONT}"' for kind in ("ascii", "hAnsi", "eastAsia", "cs"))
+
+
+def _style(key: str) -> str:
+    name, size, bold, align, before, after, keep = _STYLES[key]
+    tabs, indent = _PLACES.get(key, ("", ""))
+    level = f'<w:outlineLvl w:val="{_LEVELS[key]}"/>' if key in _LEVELS else ""
+    line = 240 if key in _TIGHT else 276
+    default = ' w:default="1"' if key == "Normal" else ""
+    based = "" if key == "Normal" else '<w:basedOn w:val="Normal"/>'
+    following = '<w:next w:val="BodyText"/>' if key in _LEVELS else ""
+    return (
+        f'<w:style xmlns:w="{_WORD}" w:type="paragraph"{default} w:styleId="{key}"><w:name w:val="{name}"/>{based}'
+        f"{following}<w:qFormat/><w:pPr>{keep}{tabs}"
+        f'<w:spacing w:before="{before}" w:after="{after}" w:line="{line}" w:lineRule="auto"/>'
+        f'{indent}<w:jc w:val="{align}"/>{level}</w:pPr>'
+        f'<w:rPr><w:rFonts {_fonts()}/>{"<w:b/>" if bold else ""}<w:color w:val="000000"/>'
+        f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/></w:rPr></w:style>'
+    )
+
+
+def set_pages(section: Section, *, wide: bool) -> None:
+    """Make the pages of a section A4, upright or on their side, with margins of 25, 15 and 20 mm."""
+    from docx.enum.section import WD_ORIENT  # noqa: PLC0415 - an optional part
+    from docx.shared import Mm  # noqa: PLC0415
+
+    section.orientation = WD_ORIENT.LANDSCAPE if wide else WD_ORIENT.PORTRAIT
+    section.page_width, section.page_height = (Mm(297), Mm(210)) if wide else (Mm(210), Mm(297))
+    section.left_margin, section.right_margin = (Mm(20), Mm(20)) if wide else (Mm(25), Mm(15))
+    section.top_margin, section.bottom_margin = (Mm(25), Mm(15)) if wide else (Mm(20), Mm(20))

@@ -1,4 +1,4 @@
-"""Blocks of a note as WordprocessingML: text, tables and equations as elements for the body of a document."""
+"""Blocks of a note as WordprocessingML: text, tables and equations that can be edited, for the body of a document."""
 
 from __future__ import annotations
 
@@ -25,11 +25,10 @@ from crankwork.note.document import (
     cell_length,
 )
 from crankwork.note.equations import PrintedEquation, formula_of, legend_rows
-from crankwork.note.layout import Box
+from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering
-from crankwork.note.omml import omml_box
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import Language
 
@@ -58,6 +57,11 @@ _CELL_STYLE = '<w:pStyle w:val="TableText"/>'
 # rows that stay with the heading of their table; LibreOffice loses the others where one alone ends a page
 _TOGETHER = 2
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
+_FONT = '<w:rPr><w:rFonts w:ascii="Cambria Math" w:hAnsi="Cambria Math" w:cs="Cambria Math"/></w:rPr>'
+# normal text keeps a decimal comma tight, where mathematics would put a space after it
+# a parenthesis whose partner stands on another line is literal, or a reader of formulas looks for the partner
+_STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "text": "<m:nor/>",
+           "literal": '<m:lit/><m:sty m:val="p"/>'}  # fmt: skip
 
 
 def runs_xml(runs: Runs, numbers: Numbering, properties: str = "") -> str:
@@ -128,14 +132,15 @@ def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -
         for side in ("top", "left", "bottom", "right", "insideH", "insideV")
     )
     aligned = [f'<w:jc w:val="{_ALIGN[letter]}"/></w:pPr>' for letter in (block.align or "r" * len(widths))]
-    loose, kept = ([f"<w:tc><w:p><w:pPr>{_CELL_STYLE}{keep}{one}" for one in aligned] for keep in ("", "<w:keepNext/>"))
+    starts = [f"<w:tc><w:p><w:pPr>{_CELL_STYLE}" + keep for keep in ("", "<w:keepNext/>")]
+    free, kept = ([start + kind for kind in aligned] for start in starts)
     # rows as high as they are counted on to be, whatever font stands in for that of the note
     high = f'<w:trHeight w:val="{round(20 * row_height)}" w:hRule="exact"/>' if row_height else ""
     rows = "".join(
         f"<w:tr><w:trPr><w:cantSplit/>{high}</w:trPr>"
         + "".join(
             f"{start}{_run(cell, numbers, font)}</w:p></w:tc>"
-            for start, cell in zip(kept if k < _TOGETHER else loose, row, strict=True)
+            for start, cell in zip(kept if k < _TOGETHER else free, row, strict=True)
         )
         + "</w:tr>"
         for k, row in enumerate(block.rows)
@@ -181,20 +186,20 @@ def table_columns(block: Table, numbers: Numbering) -> Columns:
         if sum(least) <= full:
             break
     else:
-        return Columns(size, [one * full // sum(least) for one in least], 0.0)
-    wanted = [max(one, round(size * entry) + _SIDES) for one, entry in zip(least, entries, strict=True)]
+        return Columns(size, [part * full // sum(least) for part in least], 0.0)
+    wanted = [max(part, round(size * entry) + _SIDES) for part, entry in zip(least, entries, strict=True)]
     excess = sum(wanted) - sum(least)
     share = min(1.0, (full - sum(least)) / excess) if excess else 1.0
     is_even = share == 1.0 and all(isinstance(cell, str) and " " not in cell for row in block.rows for cell in row)
-    widths = [int(one + share * (most - one)) for one, most in zip(least, wanted, strict=True)]
+    widths = [int(part + share * (most - part)) for part, most in zip(least, wanted, strict=True)]
     return Columns(size, widths, _ROW_HEIGHT * size if is_even else 0.0)
 
 
 def _word_width(cell: Cell) -> float:
-    """Return how wide the longest word of a cell is, or its symbol, for every half point of its size. [twip]"""
+    """Return the width of the longest word of a cell, or of its symbol, for every half point of its size. [twip]"""
     if isinstance(cell, Math):
         return _DIGIT * cell_length(cell)
-    return max((_letters_width(one) for one in cell.split()), default=0.0)
+    return max((_letters_width(word) for word in cell.split()), default=0.0)
 
 
 def _letters_width(word: str) -> float:
@@ -202,15 +207,15 @@ def _letters_width(word: str) -> float:
 
 
 def _heading_width(runs: Runs, numbers: Numbering, size: int) -> float:
-    """Return how wide the widest part of a heading is that stands between spaces. [twip]"""
+    """Return the width of the widest word of a heading. [twip]"""
     widths = [0.0]
     for run in runs:
         if isinstance(run, Math):
             widths[-1] += _EM * box_width(inline_box(run.content, numbers.language))
             continue
-        first, *others = (size * _letters_width(one) for one in numbers.words(run).split(" "))
+        first, *further = (size * _letters_width(word) for word in numbers.words(run).split(" "))
         widths[-1] += first
-        widths += others
+        widths += further
     return max(widths)
 
 
@@ -288,9 +293,9 @@ def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
     """Yield the cover and the end of its page."""
     small = 0.62 if page.is_crowded else 1.0
 
-    def lines(some: tuple[str, ...], size: int, *, bold: bool = False, style: str = "TitleLine") -> str:
+    def lines(texts: tuple[str, ...], size: int, *, bold: bool = False, style: str = "TitleLine") -> str:
         font = f'{"<w:b/>" if bold else ""}<w:sz w:val="{int(size * small)}"/><w:szCs w:val="{int(size * small)}"/>'
-        return "".join(paragraph(text_run(one, font), style) for one in some)
+        return "".join(paragraph(text_run(entry_text, font), style) for entry_text in texts)
 
     title = lines(page.above, 30) + lines((note.headline,), 40, bold=True, style="Title") + lines(page.below, 28)
     parts = [
@@ -312,11 +317,11 @@ def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
 
 
 def _people(people: tuple[Person, ...], size: int) -> str:
-    """Return who has to do with the note in the right part of the page, with a stroke for each signature."""
+    """Return the people of the note in the right part of the page, with a line for each signature."""
     if not people:
         return ""
-    signs = any(one.signs for one in people)
-    most = max(len(name) for one in people for name in one.names)
+    signs = any(man.signs for man in people)
+    most = max(len(name) for man in people for name in man.names)
     name_width = _NAME if most < _SHORT else TEXT_WIDTH - _LABEL - _SIGN
     widths = [_LABEL, _SIGN, name_width] if signs else [_LABEL, name_width]
     font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
@@ -326,12 +331,12 @@ def _people(people: tuple[Person, ...], size: int) -> str:
         return f"<w:tc><w:tcPr>{look}</w:tcPr>{paragraph(text_run(text, font), '', _INDENT)}</w:tc>"
 
     rows = ""
-    for one in people:
-        for k, name in enumerate(one.names):
-            stroke = entry(_SIGN, "", _STROKE if one.signs else "") if signs else ""
-            label = entry(_LABEL, f"{one.label}:" if k == 0 else "")
+    for person in people:
+        for k, name in enumerate(person.names):
+            stroke = entry(_SIGN, "", _STROKE if person.signs else "") if signs else ""
+            label = entry(_LABEL, f"{person.label}:" if k == 0 else "")
             rows += f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{label}{stroke}{entry(widths[-1], name)}</w:tr>"
-    grid = "".join(f'<w:gridCol w:w="{one}"/>' for one in widths)
+    grid = "".join(f'<w:gridCol w:w="{column}"/>' for column in widths)
     return (
         f'<w:tbl><w:tblPr><w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:jc w:val="right"/>'
         f'<w:tblLayout w:type="fixed"/></w:tblPr><w:tblGrid>{grid}</w:tblGrid>{rows}</w:tbl>'
@@ -371,3 +376,45 @@ def figure_xml(block: Figure, words: str, k: int, picture: str, lines: str) -> I
     )
     yield paragraph(inline, "Drawing")
     yield paragraph(text_run(words), "Caption", '<w:jc w:val="center"/>')
+
+
+def omml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
+    """Return a box as elements of Word's mathematics, prefixes `m` and `w` undeclared."""
+    match box:
+        case Letter(text):
+            return _math_run(text, "letter")
+        case Upright(text):
+            return _math_run(text, "text")
+        case Digits(text):
+            return _math_run(text, "text")
+        case Sign(text, "fence"):
+            return _math_run(text, "literal")
+        case Sign(text, _):
+            return _math_run(text or "\u2009", "upright")
+        case Row(parts):
+            return "".join(map(omml_box, parts))
+        case Fraction(top, bottom):
+            return f"<m:f><m:num>{omml_box(top)}</m:num><m:den>{omml_box(bottom)}</m:den></m:f>"
+        case Root(inside):
+            hidden = '<m:radPr><m:degHide m:val="1"/></m:radPr><m:deg/>'
+            return f"<m:rad>{hidden}<m:e>{omml_box(inside)}</m:e></m:rad>"
+        case Fence(inside, marks):
+            ends = f'<m:dPr><m:begChr m:val="{marks[0]}"/><m:endChr m:val="{marks[1]}"/></m:dPr>'
+            return f"<m:d>{ends}<m:e>{omml_box(inside)}</m:e></m:d>"
+        case Script():
+            return _script(box)
+        case Apply(name, argument):
+            return f"<m:func><m:fName>{omml_box(name)}</m:fName><m:e>{omml_box(argument)}</m:e></m:func>"
+
+
+def _math_run(text: str, style: str) -> str:
+    properties = f"<m:rPr>{_STYLES[style]}</m:rPr>{_FONT}"
+    return f'<m:r>{properties}<m:t xml:space="preserve">{xml_text(text)}</m:t></m:r>'
+
+
+def _script(box: Script) -> str:
+    """Return a base with what stands at its foot and head; the name of the element says which of them there are."""
+    kind = ("Sub" if box.below else "") + ("Sup" if box.above else "")
+    below = f"<m:sub>{omml_box(box.below)}</m:sub>" if box.below else ""
+    above = f"<m:sup>{omml_box(box.above)}</m:sup>" if box.above else ""
+    return f"<m:s{kind}><m:e>{omml_box(box.base)}</m:e>{below}{above}</m:s{kind}>"

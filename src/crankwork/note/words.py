@@ -29,7 +29,7 @@ _UNNUMBERED = ("preface", "conclusion", "sources", "appendix")
 
 
 class NoteWords(ABC):
-    """What a note says, in one language, forces divided by the piston area if wanted."""
+    """Texts of a note in one language, with forces divided by the piston area if requested."""
 
     def __init__(self, language: Language, *, per_area: bool = False) -> None:
         self.language: Language = language
@@ -56,7 +56,7 @@ class NoteWords(ABC):
         self, caption: str, titles: Iterable[str | Runs], rows: Sequence[Sequence[Cell]], align: str, label: str = ""
     ) -> Table:
         """Return a table; a title that is no runs is the key of a column."""
-        headings = tuple((self.column(one),) if isinstance(one, str) else one for one in titles)
+        headings = tuple((self.column(title),) if isinstance(title, str) else title for title in titles)
         return Table(self.caption(caption), headings, rows, align=align, label=label)
 
     def unit(self, key: str) -> str:
@@ -129,14 +129,14 @@ class NoteWords(ABC):
 
 
 class EngineWords(NoteWords):
-    """What the note of an engine says."""
+    """Texts of the note of an engine."""
 
     def symbol(self, key: str) -> str:
         """Return the symbol of a key as `base_subscript`, what tells its parts apart in the subscript."""
         return value_symbol(key, self.language)
 
     def meaning(self, name: str) -> str:
-        """Return what a key of the machine file means; the key itself where nobody knows."""
+        """Return the meaning of a key of the machine file, or the key itself if it has no text."""
         key = FILE_KEYS.get(name, name)
         if key in QUANTITIES:
             return QUANTITIES[key].label(self.language)
@@ -144,18 +144,18 @@ class EngineWords(NoteWords):
 
     def column_texts(self, values: Sequence[float], *, digits: int = 5, decimals: int | None = None) -> list[str]:
         """Return numbers of one column, all with as many decimals as give the largest that many digits."""
-        known = [abs(one) for one in values if one == one]  # noqa: PLR0124 - not a number
+        known = [abs(value) for value in values if value == value]  # noqa: PLR0124 - not a number
         largest = max(known, default=0.0)
         if decimals is None:
-            if not largest or all(one == round(one) and one < 10**digits for one in known):
+            if not largest or all(value == round(value) and value < 10**digits for value in known):
                 decimals = 0
             else:
                 decimals = max(digits - 1 - int(f"{largest:.0e}".partition("e")[2]), 0)
-        return [self.fixed(one, decimals) for one in values]
+        return [self.fixed(value, decimals) for value in values]
 
 
 class Words(NoteWords):
-    """What the note of a linkage says, in one language; positions are times where a law with a period drives. [s]
+    """Texts of the note of a linkage in one language; positions are times where a law with a period drives. [s]
 
     `is_partial`: whether the crank goes to and fro between dead positions.
     """
@@ -195,18 +195,18 @@ class Words(NoteWords):
 
     def column_texts(self, values: Sequence[float], *, digits: int = 4) -> list[str]:
         """Return numbers of one column with as many decimals as give the largest that many digits."""
-        largest = max((abs(one) for one in values if one == one), default=0.0)  # noqa: PLR0124 - not a number
+        largest = max((abs(value) for value in values if value == value), default=0.0)  # noqa: PLR0124 - not a number
         if not largest:
             return ["0"] * len(values)
-        whole = len(f"{largest:.0f}") if largest >= 1 else 1 - _leading_zeros(largest)
-        if whole < -digits:
-            return [self.number(one, digits=digits) for one in values]
-        decimals = max(digits - whole, 0)
-        return [self.fixed(one, decimals) for one in values]
+        integer_digits = len(f"{largest:.0f}") if largest >= 1 else 1 - _leading_zeros(largest)
+        if integer_digits < -digits:
+            return [self.number(value, digits=digits) for value in values]
+        decimals = max(digits - integer_digits, 0)
+        return [self.fixed(value, decimals) for value in values]
 
 
 def _leading_zeros(value: float) -> int:
-    """Return how many zeros stand after the decimal mark before the first digit, and one more."""
+    """Return one more than the number of zeros between the decimal mark and the first digit."""
     return int(f"{value:.0e}".partition("e-")[2] or 0)
 
 

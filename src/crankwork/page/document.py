@@ -19,7 +19,7 @@ from crankwork.page.sliders import LivePage, SliderDesigns, scale
 from crankwork.quantities import Language
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
-from crankwork.report.language import displayed, in_own_units, key_unit, label, told_as
+from crankwork.report.language import display_key, displayed, in_own_units, key_unit, label
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import by_subject, met, provenance, results_method
 from crankwork.show.alt import alt_text
@@ -214,7 +214,7 @@ def _value_marks(live: LivePage | None, key: str) -> tuple[str, str]:
 def _value_row(
     results: Results, key: str, value: float, language: Language, *, is_explained: bool, marks: tuple[str, str]
 ) -> str:
-    name = html.escape(label(told_as(key, results), language))
+    name = html.escape(label(display_key(key, results), language))
     shown = number(displayed(key, value), language)
     if is_explained:
         quote = "" if key.replace("_", "").replace(".", "").isalnum() else '"'

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array, Results
-from crankwork.formula.explained import Explanation, goes_by_argument
+from crankwork.formula.explained import Explanation, has_argument_symbol
 from crankwork.formula.expression import symbol
 from crankwork.formula.known import Arithmetic, Delayed, Found, Given, Known, OfAngle, Pieces, Table, Total, Use
 from crankwork.formula.lines import FormulaLine, ValueLine
@@ -145,7 +145,7 @@ class TraceExport:
 
     def _number(self, known: Known, argument: str, degrees: float) -> int:
         """Return the number of the node of a value under its name in this context."""
-        name = known.key if known.key and not goes_by_argument(known, argument) else argument
+        name = known.key if known.key and not has_argument_symbol(known, argument) else argument
         mark = (id(known.node), name)
         if mark not in self._numbers:
             number = self._numbers[mark] = len(self._nodes)

@@ -1,9 +1,12 @@
-"""Live calculation of a page with sliders: the traced calculation, compiled for the browser."""
+"""Live calculation of a page with sliders: the traced calculation, compiled for the browser; figures between."""
 
 from __future__ import annotations
 
+import math
+import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,15 +21,26 @@ from crankwork.kernel.script import Script
 from crankwork.kernel.trace import DesignTraces, Lowering
 from crankwork.locale import Language, Refusal
 from crankwork.locale.numbers import number
-from crankwork.page.alike import is_near, is_same_film, is_title, is_within, scaled, signature, unchanged_curves
-from crankwork.page.between import FigureInterpolation, number_in_legend
 from crankwork.page.joints import bind_to_joints, is_label, joints_of
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
 from crankwork.report.language import displayed
 from crankwork.show.inline import frame_data, frame_marks
-from crankwork.show.scene import Drawing, Plot, Polyline
+from crankwork.show.moving import Animation
+from crankwork.show.scene import (
+    Arc,
+    Box,
+    Circle,
+    Drawing,
+    Hatch,
+    Item,
+    Plot,
+    Polyline,
+    Text,
+    runs,
+    visible_points_of_each,
+)
 from crankwork.units import to_si
 
 # relative difference of a curve and the column that it shows
@@ -40,6 +54,14 @@ _SAMPLE_STEP = 7.0
 _MAX_ROWS = 1000
 # classes of an item after a slider has moved
 HIDDEN, FAINT = "gone", "faint"
+# invisible distance, and margin of a graph for the labels of its scales [mm]
+_UNSEEN, _MARGIN = 1e-3, 8.0
+# invisible difference of moving parts, in millimetres and degrees
+_UNSEEN_MOVE = 0.05
+_NUMBER = re.compile(r"−?\d+(?:[.,]\d+)?")
+# relative to the scales of a graph: an invisible distance, the tolerance of an interpolated curve, about the width of
+# its line, and the tolerance if one of the machines is left out
+_UNSEEN_ON_GRAPH, _NEAR, _LEFT_OUT = 3e-4, 2e-3, 2e-2
 
 
 class Slider(NamedTuple):
@@ -449,3 +471,212 @@ def scale(key: str) -> list[float]:
     """Return factor and offset from SI to the display unit of a key."""
     origin = displayed(key, 0.0)
     return [displayed(key, 1.0) - origin, origin]
+
+
+def is_same_film(film: Animation, other: Animation) -> bool:
+    """Return whether two animations have no visible difference."""
+    own, other_parts = ({part.name: part for part in each.parts} for each in (film, other))
+    return own.keys() == other_parts.keys() and all(
+        part.track.shape == other_parts[name].track.shape
+        and bool(np.all(np.abs(part.track - other_parts[name].track) < _UNSEEN_MOVE))
+        and list(map(signature, part.items)) == list(map(signature, other_parts[name].items))
+        for name, part in own.items()
+    )
+
+
+def scaled(drawn: Sequence[Drawing]) -> list[bool]:
+    """Return which items lie within graphs whose scales differ: equal on paper, they mean different values."""
+    boxes = []
+    for own, *other_plots in zip(*(drawing.plots for drawing in drawn), strict=False):
+        is_other = ~np.all([_is_near_scale(own, plot) for plot in other_plots], axis=0)
+        if is_other.any():
+            across, up = np.where(is_other, _MARGIN, 0.0)
+            box = own.box
+            boxes += [box._replace(height=box.height + across), box._replace(width=box.width + up)]
+    items, frames = drawn[0].items, frame_marks(drawn[0])
+    # legends do not depend on the scales
+    legend = {id(item) for pair in pairwise(items) for item in pair if getattr(pair[0], "name", "") == "legend"}
+    return [
+        not frame and id(item) not in legend and is_within(item, boxes)
+        for frame, item in zip(frames, items, strict=True)
+    ]
+
+
+def _is_near_scale(plot: Plot, other_plot: Plot) -> list[bool]:
+    """Return for x and y whether the scales are equal up to rounding."""
+    return [
+        bool(np.all(np.abs(np.subtract(own, ends)) <= _SAME_PLACE * abs(own[0] - own[1])))
+        for own, ends in zip((plot.x, plot.y), (other_plot.x, other_plot.y), strict=True)
+    ]
+
+
+def is_within(item: Item, boxes: Iterable[Box]) -> bool:
+    """Return whether the middle of an item lies within one of the boxes."""
+    match item:
+        case Text(place=place):
+            x, y = place
+        case Circle(centre=centre) | Arc(centre=centre):
+            x, y = centre
+        case Polyline(points=points) | Hatch(points=points):
+            x, y = (np.min(points, axis=0) + np.max(points, axis=0)) / 2
+    return any(0 <= x - box.left <= box.width and 0 <= y - box.bottom <= box.height for box in boxes)
+
+
+def is_title(item: Item, boxes: Iterable[Box]) -> bool:
+    """Return whether an item is the title of an axis of a graph: upright left of it, or below its middle."""
+    if not isinstance(item, Text):
+        return False
+    x, y = item.place
+    return any(
+        (x < box.left and box.bottom < y < box.top)
+        if item.angle == 90
+        else y < box.bottom and abs(x - box.left - box.width / 2) < _UNSEEN
+        for box in boxes
+    )
+
+
+def is_near(item: Item, boxes: Iterable[Box]) -> bool:
+    """Return whether an item lies within one of the boxes or its margin for labels."""
+    return is_within(item, (box.inset(*[-_MARGIN] * 4) for box in boxes))
+
+
+def unchanged_curves(drawn: Sequence[Drawing]) -> set[str]:
+    """Return the names of curves that are equal in every design up to rounding, which may thin them differently."""
+    constant, moving = set[str](), set[str]()
+    for plots in zip(*(drawing.plots for drawing in drawn), strict=False):
+        for name, curve in plots[0].curves.items():
+            other_curves = [plot.curves.get(name, ()) for plot in plots[1:]]
+            is_same = all(len(other) == 2 and _are_near(curve, other) for other in other_curves)
+            (constant if is_same else moving).add(name)
+    return constant - moving
+
+
+def _are_near(first: Sequence[Array], second: Sequence[Array]) -> bool:
+    """Return whether two curves are the same line; either may have additional points at extremes."""
+    (x, y), (across, up) = map(np.asarray, first), map(np.asarray, second)
+    shared, common = np.isin(x, across), np.isin(across, x)
+    if shared.sum() == common.sum() and 2 * shared.sum() > max(x.size, across.size):
+        x, y, across, up = x[shared], y[shared], across[common], up[common]
+    if x.shape != across.shape:
+        return False
+    near = [_SAME_PLACE * np.max(np.abs(values[np.isfinite(values)]), initial=0.0) for values in (x, y)]
+    return np.allclose(x, across, rtol=0, atol=near[0]) and np.allclose(y, up, rtol=0, atol=near[1], equal_nan=True)
+
+
+def signature(item: Item) -> tuple[Any, ...]:
+    """Return a key that is equal for items that look the same."""
+
+    def rounded(numbers: Any) -> bytes:  # noqa: ANN401 - numbers
+        return (np.rint(np.asarray(numbers, dtype=float) / _UNSEEN) + 0.0).tobytes()
+
+    match item:
+        case Polyline():
+            return "line", rounded(item.points), item.kind, item.fill, item.name
+        case Text():
+            return "text", rounded(item.place), item.text, item.angle
+        case Circle():
+            return "circle", rounded((*item.centre, item.radius)), item.fill
+        case Arc():
+            return "arc", rounded((*item.centre, item.radius, item.start, item.end))
+        case Hatch():
+            return "hatch", rounded(item.points)
+
+
+class FigureInterpolation:
+    """Figures of machines by the one number in which they differ. [SI]"""
+
+    def __init__(self, values: Sequence[float], drawn: Sequence[Mapping[str, Drawing]]) -> None:
+        self.values, self._drawn = np.array(values), drawn
+
+    def drawings(self, name: str) -> list[Drawing]:
+        """Return a figure of all machines; empty if one lacks it or it is a construction."""
+        drawn = [figures[name] for figures in self._drawn if name in figures and not _is_constructed(figures[name])]
+        return drawn if len(drawn) == len(self._drawn) else []
+
+    def curve(self, name: str, index: int, x: Array, plots: Sequence[Plot], drawn: Sequence[Drawing]) -> dict[str, Any]:
+        """Return the points of a curve in all machines; empty if polynomials do not interpolate it.
+
+        `index`: of the graph in the figure; `plots`: this graph for machines whose number is `x`.
+        """
+        sampled = [drawing.plots[index] for drawing in drawn if index < len(drawing.plots)]
+        sampled = [plot for plot in sampled if name in plot.curves]
+        if len(sampled) < max(len(drawn), 3):
+            return {}
+        curves = [_at(plot, plots[0], name) for plot in (*sampled, *plots)]
+        if len({curve.shape for curve in curves}) > 1:
+            return {}
+        finite = np.asarray(np.all(np.isfinite(curves), axis=(0, 1)))
+        lines = [line for line in drawn[0].items if isinstance(line, Polyline) and line.name == name]
+        if sum(len(line.points) for line in lines) != finite.sum() or any(line.closed for line in lines) or not lines:
+            # bars, marks and areas, or gaps that differ between machines
+            return {}
+        points = np.array(curves[: len(sampled)])[..., finite]
+        known = [curve[:, finite] for curve in curves[len(sampled) :]]
+        low, high = np.sort([plots[0].x, plots[0].y]).T[..., None]
+        size = high - low
+        if np.all(np.abs(points - known[0]) < _UNSEEN_ON_GRAPH * size):
+            return {}
+        rows = range(len(self.values))
+        checks = [
+            (_weights(self.values, number) @ points.swapaxes(0, 1), curve, _NEAR)
+            for number, curve in zip(x, known, strict=True)
+        ]
+        for row in rows[1:-1]:
+            rest = [other for other in rows if other != row]
+            weights = _weights(self.values[rest], self.values[row])
+            checks.append((weights @ points[rest].swapaxes(0, 1), points[row], _LEFT_OUT))
+        for expected, actual, limit in checks:
+            # ignore points outside the scales
+            is_seen = np.all((actual > low - size) & (actual < high + size), axis=0)
+            if np.any(np.abs(expected - actual)[:, is_seen] > limit * size):
+                return {}
+        kept = np.any(visible_points_of_each([(curve / size).T for curve in points], _UNSEEN_ON_GRAPH), axis=0)
+        decimals = [4 - math.floor(math.log10(extent)) for extent in size[:, 0]]
+        across, up = (np.round(points[:, side][:, kept], decimals[side]).tolist() for side in (0, 1))
+        angles = plots[0].curves[name][0] if plots[0].over else plots[0].angles.get(name, ())
+        places = np.round(angles[finite][kept], 3).tolist() if len(angles) == len(finite) else []
+        if len(lines) > 1 and not places:
+            return {}
+        same = all(position == across[0] for position in across)
+        return {"between": {"x": across[:1] if same else across, "y": up, "at": places}}
+
+
+def _is_constructed(drawn: Drawing) -> bool:
+    """Return whether a drawing has construction lines in addition to curves."""
+    return any(np.ndim(x) > 1 for plot in drawn.plots for x, _ in plot.curves.values())
+
+
+def _at(plot: Plot, stated: Plot, name: str) -> Array:
+    """Return the points of a curve, at the crank angles of the stated one if its own differ; shape (2, n)."""
+    curve, (x, _) = np.array(plot.curves[name], dtype=float), stated.curves[name]
+    degrees, wanted = (curve[0], x) if plot.over else (graph.angles.get(name, ()) for graph in (plot, stated))
+    if len(x) == curve.shape[1] or len(degrees) != curve.shape[1] or len(wanted) != len(x):
+        return curve
+    return np.array([np.interp(wanted, degrees, row) for row in curve])
+
+
+def _weights(values: Array, x: float) -> Array:
+    """Return the Lagrange weights of values at x."""
+    return np.array([
+        np.prod([(x - other) / (value - other) for other in np.delete(values, k)]) for k, value in enumerate(values)
+    ])  # fmt: skip
+
+
+def number_in_legend(index: int, drawn: Sequence[Drawing]) -> tuple[int, list[str]] | None:
+    """Return the legend row of an item and the number in it for each drawing; None if more than that differs."""
+    row = len(_legend(drawn[0].items[:index]))
+    texts = [rows[row] if row < len(rows := _legend(drawing.items)) else "" for drawing in drawn]
+    numbers = [_NUMBER.findall(text) for text in texts]
+    if len({_NUMBER.sub("#", text) for text in texts}) > 1 or any(len(matches) != 1 for matches in numbers):
+        return None
+    return row, [matches[0] for matches in numbers]
+
+
+def _legend(items: Sequence[Any]) -> list[str]:
+    """Return the texts of a legend."""
+    pairs = pairwise(items)
+    return [
+        "".join(run.text for run in runs(text.text))
+        for line, text in pairs
+        if isinstance(line, Polyline) and line.name == "legend" and isinstance(text, Text)
+    ]

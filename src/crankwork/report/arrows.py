@@ -46,60 +46,60 @@ def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = Non
 
     `frame`: the only one that is looked at; its forces are as long as there is room, and their names clear of others.
     """
-    at = slice(None) if frame is None else slice(frame, frame + 1)
-    largest = max((float(np.max(np.abs(one.force[at]))) for one in arrows), default=0.0)
+    rows = slice(None) if frame is None else slice(frame, frame + 1)
+    largest = max((float(np.max(np.abs(arrow.force[rows]))) for arrow in arrows), default=0.0)
     if not largest > 0:
         return sketch
     scale = round_scale(displayed("piston_force", largest) / _LONGEST)
-    found, parts = [sketch.low[None], sketch.high[None]], list(sketch.parts)
-    taken = [] if frame is None else [extent(item) for one in parts for item in one.at(_of(one, frame))
+    corners, parts = [sketch.low[None], sketch.high[None]], list(sketch.parts)
+    taken = [] if frame is None else [extent(item) for body in parts for item in body.at(_of(body, frame))
                                       if isinstance(item, Text | Circle)]  # fmt: skip
-    for one in arrows:
-        length = displayed("piston_force", 1.0) * one.force / scale
+    for arrow in arrows:
+        length = displayed("piston_force", 1.0) * arrow.force / scale
         if frame is not None and abs(length[frame]) < _SHORTEST:
             continue
-        turns = np.radians(one.turn)
+        turns = np.radians(arrow.turn)
         ways = np.column_stack([np.cos(turns), np.sin(turns)]) * np.sign(length)[:, None]
-        ends = one.place + np.abs(length)[:, None] * ways
-        parts += _arrow(one, length, ends)
-        found.append(ends[at])
-        if one.label:
-            text = Text((0.0, -_LETTERS / 2), one.label, _LETTERS, "middle", halo=True)
+        ends = arrow.place + np.abs(length)[:, None] * ways
+        parts += _arrow(arrow, length, ends)
+        corners.append(ends[rows])
+        if arrow.label:
+            text = Text((0.0, -_LETTERS / 2), arrow.label, _LETTERS, "middle", halo=True)
             away = _CLEAR * ways
             if frame is not None:
-                away, box = _beside(text, ends[frame], ways[frame], taken)
+                away, box = _place_near_tip(text, ends[frame], ways[frame], taken)
                 taken.append(box)
-            found += [(ends + away + side * _CLEAR)[at] for side in (1, -1)]
+            corners += [(ends + away + side * _CLEAR)[rows] for side in (1, -1)]
             # a force that is too short for its head has no name
             shown = np.abs(length) > (_HEAD if frame is None else _SHORTEST)
-            parts.append(part(f"force.{one.name}.text", [text], ends + away, tint=shown))
-    places = np.vstack(found)
+            parts.append(part(f"force.{arrow.name}.text", [text], ends + away, tint=shown))
+    places = np.vstack(corners)
     return sketch._replace(parts=parts, low=places.min(axis=0), high=places.max(axis=0), force_scale=scale)
 
 
-def _of(one: Part, frame: int) -> int:
-    """Return which row of its track a part has at a frame."""
-    return frame if len(one.shift) > 1 else 0
+def _of(part_: Part, frame: int) -> int:
+    """Return the row of the track of a part at a frame."""
+    return frame if len(part_.shift) > 1 else 0
 
 
-def _beside(text: Text, tip: Array, way: Array, taken: Sequence[Box]) -> tuple[Array, Box]:
-    """Return how far from its tip the name of a force stands clear of what is written, and what it covers. [mm]"""
+def _place_near_tip(text: Text, tip: Array, ahead: Array, taken: Sequence[Box]) -> tuple[Array, Box]:
+    """Return the offset of the name of a force from its tip, clear of other names, and the box it covers. [mm]"""
     ways = []
     for turn, reach in product(_TURNS, _REACHES):
         cos, sin = np.cos(np.radians(turn)), np.sin(np.radians(turn))
-        away = reach * _CLEAR * np.array([cos * way[0] - sin * way[1], sin * way[0] + cos * way[1]])
+        away = reach * _CLEAR * np.array([cos * ahead[0] - sin * ahead[1], sin * ahead[0] + cos * ahead[1]])
         box = extent(moved(text, *(tip + away))).inset(-_FREE, -_FREE, -_FREE, -_FREE)
         over = sum(
-            max(0.0, min(box.right, one.right) - max(box.left, one.left))
-            * max(0.0, min(box.top, one.top) - max(box.bottom, one.bottom))
-            for one in taken
+            max(0.0, min(box.right, other.right) - max(box.left, other.left))
+            * max(0.0, min(box.top, other.top) - max(box.bottom, other.bottom))
+            for other in taken
         )
         ways.append((over + 0.3 * reach + 0.002 * abs(turn), away, box))
-    _, away, box = min(ways, key=lambda one: one[0])
+    _, away, box = min(ways, key=lambda choice: choice[0])
     return away, box
 
 
-def _arrow(one: Arrow, length: Array, ends: Array) -> list[Part]:
+def _arrow(arrow: Arrow, length: Array, ends: Array) -> list[Part]:
     """Return shaft and head; a force shorter than a head has a smaller one."""
     share = np.clip(length / _HEAD, -1.0, 1.0)
     shaft = Polyline(
@@ -113,23 +113,23 @@ def _arrow(one: Arrow, length: Array, ends: Array) -> list[Part]:
         np.array([(0.0, 0.0), (-_HEAD, _HEAD / 4), (-_HEAD, -_HEAD / 4)]), _NO_LINE, closed=True, fill=0.0, name="force"
     )
     return [
-        part(f"force.{one.name}.shaft", [shaft], one.place, one.turn, stretch=length - share * _HEAD),
-        part(f"force.{one.name}.head", [head], ends, one.turn, stretch=share),
+        part(f"force.{arrow.name}.shaft", [shaft], arrow.place, arrow.turn, stretch=length - share * _HEAD),
+        part(f"force.{arrow.name}.head", [head], ends, arrow.turn, stretch=share),
     ]
 
 
-def forces_of(one: CylinderMoving, labels: Mapping[str, str]) -> list[Arrow]:
+def forces_of(cylinder: CylinderMoving, labels: Mapping[str, str]) -> list[Arrow]:
     """Return the forces on pins and wall of a cylinder on its paper, as far as they are known."""
-    arm, rod = one.pin, one.joint - one.piston
-    axis, number = np.full(len(arm), 90.0 - one.place.axis), one.place.number
+    arm, rod = cylinder.pin, cylinder.joint - cylinder.piston
+    axis, number = np.full(len(arm), 90.0 - cylinder.place.axis), cylinder.place.number
     ways = {
-        "piston_force": (one.piston, axis + 180.0),
-        "side_force": (one.piston, axis + 90.0),
-        "rod_force": (one.joint, _turns(rod)),
+        "piston_force": (cylinder.piston, axis + 180.0),
+        "side_force": (cylinder.piston, axis + 90.0),
+        "rod_force": (cylinder.joint, _turns(rod)),
         # across the crank arm, with the rotation
-        "tangential_force": (one.pin, _turns(arm) - 90.0),
+        "tangential_force": (cylinder.pin, _turns(arm) - 90.0),
     }
-    return [Arrow(f"{key}.{number}", *ways[key], force, labels.get(key, "")) for key, force in one.forces.items()]
+    return [Arrow(f"{key}.{number}", *ways[key], force, labels.get(key, "")) for key, force in cylinder.forces.items()]
 
 
 def forces_in_joints(

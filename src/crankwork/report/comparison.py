@@ -10,13 +10,13 @@ from crankwork.analysis.compare import Comparison
 from crankwork.locale import Language, say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.report.language import (
+    display_key,
     displayed,
     in_own_units,
     key_unit,
     label,
     method_name,
     rounded,
-    told_as,
 )
 
 _NONE = "–"
@@ -42,16 +42,16 @@ def comparison_rows(results: Results, *, per_area: bool = False) -> dict[str, tu
     """Return single values in display units by key: the own one, and for each other its value and the difference."""
     if results.compared is None:
         return {}
-    areas = [one.summary["piston_area"] if per_area else None for one in (results, *results.compared.others)]
+    areas = [compared.summary["piston_area"] if per_area else None for compared in (results, *results.compared.others)]
     rows = {}
     for key, values in results.compared.values(results).items():
-        own, *others = (displayed(key, one, per_area=area) for one, area in zip(values, areas, strict=True))
-        rows[key] = (own, *(one for other in others for one in (other, _less(other, own))))
+        own, *further = (displayed(key, value, per_area=area) for value, area in zip(values, areas, strict=True))
+        rows[key] = (own, *(shown for other in further for shown in (other, _less(other, own))))
     return rows
 
 
 def _less(other: float, own: float) -> float:
-    """Return how far a value is above another; what rounding leaves of nothing is nothing."""
+    """Return the difference of two values, zero where only rounding is left."""
     return 0.0 if abs(other - own) <= _ROUNDING * abs(own) else other - own
 
 
@@ -61,13 +61,13 @@ def comparison_text(results: Results, language: Language = "en", *, per_area: bo
     compared = results.compared
     if compared is None:
         return ""
-    own, *others = compared.names
-    titles = [own, *(title for name in others for title in (name, say("report.less", language, name=name, other=own)))]
+    own, *names = compared.names
+    titles = [own, *(title for name in names for title in (name, say("report.less", language, name=name, other=own)))]
     table = [["", "", *titles]]
     for key, values in comparison_rows(results, per_area=per_area).items():
         unit = unit_name(key_unit(key, per_area=per_area), language)
-        name = label(told_as(key, results) if key in results.memory else key, language)
-        table.append([name, unit, *(_shown(one, language) for one in values)])
+        name = label(display_key(key, results) if key in results.memory else key, language)
+        table.append([name, unit, *(_shown(value, language) for value in values)])
     return "\n".join([say(_heading(compared), language), *_aligned(table)])
 
 
@@ -80,10 +80,10 @@ def _shown(value: float, language: Language) -> str:
 
 
 def _aligned(table: list[list[str]]) -> list[str]:
-    wide = [max(len(row[at]) for row in table) for at in range(len(table[0]))]
+    wide = [max(len(row[index]) for row in table) for index in range(len(table[0]))]
     sides = "<<" + ">" * (len(wide) - 2)
     return [
-        "  " + "  ".join(f"{one:{side}{w}}" for one, side, w in zip(row, sides, wide, strict=True)).rstrip()
+        "  " + "  ".join(f"{cell:{side}{w}}" for cell, side, w in zip(row, sides, wide, strict=True)).rstrip()
         for row in table
     ]
 
@@ -93,7 +93,7 @@ def comparison_data(results: Results, *, per_area: bool = False) -> dict[str, An
     """Return the single values of the others, and how far they are above the own ones, as plain data."""
     if results.compared is None:
         return {}
-    own, *others = results.compared.names
+    own, *other_names = results.compared.names
     rows = comparison_rows(results, per_area=per_area)
 
     def plain(value: float) -> float | None:
@@ -101,18 +101,18 @@ def comparison_data(results: Results, *, per_area: bool = False) -> dict[str, An
 
     each = {
         name: {
-            key: {"value": plain(values[2 * at + 1]), "difference": plain(values[2 * at + 2]),
+            key: {"value": plain(values[2 * index + 1]), "difference": plain(values[2 * index + 2]),
                   "unit": key_unit(key, per_area=per_area)}
             for key, values in rows.items()
         }
-        for at, name in enumerate(others)
+        for index, name in enumerate(other_names)
     }  # fmt: skip
     return {"comparison": {"own": own, "others": each}}
 
 
 def shown_names(compared: Comparison, language: Language) -> list[str]:
-    """Return what each is called: methods in words, machines by the names of their files."""
+    """Return the names of what is compared: methods in words, machines by the names of their files."""
     if not compared.is_of_methods:
         return list(compared.names)
-    parts = [one.partition(":") for one in compared.names]
+    parts = [name.partition(":") for name in compared.names]
     return [method_name(kind, int(order or 0), "", language) for kind, _, order in parts]

@@ -46,13 +46,13 @@ def dataset(results: Results, *, shown: bool = False) -> xr.Dataset:
     import xarray as xr  # noqa: PLC0415 - an optional part
 
     along = "time" if "time" in results.columns else "crank_angle"
-    found = _Variables(shown=shown)
+    variables = _Variables(shown=shown)
     for key, values in results.columns.items():
         if key not in ("crank_angle", along):
-            found.put(key, key, (along,), values)
+            variables.put(key, key, (along,), values)
     for key, value in results.summary.items():
-        found.put(key, key, (), np.asarray(value))
-    parts = [found.made(), *(_listing(results, name, found.owned, shown=shown) for name in results.listings)]
+        variables.put(key, key, (), np.asarray(value))
+    parts = [variables.made(), *(_listing(results, name, variables.owned, shown=shown) for name in results.listings)]
     index = results.grid.degrees if along == "crank_angle" else results.columns["time"]
     joined = xr.merge([*parts, xr.Dataset(coords={along: index})], join="outer", compat="no_conflicts")
     joined[along].attrs = {"units": "deg" if along == "crank_angle" else "s", "long_name": label(along, "en")}
@@ -85,20 +85,20 @@ class _Variables:
         """Return one variable, with a dimension of owners if it has those; what has none beside them keeps its name."""
         import xarray as xr  # noqa: PLC0415 - an optional part
 
-        attributes, found = self._attributes[name], dict[str, Any]()
+        attributes, arrays = self._attributes[name], dict[str, Any]()
         owners = {owner: value for owner, value in owned.items() if owner}
         # of one cylinder that stands for all of them there is no need twice
-        is_own = "" in owned and not any(np.array_equal(owned[""][1], one) for _, one in owners.values())
+        is_own = "" in owned and not any(np.array_equal(owned[""][1], array) for _, array in owners.values())
         if is_own:
-            found[name] = (*owned[""], attributes)
+            arrays[name] = (*owned[""], attributes)
         if not owners:
-            return xr.Dataset(found)
+            return xr.Dataset(arrays)
         dimension = _owner(name) or "part"
         (inner, _), *_ = owners.values()
         values = np.stack([value for _, value in owners.values()])
-        found[f"{name}_by_{dimension}" if is_own else name] = ((dimension, *inner), values, attributes)
-        numbered = all(one.isdecimal() for one in owners)
-        return xr.Dataset(found, {dimension: [int(one) for one in owners] if numbered else list(owners)})
+        arrays[f"{name}_by_{dimension}" if is_own else name] = ((dimension, *inner), values, attributes)
+        numbered = all(owner.isdecimal() for owner in owners)
+        return xr.Dataset(arrays, {dimension: [int(owner) for owner in owners] if numbered else list(owners)})
 
 
 def _owner(kind: str) -> str:
@@ -110,16 +110,16 @@ def _listing(results: Results, name: str, taken: Mapping[str, object], *, shown:
     listing = results.listings[name]
     first, *_ = listing.columns
     along = name if listing.names else _FIRST.get(first, name)
-    found = _Variables(shown=shown)
+    variables = _Variables(shown=shown)
     for key, values in listing.columns.items():
         if listing.names or key != first:
             kind, dot, owner = key.partition(".")
             # wear of pins and of journals are two variables
             called = name if kind == "wear_sum" else f"{name}_{kind}" if kind in taken or along == name else kind
-            found.put(f"{called}{dot}{owner}", key, (along,), values)
+            variables.put(f"{called}{dot}{owner}", key, (along,), values)
     if listing.names:
-        return found.made().assign_coords({along: list(listing.names)})
-    joined = found.made().assign_coords({along: _in_unit(first, listing.columns[first], shown=shown)})
+        return variables.made().assign_coords({along: list(listing.names)})
+    joined = variables.made().assign_coords({along: _in_unit(first, listing.columns[first], shown=shown)})
     joined[along].attrs = _attributes(first, shown=shown)
     return joined
 
@@ -131,8 +131,12 @@ def _in_unit(key: str, values: Array, *, shown: bool) -> Array:
 def _attributes(key: str, *, shown: bool) -> dict[str, str]:
     """Return unit, name, symbol and meaning of a quantity."""
     unit, row = key_unit(key), QUANTITIES.get(base_key(key))
-    told = {"units": unit if shown else coherent_unit(unit), "long_name": label(key, "en"), "symbol": symbol(key, "en")}
-    return told if row is None else told | {"definition": row.definition}
+    texts = {
+        "units": unit if shown else coherent_unit(unit),
+        "long_name": label(key, "en"),
+        "symbol": symbol(key, "en"),
+    }
+    return texts if row is None else texts | {"definition": row.definition}
 
 
 @in_own_units
@@ -149,9 +153,9 @@ def frame(results: Results, *, shown: bool = False) -> pd.DataFrame:
         f"{key} [{units[key] or '-'}]" if shown else key: table_column(results, key) if shown else results.columns[key]
         for key in keys
     }
-    found = pd.DataFrame(columns, index=pd.Index(index, name=f"{along} [{'deg' if along == 'crank_angle' else 's'}]"))
-    found.attrs.update(about(results), units=units)
-    return found
+    table = pd.DataFrame(columns, index=pd.Index(index, name=f"{along} [{'deg' if along == 'crank_angle' else 's'}]"))
+    table.attrs.update(about(results), units=units)
+    return table
 
 
 def written(results: Results, name: str) -> bytes:
@@ -175,10 +179,10 @@ def written(results: Results, name: str) -> bytes:
 def _variables(data: xr.Dataset) -> Iterator[tuple[str, object]]:
     """Yield variables and coordinates by names that MATLAB takes, and the units of all."""
     units = {}
-    for name, one in data.variables.items():
+    for name, variable in data.variables.items():
         key = str(name).replace(".", "_")
-        yield key, one.values.astype(object) if one.dtype.kind in "OUT" else one.values
-        units[key] = str(one.attrs.get("units", ""))
+        yield key, variable.values.astype(object) if variable.dtype.kind in "OUT" else variable.values
+        units[key] = str(variable.attrs.get("units", ""))
     yield "units", units
     yield "about", {key: str(value) for key, value in data.attrs.items()}
 

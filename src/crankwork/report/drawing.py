@@ -27,8 +27,7 @@ from crankwork.report.language import called, displayed, for_readers, key_unit, 
 from crankwork.report.linkage_drawing import linkage_sketch
 from crankwork.report.linkage_look import scale_text
 from crankwork.report.sketch import Sketch
-from crankwork.show.film import Progress
-from crankwork.show.formats import FILMS, FORMATS
+from crankwork.show.formats import FILMS, FORMATS, Progress
 from crankwork.show.moving import Animation, Part, part
 from crankwork.show.paper import WIDER, marked
 from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, flow_rows, line, text_width
@@ -50,7 +49,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     language: Language = "en",
     seconds: float = 4.0,
     frames: int = 0,
-    way: Course | None = None,
+    path: Course | None = None,
     forces: bool = False,
     still: int | None = None,
 ) -> Animation:
@@ -58,32 +57,32 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
 
     Lengths are to scale and the motion is exact at each frame. Gas, firing and forces are shown of results. Links have
     the numbers of the structure, or follow group after group where only a mechanism is known. `seconds`: time of a
-    turn; `frames`: of a cycle, else as many as the eye asks for; `way`: how the crank moves, that of a machine let go
-    in its own time; `forces`: whether arrows show those in pins and joints; `still`: the only frame that is looked at.
+    turn; `frames`: of a cycle, else as many as the eye needs; `way`: motion of the crank, that of a transient
+    simulation in its own time; `forces`: whether arrows show those in pins and joints; `still`: the only frame shown.
     """
     if (frames and frames < 8) or not 0 < seconds < math.inf:
         raise CrankworkError("a moving drawing needs at least 8 frames and a time above zero")
     results = machine if isinstance(machine, Results) else None
-    whole = results.machine if results is not None else machine if isinstance(machine, Machine) else None
-    mechanism = whole.mechanism if whole else machine
+    known = results.machine if results is not None else machine if isinstance(machine, Machine) else None
+    mechanism = known.mechanism if known else machine
     assert isinstance(mechanism, Mechanism)  # noqa: S101 - what else there could be
-    way = way or _course(whole, mechanism, frames)
-    engine = engine_moving(whole, way.degrees, results) if whole else None
-    time = _time(way, seconds, language)
-    if engine is not None and whole is not None:
+    path = path or _path_of_crank(known, mechanism, frames)
+    engine = engine_moving(known, path.degrees, results) if known else None
+    time = _time(path, seconds, language)
+    if engine is not None and known is not None:
         labels = {key: marked(f"${symbol(key, language)}$") for key in FORCES}
-        sketch = engine_sketch(whole, engine, labels if forces else None, still)
+        sketch = engine_sketch(known, engine, labels if forces else None, still)
         keys = [f"{labels[key]} – {label(key, language)}" for key in engine.cylinders[0].forces]
-        about = [*_lengths(way.mechanism, whole, language), time]
+        about = [*_lengths(path.mechanism, known, language), time]
     else:
-        shape = skeleton(way.mechanism, _links(whole))
-        columns = _columns(results, way.degrees, forces=forces) if results is not None else {}
+        shape = skeleton(path.mechanism, _links(known))
+        columns = _columns(results, path.degrees, forces=forces) if results is not None else {}
         sketch = linkage_sketch(
-            shape, moving(way.mechanism, way.degrees), whole, columns, _named_forces(columns, language), still
+            shape, moving(path.mechanism, path.degrees), known, columns, _named_forces(columns, language), still
         )
-        keys = _acting(way.mechanism, shape, _named_forces(columns, language), language)
-        about = [*_lengths(way.mechanism, None, language), *_members(shape, language), time]
-    return _film(sketch, way, seconds, whole, "; ".join(about), keys, language)
+        keys = _acting(path.mechanism, shape, _named_forces(columns, language), language)
+        about = [*_lengths(path.mechanism, None, language), *_members(shape, language), time]
+    return _film(sketch, path, seconds, known, "; ".join(about), keys, language)
 
 
 def film_of(results: Results, *, language: Language = "en", frames: int = 0, forces: bool = False) -> Animation | None:
@@ -102,11 +101,11 @@ def drawn(  # noqa: PLR0913 - what is drawn, and how
     results: Results,
     ending: str,
     theme: Theme,
-    at: float | None = None,
+    angle_or_time: float | None = None,
     language: Language = "en",
     *,
     forces: bool,
-    told: Progress = lambda _: None,
+    progress: Progress = lambda _: None,
 ) -> bytes:
     """Return a machine in a format as it moves, or as it stands.
 
@@ -116,28 +115,28 @@ def drawn(  # noqa: PLR0913 - what is drawn, and how
     machine = results.machine
     if machine.transfer is not None or machine.turning is not None:
         raise CrankworkError(Refusal("nothing_moves"))
-    if results.period and at is not None and not 0 <= at <= results.period:
-        raise CrankworkError(Refusal("time_outside", time=at, period=results.period))
-    way = _course(machine, machine.mechanism, 0)
-    if at is not None:
-        way, rest = _through(way, results.degrees_of(at))
-    still = None if at is None else rest
-    film = moving_drawing(results, language=language, forces=forces, way=way, still=still)
-    if forces and not any(one.name.startswith("force.") for one in film.parts):
+    if results.period and angle_or_time is not None and not 0 <= angle_or_time <= results.period:
+        raise CrankworkError(Refusal("time_outside", time=angle_or_time, period=results.period))
+    path = _path_of_crank(machine, machine.mechanism, 0)
+    if angle_or_time is not None:
+        path, rest = _through(path, results.degrees_of(angle_or_time))
+    still = None if angle_or_time is None else rest
+    film = moving_drawing(results, language=language, forces=forces, path=path, still=still)
+    if forces and not any(item.name.startswith("force.") for item in film.parts):
         raise CrankworkError(Refusal("forces_unknown"))
-    if at is None and ending in FILMS:
-        return FILMS[ending](film, theme, told)
+    if angle_or_time is None and ending in FILMS:
+        return FILMS[ending](film, theme, progress)
     return FORMATS[ending](film.still(still), theme)
 
 
-def _through(way: Course, at: float) -> tuple[Course, int]:
-    """Return a course of which a frame stands at a crank angle, and which. [deg]"""
-    low, high = float(way.degrees.min()), float(way.degrees.max())
-    if not low <= at <= high:
-        raise CrankworkError(Refusal("still_outside", angle=at, low=f"{low:.4g}", high=f"{high:.4g}"))
-    degrees, frame = way.degrees.copy(), int(np.argmin(np.abs(way.degrees[:-1] - at)))
-    degrees[frame] = at
-    return way._replace(degrees=degrees), frame
+def _through(path: Course, angle: float) -> tuple[Course, int]:
+    """Return a path with a frame at a crank angle, and the number of that frame. [deg]"""
+    low, high = float(path.degrees.min()), float(path.degrees.max())
+    if not low <= angle <= high:
+        raise CrankworkError(Refusal("still_outside", angle=angle, low=f"{low:.4g}", high=f"{high:.4g}"))
+    degrees, frame = path.degrees.copy(), int(np.argmin(np.abs(path.degrees[:-1] - angle)))
+    degrees[frame] = angle
+    return path._replace(degrees=degrees), frame
 
 
 def _columns(results: Results, degrees: Array, *, forces: bool) -> dict[str, Array]:
@@ -147,40 +146,40 @@ def _columns(results: Results, degrees: Array, *, forces: bool) -> dict[str, Arr
     return results.columns_at(np.mod(degrees, results.machine.cycle), keys)
 
 
-def _course(whole: Machine | None, mechanism: Mechanism, frames: int) -> Course:
-    """Return how the crank goes: that of an engine through its cycle, any other as far as it gets."""
-    if whole is None or whole.lengths is None:
+def _path_of_crank(machine: Machine | None, mechanism: Mechanism, frames: int) -> Course:
+    """Return the path of the crank: that of an engine through its cycle, any other over its range."""
+    if machine is None or machine.lengths is None:
         return course(mechanism, frames or _FRAMES)
-    frames = frames or (_FRAMES if whole.cycle <= _TURN else _FRAMES_OF_CYCLE)
-    return Course(np.arange(frames + 1) * whole.cycle / frames, mechanism, turns=True)
+    frames = frames or (_FRAMES if machine.cycle <= _TURN else _FRAMES_OF_CYCLE)
+    return Course(np.arange(frames + 1) * machine.cycle / frames, mechanism, turns=True)
 
 
-def _links(whole: Machine | None) -> Sequence[str]:
+def _links(machine: Machine | None) -> Sequence[str]:
     """Return the links of a machine in the order of their numbers."""
-    if whole is None or whole.linkage is None:
+    if machine is None or machine.linkage is None:
         return ()
-    found, _ = structure(whole.linkage)
-    return found.links if found else ()
+    analysed, _ = structure(machine.linkage)
+    return analysed.links if analysed else ()
 
 
-def _passage(way: Course, seconds: float) -> float:
+def _passage(path: Course, seconds: float) -> float:
     """Return the time of one passage. [s]"""
-    turns = (way.degrees[-1] - way.degrees[0]) / _TURN if way.turns else 1.0
-    return way.own_time or seconds * max(1.0, float(turns))
+    turns = (path.degrees[-1] - path.degrees[0]) / _TURN if path.turns else 1.0
+    return path.own_time or seconds * max(1.0, float(turns))
 
 
 def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     sketch: Sketch,
-    way: Course,
+    path: Course,
     seconds: float,
-    whole: Machine | None,
+    machine: Machine | None,
     about: str,
     keys: Sequence[str],
     language: Language,
 ) -> Animation:
-    """Return a sketch on its paper, with a scale and the crank angle beneath it; `keys`: what its forces are."""
+    """Return a sketch on its paper, with a scale and the crank angle beneath it; `keys`: legend of its forces."""
     (wide, tall), middle = sketch.high - sketch.low, (sketch.low + sketch.high) / 2
-    width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(way, language)
+    width, readouts = max(float(wide), _NARROWEST) + 2 * _MARGIN, _readouts(path, language)
     bar, below, foot = _scale_bar(sketch.scale, 0.3 * width, language), list[Part](), _FOOT
     if sketch.force_scale:
         text = marked(scale_text("μ_F", sketch.force_scale, key_unit("piston_force"), language))
@@ -190,18 +189,18 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
         foot += row
         texts = [Text((width / 2, _MARGIN + row), text, TEXT, "middle")]
         rows = flow_rows(keys, "; ", (width - 2 * _MARGIN) / WIDER, partial(text_width, height=SMALL))
-        texts += [Text((_MARGIN, foot + 1.5 + _KEY * at), one, SMALL) for at, one in enumerate(reversed(rows))]
+        texts += [Text((_MARGIN, foot + 1.5 + _KEY * k), row_text, SMALL) for k, row_text in enumerate(reversed(rows))]
         foot += _KEY * len(rows) + 1.5
         # left out with the forces
         below.append(part("force.scale", texts, (0.0, 0.0)))
     height = float(tall) + 2 * _MARGIN + foot
     placed = sketch.moved(np.array([width / 2, (height + foot) / 2]) - middle)
-    frames, items = len(way.degrees) - 1, (*placed.items, *bar)
-    ground = Drawing(_title(whole.title if whole else "", language), language, width, height, items)
+    frames, items = len(path.degrees) - 1, (*placed.items, *bar)
+    ground = Drawing(_title(machine.title if machine else "", language), language, width, height, items)
     return Animation(
-        ground, (*placed.parts, *below), way.degrees, _passage(way, seconds), readouts,
-        (width - _MARGIN, _MARGIN), round(frames * _STILL / (way.degrees[-1] or _TURN)) % frames if way.turns else 0,
-        way.turns, about, _views(placed, height, language), _choices(placed, language),
+        ground, (*placed.parts, *below), path.degrees, _passage(path, seconds), readouts,
+        (width - _MARGIN, _MARGIN), round(frames * _STILL / (path.degrees[-1] or _TURN)) % frames if path.turns else 0,
+        path.turns, about, _views(placed, height, language), _choices(placed, language),
     )  # fmt: skip
 
 
@@ -209,52 +208,54 @@ def _named_forces(columns: Mapping[str, Array], language: Language) -> dict[str,
     """Return the symbols of forces in joints, by the joint."""
     names = [key.partition(".")[2] for key in columns if key.startswith("joint_force_x.")]
     sign = symbol("joint_force", language)
-    told = {name: name.replace("_", ",") for name in names}
-    return {name: marked(f"${sign}_{one}$") if one.replace(",", "").isalnum() else "" for name, one in told.items()}
+    subscripts = {name: name.replace("_", ",") for name in names}
+    return {
+        name: marked(f"${sign}_{mark}$") if mark.replace(",", "").isalnum() else "" for name, mark in subscripts.items()
+    }
 
 
 def _acting(mechanism: Mechanism, shape: Skeleton, symbols: Mapping[str, str], language: Language) -> list[str]:
     """Return which link acts on which in the joints that forces are drawn in."""
-    numbers = {name: at for at, name in numbered(shape)} | {GROUND: 0}
+    numbers = {name: own_number for own_number, name in numbered(shape)} | {GROUND: 0}
     pivots = names_of_pivots(mechanism)
     driver = mechanism.driver
     # the rod of a cylinder is a link of its own
     rod = {driver.rod: {driver.link: rod_name(driver.link)}} if isinstance(driver, Cylinder) else {}
-    found = [
-        (symbols.get(pivots.get(one.name, one.name)), *(numbers.get(rod.get(one.name, {}).get(link, link))
-                                                         for link in (one.other, one.link)))
-        for one in joints(mechanism)
+    rows = [
+        (symbols.get(pivots.get(joint.name, joint.name)), *(numbers.get(rod.get(joint.name, {}).get(link, link))
+                                                         for link in (joint.other, joint.link)))
+        for joint in joints(mechanism)
     ]  # fmt: skip
-    told = [f"{sign} {other} → {link}" for sign, other, link in found if sign and None not in (other, link)]
-    return [f"{say('drawing.acts_on', language)} {told[0]}", *told[1:]] if told else []
+    texts = [f"{sign} {other} → {link}" for sign, other, link in rows if sign and None not in (other, link)]
+    return [f"{say('drawing.acts_on', language)} {texts[0]}", *texts[1:]] if texts else []
 
 
 def _views(sketch: Sketch, height: float, language: Language) -> tuple[tuple[str, Box], ...]:
     """Return views by name, with where they are from the top left corner of the paper. [mm]"""
     if len(sketch.views) < 2:
         return ()
-    found = []
+    views = []
     for cylinders, low, high in sketch.views:
         numbers = ", ".join(map(str, cylinders))
         name = say("drawing.from_side", language, numbers=numbers) if cylinders else say("drawing.along", language)
         (left, low_end), (right, top) = low - _AROUND, high + _AROUND
-        found.append((name, Box(float(left), height - float(top), float(right - left), float(top - low_end))))
-    return tuple(found)
+        views.append((name, Box(float(left), height - float(top), float(right - left), float(top - low_end))))
+    return tuple(views)
 
 
 def _choices(sketch: Sketch, language: Language) -> dict[str, str]:
     """Return the kinds of forces that are drawn."""
-    names = [one.name for one in sketch.parts if one.name.startswith("force.")]
+    names = [item.name for item in sketch.parts if item.name.startswith("force.")]
     kinds = {f"force.{key}.": label(key, language) for key in FORCES}
-    found = {start: text for start, text in kinds.items() if any(one.startswith(start) for one in names)}
-    return found or ({"force.": label("joint_force", language)} if names else {})
+    choices = {start: text for start, text in kinds.items() if any(name.startswith(start) for name in names)}
+    return choices or ({"force.": label("joint_force", language)} if names else {})
 
 
 def _scale_bar(scale: float, longest: float, language: Language) -> list[Item]:
     """Return a bar of a round length with the length on it; `scale` in millimetres of the paper per metre."""
     millimetres = longest / scale * 1e3
     power = 10.0 ** math.floor(math.log10(millimetres))
-    length = max(one * power for one in (1, 2, 5) if one * power <= millimetres)
+    length = max(digit * power for digit in (1, 2, 5) if digit * power <= millimetres)
     end = _MARGIN + length / 1e3 * scale
     text = f"{number(length, language)} {unit_name('mm', language)}"
     ticks = [line((x, _MARGIN - 1.2), (x, _MARGIN + 1.2), "medium") for x in (_MARGIN, end)]
@@ -267,27 +268,27 @@ def period_of(mechanism: Mechanism) -> float:
     return 0.0 if mechanism.driver.law is None else mechanism.driver.law.period
 
 
-def _readouts(way: Course, language: Language) -> tuple[str, ...]:
+def _readouts(path: Course, language: Language) -> tuple[str, ...]:
     """Return the crank angle or the time at each frame."""
-    frames, period = len(way.degrees) - 1, way.own_time or period_of(way.mechanism)
+    frames, period = len(path.degrees) - 1, path.own_time or period_of(path.mechanism)
     if period:
         sign, unit = symbol("time", language), unit_name("s", language)
-        return tuple(f"/{{{sign}}} = {number(period * at / frames, language, digits=3)} {unit}" for at in range(frames))
+        return tuple(f"/{{{sign}}} = {number(period * k / frames, language, digits=3)} {unit}" for k in range(frames))
     sign, unit = symbol("crank_angle", language), unit_name("deg", language)
-    return tuple(f"/{{{sign}}} = {number(round(float(one), 1), language)}{unit}" for one in way.degrees[:-1])
+    return tuple(f"/{{{sign}}} = {number(round(float(angle), 1), language)}{unit}" for angle in path.degrees[:-1])
 
 
 def _title(title: str, language: Language) -> str:
     what = say("drawing.moving_drawing", language)
-    own = "".join(one for one in title if one.isprintable()).strip()
+    own = "".join(letter for letter in title if letter.isprintable()).strip()
     return f"{own}: {what}" if own else capital(what)
 
 
-def _lengths(mechanism: Mechanism, whole: Machine | None, language: Language) -> list[str]:
+def _lengths(mechanism: Mechanism, machine: Machine | None, language: Language) -> list[str]:
     """Return the lengths of the crank, and of the rod of an engine, in words."""
     lengths = [("crank_radius", mechanism.driver.radius)] if isinstance(mechanism.driver, Crank) else []
-    if whole is not None and whole.lengths is not None:
-        lengths.append(("rod_length", whole.lengths.rod_length))
+    if machine is not None and machine.lengths is not None:
+        lengths.append(("rod_length", machine.lengths.rod_length))
     return [
         f"{label(key, language)} {number(displayed(key, value), language)} {unit_name(key_unit(key), language)}"
         for key, value in lengths
@@ -295,12 +296,12 @@ def _lengths(mechanism: Mechanism, whole: Machine | None, language: Language) ->
 
 
 def _members(shape: Skeleton, language: Language) -> list[str]:
-    """Return what the numbers stand for."""
+    """Return the names of the numbered links."""
     return [f"{number} – {called(name, language)}" for number, name in numbered(shape)]
 
 
-def _time(way: Course, seconds: float, language: Language) -> str:
-    """Return how long a turn takes, or to and fro."""
-    every = "one_period" if period_of(way.mechanism) else "one_revolution" if way.turns else "to_and_fro"
-    every, seconds = ("in_its_time", way.own_time) if way.own_time else (every, seconds)
-    return say(f"drawing.{every}", language, seconds=number(seconds, language))
+def _time(path: Course, seconds: float, language: Language) -> str:
+    """Return the time of a turn or of a passage to and fro, in words."""
+    key = "one_period" if period_of(path.mechanism) else "one_revolution" if path.turns else "to_and_fro"
+    key, seconds = ("in_its_time", path.own_time) if path.own_time else (key, seconds)
+    return say(f"drawing.{key}", language, seconds=number(seconds, language))

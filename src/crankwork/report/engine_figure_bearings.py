@@ -39,7 +39,7 @@ _RAYS, _RAY, _MEAN, _STICK = 30.0, "#8c8c8c", 0.7, 0.12
 # marks nearer than this to another one have no number [pt]
 _CROWDED = 10.0
 # what numbers and title take beside polar diagrams of main journals [pt]
-_BESIDE = 60.0
+_LEFT_MARGIN = 60.0
 _LINES = (SOLID, DASHED, DASH_DOT, DOTTED)
 
 
@@ -55,11 +55,11 @@ class _OverCycle(NamedTuple):
     @classmethod
     def read(cls, listing: Listing, name: str) -> Self:
         """Return the row of a bearing."""
-        at = listing.names.index(name)
+        row = listing.names.index(name)
         mean, *ends = (
-            float(listing.columns[key][at]) for key in ("mean_bearing_load", "bearing_load_max", "bearing_load_min")
+            float(listing.columns[key][row]) for key in ("mean_bearing_load", "bearing_load_max", "bearing_load_min")
         )
-        angles = (float(np.degrees(listing.columns[f"bearing_load_{one}_angle"][at])) for one in ("max", "min"))
+        angles = (float(np.degrees(listing.columns[f"bearing_load_{end}_angle"][row])) for end in ("max", "min"))
         return cls(mean, *(value for pair in zip(ends, angles, strict=True) for value in pair))
 
 
@@ -121,25 +121,25 @@ def _polar(
     `pin`: the row of a crankpin among the loads of bearings. Scales are equal, but for a diagram that would be a stick.
     """
     across, down = (
-        np.append(one, one[0]) for one in (engine.shown(key, diagram.across), engine.shown(key, diagram.down))
+        np.append(column, column[0]) for column in (engine.shown(key, diagram.across), engine.shown(key, diagram.down))
     )
-    pole = tuple(float(one) for one in engine.shown(key, np.array(diagram.pole)))
+    pole = tuple(float(coordinate) for coordinate in engine.shown(key, np.array(diagram.pole)))
     # along the rod is upward, not downward
     sign = 1.0 if pin else -1.0
     mean, wide = _mean(engine, pin or key.removesuffix("_load")), _wider(float(np.ptp(across)), float(np.ptp(down)))
     rows = [Row(engine.named(key)), *rows]
     if mean:
         # that of a crankpin has a name of its own
-        of = "mean_crankpin_load" if pin else "mean_bearing_load"
-        text = f"{engine.named(of)}, {engine.value(of, mean)}"
+        mean_key = "mean_crankpin_load" if pin else "mean_bearing_load"
+        text = f"{engine.named(mean_key)}, {engine.value(mean_key, mean)}"
         rows = [*rows, Row(text, DASHED, _MEAN if wide == 1 else 0.0)]
     if wide > 1:
         rows = [*rows, Row(say("drawing.wider_across", engine.language, factor=wide), width=0.0)]
-    # lower than that nobody tells its marks apart
+    # marks cannot be distinguished on a lower diagram
     paper, box = sheet(_HEIGHT * max(1.0, _LOWEST / current_layout().tall), rows)
     # a circle where scales are equal, which would be an ellipse elsewhere
     radius = float(engine.shown(key, mean)) if wide == 1 else 0.0
-    ends = np.array([0.0, *(one + side * radius for one in pole for side in (-1.0, 1.0))])
+    ends = np.array([0.0, *(coordinate + side * radius for coordinate in pole for side in (-1.0, 1.0))])
     box, x, y = _equal_scales(box, wide * np.append(across, ends[:3]), np.append(down, ends[[0, 3, 4]]))
     x = x[0] / wide, x[1] / wide
     graph = Graph(paper, box, x, (sign * y[0], sign * y[1]), engine.language)
@@ -149,24 +149,24 @@ def _polar(
     paper.segments(np.array([(origin[0], box.top, origin[0], box.top + box.height)]), width=0.8)
     graph.curve("load", across, sign * down, angles=np.append(diagram.degrees, engine.cycle))
     graph.curves["pole"] = np.array([pole[0]]), sign * np.array([pole[1]])
-    at = graph.point(pole[0], sign * pole[1])
+    pole_on_paper = graph.point(pole[0], sign * pole[1])
     if pole[1]:
-        paper.arrow(at, origin, width=1.8)
+        paper.arrow(pole_on_paper, origin, width=1.8)
     marked = engine.shown(key, diagram.marks_across), sign * engine.shown(key, diagram.marks_down)
-    kept = _apart(graph, diagram.marks, marked)
+    kept = _spaced_marks(graph, diagram.marks, marked)
     marks, marked = diagram.marks[kept], (marked[0][kept], marked[1][kept])
     graph.curves["marks"] = marked
-    _rays(graph, at, [one[marks % _RAYS == 0] for one in marked])
+    _rays(graph, pole_on_paper, [coordinates[marks % _RAYS == 0] for coordinates in marked])
     if radius:
         around = np.radians(np.arange(0.0, 361.0, 3.0))
         circle = pole[0] + radius * np.sin(around), sign * pole[1] + radius * np.cos(around)
         graph.curve("mean", *circle, DASHED, width=_MEAN)
     places = zip(marks, graph.across(marked[0]), graph.down(marked[1]), strict=True)
-    names = [("O", *at), *((f"{angle:g}", float(a), float(b)) for angle, a, b in places)]
+    names = [("O", *pole_on_paper), *((f"{angle:g}", float(a), float(b)) for angle, a, b in places)]
     graph.x_title(titles[0])
     graph.y_title(titles[1], 48.0)
     label_marks(paper, names, frame=graph.box)
-    paper.dot(*at, 2.6, fill="#ffffff", width=1.0)
+    paper.dot(*pole_on_paper, 2.6, fill="#ffffff", width=1.0)
     return paper, {key: graph}
 
 
@@ -178,13 +178,13 @@ def _mean(engine: EngineDrawn, name: str) -> float:
     return _OverCycle.read(listing, name).mean
 
 
-def _apart(graph: Graph, angles: Array, places: tuple[Array, Array]) -> list[int]:
-    """Return which marks have room for their numbers, those at quarters of a turn first, then at its twelfths."""
-    order = sorted(range(len(angles)), key=lambda one: (angles[one] % 90 > 0, angles[one] % _RAYS > 0, angles[one]))
+def _spaced_marks(graph: Graph, angles: Array, places: tuple[Array, Array]) -> list[int]:
+    """Return the marks with room for their numbers, those at quarters of a turn first, then at its twelfths."""
+    order = sorted(range(len(angles)), key=lambda k: (angles[k] % 90 > 0, angles[k] % _RAYS > 0, angles[k]))
     on_paper, kept = np.column_stack([graph.across(places[0]), graph.down(places[1])]), list[int]()
-    for one in order:
-        if not kept or np.hypot(*(on_paper[kept] - on_paper[one]).T).min() > _CROWDED:
-            kept.append(one)
+    for index in order:
+        if not kept or np.hypot(*(on_paper[kept] - on_paper[index]).T).min() > _CROWDED:
+            kept.append(index)
     return sorted(kept)
 
 
@@ -196,11 +196,11 @@ def _rays(graph: Graph, pole: tuple[float, float], ends: Sequence[Array]) -> Non
 
 
 def _wider(across: float, along: float) -> int:
-    """Return how many times wider a diagram is drawn than it is, 1 unless it would be a stick."""
+    """Return the factor by which a diagram is drawn wider, 1 unless it would be very narrow."""
     share = across / along if along else 1.0
     # on a sheet both scales are round only where one is ten times the other
     factors = (10,) if current_layout().is_sheet else (50, 20, 10, 5)
-    return 1 if share > _STICK else next((one for one in factors if one * share <= 0.8), factors[-1])
+    return 1 if share > _STICK else next((factor for factor in factors if factor * share <= 0.8), factors[-1])
 
 
 def _equal_scales(box: ChartBox, x: Array, y: Array) -> tuple[ChartBox, tuple[float, float], tuple[float, float]]:
@@ -221,40 +221,40 @@ def _equal_scales(box: ChartBox, x: Array, y: Array) -> tuple[ChartBox, tuple[fl
 def crankpin_load(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the size of the load on every unlike crankpin over the crank angle, mean and extremes of the first."""
     degrees, loads = engine.diagrams.loads
-    sizes = {pin: engine.shown("crankpin_load", one.resultant) for pin, one in loads.crankpins.items()}
+    sizes = {pin: engine.shown("crankpin_load", load.resultant) for pin, load in loads.crankpins.items()}
     first = next(iter(sizes))
-    found = _OverCycle.read(engine.results.listings["bearing_loads"], f"crankpin.{first}")
+    extremes = _OverCycle.read(engine.results.listings["bearing_loads"], f"crankpin.{first}")
     rows = [
         Row(
             engine.named("crankpin_load")
             + (f", {row_name(f'crankpin.{pin}', engine.language)}" if len(sizes) > 1 else ""),
-            _LINES[at % len(_LINES)],
+            _LINES[index % len(_LINES)],
         )
-        for at, pin in enumerate(sizes)
+        for index, pin in enumerate(sizes)
     ]
     style = (10.0, 3.0) if len(sizes) > 1 else DASHED
     which = row_name(f"crankpin.{first}", engine.language) if len(sizes) > 1 else ""
     mean = f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}"
-    rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', found.mean)}", style, 0.8))
+    rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', extremes.mean)}", style, 0.8))
     base = engine.symbol("crankpin_load")[:-1]
     ends = (
         f"{base}{',' if '_' in base else '_'}{name}$ = {engine.value('crankpin_load', value)} "
         f"({engine.number(round(angle, 1))}°)"
-        for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min))
+        for name, angle, value in (("max", extremes.max_angle, extremes.max), ("min", extremes.min_angle, extremes.min))
     )
     rows.append(Row(f"{which}{': ' if which else ''}{'; '.join(ends)}", width=0.0))
     paper, box = sheet(210.0, rows)
     _, high = limits(*sizes.values(), margin=0.14)
     # room for the name of a minimum near zero
-    low = -0.08 * high if found.min < 0.08 * found.max else 0.0
+    low = -0.08 * high if extremes.min < 0.08 * extremes.max else 0.0
     graph = over_cycle(paper, box, (low, high), engine.cycle, engine.language)
-    for at, (pin, values) in enumerate(sizes.items()):
+    for index, (pin, values) in enumerate(sizes.items()):
         graph.curve(
-            f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), _LINES[at % len(_LINES)]
+            f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), _LINES[index % len(_LINES)]
         )
-    level = float(engine.shown("crankpin_load", found.mean))
+    level = float(engine.shown("crankpin_load", extremes.mean))
     graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.8)
-    for name, angle, value in (("max", found.max_angle, found.max), ("min", found.min_angle, found.min)):
+    for name, angle, value in (("max", extremes.max_angle, extremes.max), ("min", extremes.min_angle, extremes.min)):
         mark_point(graph, name, angle, float(engine.shown("crankpin_load", value)), name)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(
@@ -268,24 +268,24 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def main_journal_polar(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the loads of all main journals in the frame of the shaft, side by side on equal scales."""
     diagrams = engine.diagrams.mains
-    most = max(float(np.hypot(one.across, one.down).max()) for one in diagrams)
+    most = max(float(np.hypot(diagram.across, diagram.down).max()) for diagram in diagrams)
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
     columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
     lines = -(-len(diagrams) // columns)
-    side, gap = (current_layout().width - _BESIDE - current_layout().right + 22) / columns - 22, (22.0, 26.0)
+    side, gap = (current_layout().width - _LEFT_MARGIN - current_layout().right + 22) / columns - 22, (22.0, 26.0)
     paper = Canvas(current_layout().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
-    for at, diagram in enumerate(diagrams):
-        column, line = at % columns, at // columns
-        box = ChartBox(_BESIDE + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
-        has_below = at + columns >= len(diagrams)
-        small_text(paper, box.left + side / 2, box.top - 5, row_name(f"main_journal.{at + 1}", engine.language))
-        graphs[str(at + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
+    for index, diagram in enumerate(diagrams):
+        column, line = index % columns, index // columns
+        box = ChartBox(_LEFT_MARGIN + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
+        has_below = index + columns >= len(diagrams)
+        small_text(paper, box.left + side / 2, box.top - 5, row_name(f"main_journal.{index + 1}", engine.language))
+        graphs[str(index + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
         title = f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}"
         if has_below:
-            graphs[str(at + 1)].x_title(title)
+            graphs[str(index + 1)].x_title(title)
         if column == 0:
-            graphs[str(at + 1)].y_title(title, 30.0)
+            graphs[str(index + 1)].y_title(title, 30.0)
     return paper, graphs
 
 
@@ -332,7 +332,7 @@ def main_wear(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw the rings of a listing side by side, depths on one scale."""
     angles, rings = wear_rings(engine.results, listing)
-    rings = {name: one._replace(sums=engine.shown("wear_sum", one.sums)) for name, one in rings.items()}
+    rings = {name: ring._replace(sums=engine.shown("wear_sum", ring.sums)) for name, ring in rings.items()}
     across = len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3
     lines = -(-len(rings) // across)
     side = min(
@@ -342,28 +342,28 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Canvas, Mappi
     )
     start = (current_layout().width - across * side - (across - 1) * _GAP) / 2
     # across a ring its angle would stand on the worn surface
-    below = 10.0 * any(one.hole.arc < 360 for one in rings.values())
+    below = 10.0 * any(ring.hole.arc < 360 for ring in rings.values())
     head = (_HEAD if len(rings) > 1 else 0.0) + below
     paper = Canvas(current_layout().width, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
-    deepest = max(float(one.sums.max()) for one in rings.values()) or 1.0
+    deepest = max(float(ring.sums.max()) for ring in rings.values()) or 1.0
     graphs = {}
-    for at, (name, one) in enumerate(rings.items()):
-        top = TOP + (at // across) * (side + head + _GAP) + head
-        box = ChartBox(start + (at % across) * (side + _GAP), top, side, side)
-        graphs[name] = _ring(engine, paper, box, angles, one, deepest)
+    for index, (name, ring) in enumerate(rings.items()):
+        top = TOP + (index // across) * (side + head + _GAP) + head
+        box = ChartBox(start + (index % across) * (side + _GAP), top, side, side)
+        graphs[name] = _ring(engine, paper, box, angles, ring, deepest)
         if len(rings) > 1:
             small_text(paper, box.left + side / 2, top - 4 - below, row_name(f"{thing}.{name}", engine.language))
-        if one.hole.arc < 360:
-            angle = engine.number(one.hole.angle, 4)
+        if ring.hole.arc < 360:
+            angle = engine.number(ring.hole.angle, 4)
             hole = say("drawing.oil_hole_at", engine.language, angle=angle)
             small_text(paper, box.left + side / 2, top - 3, hole)
     unit = engine.unit("wear_sum")
     largest = say("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
     text = f"{engine.symbol('wear_sum')} – {largest}; {say('drawing.worn', engine.language)}"
     frame = say("drawing.crank_up" if thing == "crankpin" else "drawing.crank_one", engine.language)
-    rows = [row for one in (text, frame) for row in fitted_lines(one, 8, current_layout().width / WIDER)]
-    for at, row in enumerate(rows):
-        paper.text(current_layout().width / 2, paper.height - 35 + 12 * at, row, size=8, anchor="middle")
+    rows = [row for line_text in (text, frame) for row in fitted_lines(line_text, 8, current_layout().width / WIDER)]
+    for index, row in enumerate(rows):
+        paper.text(current_layout().width / 2, paper.height - 35 + 12 * index, row, size=8, anchor="middle")
     return paper, graphs
 
 
@@ -385,9 +385,9 @@ def _ring(engine: EngineDrawn, paper: Canvas, box: ChartBox, angles: Array, ring
     graph.paper.segments(np.column_stack([x, y, graph.across(outer[0]), graph.down(outer[1])]), width=0.6)
     graph.curves["ends"] = inner[0], inner[1]
     step = 1 if len(angles) <= 12 or box.width > 200 else 2
-    for at in range(0, len(angles), step):
-        place = rays[:, at] * (1 + 14 / (box.width / 2 - _ROOM))
-        small_text(paper, float(graph.across(place[0])), float(graph.down(place[1])) + 2.7, str(at + 1))
+    for ray in range(0, len(angles), step):
+        place = rays[:, ray] * (1 + 14 / (box.width / 2 - _ROOM))
+        small_text(paper, float(graph.across(place[0])), float(graph.down(place[1])) + 2.7, str(ray + 1))
     cross = np.array([[-0.12, 0, 0.12, 0], [0, -0.12, 0, 0.12]])
     centre = [graph.across(cross[:, 0]), graph.down(cross[:, 1]), graph.across(cross[:, 2]), graph.down(cross[:, 3])]
     paper.segments(np.column_stack(centre), width=0.6)
@@ -401,8 +401,8 @@ def _hole(graph: Graph, ring: WearRing) -> None:
     if hole.arc == 360:
         return
     axis = _towards(np.array([hole.angle]))[:, 0]
-    beside = np.array([axis[1], -axis[0]]) * 0.045
-    walls = [np.array([beside * side, axis + beside * side]).T for side in (-1, 1)]
+    half_width = np.array([axis[1], -axis[0]]) * 0.045
+    walls = [np.array([half_width * side, axis + half_width * side]).T for side in (-1, 1)]
     for wall in walls:
         graph.paper.line(graph.across(wall[0]), graph.down(wall[1]), width=0.9)
     end = axis * 0.98

@@ -52,14 +52,14 @@ def kinematics(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
             keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
         curves = [_Line(key, engine.values(key)[turn], style) for key, style in keys.items()]
         box = ChartBox(current_layout().left, top, current_layout().inner, panel)
-        ends = limits(*(one.values for one in curves))
+        ends = limits(*(curve.values for curve in curves))
         graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
-        for at, one in enumerate(curves):
-            graph.curve(one.key, engine.degrees[turn], one.values, one.style)
+        for index, curve in enumerate(curves):
+            graph.curve(curve.key, engine.degrees[turn], curve.values, curve.style)
             if has_orders:
-                left = box.left + 8 + 70 * at
-                paper.line([left, left + 20], [box.top - 10] * 2, style=one.style, width=1.2, name="legend")
-                paper.text(left + 27, box.top - 7, engine.symbol(one.key), size=8.5)
+                left = box.left + 8 + 70 * index
+                paper.line([left, left + 20], [box.top - 10] * 2, style=curve.style, width=1.2, name="legend")
+                paper.text(left + 27, box.top - 7, engine.symbol(curve.key), size=8.5)
         graph.y_title(engine.title(f"piston_{noun}"), 42.0)
         graphs[noun] = graph
         top += graph.box.height + gap
@@ -70,12 +70,12 @@ def kinematics(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def pressure(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
     degrees, values = engine.degrees, engine.values("gas_pressure")
-    others = engine.other_pressures
-    names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *others)]
+    other_pressures = engine.other_pressures
+    names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *other_pressures)]
     rows = [Row(name, style) for name, style in zip(names, itertools.cycle(_STYLES), strict=False)]
-    paper, box = banded_sheet(engine, _HEIGHT, rows if others else ())
-    graph = over_cycle(paper, box, limits(values, *others.values()), engine.cycle, engine.language)
-    for (number, other), row in zip(others.items(), rows[1:], strict=True):
+    paper, box = banded_sheet(engine, _HEIGHT, rows if other_pressures else ())
+    graph = over_cycle(paper, box, limits(values, *other_pressures.values()), engine.cycle, engine.language)
+    for (number, other), row in zip(other_pressures.items(), rows[1:], strict=True):
         graph.curve(f"gas_pressure.{number}", degrees, other, row.style)
     graph.curve("gas_pressure", degrees, values)
     engine.name_axes(graph, "crank_angle", "gas_pressure")
@@ -99,7 +99,7 @@ def _short(name: str) -> str:
         base, index, primes = symbol.groups()
         marks = "″" * (primes == "''") or primes.replace("'", "′")
         return f"${base}{marks}{'_' if index else ''}{index}$"
-    known = "".join(one if one.isprintable() and one != "$" else "□" for one in name)
+    known = "".join(letter if letter.isprintable() and letter != "$" else "□" for letter in name)
     return known if len(known) <= _LONGEST else f"{known[: _LONGEST - 1]}…"
 
 
@@ -109,7 +109,7 @@ def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]]) -> Non
     `points`: name and place in the units of the scales [their units].
     """
     if points:
-        graph.curves["points"] = np.array([one[1] for one in points]), np.array([one[2] for one in points])
+        graph.curves["points"] = np.array([point[1] for point in points]), np.array([point[2] for point in points])
         label_marks(graph.paper, [(name, *graph.point(x, y)) for name, x, y in points], frame=graph.box)
 
 
@@ -143,9 +143,9 @@ def _over_cycle(
     engine: EngineDrawn, name: str, curves: Sequence[_Line], rows: Sequence[Row], title: str
 ) -> tuple[Canvas, Mapping[str, Graph]]:
     paper, box = banded_sheet(engine, _HEIGHT, rows)
-    graph = over_cycle(paper, box, limits(*(one.values for one in curves)), engine.cycle, engine.language)
-    for one in curves:
-        graph.curve(one.key, engine.degrees, one.values, one.style)
+    graph = over_cycle(paper, box, limits(*(curve.values for curve in curves)), engine.cycle, engine.language)
+    for curve in curves:
+        graph.curve(curve.key, engine.degrees, curve.values, curve.style)
     strokes(engine, graph)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(title)
@@ -207,13 +207,13 @@ def _names(engine: EngineDrawn) -> tuple[str, ...]:
 def firings(engine: EngineDrawn, graph: Graph) -> None:
     """Write the number of each cylinder above a graph where it fires."""
     centre = 360.0 if engine.cycle == _FOUR_STROKE else 0.0
-    found: dict[float, list[str]] = {}
+    numbers_at: dict[float, list[str]] = {}
     for number, place in enumerate(engine.diagrams.whole.layout.places, start=1):
-        at = (place.firing_angle + place.top + centre) % engine.cycle
-        found.setdefault(round(at, 6), []).append(str(number))
+        angle = (place.firing_angle + place.top + centre) % engine.cycle
+        numbers_at.setdefault(round(angle, 6), []).append(str(number))
     top = graph.box.top
-    for at, numbers in found.items():
-        x = float(graph.across(at))
+    for angle, numbers in numbers_at.items():
+        x = float(graph.across(angle))
         graph.paper.area([x, x - 2.2, x + 2.2], [top, top - 4.5, top - 4.5], fill="#000000")
         small_text(graph.paper, x, top - 7, ",".join(numbers))
 
@@ -296,12 +296,14 @@ def _within(graph: Graph, x: Array, y: Array) -> tuple[Array, Array]:
 def _dead_centres(engine: EngineDrawn, graph: Graph) -> None:
     """Mark the volumes at the dead centres, clearance and swept volume above."""
     space, paper, box = engine.results.solved.space, graph.paper, graph.box
-    volumes = [float(engine.shown("cylinder_volume", one)) for one in (space.clearance, space.clearance + space.swept)]
+    volumes = [
+        float(engine.shown("cylinder_volume", size)) for size in (space.clearance, space.clearance + space.swept)
+    ]
     for name, volume in zip(("tdc", "bdc"), volumes, strict=True):
-        at = float(graph.across(volume))
+        x = float(graph.across(volume))
         down = np.array([box.top - 6, box.top + box.height])
-        paper.line([at, at], down, style=DASH_DOT, width=0.6)
-        small_text(paper, at, box.top - 17, say(f"drawing.{name}", engine.language))
+        paper.line([x, x], down, style=DASH_DOT, width=0.6)
+        small_text(paper, x, box.top - 17, say(f"drawing.{name}", engine.language))
     level = box.top - 4
     spans = (("clearance_volume", 0.0, volumes[0]), ("swept_volume", volumes[0], volumes[1]))
     for key, start, end in spans:

@@ -1,4 +1,4 @@
-"""What the figures of a whole engine share: its diagrams, and how values, units and titles are written."""
+"""Shared context of the figures of an engine: its diagrams, and its values, units and titles as text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from crankwork.show.scene import Drawing
 
 @dataclass(frozen=True)
 class EngineDrawn:
-    """What is drawn of a crank gear or an engine: results, computed finer than in tables, and how they are shown."""
+    """Data of the figures of an engine or its crank mechanism: results on a finer grid than tables, as displayed."""
 
     results: Results
     columns: Mapping[str, Array]  # [SI]
@@ -58,8 +58,8 @@ class EngineDrawn:
         machine = self.results.machine
         if machine.engine is None or not machine.engine.gases:
             return {}
-        found = self.diagrams.other_pressures(self.degrees)
-        return {number: self.shown("gas_pressure", one) for number, one in found.items()}
+        pressures = self.diagrams.other_pressures(self.degrees)
+        return {number: self.shown("gas_pressure", pressure) for number, pressure in pressures.items()}
 
     def shown(self, key: str, values: Array | float) -> Array:
         """Return SI values in the display unit of a quantity. [display unit]"""
@@ -100,13 +100,13 @@ class EngineDrawn:
     def finished(self, name: str, paper: Canvas, remark: str = "", *, forces: bool = False) -> Drawing:
         """Return a figure, with the method that made it."""
         if forces and self.per_area:
-            remark = "; ".join(one for one in (remark, say("report.per_area", self.language)) if one)
+            remark = "; ".join(text for text in (remark, say("report.per_area", self.language)) if text)
         write_method(paper, results_method(self.results, self.language), remark)
         return paper.drawing(figure_title(name, self.language), self.language)
 
 
 def engine_drawn(results: Results, language: Language, *, per_area: bool) -> EngineDrawn:
-    """Return what the figures share."""
+    """Return the shared context of the figures."""
     area = results.summary.get("piston_area") if per_area else None
     if per_area and area is None and "piston_force" in results.columns:
         raise CrankworkError("forces per piston area need cylinder.bore")

@@ -58,22 +58,22 @@ def _bar_graph(
     fills: Sequence[int],
 ) -> Graph:
     """Draw groups of bars over the orders."""
-    most = max((max(one.heights.values(), default=0.0) for one in bars), default=0.0) or 1.0
+    most = max((max(bar.heights.values(), default=0.0) for bar in bars), default=0.0) or 1.0
     top_end = (1.22 if len(orders) < 8 else 1.1) * most
     graph = Graph(paper, box, (0.0, float(len(orders))), (0.0, top_end), engine.language, to_scale=False)
-    has_any = any(one.heights and max(one.heights.values()) for one in bars)
+    has_any = any(bar.heights and max(bar.heights.values()) for bar in bars)
     ticks = round_ticks(0.0, top_end, max(3, round(box.height / 26))) if has_any else np.zeros(1)
     graph.frame(np.array([]), ticks)
     for place, order in enumerate(orders):
-        present = [at for at, one in enumerate(bars) if order in one.heights]
+        present = [index for index, bar in enumerate(bars) if order in bar.heights]
         width = 0.8 / max(len(bars), 1)
         start = place + 0.5 - width * len(present) / 2
         values = [engine.number(bars[which].heights[order], 4) for which in present]
         room = box.width / len(orders) * width - _BETWEEN
-        is_upright = any(WIDER * text_width(one, 7.0) > room for one in values)
-        for at, (which, text) in enumerate(zip(present, values, strict=True)):
+        is_upright = any(WIDER * text_width(value, 7.0) > room for value in values)
+        for index, (which, text) in enumerate(zip(present, values, strict=True)):
             height = bars[which].heights[order]
-            left, right = graph.across(start + at * width), graph.across(start + (at + 1) * width)
+            left, right = graph.across(start + index * width), graph.across(start + (index + 1) * width)
             top, bottom = graph.down(height), graph.down(0.0)
             if height > 0.002 * most:
                 _fill(paper, (float(left), float(top), float(right), float(bottom)), fills[which])
@@ -83,8 +83,8 @@ def _bar_graph(
                 small_text(paper, float(left + right) / 2, float(bottom) - 2.5, "0")
         if len(orders) <= 12 or order == round(order):
             small_text(paper, float(graph.across(place + 0.5)), box.top + box.height + 11, engine.number(order))
-    for one in bars:
-        graph.curves[one.kind] = np.array(list(one.heights)), np.array(list(one.heights.values()))
+    for bar in bars:
+        graph.curves[bar.kind] = np.array(list(bar.heights)), np.array(list(bar.heights.values()))
     return graph
 
 
@@ -131,19 +131,23 @@ def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     }
     kinds = {name: parts for name, parts in kinds.items() if parts}
     order = ["reciprocating", "rotating", "balance_shafts", "counterweights", "residual", "knuckle_pins"]
-    fills = [order.index(one) for one in kinds]
+    fills = [order.index(kind) for kind in kinds]
     sizes = {
-        panel: {kind: {float(one.order): getattr(one, panel).largest for one in some} for kind, some in kinds.items()}
+        panel: {
+            kind: {float(part.order): getattr(part, panel).largest for part in parts} for kind, parts in kinds.items()
+        }
         for panel in (("force", "moment") if engine.diagrams.is_spread else ("force",))
     }
-    most = {one: max((max(some.values(), default=0.0) for some in sizes[one].values()), default=0.0) for one in sizes}
-    panels = [one for one in sizes if most[one] > _free(engine, one)] or ["force"]
+    most = {
+        key: max((max(heights.values(), default=0.0) for heights in sizes[key].values()), default=0.0) for key in sizes
+    }
+    panels = [panel for panel in sizes if most[panel] > _free(engine, panel)] or ["force"]
     texts = [say(f"report.{kind}", language) for kind in kinds]
     head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
     height = scaled_height(150.0)
     paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
     _swatches(paper, texts, fills)
-    for panel in (one for one in sizes if one not in panels):
+    for panel in (panel for panel in sizes if panel not in panels):
         key = f"free_{panel}"
         with use_units(units_of(engine.results, key, most[panel])):
             # of forces that cancel rounding is left
@@ -151,16 +155,16 @@ def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
         free = f"{say(f'drawing.{key}', language)} {engine.symbol(key)}"
         text = say("drawing.hardly_free", language, free=free, size=size)
         paper.text(current_layout().left, TOP + head - 9.4, text, size=8.5)
-    orders = [float(one.order) for one in balance.reciprocating]
+    orders = [float(part.order) for part in balance.reciprocating]
     graphs: dict[str, Graph] = {}
-    for at, panel in enumerate(panels):
+    for index, panel in enumerate(panels):
         key = f"free_{panel}"
         with use_units(units_of(engine.results, key, most[panel])):
             bars = [
-                _Bars(kind, {order: float(engine.shown(key, value)) for order, value in some.items()})
-                for kind, some in sizes[panel].items()
+                _Bars(kind, {order: float(engine.shown(key, value)) for order, value in heights.items()})
+                for kind, heights in sizes[panel].items()
             ]
-            box = ChartBox(current_layout().left, TOP + head + at * (height + 28), current_layout().inner, height)
+            box = ChartBox(current_layout().left, TOP + head + index * (height + 28), current_layout().inner, height)
             graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
             graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
     graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
@@ -173,7 +177,7 @@ def _inertia(engine: EngineDrawn) -> float:
 
 
 def _free(engine: EngineDrawn, panel: str) -> float:
-    """Return what a free force must be to be drawn, or a moment, which is a force over a metre. [N], [N m]"""
+    """Return the least free force that is drawn, or moment, taken as a force at a metre. [N], [N m]"""
     return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
 
 
@@ -193,18 +197,20 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     head = 13.4 * len(rows) + (5 if rows else 0) + 12
     start = (current_layout().width - columns * side - (columns - 1) * gap) / 2 + 16
     paper = Canvas(current_layout().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
-    for at, text in enumerate(rows):
-        left, style = current_layout().left, DASHED if at == 0 else SOLID
-        paper.line([left, left + 20], [TOP + 2 + 13.4 * at] * 2, style=style, width=1.2, name="legend")
-        paper.text(left + 27, TOP + 5 + 13.4 * at, text, size=8.5)
+    for index, text in enumerate(rows):
+        left, style = current_layout().left, DASHED if index == 0 else SOLID
+        paper.line([left, left + 20], [TOP + 2 + 13.4 * index] * 2, style=style, width=1.2, name="legend")
+        paper.text(left + 27, TOP + 5 + 13.4 * index, text, size=8.5)
     graphs: dict[str, Graph] = {}
-    for at, (order, (before, after)) in enumerate(loci.items()):
-        box = ChartBox(start + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + 52), side, side)
+    for index, (order, (before, after)) in enumerate(loci.items()):
+        box = ChartBox(
+            start + (index % columns) * (side + gap), TOP + head + (index // columns) * (side + 52), side, side
+        )
         graphs[str(order)] = _locus(engine, paper, box, before, after, is_balanced=is_balanced)
         small_text(paper, box.left + side / 2, box.top - 5, say("report.order", language, order=order))
         title = f"{engine.symbol('free_force')}, {engine.unit('free_force')}"
         graphs[str(order)].x_title(title)
-        if not at % columns:
+        if not index % columns:
             graphs[str(order)].y_title(title, 30.0)
     return paper, graphs
 
@@ -214,9 +220,9 @@ def _locus(
 ) -> Graph:
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
-    aside = max(float(np.max(np.abs(one.across))) for one in (before, after))
+    width = max(float(np.max(np.abs(locus.across))) for locus in (before, after))
     # forces of an engine in line go to and fro along its cylinders
-    share = 1.0 if aside > _LINE * max(before.largest, after.largest) else _NARROW
+    share = 1.0 if width > _LINE * max(before.largest, after.largest) else _NARROW
     box = box._replace(left=box.left + (1 - share) / 2 * box.width, width=share * box.width)
     graph = Graph(paper, box, (-share * reach, share * reach), (-reach, reach), engine.language)
     box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.height / 32))))
@@ -272,8 +278,8 @@ def phase_stars(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     side, gap, head = (current_layout().width - 24) / columns - 8, 8.0, 14.0
     paper = Canvas(current_layout().width, TOP + lines * (side + head) + 30)
     graphs: dict[str, Graph] = {}
-    for at, star in enumerate(stars):
-        box = ChartBox(12 + (at % columns) * (side + gap), TOP + head + (at // columns) * (side + head), side, side)
+    for k, star in enumerate(stars):
+        box = ChartBox(12 + (k % columns) * (side + gap), TOP + head + (k // columns) * (side + head), side, side)
         order = engine.number(star.order)
         graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
         text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
@@ -289,7 +295,7 @@ def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: compl
     directions: dict[tuple[float, float], list[int]] = {}
     for number, vector in enumerate(vectors, start=1):
         directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
-    longest = max(*(len(one) for one in directions.values()), abs(total))
+    longest = max(*(len(numbers_of_ray) for numbers_of_ray in directions.values()), abs(total))
     reach = longest * (1 + 22 / (box.width / 2 - 22))
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
     middle = graph.point(0.0, 0.0)
@@ -299,10 +305,10 @@ def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: compl
     graph.curves["sum"] = np.array([total.imag]), np.array([total.real])
     ends = []
     for (up, across), numbers in directions.items():
-        for at in range(len(numbers)):
-            paper.arrow(graph.point(at * across, at * up), graph.point((at + 1) * across, (at + 1) * up), width=0.8)
+        for k in range(len(numbers)):
+            paper.arrow(graph.point(k * across, k * up), graph.point((k + 1) * across, (k + 1) * up), width=0.8)
         end = graph.point(len(numbers) * across, len(numbers) * up)
-        ends.append((",".join(str(one) for one in numbers), *end))
+        ends.append((",".join(str(number) for number in numbers), *end))
     paper.dot(*middle, 1.6)
     label_marks(paper, ends, size=7.0, dot=0.0)
     graph.curves["ends"] = _ends(directions)
@@ -310,6 +316,6 @@ def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: compl
 
 
 def _ends(directions: Mapping[tuple[float, float], Sequence[int]]) -> tuple[Array, Array]:
-    lengths = np.array([len(one) for one in directions.values()])
+    lengths = np.array([len(numbers) for numbers in directions.values()])
     up, across = np.array(list(directions)).T
     return across * lengths, up * lengths

@@ -1,4 +1,4 @@
-"""What figures are called."""
+"""Titles of figures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ def kind_of(name: str) -> str:
 
 
 def figure_title(name: str, language: Language) -> str:
-    """Return what a figure shows, for its caption."""
+    """Return the title of a figure, for its caption."""
     kind = kind_of(name)
     number = name.removeprefix(kind).removeprefix("_")
     # some are called what their table is

@@ -69,10 +69,10 @@ _SUMS = ("crankpin_wear", "main_wear")
 
 
 def reader_units(results: Results) -> DisplayUnits:
-    """Return the units that a reader is shown: no force of 10000 N where all of them are told in kN."""
-    listed = (one.columns for name, one in results.listings.items() if name not in _SUMS)
+    """Return the display units for readers: forces in kN where many of them are above 10000 N."""
+    listed = (listing.columns for name, listing in results.listings.items() if name not in _SUMS)
     largest = dict.fromkeys(_LARGER, 0.0)
-    for key, values in itertools.chain(*(one.items() for one in (results.columns, *listed))):
+    for key, values in itertools.chain(*(columns.items() for columns in (results.columns, *listed))):
         unit = "" if _is_angle(key) or _is_time(key) else QUANTITIES[base_key(key)].metric
         if unit in largest:
             known = values[np.isfinite(values)]
@@ -132,7 +132,7 @@ def is_per_area(key: str) -> bool:
     return not _is_angle(key) and not _is_time(key) and bool(QUANTITIES[base_key(key)].per_area_unit)
 
 
-def told_as(key: str, results: Results) -> str:
+def display_key(key: str, results: Results) -> str:
     """Return the key whose name a single value has: the mean torque may be what the driver must give.
 
     What several cylinders deliver is that of all.
@@ -155,22 +155,22 @@ def label(key: str, language: Language) -> str:
 
 
 def _part(kind: str, name: str, language: Language) -> str:
-    """Return what a part of a quantity is called: the report's own phrase, or the name as it is."""
+    """Return the name of a part of a quantity: the report's own phrase, or the name as it is."""
     if kind in (*_DELIVERED, *MOVED) and (name.isdecimal() or name == "all"):
-        told = say("drawing.all_cylinders", language)
-        return told if name == "all" else say("drawing.cylinder", language, number=name)
-    way = f"report.way_{name}"
-    key = way if kind in _BY_WAY and has_text(way) else f"report.{name}"
+        of_all = say("drawing.all_cylinders", language)
+        return of_all if name == "all" else say("drawing.cylinder", language, number=name)
+    method_key = f"report.way_{name}"
+    key = method_key if kind in _BY_WAY and has_text(method_key) else f"report.{name}"
     return say(key, language) if has_text(key) else own_name(kind, name)
 
 
 def called(link: str, language: Language) -> str:
-    """Return what a link is called: the crank has its name from the program."""
+    """Return the name of a link; the crank has its name from the program."""
     return say("report.crank", language) if link == "crank" else link
 
 
 def row_name(name: str, language: Language) -> str:
-    """Return what a row of a listing is called: `crankpin.1` is crankpin 1."""
+    """Return the name of a row of a listing: `crankpin.1` is crankpin 1."""
     kind, _, number = name.partition(".")
     what = say(f"report.{kind}", language)
     if kind in _BY_ORDER:
@@ -212,7 +212,7 @@ def symbol(key: str, language: Language) -> str:
 
 
 def method_name(kinematics: str, order: int, rod: str, language: Language) -> str:
-    """Return how a result was made, in words; `rod` is empty for a machine without one."""
+    """Return the method of a result in words; `rod` is empty for a machine without one."""
     name = say(f"report.{kinematics}", language, order=order)
     return f"{name}; {say(f'report.{rod}', language)}" if rod else name
 

@@ -43,23 +43,23 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
     `inertia` and `energy`: reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle;
     `degrees`: crank angles; every thirtieth degree is marked [deg].
     """
-    found, language = tangents(inertia, energy, wanted), style.language
+    construction, language = tangents(inertia, energy, wanted), style.language
     # slopes and angles are those of J over kg m2
     with use_units(METRIC):
-        ends, scales = _ends(inertia, energy, found)
-        slopes = (found.slope_max, DASHED, "max"), (found.slope_min, DASH_DOT, "min")
-        rows = [Row(_angle(scales.x / scales.y, one, name, language), line, 0.9) for one, line, name in slopes]
+        ends, scales = _ends(inertia, energy, construction)
+        slopes = (construction.slope_max, DASHED, "max"), (construction.slope_min, DASH_DOT, "min")
+        rows = [Row(_angle(scales.x / scales.y, slope, name, language), line, 0.9) for slope, line, name in slopes]
         if not current_layout().is_sheet:
             # a sheet has them over every graph
             rows.append(Row(_scales(scales, language), width=0.0))
         paper, box = sheet((ends[1][1] - ends[1][0]) / scales.y * points_per_mm() / scaled_height(1.0), rows)
         graph = Graph(paper, box, *ends, language)
         graph.frame(round_ticks(*graph.x), graph.up_ticks)
-        _lines(graph, inertia, energy, found, degrees)
+        _lines(graph, inertia, energy, construction, degrees)
         graph.x_title(axis_title(QUANTITIES["reduced_inertia"], language))
         graph.y_title(axis_title(QUANTITIES["kinetic_energy_change"], language))
-        cut = number((found.foot_max - found.foot_min) / scales.y, language, digits=5)
-        shown = f"{number(found.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
+        cut = number((construction.foot_max - construction.foot_min) / scales.y, language, digits=5)
+        shown = f"{number(construction.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
         tan = "tg" if language == "ru" else "tan"
         formula = f"$μ_J$ $kl$/({tan} $ψ_max$ − {tan} $ψ_min$) = {shown}"
         foot = f"$kl$ = {cut} {unit_name('mm', language)}; {say('drawing.flywheel', language)}: {formula}"
@@ -68,19 +68,19 @@ def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Arr
 
 
 class _Scales(NamedTuple):
-    """What a millimetre of the paper is across and upward. [kg m2], [J]"""
+    """Values of a millimetre of the paper across and upward. [kg m2], [J]"""
 
     x: float
     y: float
 
 
-def _ends(inertia: Array, energy: Array, found: Tangents) -> tuple[tuple[Ends, Ends], _Scales]:
+def _ends(inertia: Array, energy: Array, construction: Tangents) -> tuple[tuple[Ends, Ends], _Scales]:
     """Return the ends of both axes, and their scales, which are 1, 2 or 5 times a power of ten."""
     most = float(np.max(inertia))
-    feet = np.array([found.foot_max, found.foot_min])
+    feet = np.array([construction.foot_max, construction.foot_min])
     # as far as the tangents are seen to touch the curve
-    touch = np.array([inertia[found.touch_max], inertia[found.touch_min]]) + _BEYOND * most
-    beyond = feet + np.array([found.slope_max, found.slope_min]) * np.minimum(touch, _WIDE * most)
+    touch = np.array([inertia[construction.touch_max], inertia[construction.touch_min]]) + _BEYOND * most
+    beyond = feet + np.array([construction.slope_max, construction.slope_min]) * np.minimum(touch, _WIDE * most)
     through = np.array([*energy, *feet, *beyond, 0.0])
     margin = 0.06 * float(np.ptp(through))
     low, high = float(through.min()) - margin, float(through.max()) + margin
@@ -99,21 +99,21 @@ def _scales(scales: _Scales, language: Language) -> str:
     return "; ".join(texts)
 
 
-def _lines(graph: Graph, inertia: Array, energy: Array, found: Tangents, degrees: Array) -> None:
+def _lines(graph: Graph, inertia: Array, energy: Array, construction: Tangents, degrees: Array) -> None:
     """Draw the curve, its tangents down to the energy axis, and the angles on it."""
-    width, feet = graph.x[1], (found.foot_max, found.foot_min)
+    width, feet = graph.x[1], (construction.foot_max, construction.foot_min)
     graph.curve("energy", inertia, energy, angles=degrees)
     for foot, slope, line, name in (
-        (feet[0], found.slope_max, DASHED, "max"),
-        (feet[1], found.slope_min, DASH_DOT, "min"),
+        (feet[0], construction.slope_max, DASHED, "max"),
+        (feet[1], construction.slope_min, DASH_DOT, "min"),
     ):
         ends = [0.0, width], [foot, foot + slope * width]
         graph.curve(name, *inside(ends, graph.y), line, width=0.9)
-    marks = [int(np.argmin(np.abs(degrees - one))) for one in np.arange(0, float(degrees[-1]) - 1, 30)]
+    marks = [int(np.argmin(np.abs(degrees - angle))) for angle in np.arange(0, float(degrees[-1]) - 1, 30)]
     points = [(f"{degrees[i]:g}", float(inertia[i]), float(energy[i])) for i in marks]
     label_points(graph, [*points, ("k", 0.0, feet[0]), ("l", 0.0, feet[1])])
     for name in ("max", "min"):
-        x, y = (one[-1] for one in graph.curves[name])
+        x, y = (coordinates[-1] for coordinates in graph.curves[name])
         foot = graph.curves[name][1][0]
         label_marks(graph.paper, [(f"$ψ_{name}$", *graph.point(0.9 * x, foot + 0.9 * (y - foot)))], dot=0.0)
 
@@ -122,8 +122,8 @@ def inside(ends: tuple[Sequence[float], Sequence[float]], y: tuple[float, float]
     """Return the part of a straight line that lies within a range of its ordinates."""
     (a, b), (p, q) = ends
     low, high = min(y), max(y)
-    shares = sorted(min(max((one - p) / (q - p), 0.0), 1.0) for one in (low, high)) if q != p else [0.0, 1.0]
-    return [a + one * (b - a) for one in shares], [p + one * (q - p) for one in shares]
+    shares = sorted(min(max((ordinate - p) / (q - p), 0.0), 1.0) for ordinate in (low, high)) if q != p else [0.0, 1.0]
+    return [a + share * (b - a) for share in shares], [p + share * (q - p) for share in shares]
 
 
 def _angle(scale: float, slope: float, name: str, language: Language) -> str:
@@ -150,8 +150,8 @@ def speed_curve(degrees: Array, speed: Array, evenness: Fluctuation, style: Styl
     ]
     shown.append(f"$δ$ = {number(evenness.delta, language, digits=3)}")
     paper, box = sheet(216.0, [Row(";  ".join(shown), width=0.0)])
-    spare = 0.08 * (high - low) or 0.01 * high
-    ends = displayed_values(row, np.array([low - spare, high + spare]))
+    margin = 0.08 * (high - low) or 0.01 * high
+    ends = displayed_values(row, np.array([low - margin, high + margin]))
     graph = drive_graph(paper, box, degrees, (float(ends[0]), float(ends[1])), style)
     graph.curve("speed", degrees, displayed_values(row, speed))
     for value, name, line in levels:

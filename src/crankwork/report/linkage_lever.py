@@ -44,18 +44,18 @@ class _Named(NamedTuple):
 
 
 def lever_figure(results: Results, degrees: float, style: Style) -> dict[str, Callable[[], Drawing]]:
-    """Return what draws Zhukovsky's lever at a crank angle [deg]; nothing where nothing acts."""
+    """Return the function that draws Zhukovsky's lever at a crank angle [deg]; none without forces."""
     lever = zhukovsky_lever(results, degrees, style.links)
     if lever is None:
         return {}
-    numbers = {one.name: one.number for one in skeleton(results.machine.mechanism, style.links).members}
+    numbers = {member.name: member.number for member in skeleton(results.machine.mechanism, style.links).members}
     return {"zhukovsky_lever": partial(_figure, lever, numbers, degrees, style)}
 
 
 def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style) -> Drawing:
     language = style.language
     forces = _named(lever, numbers, language)
-    places = np.vstack([np.zeros(2), *lever.plan.nodes.values(), *(one.force.foot for one in forces)])
+    places = np.vstack([np.zeros(2), *lever.plan.nodes.values(), *(force.force.foot for force in forces)])
     (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)
     room = np.maximum(np.array([current_layout().width, scaled_height(_TALL)]) - 2 * (_MARGIN + _FORCE), _LOWEST)
     scale = round_scale(float(points_per_mm() * max((right - left) / room[0], (top - bottom) / room[1])), FINE)
@@ -71,8 +71,8 @@ def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style)
     _forces(graph, forces, unit)
     _names(graph, lever, forces, unit)
     paper.text(14, high + 4, scale_text("μ_v", scale, "m/s", language))
-    for at, row in enumerate(rows):
-        paper.text(14, high + 4 + _ROW * (at + 1), row)
+    for index, row in enumerate(rows):
+        paper.text(14, high + 4 + _ROW * (index + 1), row)
     write_method(paper, style.method, say("drawing.lever", language))
     title = f"{figure_title('zhukovsky_lever', language)}, {position_text(degrees, style)}"
     return paper.drawing(title, language)
@@ -81,38 +81,38 @@ def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style)
 def _named(lever: Lever, numbers: dict[str, int], language: Language) -> list[_Named]:
     """Return the forces with their symbols, that which balances last."""
     seen: Counter[str] = Counter()
-    found = []
-    for at, one in enumerate(lever.forces, 1):
-        base = "F_" if one.kind == "load" else f"{symbol('link_inertia_force', language)},"
-        name = f"{base}{numbers.get(one.link, one.link)}"
+    named = []
+    for count, acting in enumerate(lever.forces, 1):
+        base = "F_" if acting.kind == "load" else f"{symbol('link_inertia_force', language)},"
+        name = f"{base}{numbers.get(acting.link, acting.link)}"
         letter, _, index = name.partition("_")
-        found.append(_Named(one, math_symbol(f"{letter}{_PRIME * seen[name]}_{index}"), f"$h_{at}$"))
+        named.append(_Named(acting, math_symbol(f"{letter}{_PRIME * seen[name]}_{index}"), f"$h_{count}$"))
         seen[name] += 1
-    end = next((name for name, at in lever.plan.nodes.items() if np.allclose(at, lever.balancing.end)), "a")
+    end = next((name for name, node in lever.plan.nodes.items() if np.allclose(node, lever.balancing.end)), "a")
     index = symbol("balancing_torque", language).partition("_")[2]
     arm = f"{_pole(lever)}{node_name(end)}"
-    return [*found, _Named(lever.balancing, f"$F_{index}$", f"${arm}$" if arm.isalnum() else plain(arm))]
+    return [*named, _Named(lever.balancing, f"$F_{index}$", f"${arm}$" if arm.isalnum() else plain(arm))]
 
 
 def _pole(lever: Lever) -> str:
     """Return the letter of the pole, which no point has."""
     taken = {node_name(name) for name in lever.plan.nodes}
-    return next(one for one in ("p", "o", "p₀") if one not in taken)
+    return next(letter for letter in ("p", "o", "p₀") if letter not in taken)
 
 
 def _arms(graph: Graph, forces: Sequence[_Named]) -> None:
     """Draw the lines of the forces up to their arms, and the arms from the pole."""
-    for one in forces:
-        end, foot = one.force.end, one.force.foot
+    for force in forces:
+        end, foot = force.force.end, force.force.foot
         for line, style in (((end, foot), DASH_DOT), (((0.0, 0.0), foot), DASHED)):
             (a, b), (p, q) = (graph.point(*place) for place in line)
             graph.paper.line([a, p], [b, q], style=style, width=0.5, colour=GREY)
 
 
 def _forces(graph: Graph, forces: Sequence[_Named], unit: float) -> None:
-    for one in forces:
-        if one.force.size:
-            start, end = (graph.point(*place) for place in _arrow(one.force, unit))
+    for force in forces:
+        if force.force.size:
+            start, end = (graph.point(*place) for place in _arrow(force.force, unit))
             graph.paper.arrow(start, end, width=1.6)
 
 
@@ -124,12 +124,12 @@ def _names(graph: Graph, lever: Lever, forces: Sequence[_Named], unit: float) ->
     """Name the nodes of the plan, the forces at their tips, and the arms."""
     marks = [(_pole(lever), *graph.point(0.0, 0.0))]
     marks += [
-        (plain(node_name(name)), *graph.point(*at))
-        for name, at in lever.plan.nodes.items() if np.hypot(*at) * unit > 1.0
+        (plain(node_name(name)), *graph.point(*node))
+        for name, node in lever.plan.nodes.items() if np.hypot(*node) * unit > 1.0
     ]  # fmt: skip
     label_marks(graph.paper, marks, dot=1.3, frame=graph.box)
-    marks = [(one.symbol, *graph.point(*_arrow(one.force, unit)[1])) for one in forces if one.force.size]
-    marks += [(one.arm, *graph.point(*(one.force.foot / 2))) for one in forces[:-1]]
+    marks = [(force.symbol, *graph.point(*_arrow(force.force, unit)[1])) for force in forces if force.force.size]
+    marks += [(force.arm, *graph.point(*(force.force.foot / 2))) for force in forces[:-1]]
     label_marks(graph.paper, marks, dot=0.0, frame=graph.box)
 
 
@@ -139,41 +139,40 @@ def _rows(
     """Return forces with their arms on paper, torques with the turning of their links, and the equation of moments."""
     millimetre, per = unit_name("mm", language), unit_name("rad/s", language)
     entries, terms = list[str](), list[str]()
-    for one in forces:
-        arm = number(float(f"{one.force.arm / scale:.4g}"), language)
-        entries.append(
-            f"{one.symbol} = {_told('joint_force', one.force.size, language)}, {one.arm} = {arm} {millimetre}"
-        )
-        terms.append(f"{'−' if one.force.moment < 0 else '+'}{_BLANK}{one.symbol}{_BLANK}{one.arm}")
+    for acting in forces:
+        arm = number(float(f"{acting.force.arm / scale:.4g}"), language)
+        size = _value_with_unit("joint_force", acting.force.size, language)
+        entries.append(f"{acting.symbol} = {size}, {acting.arm} = {arm} {millimetre}")
+        terms.append(f"{'−' if acting.force.moment < 0 else '+'}{_BLANK}{acting.symbol}{_BLANK}{acting.arm}")
     for other in lever.torques:
         own, turning = _torque(other, numbers, language)
-        size = _told("balancing_torque", other.torque, language)
+        size = _value_with_unit("balancing_torque", other.torque, language)
         entries.append(f"{own} = {size}, {turning} = {number(other.turning, language, digits=4)} {per}")
         # with the signs of torque and turning it stands in the sum as it is
         terms.append(f"+{_BLANK}{own}{_BLANK}{turning}/$μ_v$")
-    first, *others = terms
+    first, *further = terms
     first = first.removeprefix(f"+{_BLANK}").replace(f"−{_BLANK}", "−")
-    equation = f"Σ$M_{_pole(lever)}$ = {' '.join([first, *others])}{_BLANK}={_BLANK}0"
+    equation = f"Σ$M_{_pole(lever)}$ = {' '.join([first, *further])}{_BLANK}={_BLANK}0"
     last, force = symbol("balancing_torque", language), forces[-1].symbol
     radius = (
         f"{number(displayed('crank_radius', lever.radius), language)} {unit_name(key_unit('crank_radius'), language)}"
     )
-    torque = _told("balancing_torque", lever.torque, language)
-    found = f"${last}$ = {'−' if lever.torque < 0 else ''}{force} $r$ = {torque};   $r$ = {radius}"
+    torque = _value_with_unit("balancing_torque", lever.torque, language)
+    result = f"${last}$ = {'−' if lever.torque < 0 else ''}{force} $r$ = {torque};   $r$ = {radius}"
     width = (current_layout().width - 28) / WIDER
-    columns = max(1, int((width + _BETWEEN) / (max(text_width(one, 9.0) for one in entries) + _BETWEEN)))
+    columns = max(1, int((width + _BETWEEN) / (max(text_width(entry, 9.0) for entry in entries) + _BETWEEN)))
     rows = [";   ".join(entries[start : start + columns]) for start in range(0, len(entries), columns)]
-    return [*rows, *fitted_lines(equation, 9.0, width), found]
+    return [*rows, *fitted_lines(equation, 9.0, width), result]
 
 
-def _torque(one: LeverTorque, numbers: dict[str, int], language: Language) -> tuple[str, str]:
+def _torque(torque: LeverTorque, numbers: dict[str, int], language: Language) -> tuple[str, str]:
     """Return the symbols of a torque on a link and of its turning."""
-    link = numbers.get(one.link, one.link)
-    base = "M_" if one.kind == "load" else f"{symbol('link_inertia_torque', language)},"
+    link = numbers.get(torque.link, torque.link)
+    base = "M_" if torque.kind == "load" else f"{symbol('link_inertia_torque', language)},"
     return math_symbol(f"{base}{link}"), math_symbol(f"{symbol('speed', language)}_{link}")
 
 
-def _told(key: str, value: float, language: Language) -> str:
+def _value_with_unit(key: str, value: float, language: Language) -> str:
     """Return a value with its unit, to five digits."""
     unit = unit_name(QUANTITIES[key].unit, language)
     return f"{number(float(f'{displayed(key, value):.5g}'), language)} {unit}"

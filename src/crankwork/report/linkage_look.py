@@ -1,4 +1,4 @@
-"""What figures of linkages share: a quantity for any key, the axis of what drives, and scales."""
+"""Shared parts of figures of linkages: a quantity for any key, the axis of the driver, and scales."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ def math_symbol(sign: str, power: str = "") -> str:
 
 
 def key_of_links(names: Mapping[int, str], numbers: Iterable[int]) -> list[str]:
-    """Return which link each number of a plan is, since tables go by names."""
-    told = {one: printable(names[one], 20) for one in numbers if one in names}
-    return [f"{one} – {plain(name)}" for one, name in told.items() if name != str(one)]
+    """Return the names of the links with these numbers on a plan, since tables use names."""
+    shown = {number: printable(names[number], 20) for number in numbers if number in names}
+    return [f"{number} – {plain(name)}" for number, name in shown.items() if name != str(number)]
 
 
 def position_text(degrees: float, style: Style) -> str:
@@ -101,19 +101,19 @@ _MOST_TICKS, _AROUND, _BEYOND = 12, 0.5, 0.02
 def angle_ticks(start: float, end: float) -> Array:
     """Return angles to mark between two, at most a dozen parts. [deg]"""
     most = 10.0 ** math.ceil(math.log10((end - start) / _MOST_TICKS))
-    step = next((one for one in _TICKS if (end - start) / one <= _MOST_TICKS), most)
+    step = next((step_size for step_size in _TICKS if (end - start) / step_size <= _MOST_TICKS), most)
     counts = range(math.ceil(start / step - 1e-9), math.floor(end / step + 1e-9) + 1)
-    return np.array([one * step for one in counts])
+    return np.array([count * step for count in counts])
 
 
 def drive_graph(
-    paper: Canvas, box: ChartBox, at: Array, y: tuple[float, float], style: Style, *, is_last: bool = True
+    paper: Canvas, box: ChartBox, abscissas: Array, y: tuple[float, float], style: Style, *, is_last: bool = True
 ) -> Graph:
     """Return a graph over the angle of the crank between the ends of its motion, or over the time, frame drawn.
 
     `at`: the angles [deg], or times where a law drives [s].
     """
-    start, end = float(at[0]), float(at[-1])
+    start, end = float(abscissas[0]), float(abscissas[-1])
     # an axis of one point goes around it
     start, end = (start, end) if end > start else (start - _AROUND, start + _AROUND)
     dead = () if style.period else style.limits
@@ -127,8 +127,8 @@ def drive_graph(
         graph.up_ticks,
         labels=(is_last, True),
     )
-    for one in dead:
-        x = float(graph.across(one))
+    for limit in dead:
+        x = float(graph.across(limit))
         paper.line([x, x], [graph.box.top, graph.box.top + graph.box.height], style=DASH_DOT, width=0.8, colour=GREY)
     if is_last:
         sign = math_symbol(QUANTITIES["crank_angle"].symbol(style.language))

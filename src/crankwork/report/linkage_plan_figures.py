@@ -32,7 +32,7 @@ from crankwork.show.place import FINE, current_layout, points_per_mm, round_scal
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
-_TALL, _MARGIN, _BESIDE, _LIST, _ROW = 330.0, 26.0, 170.8, 150.0, 13.5
+_TALL, _MARGIN, _LIST_WIDTH, _LIST, _ROW = 330.0, 26.0, 170.8, 150.0, 13.5
 # height of a plan at least, and how many points that lie beneath others are explained
 _LOWEST, _UNDER = 40.0, 3
 # a linkage whose points have velocities or accelerations a billionth of this stands still
@@ -98,30 +98,31 @@ def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is sh
 
 
 def size_of(plan: Plan) -> Size:
-    """Return how wide and tall a plan is, in its unit."""
+    """Return width and height of a plan, in its unit."""
     width, height = np.ptp(_places(_seen(plan)), axis=0)
     return float(width), float(height)
 
 
 def _longest(plan: Plan) -> float:
-    return max((one.length for one in plan.vectors), default=0.0)
+    return max((vector.length for vector in plan.vectors), default=0.0)
 
 
 def _seen(plan: Plan) -> list[Vector]:
-    """Return the vectors that are no mere rounding."""
+    """Return the vectors above rounding noise."""
     least = 1e-9 * max(_longest(plan), _STILL)
-    return [one for one in plan.vectors if one.length > least]
+    return [vector for vector in plan.vectors if vector.length > least]
 
 
 def _places(vectors: list[Vector]) -> Array:
     """Return the pole and the ends of vectors, shape (places, 2)."""
-    return np.array([[0.0, 0.0], *(end for one in vectors for end in (one.start, one.end))])
+    return np.array([[0.0, 0.0], *(end for vector in vectors for end in (vector.start, vector.end))])
 
 
 def _scale(size: Size, among: Sequence[Size], room: tuple[float, float]) -> float:
     """Return the scale of a plan: that of all, unless it would be too small to be read. [its unit/mm]"""
     scales = [
-        round_scale(points_per_mm() * max(one[0] / room[0], one[1] / room[1], 1e-12), FINE) for one in (size, *among)
+        round_scale(points_per_mm() * max(wide_high[0] / room[0], wide_high[1] / room[1], 1e-12), FINE)
+        for wide_high in (size, *among)
     ]
     return max(scales) if max(size) / max(scales) > _READ else scales[0]
 
@@ -129,10 +130,10 @@ def _scale(size: Size, among: Sequence[Size], room: tuple[float, float]) -> floa
 def _figure(
     plan: Plan, kind: _Kind, degrees: float, style: Style, position: int | None, among: Sequence[Size]
 ) -> Drawing:
-    """Draw a plan, and beside it what its vectors and the turning of the links are."""
+    """Draw a plan, and beside it the values of its vectors and the angular rates of the links."""
     language, seen, size = style.language, _seen(plan), size_of(plan)
     # only beside one plan there is room for a list
-    side = current_layout().width - (_BESIDE if position is None else 0.0)
+    side = current_layout().width - (_LIST_WIDTH if position is None else 0.0)
     rows = (
         []
         if position is not None
@@ -140,12 +141,12 @@ def _figure(
     )
     # long names stand beside the outermost ends, those of one end together
     ends: dict[tuple[float, ...], str] = {}
-    for name, at in plan.nodes.items():
-        place = tuple(np.round(at / max(_longest(plan), 1e-12), 3).tolist())
+    for name, node in plan.nodes.items():
+        place = tuple(np.round(node / max(_longest(plan), 1e-12), 3).tolist())
         ends[place] = f"{ends[place]}, {node_name(name)}" if place in ends else node_name(name)
-    beside = max([_MARGIN, *(WIDER * text_width(plain(one), 8.0) + 12 for one in ends.values())])
+    margin = max([_MARGIN, *(WIDER * text_width(plain(text), 8.0) + 12 for text in ends.values())])
     high = max(scaled_height(_TALL), _ROW * len(rows))
-    room = side - 2 * min(beside, side / 8), max(high - 2 * _MARGIN, _LOWEST)
+    room = side - 2 * min(margin, side / 8), max(high - 2 * _MARGIN, _LOWEST)
     scale = _scale(size, among, room)
     unit = points_per_mm() / scale
     high = max(max(size[1], 1e-12) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
@@ -173,23 +174,23 @@ def _figure(
 
 
 def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
-    """Return what the sign of turning means, and what a point with the number of a link is."""
+    """Return the meaning of the sign of turning, and of points with the number of a link."""
     remarks = [say("drawing.anticlockwise", language, symbol=kind.turning)]
     if plan.beneath:
-        some = list(plan.beneath.items())[:_UNDER]
-        points, links = (plain(name) for name, _ in some), (str(link) for _, (link, _) in some)
-        others = (plain(one) for _, (_, one) in some)
-        joined = {"points": ", ".join(points), "links": ", ".join(links), "others": ", ".join(others)}
-        remarks.append(say("drawing.beneath" if len(some) > 1 else "drawing.one_beneath", language, **joined))
+        named_points = list(plan.beneath.items())[:_UNDER]
+        points, links = (plain(name) for name, _ in named_points), (str(link) for _, (link, _) in named_points)
+        link_points = (plain(point) for _, (_, point) in named_points)
+        joined = {"points": ", ".join(points), "links": ", ".join(links), "others": ", ".join(link_points)}
+        remarks.append(say("drawing.beneath" if len(named_points) > 1 else "drawing.one_beneath", language, **joined))
     return "; ".join(remarks)
 
 
 def draw_vectors(graph: Graph, vectors: list[Vector], unit: float, thin: float = 1.0) -> None:
     """Draw the vectors of a plan; `unit`: points of the paper in its unit; `thin`: by how much lines are thinner."""
-    for one in vectors:
-        width, line = _LOOKS[one.kind]
-        start, end = (graph.point(*place) for place in (one.start, one.end))
-        if one.length * unit > 6:
+    for vector in vectors:
+        width, line = _LOOKS[vector.kind]
+        start, end = (graph.point(*place) for place in (vector.start, vector.end))
+        if vector.length * unit > 6:
             graph.paper.arrow(start, end, width=thin * width, style=line)
         else:
             graph.paper.line([start[0], end[0]], [start[1], end[1]], width=thin * width, style=line)
@@ -198,9 +199,9 @@ def draw_vectors(graph: Graph, vectors: list[Vector], unit: float, thin: float =
 def _nodes(graph: Graph, plan: Plan, pole: str, unit: float) -> None:
     """Name the pole and the ends of the vectors."""
     taken = {node_name(name) for name in plan.nodes}
-    points = [(next(one for one in (pole, "o", f"{pole}₀") if one not in taken), 0.0, 0.0)]
-    points += [(node_name(name), float(at[0]), float(at[1])) for name, at in plan.nodes.items()
-               if np.hypot(*at) * unit > 1.0]  # fmt: skip
+    points = [(next(letter for letter in (pole, "o", f"{pole}₀") if letter not in taken), 0.0, 0.0)]
+    points += [(node_name(name), float(node[0]), float(node[1])) for name, node in plan.nodes.items()
+               if np.hypot(*node) * unit > 1.0]  # fmt: skip
     label_points(graph, points)
 
 
@@ -212,18 +213,18 @@ def node_name(letter: str) -> str:
 def _rows(vectors: list[Vector], plan: Plan, kind: _Kind, language: Language) -> list[str]:
     """Return the magnitudes of the vectors and the turning of the links."""
     rows, unit = [], unit_name(kind.unit, language)
-    for one in vectors:
-        mark = _MARKS[one.kind].format(say("marks.tangential", language)) if kind.sign == "a" else ""
-        name = math_symbol(f"{kind.sign}_{one.of}", mark)
-        rows.append(f"{name} = {_told(one.length, language)} {unit}")
+    for vector in vectors:
+        mark = _MARKS[vector.kind].format(say("marks.tangential", language)) if kind.sign == "a" else ""
+        name = math_symbol(f"{kind.sign}_{vector.of}", mark)
+        rows.append(f"{name} = {_four_digits(vector.length, language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
     for link, value in plan.turning.items():
-        if abs(value) > 1e-9 * max(kind.size, *(abs(one) for one in plan.turning.values())):
+        if abs(value) > 1e-9 * max(kind.size, *(abs(rate) for rate in plan.turning.values())):
             name = math_symbol(f"{kind.turning}_{link}")
-            rows.append(f"{name} = {_told(value, language)} {unit}")
+            rows.append(f"{name} = {_four_digits(value, language)} {unit}")
     return rows
 
 
-def _told(value: float, language: Language) -> str:
+def _four_digits(value: float, language: Language) -> str:
     """Return a value to four digits, without a power of ten if it has no more than six."""
     return number(float(f"{value:.4g}"), language)

@@ -32,7 +32,7 @@ from crankwork.show.scene import Style as Dashes
 
 _STEP = 2.0
 # steps of the plans of a crank that swings; that of one that turns is the last
-_STEPS, _APART, _MOST = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0), 30.0, 12
+_STEPS, _WIDEST_STEP, _MOST = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0), 30.0, 12
 _MARGIN, _FOOT = 24.0, 50.0
 _TALLEST = 560.0
 # points whose places have the numbers of the plans; of more nobody could tell which number is whose
@@ -47,7 +47,7 @@ _UNITS = 1.5
 
 
 class _Sheet(NamedTuple):
-    """What is drawn on: a graph in units of the picture, the parts at all angles, which of them are plans."""
+    """A graph in units of the picture, with the parts at all angles and the indices of the plans."""
 
     graph: Graph
     drawn: Scene
@@ -56,7 +56,7 @@ class _Sheet(NamedTuple):
 
 
 def position_plans(
-    mechanism: Mechanism, ends: tuple[float, float] | None = None, worked: float = _APART, style: Style = PLAIN
+    mechanism: Mechanism, ends: tuple[float, float] | None = None, worked: float = _WIDEST_STEP, style: Style = PLAIN
 ) -> Drawing:
     """Return the position plans of a linkage over each other, numbered from 0.
 
@@ -65,13 +65,17 @@ def position_plans(
     """
     shape = skeleton(mechanism, style.links)
     first, last = ends or (0.0, mechanism.period)
-    step = _APART if ends is None else next(one for one in _STEPS if (last - first) / one <= _MOST or one == _APART)
+    step = (
+        _WIDEST_STEP
+        if ends is None
+        else next(size for size in _STEPS if (last - first) / size <= _MOST or size == _WIDEST_STEP)
+    )
     degrees = step * np.arange(math.ceil(first / step), math.ceil(last / step))
     if not degrees.size:
         degrees = np.array([(first + last) / 2])
     main = int(np.argmin(np.abs(degrees - worked)))
     moved = moving(mechanism, np.union1d(np.append(np.arange(first, last, _STEP), last), degrees))
-    plans = [int(np.argmin(np.abs(moved.degrees - one))) for one in degrees]
+    plans = [int(np.argmin(np.abs(moved.degrees - angle))) for angle in degrees]
     drawn, paper = _scaled(shape, moved)
     sheet = _sheet(drawn, plans, main, style)
     _ground(sheet)
@@ -87,15 +91,15 @@ def position_plans(
     hand.text(0.97 * hand.width, foot, shown, anchor="end")
     write_method(hand, style.method)
     made = hand.drawing(figure_title("position_plans", style.language), style.language)
-    return made._replace(plots=tuple(one._replace(metre=1e3 / paper) for one in made.plots))
+    return made._replace(plots=tuple(plot._replace(metre=1e3 / paper) for plot in made.plots))
 
 
 def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:
     """Return an empty sheet that holds the linkage at all angles, with a foot for the scale."""
     places = _seen(drawn)
     (left, bottom), (right, top) = places.min(axis=0) - _MARGIN, places.max(axis=0) + _MARGIN
-    spare = max(0.0, _UNITS * current_layout().width - (right - left)) / 2
-    left, right, bottom = left - spare, right + spare, bottom - _FOOT
+    margin = max(0.0, _UNITS * current_layout().width - (right - left)) / 2
+    left, right, bottom = left - margin, right + margin, bottom - _FOOT
     box = ChartBox(0.0, 0.0, (right - left) / _UNITS, (top - bottom) / _UNITS)
     paper = Canvas(box.width, box.height)
     graph = Graph(paper, box, (left, right), (bottom, top), style.language, to_scale=False)
@@ -122,13 +126,13 @@ def _seen(drawn: Scene) -> Array:
     """Return places that the parts of a linkage reach, without points of which nothing is drawn."""
     shape = drawn.skeleton
     named = {*shape.letters, *shape.pivots, *shape.coupler_points}
-    return corners(drawn._replace(points={name: at for name, at in drawn.points.items() if name in named}))
+    return corners(drawn._replace(points={name: point for name, point in drawn.points.items() if name in named}))
 
 
 def _ground(sheet: _Sheet) -> None:
     """Draw guides and pivots, hatched."""
     for rail in sheet.drawn.rails:
-        ends = np.array([rail.line.place(one)[0] for one in (rail.start - 14, rail.end + 14)])
+        ends = np.array([rail.line.place(end)[0] for end in (rail.start - 14, rail.end + 14)])
         _line_of(sheet.graph, ends, width=0.6, style=DASH_DOT)
         for wall in walls(rail):
             _hatched(sheet.graph, *wall)
@@ -153,28 +157,28 @@ def _hatched(graph: Graph, start: Array, end: Array) -> None:
     slant = HATCH * (np.array([-ahead[1], ahead[0]]) - ahead)
     _line_of(graph, np.array([start, end]), width=1.0)
     feet = start + np.arange(HATCH, length + 0.1, HATCH)[:, None] * ahead
-    ends = [side(one[:, axis]) for one in (feet, feet + slant) for axis, side in ((0, graph.across), (1, graph.down))]
+    ends = [side(row[:, axis]) for row in (feet, feet + slant) for axis, side in ((0, graph.across), (1, graph.down))]
     graph.paper.segments(np.column_stack(ends), width=0.5)
 
 
-def _plan(sheet: _Sheet, at: int, *, is_main: bool) -> None:
+def _plan(sheet: _Sheet, row: int, *, is_main: bool) -> None:
     """Draw the linkage at one crank angle."""
     colour, width = (BLACK, 2.0) if is_main else (_THIN, 0.5)
     graph = sheet.graph
     for bar in sheet.drawn.bars:
-        nodes = np.array([node[at] for node in (*bar.nodes, bar.nodes[0])])
+        nodes = np.array([node[row] for node in (*bar.nodes, bar.nodes[0])])
         _line_of(graph, nodes, width=width, colour=colour)
     for slot in sheet.drawn.slots:
         middle, half = slot_middle(slot)
         if is_main:
-            _rectangle(graph, Pose(middle, slot.line.along), (half, SLOT), at, WHITE)
+            _rectangle(graph, Pose(middle, slot.line.along), (half, SLOT), row, WHITE)
         else:
-            ends = np.array([slot.line.place(end)[at] for end in (slot.start, slot.end)])
+            ends = np.array([slot.line.place(end)[row] for end in (slot.start, slot.end)])
             _line_of(graph, ends, width=width, colour=colour)
     for block in sheet.drawn.blocks:
         if is_main:
-            _rectangle(graph, block.pose, block.half, at, _BLOCK)
-    joints = [place[at] for name, place in sheet.drawn.points.items() if name in sheet.drawn.skeleton.letters]
+            _rectangle(graph, block.pose, block.half, row, _BLOCK)
+    joints = [place[row] for name, place in sheet.drawn.points.items() if name in sheet.drawn.skeleton.letters]
     for x, y in joints:
         place = graph.point(float(x), float(y))
         if is_main:
@@ -183,9 +187,9 @@ def _plan(sheet: _Sheet, at: int, *, is_main: bool) -> None:
             graph.paper.dot(*place, 0.9, fill=_THIN)
 
 
-def _rectangle(graph: Graph, pose: Pose, half: tuple[float, float], at: int, fill: str) -> None:
+def _rectangle(graph: Graph, pose: Pose, half: tuple[float, float], row: int, fill: str) -> None:
     u, v = half
-    _area_of(graph, np.array([pose.place(x, y)[at] for x, y in ((u, v), (-u, v), (-u, -v), (u, -v))]), fill)
+    _area_of(graph, np.array([pose.place(x, y)[row] for x, y in ((u, v), (-u, v), (-u, -v), (u, -v))]), fill)
 
 
 def _paths(sheet: _Sheet, names: Sequence[str]) -> None:
@@ -206,55 +210,55 @@ def _number_guide(sheet: _Sheet, rail: Rail) -> bool:
     seen, ahead = track[sheet.plans], np.gradient(track)[sheet.plans] > 0
     for side, chosen in ((1, ahead), (-1, ~ahead)):
         together: list[list[int]] = []
-        for at in sorted(np.flatnonzero(chosen).tolist(), key=lambda one: float(seen[one])):
-            if together and seen[at] - seen[together[-1][0]] < _TOGETHER * _UNITS:
-                together[-1].append(at)
+        for index in sorted(np.flatnonzero(chosen).tolist(), key=lambda plan: float(seen[plan])):
+            if together and seen[index] - seen[together[-1][0]] < _TOGETHER * _UNITS:
+                together[-1].append(index)
             else:
-                together.append([at])
-        numbers = [(", ".join(map(str, sorted(some))), float(seen[some[0]])) for some in together]
-        _write_beside(sheet, rail, side, numbers)
+                together.append([index])
+        numbers = [(", ".join(map(str, sorted(group))), float(seen[group[0]])) for group in together]
+        _write_along(sheet, rail, side, numbers)
     return True
 
 
-def _write_beside(sheet: _Sheet, rail: Rail, side: int, numbers: Sequence[tuple[str, float]]) -> None:
+def _write_along(sheet: _Sheet, rail: Rail, side: int, numbers: Sequence[tuple[str, float]]) -> None:
     """Write numbers in a row along a guide, each with a line from the wall at its place on the guide."""
     x, y = rail.line.along[0]
-    wide = max((text_width(one, _NUMBER) for one, _ in numbers), default=0.0) + 3.0
-    apart = min(wide / max(abs(x), 1e-9), 1.15 * font_size(_NUMBER) / max(abs(y), 1e-9)) * _UNITS
+    wide = max((text_width(text, _NUMBER) for text, _ in numbers), default=0.0) + 3.0
+    spacing = min(wide / max(abs(x), 1e-9), 1.15 * font_size(_NUMBER) / max(abs(y), 1e-9)) * _UNITS
     wall = rail.half + HATCH
     out = wall + _UNITS * (8.0 + abs(y) * wide / 2 + abs(x) * 0.5 * font_size(_NUMBER))
-    for (text, at), place in zip(numbers, _spread([one for _, one in numbers], apart), strict=True):
-        ends = [rail.line.place(*one)[0] for one in ((at, side * wall), (place, side * (0.6 * wall + 0.4 * out)))]
-        sheet.graph.paper.line(*np.array([sheet.graph.point(*one) for one in ends]).T, width=0.4, colour=_THIN)
+    for (text, position), place in zip(numbers, _spread([number for _, number in numbers], spacing), strict=True):
+        ends = [rail.line.place(*end)[0] for end in ((position, side * wall), (place, side * (0.6 * wall + 0.4 * out)))]
+        sheet.graph.paper.line(*np.array([sheet.graph.point(*end) for end in ends]).T, width=0.4, colour=_THIN)
         middle = sheet.graph.point(*rail.line.place(place, side * out)[0])
         sheet.graph.text_on_white(middle[0], middle[1] + 0.35 * font_size(_NUMBER), text, "middle", _NUMBER)
 
 
-def _spread(places: Sequence[float], apart: float) -> list[float]:
+def _spread(places: Sequence[float], spacing: float) -> list[float]:
     """Return places in order moved no nearer than a distance, as little as can be."""
-    groups = [[one, 1] for one in places]
+    groups = [[place, 1] for place in places]
     # groups that touch become one about their common middle
-    at = 0
-    while at + 1 < len(groups):
-        (first, count), (second, others) = groups[at], groups[at + 1]
-        if second - first < apart * (count + others) / 2:
-            groups[at : at + 2] = [[(first * count + second * others) / (count + others), count + others]]
-            at = max(at - 1, 0)
+    index = 0
+    while index + 1 < len(groups):
+        (first, count), (second, more) = groups[index], groups[index + 1]
+        if second - first < spacing * (count + more) / 2:
+            groups[index : index + 2] = [[(first * count + second * more) / (count + more), count + more]]
+            index = max(index - 1, 0)
         else:
-            at += 1
-    return [middle + (one - (count - 1) / 2) * apart for middle, count in groups for one in range(int(count))]
+            index += 1
+    return [middle + (rank - (count - 1) / 2) * spacing for middle, count in groups for rank in range(int(count))]
 
 
 def _texts(sheet: _Sheet, numbered_guides: Container[str]) -> None:
     """Write names of points at the bold plan, and the numbers of the plans at points that show the motion."""
     drawn, plans = sheet.drawn, sheet.plans
-    at = plans[sheet.main]
-    named = {letter: drawn.points[name][at] for name, letter in reversed([*drawn.skeleton.letters.items()])
+    row = plans[sheet.main]
+    named = {letter: drawn.points[name][row] for name, letter in reversed([*drawn.skeleton.letters.items()])
              if name in drawn.points}  # fmt: skip
     # in their order: that of a set is another one in every process
     pivots = dict.fromkeys(drawn.skeleton.letters.get(name, "") for name in drawn.skeleton.pivots)
-    found = {letter: _beneath(sheet, letter, named[letter]) for letter in pivots if letter in named}
-    supports = {letter: place for letter, place in found.items() if place is not None}
+    places = {letter: _place_of_name(sheet, letter, named[letter]) for letter in pivots if letter in named}
+    supports = {letter: place for letter, place in places.items() if place is not None}
     for letter, (x, y) in supports.items():
         # other names keep clear of it
         wide, high = _half(letter) / _UNITS
@@ -264,10 +268,10 @@ def _texts(sheet: _Sheet, numbered_guides: Container[str]) -> None:
     ]
     label_marks(sheet.graph.paper, marks, size=_LETTER, dot=0.0)
     numbered = [drawn.skeleton.driven] if drawn.skeleton.driven else []
-    slides = [one for one in drawn.skeleton.members if one.guide and not one.guide.link and one.points]
-    numbered += [one.points[0] for one in slides if one.name not in numbered_guides]
+    slides = [member for member in drawn.skeleton.members if member.guide and not member.guide.link and member.points]
+    numbered += [slide.points[0] for slide in slides if slide.name not in numbered_guides]
     # what is on a sliding piece goes as its joint does
-    couplers = [name for name in drawn.skeleton.coupler_points if not any(name in one.points for one in slides)]
+    couplers = [name for name in drawn.skeleton.coupler_points if not any(name in slide.points for slide in slides)]
     numbered += couplers[: max(_NUMBERED - len(numbered), 0)]
     points = [
         (str(count), float(drawn.points[name][plan, 0]), float(drawn.points[name][plan, 1]))
@@ -284,18 +288,18 @@ def _half(letter: str) -> Array:
     return _UNITS * np.array([text_width(_slanted(letter), _LETTER) / 2 + 2, 0.6 * font_size(_LETTER)])
 
 
-def _beneath(sheet: _Sheet, letter: str, place: Array) -> tuple[float, float] | None:
+def _place_of_name(sheet: _Sheet, letter: str, place: Array) -> tuple[float, float] | None:
     """Return where the name of a fixed joint stands under its support or beside it, unless bold links are there."""
-    at, drawn = sheet.plans[sheet.main], sheet.drawn
-    bold = [np.array([node[at] for node in (*one.nodes, one.nodes[0])]) for one in drawn.bars]
+    row, drawn = sheet.plans[sheet.main], sheet.drawn
+    bold = [np.array([node[row] for node in (*bar.nodes, bar.nodes[0])]) for bar in drawn.bars]
     shares = np.linspace(0.0, 1.0, 60)[:, None]
-    lines = [start + shares * (end - start) for one in bold for start, end in pairwise(one)]
-    slots = [one.line.place(end)[at] for one in drawn.slots for end in np.linspace(one.start, one.end, 60)]
-    seen = np.vstack([*lines, *slots, *(one.pose.origin[at] for one in drawn.blocks)])
+    lines = [start + shares * (end - start) for outline in bold for start, end in pairwise(outline)]
+    slots = [slot.line.place(end)[row] for slot in drawn.slots for end in np.linspace(slot.start, slot.end, 60)]
+    seen = np.vstack([*lines, *slots, *(block.pose.origin[row] for block in drawn.blocks)])
     half = _half(letter)
     for foot in _BY_SUPPORT:
-        aside = np.sign(foot[0]) * half[0], -half[1] * (foot[0] == 0)
-        middle = place + np.array(foot) + aside
+        offset = np.sign(foot[0]) * half[0], -half[1] * (foot[0] == 0)
+        middle = place + np.array(foot) + offset
         if not np.any(np.all(np.abs(seen - middle) < half + _CLEAR, axis=1)):
             return sheet.graph.point(*middle)
     return None

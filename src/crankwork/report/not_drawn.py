@@ -15,7 +15,7 @@ _DRAWN = ("reduced_inertia", "static_torque", "dynamic_torque", "driving_torque"
 
 
 def not_drawn(results: Results, language: Language) -> Iterator[str]:
-    """Yield what is told of figures that are left out, as sentences."""
+    """Yield sentences about figures that are left out."""
     names = list(dict.fromkeys(label(kind, language) for kind in _zero(results)))
     if names:
         yield say("report.not_drawn_zero", language, names=", ".join(names))

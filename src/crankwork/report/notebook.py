@@ -63,12 +63,12 @@ def picture(results: Results, name: str, language: Language) -> Picture:
     # a notebook that draws nothing does not load it
     from crankwork.report.figures import drawings, figure_names  # noqa: PLC0415
 
-    found = drawings(results, language=language, only=(name,))
-    if name not in found:
+    drawn = drawings(results, language=language, only=(name,))
+    if name not in drawn:
         known = figure_names(results, language)
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.5) or known
         raise UnknownKeyError(Refusal("figure_unknown", name=name[:60], known=", ".join(near)))
-    return Picture(found[name], name)
+    return Picture(drawn[name], name)
 
 
 @in_own_units
@@ -80,9 +80,9 @@ def short_text(results: Results) -> str:
     rows = [f"  {key} = {number(displayed(key, kept[key]), 'en')} {key_unit(key)}".rstrip() for key in kept]
     more = [f"  and {len(rows) - _LINES} single values more"] if len(rows) > _LINES else []
     unmet = [f"  not met: {', '.join(results.unmet)}"] if results.unmet else []
-    told = [f"  {len(results.notices)} notices"] if results.notices else []
+    notices = [f"  {len(results.notices)} notices"] if results.notices else []
     return "\n".join(
-        [*head, *rows[:_LINES], *more, *unmet, *told, "  SI inside: results[key], .value(key, at), .explain(key)>"]
+        [*head, *rows[:_LINES], *more, *unmet, *notices, "  SI inside: results[key], .value(key, at), .explain(key)>"]
     )
 
 
@@ -94,7 +94,7 @@ def page(results: Results, language: Language = "en") -> str:
         (label(key, language), symbol(key, language), number(displayed(key, value), language), key_unit(key))
         for key, value in kept.items()
     ]
-    table = "".join(f"<tr>{''.join(f'<td>{html.escape(one)}</td>' for one in row)}</tr>" for row in rows)
+    table = "".join(f"<tr>{''.join(f'<td>{html.escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
     drawn, film = "", film_of(results, language=language, frames=48)
     if film is not None:
         data = base64.b64encode(moving_svg(film, "colour")).decode()

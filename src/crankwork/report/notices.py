@@ -1,4 +1,4 @@
-"""What the reader of results should know, as sentences in three languages by the code of a notice."""
+"""Notices about results as sentences, by their code."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
         if key == "names":
             shown[key] = _meanings(str(value), language)
         elif key == "quantities":
-            shown[key] = ", ".join(label(one, language) for one in str(value).split(", "))
+            shown[key] = ", ".join(label(name, language) for name in str(value).split(", "))
         elif key == "quantity":
             shown[key] = label(str(value), language)
         elif key == "argument":

@@ -24,7 +24,7 @@ _WORKBOOK = {"xlsxwriter": "tables"}
 
 
 def left_out() -> MissingExtraError | None:
-    """Return what to install for the files that a results folder goes without, if there are any."""
+    """Return the extras to install for files that a results folder lacks, if there are any."""
     missing = missing_extras(_WORKBOOK)
     return MissingExtraError(Refusal("extra_writing", names=["tables.xlsx"]), *missing) if missing else None
 
@@ -58,8 +58,8 @@ def results_folder(
         yield {"machine.svg": moving_svg(film, on_screen)}
     free = free_course(results)
     if free is not None:
-        yield {"transient.svg": moving_svg(moving_drawing(results, language=language, way=free), on_screen)}
+        yield {"transient.svg": moving_svg(moving_drawing(results, language=language, path=free), on_screen)}
     if formats:
         drawn = drawings(results, language=language, per_area=per_area)
-        for one in formats:
-            yield {f"figures/{name}.{one}": FORMATS[one](drawing, theme) for name, drawing in drawn.items()}
+        for ending in formats:
+            yield {f"figures/{name}.{ending}": FORMATS[ending](drawing, theme) for name, drawing in drawn.items()}

@@ -1,4 +1,4 @@
-"""What a mechanism looks like before it has its paper."""
+"""Drawings of mechanisms before they are placed on paper."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _THIN, _THICK = 0.06, 0.75
 
 
 def tints(pressures: Sequence[Array]) -> list[Array]:
-    """Return how much of gas is seen, the more the higher its pressure, of all spaces to one scale."""
+    """Return the tints of gas, darker with higher pressure, of all spaces to one scale."""
     if not pressures:
         return []
     low, high = min(map(np.min, pressures)), max(map(np.max, pressures))
-    return [_THIN + (_THICK - _THIN) * np.sqrt((one - low) / max(float(high - low), 1e-9)) for one in pressures]
+    return [_THIN + (_THICK - _THIN) * np.sqrt((p - low) / max(float(high - low), 1e-9)) for p in pressures]
 
 
 class View(NamedTuple):
@@ -32,7 +32,7 @@ class View(NamedTuple):
 
 
 class Sketch(NamedTuple):
-    """What stands still and what moves, those behind first, in millimetres about an origin of their own."""
+    """Static items and moving parts, those behind first, in millimetres about an origin of their own."""
 
     items: list[Item]
     parts: list[Part]
@@ -42,12 +42,12 @@ class Sketch(NamedTuple):
     force_scale: float = 0.0  # Displayed units of force in a millimetre of an arrow
     views: tuple[View, ...] = ()
 
-    def moved(self, by: Array) -> Sketch:
+    def moved(self, shift: Array) -> Sketch:
         """Return it elsewhere. [mm]"""
-        items = [placed(one, by) for one in self.items]
-        parts = [one._replace(shift=one.shift + by) for one in self.parts]
-        views = tuple(one._replace(low=one.low + by, high=one.high + by) for one in self.views)
-        return self._replace(items=items, parts=parts, low=self.low + by, high=self.high + by, views=views)
+        items = [placed(item, shift) for item in self.items]
+        parts = [part._replace(shift=part.shift + shift) for part in self.parts]
+        views = tuple(view._replace(low=view.low + shift, high=view.high + shift) for view in self.views)
+        return self._replace(items=items, parts=parts, low=self.low + shift, high=self.high + shift, views=views)
 
     def seen(self, *cylinders: int) -> Sketch:
         """Return it as a view."""
@@ -56,7 +56,7 @@ class Sketch(NamedTuple):
     @staticmethod
     def joined(views: Sequence[Sketch]) -> Sketch:
         """Return several as one."""
-        low, high = (np.min([one.low for one in views], axis=0), np.max([one.high for one in views], axis=0))
-        items, parts = [item for one in views for item in one.items], [each for one in views for each in one.parts]
-        seen = tuple(each for one in views for each in one.views)
+        low, high = (np.min([view.low for view in views], axis=0), np.max([view.high for view in views], axis=0))
+        items, parts = [item for view in views for item in view.items], [each for view in views for each in view.parts]
+        seen = tuple(each for view in views for each in view.views)
         return Sketch(items, parts, low, high, views[0].scale, views=seen)

@@ -13,6 +13,7 @@ from crankwork.quantities import SUBJECTS, Language, subject
 from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.language import (
     called,
+    display_key,
     displayed,
     in_own_units,
     key_unit,
@@ -20,7 +21,6 @@ from crankwork.report.language import (
     method_name,
     rounded,
     symbol,
-    told_as,
 )
 from crankwork.report.notices import notice_text
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 def about(results: Results) -> dict[str, str]:
-    """Return what an export says of where it comes from: program, file, method."""
+    """Return the provenance of an export: program, file, method."""
     from importlib.metadata import version  # noqa: PLC0415 - slow to load, and what the screen shows has no need of it
 
     return {
@@ -43,8 +43,8 @@ def about(results: Results) -> dict[str, str]:
 
 def provenance(results: Results) -> str:
     """Return where results come from in one line, for documents that have one for it."""
-    told = about(results)
-    parts = [told["source"], told["method"], f"sha256 {told['machine_file_sha256']}"]
+    data = about(results)
+    parts = [data["source"], data["method"], f"sha256 {data['machine_file_sha256']}"]
     return "; ".join(parts if results.machine.digest else parts[:2])
 
 
@@ -91,7 +91,7 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
         )
     if results.notices:
         lines += ["", say("report.notices", language)]
-        lines += [f"  {notice_text(one.code, one.values, language)}" for one in results.notices]
+        lines += [f"  {notice_text(notice.code, notice.values, language)}" for notice in results.notices]
     if results.compared is not None:
         lines += ["", comparison_text(results, language, per_area=per_area)]
     return "\n".join(lines)
@@ -99,18 +99,18 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
 
 def by_subject(results: Results) -> dict[str, dict[str, float]]:
     """Return the single values by subject, what the whole machine does before one cylinder and its working cycle."""
-    found: dict[str, dict[str, float]] = {name: {} for name in SUBJECTS}
+    values_of: dict[str, dict[str, float]] = {name: {} for name in SUBJECTS}
     for key, value in summary_without_rounding(results).items():
-        name = subject(told_as(key, results))
+        name = subject(display_key(key, results))
         if name == "engine" and results.machine.lengths is None:
             # gas of a linkage has the names of that on a piston, and is that of a chamber
             name = "chambers" if results.machine.chambers else "shaft"
-        found[name][key] = value
-    return {name: some for name, some in found.items() if some}
+        values_of[name][key] = value
+    return {name: values for name, values in values_of.items() if values}
 
 
 def met(results: Results, key: str, language: Language) -> str:
-    """Return what is to be said of a check: that it is not met, or that an approximate method explains its residual."""
+    """Return the status of a check: that it is not met, or that an approximate method explains its residual."""
     if key in results.unmet:
         return say("report.not_met", language)
     if key not in results.allowed:
@@ -130,7 +130,7 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 
 
 def results_method(results: Results, language: Language) -> str:
-    """Return how results were made, in words."""
+    """Return the method of results in words."""
     if results.has_positions:
         return say("report.tabulated", language)
     method, masses = results.method, results.machine.masses
@@ -147,7 +147,7 @@ def warning_text(results: Results, language: Language = "en") -> str:
         names = ", ".join(say(f"report.{key}", language) for key in results.unmet)
         counts = {"count": len(results.unmet), "all": len(results.checks)}
         return say("check.unmet", language, names=names, **counts)
-    partial = next((one for one in results.notices if one.code == "partial"), None)
+    partial = next((notice for notice in results.notices if notice.code == "partial"), None)
     if partial is None:
         return ""
     notice = notice_text(partial.code, partial.values, language).partition(": ")[0]
@@ -159,7 +159,7 @@ def warning_text(results: Results, language: Language = "en") -> str:
 
 @in_own_units
 def description_text(results: Results, language: Language = "en") -> str:
-    """Return what a machine file describes, in a few lines."""
+    """Return the description of a machine in a few lines."""
     machine, summary = results.machine, results.summary
     keys = [key for key in summary if not any(part in key for part in ("_max", "_min")) and not key.endswith("_error")]
     rows = [_row(results, (key, summary[key]), language) for key in keys]
@@ -167,17 +167,17 @@ def description_text(results: Results, language: Language = "en") -> str:
 
 
 def _row(
-    results: Results, one: tuple[str, float], language: Language, area: float | None = None
+    results: Results, entry: tuple[str, float], language: Language, area: float | None = None
 ) -> tuple[str, str, str, str]:
     """Return name, symbol, value and unit of a single value; `area`: of the piston, to divide by. [m2]"""
-    key, value = one
+    key, value = entry
     shown = number(displayed(key, value, per_area=area), language)
     unit = unit_name(key_unit(key, per_area=area is not None), language)
-    return label(told_as(key, results), language), symbol(key, language), shown, unit
+    return label(display_key(key, results), language), symbol(key, language), shown, unit
 
 
 def _headline(machine: Machine, summary: Mapping[str, float], language: Language) -> list[str]:
-    """Return what a machine has: a crank gear of known lengths, an engine, a table, a drawing, chambers."""
+    """Return the parts of a machine: a crank mechanism of known lengths, an engine, a table, a drawing, chambers."""
     lines = _crank_gear_lines(machine, summary, language) if "rod_length" in summary else []
     if machine.engine is not None:
         layout = machine.engine.layout
@@ -213,24 +213,24 @@ def _drawing_lines(machine: Machine, language: Language) -> list[str]:
     # engines load none of this
     from crankwork.mechanism.structure import structure  # noqa: PLC0415
 
-    found, _ = structure(machine.drawn)
-    if found is None:
+    analysed, _ = structure(machine.drawn)
+    if analysed is None:
         return [say("check.linkage", language)]
-    numbered = ", ".join(f"{number} {called(name, language)}" for number, name in enumerate(found.links, start=1))
-    count, number = len(found.links), "I" * found.number if found.number < 4 else found.number
+    numbered = ", ".join(f"{number} {called(name, language)}" for number, name in enumerate(analysed.links, start=1))
+    count, number = len(analysed.links), "I" * analysed.number if analysed.number < 4 else analysed.number
     return [
         say("check.links", language, count=count, names=numbered),
-        _mobility(found, language),
-        say("check.structure", language, formula=found.formula, number=number),
+        _mobility(analysed, language),
+        say("check.structure", language, formula=analysed.formula, number=number),
         *_grashof_lines(machine, language),
     ]
 
 
-def _mobility(found: Structure, language: Language) -> str:
+def _mobility(analysed: Structure, language: Language) -> str:
     """Return the mobility by the formula, with pairs of gears where there are some."""
-    values = {"links": len(found.links), "joints": found.joints, "mobility": found.mobility}
-    if found.meshes:
-        return say("check.mobility_geared", language, meshes=found.meshes, **values)
+    values = {"links": len(analysed.links), "joints": analysed.joints, "mobility": analysed.mobility}
+    if analysed.meshes:
+        return say("check.mobility_geared", language, meshes=analysed.meshes, **values)
     return say("check.mobility", language, **values)
 
 

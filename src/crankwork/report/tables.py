@@ -50,8 +50,10 @@ def sheets(results: Results, *, per_area: bool = False) -> dict[str, Sheet]:
     if compared := comparison_columns(results, per_area=per_area):
         tables["comparison"] = sheet((), compared)
     return tables | {
-        name: sheet(one.names, {key: displayed_column(key, one.columns[key], per_area=area) for key in one.columns})
-        for name, one in results.listings.items()
+        name: sheet(
+            listing.names, {key: displayed_column(key, listing.columns[key], per_area=area) for key in listing.columns}
+        )
+        for name, listing in results.listings.items()
     }
 
 
@@ -59,7 +61,7 @@ def csv_of_sheet(sheet: Sheet, *, for_excel: bool = False) -> bytes:
     """Return one table as CSV."""
     separator = ";" if for_excel else ","
     headings = [_quoted(f"{key} [{sheet.units[key] or '-'}]") for key in sheet.columns]
-    columns = [[_number(one, for_excel=for_excel) for one in values.tolist()] for values in sheet.columns.values()]
+    columns = [[_number(value, for_excel=for_excel) for value in values.tolist()] for values in sheet.columns.values()]
     if sheet.names:
         headings.insert(0, "row")
         columns.insert(0, list(sheet.names))

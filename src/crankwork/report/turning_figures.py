@@ -42,18 +42,18 @@ _NAME = 7.5
 
 
 def turning_pictures(results: Results, language: Language) -> dict[str, Callable[[], Drawing]]:
-    """Return what draws each figure of a shaft."""
+    """Return the functions that draw the figures of a shaft."""
     style = Style(language, (), results_method(results, language), turns="shaft")
     drawn = _shown(turning_diagram(results))
     if drawn is None:
         loops = results.listings.get("energy_extremes")
         return {} if loops is None else {"loops": partial(_loops, loops.columns["kinetic_energy_change"], style)}
-    found: dict[str, Callable[[], Drawing]] = {"turning_moment": partial(_diagram, results, drawn, style)}
+    pictures: dict[str, Callable[[], Drawing]] = {"turning_moment": partial(_diagram, results, drawn, style)}
     if "crank_speed" in results.columns:
         speed = results.columns_at(drawn.degrees, ["crank_speed"])["crank_speed"]
         evenness = Fluctuation(results.solved.speed, results.summary["speed_fluctuation"])
-        found["speed"] = partial(speed_curve, drawn.degrees, speed, evenness, style)
-    return found
+        pictures["speed"] = partial(speed_curve, drawn.degrees, speed, evenness, style)
+    return pictures
 
 
 def _shown(drawn: TurningDiagram | None) -> TurningDiagram | None:
@@ -65,7 +65,7 @@ def _shown(drawn: TurningDiagram | None) -> TurningDiagram | None:
         torque=drawn.torque * torque,
         load=drawn.load * torque,
         energy=drawn.energy * work,
-        loops=tuple((middle, height * torque, one) for middle, height, one in drawn.loops),
+        loops=tuple((middle, height * torque, work_of_loop) for middle, height, work_of_loop in drawn.loops),
     )
 
 
@@ -106,12 +106,12 @@ def _torques(paper: Canvas, box: ChartBox, drawn: TurningDiagram, language: Lang
     over = drawn.torque > drawn.load
     # what is more than the load is shaded, what is less is hatched
     for where, fill in ((over, graph.shade), (~over, graph.hatch)):
-        for found in true_slices(where):
-            part = slice(max(found.start - 1, 0), found.stop + 1)
-            at, load = drawn.degrees[part], drawn.load[part]
+        for rows in true_slices(where):
+            part = slice(max(rows.start - 1, 0), rows.stop + 1)
+            angles, load = drawn.degrees[part], drawn.load[part]
             # where they cross they are one
             torque = np.where(where[part], drawn.torque[part], load)
-            fill(np.append(at, at[::-1]), np.append(torque, load[::-1]))
+            fill(np.append(angles, angles[::-1]), np.append(torque, load[::-1]))
     _frame(graph, is_last=False)
     for (key, _, line), values in zip(_LINES, (drawn.torque, drawn.load), strict=True):
         graph.curve(key, drawn.degrees, values, line)
@@ -125,33 +125,33 @@ def _torques(paper: Canvas, box: ChartBox, drawn: TurningDiagram, language: Lang
 def _name_loop(graph: Graph, drawn: TurningDiagram, place: tuple[float, float], text: str) -> None:
     """Write the work of a loop where the loop is tallest for it, upward if it is nowhere as wide as the text."""
     over, x = drawn.torque > drawn.load, graph.across(drawn.degrees)
-    inside = next((one for one in true_slices(over) + true_slices(~over)
-                   if drawn.degrees[one][0] <= place[0] <= drawn.degrees[one][-1]), slice(0))  # fmt: skip
+    inside = next((rows for rows in true_slices(over) + true_slices(~over)
+                   if drawn.degrees[rows][0] <= place[0] <= drawn.degrees[rows][-1]), slice(0))  # fmt: skip
     ends = graph.down(np.array([drawn.torque, drawn.load]))
     upper, lower = ends.min(axis=0), ends.max(axis=0)
     zero = float(graph.down(0.0))
     middle, length, height = graph.point(*place), WIDE_FIGURES * text_width(text, _NAME), 1.5 * _NAME
     for wide, tall in ((length, height), (height, length)):
-        best, found = -math.inf, middle
-        for at in x[inside].tolist():
-            over_text = np.abs(x - at) <= wide / 2
+        best, chosen = -math.inf, middle
+        for place_x in x[inside].tolist():
+            over_text = np.abs(x - place_x) <= wide / 2
             top, bottom = float(upper[over_text].max()), float(lower[over_text].min())
             if top < zero < bottom:
                 top, bottom = (zero, bottom) if bottom - zero > zero - top else (top, zero)
             # of places with as much room that in the middle
-            worth = min(bottom - top, 2 * tall) - 0.01 * abs(at - middle[0])
+            worth = min(bottom - top, 2 * tall) - 0.01 * abs(place_x - middle[0])
             if bottom - top > tall and worth > best:
-                best, found = worth, (at, (top + bottom) / 2)
+                best, chosen = worth, (place_x, (top + bottom) / 2)
         if best > -math.inf:
             break
     else:
         wide = length
     if wide == length:
-        graph.text_on_white(found[0], found[1] + 0.35 * _NAME, text, "middle", _NAME)
+        graph.text_on_white(chosen[0], chosen[1] + 0.35 * _NAME, text, "middle", _NAME)
         return
     sides = np.array([-0.5, 0.5, 0.5, -0.5]) * wide, np.array([-0.5, -0.5, 0.5, 0.5]) * tall
-    graph.paper.area(found[0] + sides[0], found[1] + sides[1])
-    graph.paper.upward_text(found[0] + 0.35 * _NAME, found[1], text, size=_NAME)
+    graph.paper.area(chosen[0] + sides[0], chosen[1] + sides[1])
+    graph.paper.upward_text(chosen[0] + 0.35 * _NAME, chosen[1], text, size=_NAME)
 
 
 def _work(work: float, language: Language, *, signed: bool = False) -> str:

@@ -16,7 +16,7 @@ from crankwork.errors import CrankworkError, MissingExtraError
 from crankwork.locale import Refusal, capital, say
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import Language
-from crankwork.report.language import displayed, in_own_units, key_unit, label, row_name, symbol, told_as
+from crankwork.report.language import display_key, displayed, in_own_units, key_unit, label, row_name, symbol
 from crankwork.report.summary import by_subject, met, provenance
 from crankwork.report.tables import Sheet, sheets
 from crankwork.units import from_si
@@ -52,14 +52,14 @@ class _Writer:
 
     def sheet(self, title: str, rows: int = 1, columns: int = 1) -> Any:  # noqa: ANN401 - xlsxwriter has no types
         """Return a new sheet whose first rows and columns stay where they are."""
-        found = self._book.add_worksheet(_sheet_name(title, self._taken))
-        found.freeze_panes(rows, columns)
+        sheet = self._book.add_worksheet(_sheet_name(title, self._taken))
+        sheet.freeze_panes(rows, columns)
         # on paper as wide as the page, headings on every one
-        found.set_landscape()
-        found.set_paper(_A4)
-        found.fit_to_pages(1, 0)
-        found.repeat_rows(0)
-        return found
+        sheet.set_landscape()
+        sheet.set_paper(_A4)
+        sheet.fit_to_pages(1, 0)
+        sheet.repeat_rows(0)
+        return sheet
 
     def format(self, number: str) -> Any:  # noqa: ANN401 - xlsxwriter has no types
         """Return the format of numbers that are shown like this."""
@@ -76,7 +76,7 @@ class _Writer:
             sheet.write_string(row, column, shown, *parts[:1])
 
     def title(self, sheet: Any, column: int, key: str, unit: str) -> None:  # noqa: ANN401 - xlsxwriter has no types
-        """Write what a column is: its name, its symbol with the subscript below, and its unit."""
+        """Write the heading of a column: its name, its symbol with the subscript below, and its unit."""
         named, unit = label(key, self._language), unit_name(unit, self._language)
         parts = self._set(symbol(key, self._language))
         after = f", {unit}" if unit else ""
@@ -101,9 +101,9 @@ class _Writer:
         for key in keys:
             by_unit.setdefault(table.units[key], []).append(key)
         last = len(table.columns[along])
-        for at, (unit, some) in enumerate(list(by_unit.items())[:_CHARTS]):
+        for index, (unit, keys_of_unit) in enumerate(list(by_unit.items())[:_CHARTS]):
             chart = self._book.add_chart({"type": "scatter", "subtype": "straight"})
-            for key in some[:_CURVES]:
+            for key in keys_of_unit[:_CURVES]:
                 column = list(table.columns).index(key)
                 chart.add_series({
                     "name": symbol(key, self._language).replace("_", "") or label(key, self._language),
@@ -120,7 +120,7 @@ class _Writer:
             chart.set_y_axis({"name": unit_name(unit, self._language), "major_gridlines": {"visible": True}})
             chart.set_legend({"position": "bottom"})
             chart.set_size({"width": 640, "height": 380})
-            sheet.insert_chart(1 + at * _ROWS_OF_CHART, after + 1, chart)
+            sheet.insert_chart(1 + index * _ROWS_OF_CHART, after + 1, chart)
 
 
 def workbook(results: Results, *, language: Language = "en", per_area: bool = False) -> bytes:
@@ -137,8 +137,8 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         book = xlsxwriter.Workbook(stream, {**kept, "strings_to_formulas": False, "tmpdir": folder})
         # the same tables are the same bytes
-        told = {"title": results.machine.title[:255], "comments": provenance(results)}
-        book.set_properties({"created": _CREATED, **told})
+        properties = {"title": results.machine.title[:255], "comments": provenance(results)}
+        book.set_properties({"created": _CREATED, **properties})
         writer = _Writer(book, language)
         try:
             _values(results, writer, language, per_area=per_area)
@@ -151,7 +151,7 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
             raise _full(error) from None
         finally:
             # a workbook that could not be finished leaves the files of its rows open
-            for rows in (getattr(one, "row_data_fh", None) for one in book.worksheets()):
+            for rows in (getattr(worksheet, "row_data_fh", None) for worksheet in book.worksheets()):
                 if rows is not None:
                     rows.close()
     return stream.getvalue()
@@ -177,7 +177,7 @@ def _values(results: Results, writer: _Writer, language: Language, *, per_area: 
         sheet.write_string(row, 0, capital(say(f"subjects.{subject}", language)), writer.heading)
         row += 1
         for key, value in values.items():
-            sheet.write_string(row, 0, label(told_as(key, results), language))
+            sheet.write_string(row, 0, label(display_key(key, results), language))
             writer.symbol(sheet, row, 1, symbol(key, language))
             shown = displayed(key, value, per_area=area)
             if math.isfinite(shown):
@@ -194,11 +194,11 @@ def _givens(results: Results, writer: _Writer, language: Language) -> None:
     sheet.set_column(0, 0, _WORDS)
     sheet.set_column(1, 2, _WIDTH)
     _headings(sheet, writer, ("columns.quantity", "columns.value", "columns.unit"), language)
-    for row, (path, one) in enumerate(results.machine.stated.items(), start=1):
-        shown = float(from_si(one.value, one.unit)) if one.unit else one.value
+    for row, (path, number) in enumerate(results.machine.stated.items(), start=1):
+        shown = float(from_si(number.value, number.unit)) if number.unit else number.value
         sheet.write_string(row, 0, path)
         sheet.write_number(row, 1, float(f"{shown:.12g}"))
-        sheet.write_string(row, 2, unit_name(one.unit, language))
+        sheet.write_string(row, 2, unit_name(number.unit, language))
 
 
 def _checks(results: Results, writer: _Writer, language: Language) -> None:

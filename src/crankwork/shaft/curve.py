@@ -162,24 +162,24 @@ class Curve:
             shifted = self.coefficients.copy()
             shifted[0] += other
             return type(self)(self.angle, shifted, self.growth)
-        one, two = self._on_common_intervals(other)
-        k = max(len(one.coefficients), len(two.coefficients))
-        total = np.zeros((k, one.coefficients.shape[1]))
-        for curve in (one, two):
+        first, second = self._on_common_intervals(other)
+        k = max(len(first.coefficients), len(second.coefficients))
+        total = np.zeros((k, first.coefficients.shape[1]))
+        for curve in (first, second):
             total[: len(curve.coefficients)] += curve.coefficients
-        return type(self)(one.angle, total, self.growth + other.growth)
+        return type(self)(first.angle, total, self.growth + other.growth)
 
     def __mul__(self, other: Curve | float) -> Self:
         if not isinstance(other, Curve):
             return type(self)(self.angle, other * self.coefficients, other * self.growth)
         if self.growth or other.growth:
             raise MethodError("a quantity that grows from cycle to cycle cannot be multiplied")
-        one, two = self._on_common_intervals(other)
-        p, q = one.coefficients, two.coefficients
+        first, second = self._on_common_intervals(other)
+        p, q = first.coefficients, second.coefficients
         product = np.zeros((len(p) + len(q) - 1, p.shape[1]))
         for i, coefficient in enumerate(p):
             product[i : i + len(q)] += coefficient * q
-        return type(self)(one.angle, product)
+        return type(self)(first.angle, product)
 
     def __neg__(self) -> Self:
         return self * -1.0
@@ -187,18 +187,18 @@ class Curve:
     def __sub__(self, other: Curve | float) -> Self:
         return self + -other
 
-    def delayed(self, by: float) -> Self:
+    def delayed(self, shift: float) -> Self:
         """Return the same quantity, every value later by an angle: the next cylinder of an engine."""
         if self.growth:
             raise MethodError("a quantity that grows from cycle to cycle cannot be delayed")
         first, last = self.angle[0], self.angle[-1]
-        cut = float(first + (first - by - first) % self.cycle)
-        whole = self if np.any(self.angle == cut) else self._refined(np.union1d(self.angle, [cut]))
-        at = int(np.searchsorted(whole.angle, cut))
+        cut = float(first + (first - shift - first) % self.cycle)
+        curve = self if np.any(self.angle == cut) else self._refined(np.union1d(self.angle, [cut]))
+        index = int(np.searchsorted(curve.angle, cut))
         if cut in (first, last):
             return self
-        angle = np.concatenate([whole.angle[at:], whole.angle[1 : at + 1] + self.cycle]) - cut + first
-        rolled = np.roll(whole.coefficients, -at, axis=1)
+        angle = np.concatenate([curve.angle[index:], curve.angle[1 : index + 1] + self.cycle]) - cut + first
+        rolled = np.roll(curve.coefficients, -index, axis=1)
         angle[-1] = last
         return type(self)(angle, rolled)
 

@@ -1,4 +1,4 @@
-"""Several quantities over one coordinate as polynomials on common panels, made once and asked for often."""
+"""Several quantities over one coordinate as polynomials on common panels, fitted once and evaluated often."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _COUNT = 16
 _NODES, _WEIGHTS = legendre.leggauss(_COUNT)
 _DEGREES = np.arange(_COUNT)
 _TO_SERIES = (_DEGREES + 0.5)[:, None] * legendre.legvander(_NODES, _COUNT - 1).T * _WEIGHTS
-TO_POWERS = np.stack([np.pad(legendre.leg2poly(one), (0, _COUNT - 1 - k)) for k, one in enumerate(np.eye(_COUNT))])
+TO_POWERS = np.stack([np.pad(legendre.leg2poly(unit), (0, _COUNT - 1 - k)) for k, unit in enumerate(np.eye(_COUNT))])
 _POWERS = np.arange(_COUNT)
 _CONVERGED = 3e-14
 _NO_BETTER = 0.1
@@ -34,13 +34,13 @@ class Fitted:
     powers: Array
     period: float = math.inf  # [unit of the coordinate]
 
-    def __call__(self, at: Array, low: float = -math.inf, high: float = math.inf) -> Array:
+    def __call__(self, coordinates: Array, low: float = -math.inf, high: float = math.inf) -> Array:
         """Return the quantities at some coordinates, shape (quantities, ...).
 
         `low`, `high`: ends of a stretch within the first period; beyond them its laws go on along their tangents.
         """
-        shape, at = np.shape(at), np.ravel(at)
-        inside = np.clip(at, low, high)
+        shape, coordinates = np.shape(coordinates), np.ravel(coordinates)
+        inside = np.clip(coordinates, low, high)
         turned = (
             0.0
             if math.isfinite(low) or math.isinf(self.period)
@@ -50,7 +50,7 @@ class Fitted:
         last = np.searchsorted(self.edges, high, side="left") - 1 if math.isfinite(high) else len(self.edges) - 2
         panel = np.clip(panel, 0, last)
         start = self.edges[panel]
-        place = 2 * (at - turned - start) / (self.edges[panel + 1] - start) - 1
+        place = 2 * (coordinates - turned - start) / (self.edges[panel + 1] - start) - 1
         held = np.clip(place, -1.0, 1.0)
         powers = self.powers[panel]
         places = np.ones((held.size, _COUNT))
@@ -73,7 +73,7 @@ class Fitted:
 
 
 def fitted(
-    function: Callable[[Array], Array], breaks: Array, width: float, period: float = math.inf, *, alike: Sequence[int]
+    function: Callable[[Array], Array], breaks: Array, width: float, period: float = math.inf, *, groups: Sequence[int]
 ) -> Fitted:
     """Return the polynomials of some quantities, panels halved until they have converged.
 
@@ -87,7 +87,7 @@ def fitted(
     high = np.append(low[1:], breaks[-1])
     kept: list[tuple[Array, Array]] = []
     series = _series(function, low, high)
-    own, kinds = np.max(np.abs(series).sum(axis=2), axis=0), np.array(alike[: series.shape[1]])
+    own, kinds = np.max(np.abs(series).sum(axis=2), axis=0), np.array(groups[: series.shape[1]])
     size = np.array([max(float(np.max(own[kinds == kind])), 1e-300) for kind in kinds])
     left = _tail(series, size)
     for _ in range(_CUTS):
@@ -106,17 +106,17 @@ def fitted(
         left = np.where(rounding, 0.0, left)
     else:
         kept.append((low, series))
-    begun = np.concatenate([one for one, _ in kept])
+    begun = np.concatenate([panel_starts for panel_starts, _ in kept])
     order = np.argsort(begun)
-    powers = np.concatenate([one for _, one in kept])[order] @ TO_POWERS
+    powers = np.concatenate([panel_series for _, panel_series in kept])[order] @ TO_POWERS
     return Fitted(np.append(begun[order], breaks[-1]), np.asarray(powers), period)
 
 
 def _series(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
     """Return Legendre coefficients on panels, shape (panels, quantities, 16)."""
-    at = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
+    points = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * _NODES
     order = np.argsort(low)
-    values = function(at[order].ravel()).reshape(-1, low.size, _COUNT)
+    values = function(points[order].ravel()).reshape(-1, low.size, _COUNT)
     back = np.empty_like(order)
     back[order] = np.arange(order.size)
     return np.asarray(np.moveaxis(values[:, back], 0, 1) @ _TO_SERIES.T)

@@ -53,14 +53,14 @@ def fluctuation_of_energy(L_exc: Value, W_c: Value) -> Value:
 
 
 def share_of_work(excess: Known, work: Known) -> Known:
-    """Return what part of the work of a cycle, done or taken, the kinetic energy takes and gives."""
+    """Return the ratio of the excess work to the work of a cycle."""
     share: Known = fluctuation_of_energy(excess, work if work.value > 0 else -work)
     return share
 
 
 @dataclass(frozen=True)
 class ExcessWork:
-    """What the torque does beyond its mean."""
+    """Work of a torque beyond that of its mean."""
 
     curve: Curve  # Integral of torque less mean torque, zero at the start of the cycle [J]
     # Where the speed is least and greatest if the moment of inertia is constant [J], [rad]
@@ -138,8 +138,8 @@ def true_speed(
     inertia reduced to the crank, flywheel included [kg m2]; `torque`: torque over the angle, balanced by a constant one
     [N m]; `excess_of`: its excess work, where that is known already. Source: artobolevsky_1988, ch. 16.
     """
-    found = excess_of or excess_work(torque)
-    excess, reach, balanced = found.curve, found.extremes, torque - found.mean_torque
+    work = excess_of or excess_work(torque)
+    excess, reach, balanced = work.curve, work.extremes, torque - work.mean_torque
     inertia_1 = inertia.derivative
     if not inertia.mean > 0:
         raise MethodError(Refusal("masses_missing"))
@@ -148,7 +148,7 @@ def true_speed(
     def extremes_at(energy: float) -> Extremes:
         if np.any(inertia_1.coefficients):
             return _speed_extremes(inertia, inertia_1, excess, balanced, energy)
-        low, high = (float(speed_of_energy(energy + one, inertia.mean)) for one in (reach.least, reach.largest))
+        low, high = (float(speed_of_energy(energy + change, inertia.mean)) for change in (reach.least, reach.largest))
         return Extremes(low, reach.at_least, high, reach.at_largest)
 
     # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
@@ -163,8 +163,8 @@ def true_speed(
         miss = (extremes.largest + extremes.least) / 2 - mean_speed
         # the derivative of each extreme speed by the energy is 1 / (J w)
         slope = sum(
-            1 / max(float(inertia(at)) * w, 1e-300)
-            for w, at in ((extremes.least, extremes.at_least), (extremes.largest, extremes.at_largest))
+            1 / max(float(inertia(angle)) * w, 1e-300)
+            for w, angle in ((extremes.least, extremes.at_least), (extremes.largest, extremes.at_largest))
         )
         following = max(energy - 2 * miss / slope, floor + (energy - floor) / 16)
         if abs(miss) <= _SETTLED * mean_speed or abs(following - energy) <= 4e-16 * energy:
@@ -213,7 +213,7 @@ def _speed_extremes(inertia: Curve, inertia_1: Curve, excess: Curve, torque: Cur
 
 @dataclass(frozen=True)
 class SpeedOfPolynomials:
-    """Fluctuation and extremes of the speed, of polynomials over one cycle: what `Procedure` asks for."""
+    """Fluctuation and extremes of the speed from polynomials over one cycle, as the function of a `Procedure`."""
 
     sign: float = 1.0  # Of the torque that is given: -1 for one that brakes
     mean: Mean = "time"
@@ -223,10 +223,10 @@ class SpeedOfPolynomials:
 
         No numbers where the machine would stop.
         """
-        torque, inertia = (Curve.legendre(edges, one) for one in series[:2])
+        torque, inertia = (Curve.legendre(edges, column) for column in series[:2])
         try:
-            found = true_speed(inertia, torque * self.sign, float(series[2, 0, 0]), mean=self.mean)
+            speed = true_speed(inertia, torque * self.sign, float(series[2, 0, 0]), mean=self.mean)
         except MethodError:
             return (np.nan,) * 5
-        least, at_least, largest, at_largest = found.extremes
-        return found.fluctuation, largest, at_largest, least, at_least
+        least, at_least, largest, at_largest = speed.extremes
+        return speed.fluctuation, largest, at_largest, least, at_least

@@ -1,4 +1,4 @@
-"""The flywheel that keeps the speed within a wanted fluctuation, four ways side by side."""
+"""The flywheel that keeps the speed within a required fluctuation, by four methods side by side."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from crankwork.locale import Refusal
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import ExcessWork, excess_work
 
-Way = Literal["energy", "mertsalov", "wittenbauer", "exact"]
-WAYS: tuple[Way, ...] = ("energy", "mertsalov", "wittenbauer", "exact")
+FlywheelMethod = Literal["energy", "mertsalov", "wittenbauer", "exact"]
+WAYS: tuple[FlywheelMethod, ...] = ("energy", "mertsalov", "wittenbauer", "exact")
 
 
 @formula("flywheel_inertia", "artobolevsky_1988, ch. 16")
@@ -57,9 +57,9 @@ def slope_least(w: Value, delta: Value) -> Value:
 
 
 class Flywheel(NamedTuple):
-    """A flywheel found in one of the four ways."""
+    """A flywheel by one of the four methods."""
 
-    way: Way
+    method: FlywheelMethod
     inertia: float  # Moment of inertia of the flywheel on the crank; negative where the machine needs none [kg m2]
     excess: float  # Excess work in the sense of this way, which over delta w^2 gives the inertia [J]
 
@@ -69,10 +69,10 @@ def flywheel(
     torque: Curve,
     mean_speed: float,
     fluctuation: float,
-    way: Way = "exact",
+    method: FlywheelMethod = "exact",
     excess_of: ExcessWork | None = None,
 ) -> Flywheel:
-    """Return the flywheel for a wanted fluctuation of the speed, where all torques depend on the angle alone.
+    """Return the flywheel for a required fluctuation of the speed, where all torques depend on the angle alone.
 
     The inertia given is that of the machine without the flywheel, the torque that of engine or load (negative), which a
     constant torque balances, `excess_of` its excess work where that is known; the mean speed is that of the extremes.
@@ -88,15 +88,15 @@ def flywheel(
     """
     check_fluctuation(fluctuation, mean_speed)
     excess = excess_of or excess_work(torque)
-    if way == "energy":
-        found, less = excess.work, inertia.mean
-    elif way == "mertsalov":
-        found, less = work_at_constant_speed(inertia, excess, mean_speed), inertia.extremes().least
+    if method == "energy":
+        work, less = excess.work, inertia.mean
+    elif method == "mertsalov":
+        work, less = work_at_constant_speed(inertia, excess, mean_speed), inertia.extremes().least
     else:
-        largest, least = _slopes(way, mean_speed, fluctuation)
+        largest, least = _slopes(method, mean_speed, fluctuation)
         above, below = (excess.curve - inertia * slope for slope in (largest, least))
-        found, less = above.extremes().largest - below.extremes().least, 0.0
-    return Flywheel(way, float(inertia_for_fluctuation(found, fluctuation, mean_speed)) - less, found)
+        work, less = above.extremes().largest - below.extremes().least, 0.0
+    return Flywheel(method, float(inertia_for_fluctuation(work, fluctuation, mean_speed)) - less, work)
 
 
 def work_at_constant_speed(inertia: Curve, excess: ExcessWork, mean_speed: float) -> float:
@@ -114,9 +114,9 @@ def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
         raise MethodError(Refusal("fluctuation_wild", fluctuation=fluctuation, speed=mean_speed))
 
 
-def _slopes(way: Way, w: float, delta: float) -> tuple[float, float]:
-    """Return half the squares of greatest and least speed as a way takes them that tells them apart."""
-    if way == "wittenbauer":
+def _slopes(method: FlywheelMethod, w: float, delta: float) -> tuple[float, float]:
+    """Return half the squares of greatest and least speed, as the tangent methods take them."""
+    if method == "wittenbauer":
         return float(wittenbauer_slope_largest(w, delta)), float(wittenbauer_slope_least(w, delta))
     return float(slope_largest(w, delta)), float(slope_least(w, delta))
 

@@ -22,7 +22,7 @@ TWICE = INTEGRATION @ INTEGRATION
 ITERATIONS = 25
 SETTLED = 1e-15
 STAGNANT = 1e-12
-UNFELT = 1e-13
+NEGLIGIBLE = 1e-13
 LOOKS = (1 - np.cos(np.pi * np.arange(4 * POINTS + 1) / (4 * POINTS))) / 2
 # from values at the points to the integral up to each look, and to the integral of that
 AT_LOOKS = legendre.legvander(2 * LOOKS - 1, POINTS) @ _TO_INTEGRAL @ TO_SERIES
@@ -69,7 +69,7 @@ class Step:
 
     @property
     def tail(self) -> tuple[float, float, float]:
-        """What the last coefficients of the acceleration amount to in coordinate and rate, and as a share of it."""
+        """Truncation errors of coordinate and rate from the last coefficients of the acceleration, and their share."""
         last = float(np.sum(np.abs(self._series[0][-2:])))
         return last * self.length**2, last * self.length, last / max(float(np.max(np.abs(self.stages))), 1e-300)
 
@@ -80,7 +80,7 @@ class Step:
         if abs(signs[0]) <= _AT_START * np.max(np.abs(signs)):
             # it starts there
             signs[0] = 0.0
-        found = []
+        times = []
         for k in np.flatnonzero(signs[1:] * signs[:-1] < 0):
             low, high, below = LOOKS[k], LOOKS[k + 1], signs[k] < 0
             for _ in range(_HALVINGS):
@@ -89,8 +89,8 @@ class Step:
                     break
                 q, v, _ = self.at(np.array(self.time + self.length * middle))
                 low, high = (middle, high) if (float(value(q, v)) < 0) == below else (low, middle)
-            found.append(self.time + self.length * high)
-        return found
+            times.append(self.time + self.length * high)
+        return times
 
 
 @np.errstate(all="ignore")  # of a step too long anything may come out
@@ -112,29 +112,29 @@ def gauss_step(
     last = math.inf
     for iteration in range(ITERATIONS):
         q, v = drift + h * h * (TWICE @ a), rate + h * (INTEGRATION @ a)
-        found = acceleration(q, v)
+        result = acceleration(q, v)
         if iteration % 6 == 0:
-            by_q, by_v = _slopes(acceleration, q, v, found)
+            by_q, by_v = _slopes(acceleration, q, v, result)
             matrix = np.eye(POINTS) - h * h * by_q[:, None] * TWICE - h * by_v[:, None] * INTEGRATION
-        if not (np.isfinite(found).all() and np.isfinite(matrix).all()):
+        if not (np.isfinite(result).all() and np.isfinite(matrix).all()):
             return None
-        move = np.linalg.solve(matrix, found - a)
+        move = np.linalg.solve(matrix, result - a)
         a = a + move
         size, scale = float(np.max(np.abs(move))), float(np.max(np.abs(a)))
-        # what it does to coordinate and rate is below their own rounding
-        felt = max(size * h * h / max(np.max(np.abs(q - start)), 1e-300), size * h / max(np.max(np.abs(v)), 1e-300))
-        stagnates = size >= last / 4 and (size <= STAGNANT * scale or felt <= UNFELT)
+        # its effect on coordinate and rate is below their own rounding
+        change = max(size * h * h / max(np.max(np.abs(q - start)), 1e-300), size * h / max(np.max(np.abs(v)), 1e-300))
+        stagnates = size >= last / 4 and (size <= STAGNANT * scale or change <= NEGLIGIBLE)
         # the next move would be as much smaller as this one is than the last
         left = size * min(size / last, 1.0) if iteration else size
-        if left <= SETTLED * scale or felt <= 1e-17 or stagnates:
+        if left <= SETTLED * scale or change <= 1e-17 or stagnates:
             return Step(time, start, rate, length, a)
         last = size
     return None
 
 
-def _slopes(acceleration: Acceleration, q: Array, v: Array, found: Array) -> tuple[Array, Array]:
+def _slopes(acceleration: Acceleration, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
     """Return the derivatives of the acceleration; they only steer Newton's method."""
     step_q = 1e-7 * max(float(np.ptp(q)), 1e-3 * float(np.max(np.abs(q))), 1e-9)
     step_v = 1e-7 * max(float(np.max(np.abs(v))), 1e-9)
     both = acceleration(np.concatenate([q + step_q, q]), np.concatenate([v, v + step_v]))
-    return (both[: q.size] - found) / step_q, (both[q.size :] - found) / step_v
+    return (both[: q.size] - a) / step_q, (both[q.size :] - a) / step_v

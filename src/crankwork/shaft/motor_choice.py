@@ -1,4 +1,4 @@
-"""What a machine needs of its motor: power from the mean torque, and where the load is too large for it."""
+"""Selection of a motor: power from the mean torque, and angles where the load is too large for it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What rubs in a machine let go: friction moments and forces that depend on the joint forces that they change."""
+"""Friction in transient motion: moments and forces that depend on the joint forces that they change."""
 
 from __future__ import annotations
 
@@ -35,71 +35,71 @@ class Slipping:
 
     @property
     def count(self) -> int:
-        """Rows of one joint: its own, and two for what the friction of each joint does to its unknowns."""
+        """Rows of one joint: its own, and two for the effect of the friction of each joint on its unknowns."""
         return _OWN + 2 * len(self.joints)
 
     def rates(self, rows: Array) -> Array:
         """Return the relative rates of the joints by the coordinate, shape (joints, n)."""
         return rows[self.first : self.first + self.count * len(self.joints) : self.count]
 
-    def frictions(self, rows: Array, way: int, senses: Array, state: State) -> Array:
+    def frictions(self, rows: Array, direction: int, senses: Array, state: State) -> Array:
         """Return the friction of each joint on the link that it holds, shape (joints, n). [N m] or [N]
 
         `rows`: the quantities of the machine, shape (rows, n); `senses`: directions of the relative rates as the
         coordinate grows. NaN where the joints lock.
         """
         blocks = rows[self.first :].reshape(len(self.joints), self.count, -1)
-        rates = np.stack([one[0] for one in blocks])
+        rates = np.stack([block[0] for block in blocks])
         v, a, J = state
-        at = _GROWS if way > 0 else _FALLS
+        row = _GROWS if direction > 0 else _FALLS
         # the two unknowns of every joint without friction, and what a unit of each friction adds to them
         free = np.stack(
             [
-                one[at : at + 2] + one[_SQUARE : _SQUARE + 2] * v * v + one[_RATE : _RATE + 2] * v
-                + one[_ACCELERATION : _ACCELERATION + 2] * a
-                for one in blocks
+                block[row : row + 2] + block[_SQUARE : _SQUARE + 2] * v * v + block[_RATE : _RATE + 2] * v
+                + block[_ACCELERATION : _ACCELERATION + 2] * a
+                for block in blocks
             ]
         )  # fmt: skip
-        by = np.stack(
+        by_friction = np.stack(
             [
-                one[_ACCELERATION : _ACCELERATION + 2, None] * (rates / J)[None]
-                + one[_OWN:].reshape(2, len(blocks), -1)
-                for one in blocks
+                block[_ACCELERATION : _ACCELERATION + 2, None] * (rates / J)[None]
+                + block[_OWN:].reshape(2, len(blocks), -1)
+                for block in blocks
             ]
         )
-        return self._solved(free, by, -way * senses[:, None] * np.ones_like(v), rates * v)
+        return self._solved(free, by_friction, -direction * senses[:, None] * np.ones_like(v), rates * v)
 
     def senses(self, rows: Array) -> Array:
         """Return the signs of the relative rates at one place, shape (joints,)."""
         return np.sign(self.rates(rows)[:, 0])
 
-    def _solved(self, free: Array, by: Array, against: Array, velocity: Array) -> Array:
+    def _solved(self, free: Array, by_friction: Array, against: Array, velocity: Array) -> Array:
         """Return frictions m of m = s (f P(m) + c) - d v by Newton's method, from none."""
         count, n = velocity.shape
-        drags = (one.law.moment if isinstance(one.law, PinFriction) else one.law.force for one in self.joints)
+        drags = (pair.law.moment if isinstance(pair.law, PinFriction) else pair.law.force for pair in self.joints)
         constant = np.stack(
             [
-                drag * s - one.law.damping * v
-                for one, drag, s, v in zip(self.joints, drags, against, velocity, strict=True)
+                drag * s - pair.law.damping * v
+                for pair, drag, s, v in zip(self.joints, drags, against, velocity, strict=True)
             ]
         )
-        found, sign = np.zeros((count, n)), np.ones(n)
+        frictions, sign = np.zeros((count, n)), np.ones(n)
         for _ in range(_ITERATIONS):
-            pairs = free + np.einsum("iakn,kn->ian", by, found)
-            matrix, missing = np.zeros((n, count, count)), found - constant
-            for i, one in enumerate(self.joints):
-                pressing, by_one, by_two = one.pressing(pairs[i, 0], pairs[i, 1])
-                share = against[i] * one.factor
+            pairs = free + np.einsum("iakn,kn->ian", by_friction, frictions)
+            matrix, missing = np.zeros((n, count, count)), frictions - constant
+            for i, joint in enumerate(self.joints):
+                pressing, by_one, by_two = joint.pressing(pairs[i, 0], pairs[i, 1])
+                share = against[i] * joint.factor
                 missing[i] -= share * pressing
-                matrix[:, i] = (-share * (by_one * by[i, 0] + by_two * by[i, 1])).T
+                matrix[:, i] = (-share * (by_one * by_friction[i, 0] + by_two * by_friction[i, 1])).T
             matrix += np.eye(count)
             move = np.linalg.solve(matrix, missing.T[..., None])[..., 0].T
-            found = found - move
+            frictions = frictions - move
             sign = np.linalg.det(matrix)
-            if np.all(np.abs(move) <= _SETTLED * (np.abs(found) + np.abs(constant) + 1e-300)):
+            if np.all(np.abs(move) <= _SETTLED * (np.abs(frictions) + np.abs(constant) + 1e-300)):
                 break
         else:
-            settled = np.all(np.abs(move) <= _LOCKED * (np.abs(found) + 1e-300), axis=0)
-            found = np.where(settled, found, np.nan)
+            settled = np.all(np.abs(move) <= _LOCKED * (np.abs(frictions) + 1e-300), axis=0)
+            frictions = np.where(settled, frictions, np.nan)
         # without friction the determinant is one; where it has changed its sign no force balances
-        return np.where(sign > 0, found, np.nan)
+        return np.where(sign > 0, frictions, np.nan)

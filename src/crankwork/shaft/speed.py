@@ -38,13 +38,13 @@ class ReducedMachine:
         brakes. The motor is its torque on the crank over the speed of the crank; the flywheel is all that is added, the
         motor's own inertia times the square of its ratio included.
         """
-        whole = inertia + flywheel
+        total = inertia + flywheel
 
         def torque(angle: Array, speed: Array) -> Array:
             return load(angle) if motor is None else load(angle) + motor.torque(speed)
 
         corners = np.unique(np.concatenate([inertia.angle, load.angle]) % load.cycle)
-        return cls(whole, torque, load.cycle, corners)
+        return cls(total, torque, load.cycle, corners)
 
     def edges(self) -> Array:
         """Return panels over one cycle that meet at the corners."""
@@ -128,7 +128,7 @@ def _extreme(machine: ReducedMachine, solved: Panels, sign: int) -> float:
     low, high = angles[max(best - 1, 0)], angles[min(best + 1, angles.size - 1)]
     for _ in range(4):
         grid = np.linspace(low, high, 33)
-        there = machine.speed(grid, solved(grid))
-        at = int(np.argmax(sign * there))
-        low, high = grid[max(at - 1, 0)], grid[min(at + 1, 32)]
-    return float(there[at])
+        speeds_there = machine.speed(grid, solved(grid))
+        index = int(np.argmax(sign * speeds_there))
+        low, high = grid[max(index - 1, 0)], grid[min(index + 1, 32)]
+    return float(speeds_there[index])

@@ -17,6 +17,7 @@ from crankwork.shaft.gauss_step import (
     INTEGRATION,
     ITERATIONS,
     LOOKS,
+    NEGLIGIBLE,
     NODES,
     POINTS,
     SETTLED,
@@ -24,16 +25,15 @@ from crankwork.shaft.gauss_step import (
     TO_SERIES,
     TWICE,
     TWICE_AT_LOOKS,
-    UNFELT,
     WEIGHTS,
 )
 from crankwork.shaft.transient import AT_END, GROWTH, SHARE, SHORTEST, TAIL
 
-_felt = once(FORMULAS["acceleration_of_crank"].function)
+_acceleration = once(FORMULAS["acceleration_of_crank"].function)
 
 
 @compiled
-def accelerations(edges, powers, law, q, v, found):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
+def accelerations(edges, powers, law, q, v, accelerations_out):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
     """Put the accelerations at coordinates and rates into an array.
 
     `powers`: of inertia, torque, damping and the derivative of the inertia, shape (panels, 16, 4); `law`: ends of the
@@ -64,7 +64,7 @@ def accelerations(edges, powers, law, q, v, found):  # type: ignore[no-untyped-d
                 s_d, s_1 = s_d * held + k * p[k, 2], s_1 * held + k * p[k, 3]
             beyond = place - held
             J, M, d, J_1 = J + beyond * s, M + beyond * s_M, d + beyond * s_d, J_1 + beyond * s_1
-        found[i] = _felt(M - d * v[i], v[i], J, J_1)
+        accelerations_out[i] = _acceleration(M - d * v[i], v[i], J, J_1)
 
 
 @compiled
@@ -110,7 +110,7 @@ def dot(row, a):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
 
 @compiled
 def farthest(a, start):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
-    """Return how far the first of some values are from another at most; what is no number is infinitely far."""
+    """Return the largest distance of values from another one, infinite if one is not a number."""
     result = 0.0
     for i in range(POINTS):
         far = abs(a[i] - start)
@@ -119,11 +119,11 @@ def farthest(a, start):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
 
 
 @compiled
-def slopes(q, v, h, found, matrix):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
-    """Put into a matrix how what is left of the equations changes with the accelerations."""
-    by = h / (q[POINTS] - q[0]), h / (v[2 * POINTS] - v[0])
+def slopes(q, v, h, values, matrix):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
+    """Put the derivatives of the residuals by the accelerations into a matrix."""
+    rates = h / (q[POINTS] - q[0]), h / (v[2 * POINTS] - v[0])
     for i in range(POINTS):
-        by_q, by_v = h * by[0] * (found[POINTS + i] - found[i]), by[1] * (found[2 * POINTS + i] - found[i])
+        by_q, by_v = h * rates[0] * (values[POINTS + i] - values[i]), rates[1] * (values[2 * POINTS + i] - values[i])
         for j in range(POINTS):
             matrix[i, j] = -by_q * TWICE[i, j] - by_v * INTEGRATION[i, j]
         matrix[i, i] += 1.0
@@ -132,37 +132,37 @@ def slopes(q, v, h, found, matrix):  # type: ignore[no-untyped-def]  # noqa: ANN
 @compiled
 def settled(edges, powers, law, start, rate, h, a):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201, PLR0913
     """Turn a guess of the accelerations at the Gauss points into those of a step; return whether there is one."""
-    q, v, found = np.empty(3 * POINTS), np.empty(3 * POINTS), np.empty(3 * POINTS)
+    q, v, values = np.empty(3 * POINTS), np.empty(3 * POINTS), np.empty(3 * POINTS)
     matrix, order, move = np.empty((POINTS, POINTS)), np.empty(POINTS, np.intp), np.empty(POINTS)
     last = math.inf
     for iteration in range(ITERATIONS):
         for i in range(POINTS):
             q[i] = start + h * NODES[i] * rate + h * h * dot(TWICE[i], a)
             v[i] = rate + h * dot(INTEGRATION[i], a)
-        gone, fastest, count = farthest(q, start), farthest(v, 0.0), POINTS
+        farthest_q, fastest, count = farthest(q, start), farthest(v, 0.0), POINTS
         if iteration % 6 == 0:
             # once more beside them, for the slopes that steer Newton's method
-            by_q, by_v = 1e-7 * max(gone, 1e-3 * farthest(q, 0.0), 1e-9), 1e-7 * max(fastest, 1e-9)
+            by_q, by_v = 1e-7 * max(farthest_q, 1e-3 * farthest(q, 0.0), 1e-9), 1e-7 * max(fastest, 1e-9)
             for i in range(POINTS):
                 q[POINTS + i], v[POINTS + i] = q[i] + by_q, v[i]
                 q[2 * POINTS + i], v[2 * POINTS + i] = q[i], v[i] + by_v
             count = 3 * POINTS
-        accelerations(edges, powers, law, q[:count], v[:count], found)
+        accelerations(edges, powers, law, q[:count], v[:count], values)
         if count > POINTS:
-            slopes(q, v, h, found, matrix)
+            slopes(q, v, h, values, matrix)
             factored(matrix, order)
         for i in range(POINTS):
-            move[i] = found[i] - a[i]
+            move[i] = values[i] - a[i]
         solved(matrix, order, move)
         for i in range(POINTS):
             a[i] += move[i]
         size, scale = farthest(move, 0.0), farthest(a, 0.0)
         if not math.isfinite(scale + size):
             return False
-        felt = max(size * h * h / max(gone, 1e-300), size * h / max(fastest, 1e-300))
-        stagnates = size >= last / 4 and (size <= STAGNANT * scale or felt <= UNFELT)
+        change = max(size * h * h / max(farthest_q, 1e-300), size * h / max(fastest, 1e-300))
+        stagnates = size >= last / 4 and (size <= STAGNANT * scale or change <= NEGLIGIBLE)
         left = size * min(size / last, 1.0) if iteration else size
-        if left <= SETTLED * scale or felt <= 1e-17 or stagnates:
+        if left <= SETTLED * scale or change <= 1e-17 or stagnates:
             return True
         last = size
     return False
@@ -181,25 +181,25 @@ def ahead(a, reach, guess):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN
 
 
 @compiled
-def may_happen(start, rate, h, a, limits, way):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
+def may_leave(start, rate, h, a, limits, direction):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
     """Return whether a step turns back or goes beyond limits."""
     for i in range(1, LOOKS.size):
         q = start + h * LOOKS[i] * rate + h * h * dot(TWICE_AT_LOOKS[i], a)
-        if not ((rate + h * dot(AT_LOOKS[i], a)) * way > 0 and limits[0] < q < limits[1]):
+        if not ((rate + h * dot(AT_LOOKS[i], a)) * direction > 0 and limits[0] < q < limits[1]):
             return True
     return False
 
 
 @compiled
 def left_out(a, h, fast, size):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
-    """Return what a step leaves out, over what it may leave out beside the largest rate and a size."""
+    """Return the error of a step in units of the tolerance, relative to the largest rate and a size."""
     last = abs(dot(TO_SERIES[POINTS - 2], a)) + abs(dot(TO_SERIES[POINTS - 1], a))
-    felt = max(last * h * h / (TAIL * size), last * h / (TAIL * fast))
-    return min(felt, last / max(farthest(a, 0.0), 1e-300) / SHARE)
+    left = max(last * h * h / (TAIL * size), last * h / (TAIL * fast))
+    return min(left, last / max(farthest(a, 0.0), 1e-300) / SHARE)
 
 
 @compiled
-def glide(edges, powers, law, limits, way, sizes, state, kept):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201, PLR0913
+def take_steps(edges, powers, law, limits, direction, sizes, state, kept):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201, PLR0913
     """Take steps while nothing may happen; return how many.
 
     `limits`: of the coordinate; `sizes`: end of the time, and the coordinate beside which a step may leave something
@@ -216,7 +216,7 @@ def glide(edges, powers, law, limits, way, sizes, state, kept):  # type: ignore[
             accelerations(edges, powers, law, np.array([q]), np.array([v]), a)
             a[:] = a[0]
         is_settled = settled(edges, powers, law, q, v, h, a)
-        if is_settled and may_happen(q, v, h, a, limits, way):
+        if is_settled and may_leave(q, v, h, a, limits, direction):
             break
         rate = v + h * dot(WEIGHTS, a)
         fast = max(largest, abs(v), abs(rate))

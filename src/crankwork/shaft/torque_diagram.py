@@ -117,7 +117,7 @@ class TorqueDiagram:
     excess: float | None = None  # Fluctuation of the energy [J]
 
     @property
-    def has_course(self) -> bool:
+    def is_complete(self) -> bool:
         """Whether the torque is known at every angle."""
         return not self.loops and self.excess is None
 
@@ -133,9 +133,9 @@ class TorqueDiagram:
         last, angles = len(self.points) - 1, [angle for angle, _ in self.points]
         if angles[0] > 0:
             yield Line(last, 0, (-1, 0), angles[0])
-        for at in range(last):
-            if angles[at + 1] > angles[at]:
-                yield Line(at, at + 1, (0, 0), angles[at + 1])
+        for index in range(last):
+            if angles[index + 1] > angles[index]:
+                yield Line(index, index + 1, (0, 0), angles[index + 1])
         if angles[-1] < self.period:
             yield Line(last, 0, (0, 1), self.period)
 
@@ -148,32 +148,32 @@ class TorqueDiagram:
         result = self.constant * angle
         for order, sine, cosine in self.harmonics:
             result = result + (sine * (1 - np.cos(order * angle)) + cosine * np.sin(order * angle)) / order
-        for one in self.strokes:
-            periods, rest = np.divmod(angle - one.start, self.period)
-            result = result + one.work * (periods + one.share(rest))
+        for stroke in self.strokes:
+            periods, rest = np.divmod(angle - stroke.start, self.period)
+            result = result + stroke.work * (periods + stroke.share(rest))
         return result + self._work_of_lines(angle) if self.points else result
 
     def _work_of_lines(self, angle: Array) -> Array:
         lines = list(self.lines())
-        low = np.array([self.points[one.first][0] + one.moved[0] * self.period for one in lines])
-        high = np.array([self.points[one.last][0] + one.moved[1] * self.period for one in lines])
-        left = np.array([self.points[one.first][1] for one in lines])
-        right = np.array([self.points[one.last][1] for one in lines])
+        low = np.array([self.points[part.first][0] + part.moved[0] * self.period for part in lines])
+        high = np.array([self.points[part.last][0] + part.moved[1] * self.period for part in lines])
+        left = np.array([self.points[part.first][1] for part in lines])
+        right = np.array([self.points[part.last][1] for part in lines])
         slope = (right - left) / (high - low)
 
         def area(line: NDArray[np.intp], end: Array) -> Array:
             return np.asarray((left[line] + slope[line] * (end - low[line]) / 2) * (end - low[line]))
 
-        ends = np.array([one.end for one in lines])
-        starts, every = np.append(0.0, ends[:-1]), np.arange(len(lines))
-        whole = np.append(0.0, np.cumsum(area(every, ends) - area(every, starts)))
+        ends = np.array([part.end for part in lines])
+        starts, all_lines = np.append(0.0, ends[:-1]), np.arange(len(lines))
+        work = np.append(0.0, np.cumsum(area(all_lines, ends) - area(all_lines, starts)))
         periods, rest = np.divmod(angle, self.period)
         line = np.minimum(np.searchsorted(ends, rest, side="left"), len(lines) - 1)
-        return np.asarray(periods * whole[-1] + whole[line] + area(line, rest) - area(line, starts[line]))
+        return np.asarray(periods * work[-1] + work[line] + area(line, rest) - area(line, starts[line]))
 
 
 class Turning(NamedTuple):
-    """What drives a shaft and what it drives; where one of them is not given, it is constant."""
+    """Driving and load torque of a shaft; one that is not given is constant."""
 
     torque: TorqueDiagram | None
     load: TorqueDiagram | None
@@ -182,13 +182,13 @@ class Turning(NamedTuple):
     @property
     def diagrams(self) -> dict[str, TorqueDiagram]:
         """Those that are given, by the table that describes them."""
-        return {name: one for name, one in (("torque", self.torque), ("load", self.load)) if one is not None}
+        return {name: item for name, item in (("torque", self.torque), ("load", self.load)) if item is not None}
 
 
-def common_period(one: float, other: float, most: int = 60) -> float | None:
-    """Return the angle after which what has two periods repeats; none if it takes too many of them. [rad]"""
+def common_period(first: float, second: float, most: int = 60) -> float | None:
+    """Return the common period of two, or None if it has too many of them. [rad]"""
     for times in range(1, most + 1):
-        share = times * one / other
+        share = times * first / second
         if share > 0.5 and math.isclose(share, round(share), rel_tol=1e-9):
-            return times * one
+            return times * first
     return None

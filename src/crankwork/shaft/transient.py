@@ -18,7 +18,7 @@ from crankwork.shaft.gauss_step import POINTS, Step, gauss_step
 from crankwork.shaft.motor import Motor
 from crankwork.shaft.slipping import Slipping, State
 
-Way = Literal[1, -1]
+Direction = Literal[1, -1]
 EventWord = Literal[
     "turns_back", "comes_to_rest", "stop", "reaches_speed", "dead_position", "change_point", "end_of_way",
     "steady", "interrupted", "many_steps", "lost",
@@ -93,15 +93,17 @@ class FreeMachine:
         own = np.full_like(speed, self.torque)
         return own if self.motor is None else own + self.motor.torque(speed)
 
-    def acceleration(self, q: Array, v: Array, way: Way, low: float = -math.inf, high: float = math.inf) -> Array:
-        """Return the acceleration of the coordinate while it goes one way, on a stretch between breaks."""
+    def acceleration(
+        self, q: Array, v: Array, direction: Direction, low: float = -math.inf, high: float = math.inf
+    ) -> Array:
+        """Return the acceleration of the coordinate for one direction, on an interval between breakpoints."""
         rows = self.reduced(q, low, high)
         J, _, grows, falls, damping, rate, J_1, V_1 = rows[:OWN]
-        torque = (grows if way > 0 else falls) - V_1 - damping * v + self.drive(rate * v) * rate
+        torque = (grows if direction > 0 else falls) - V_1 - damping * v + self.drive(rate * v) * rate
         if self.slipping is not None:
             free = State(v, acceleration_of_crank(torque, v, J, J_1), J)
-            found = self.slipping.frictions(rows, way, self._senses(low, high), free)
-            torque = torque + np.sum(self.slipping.rates(rows) * found, axis=0)
+            frictions = self.slipping.frictions(rows, direction, self._senses(low, high), free)
+            torque = torque + np.sum(self.slipping.rates(rows) * frictions, axis=0)
         return np.asarray(acceleration_of_crank(torque, v, J, J_1))
 
     def _senses(self, low: float, high: float) -> Array:
@@ -113,27 +115,27 @@ class FreeMachine:
             self._known[low, high] = self.slipping.senses(self.reduced(np.array([middle])))
         return self._known[low, high]
 
-    def placed(self, q: float, way: Way) -> float:
-        """Return a coordinate of the first period so that what lies ahead of it is in that too."""
+    def placed(self, q: float, direction: Direction) -> float:
+        """Return a coordinate moved into the first period, together with the interval ahead of it."""
         if math.isinf(self.period):
             return q
-        if way < 0 and q <= self.breaks[0]:
+        if direction < 0 and q <= self.breaks[0]:
             return q + self.period
-        return q - self.period if way > 0 and q >= self.breaks[-1] else q
+        return q - self.period if direction > 0 and q >= self.breaks[-1] else q
 
-    def stretch(self, q: float, way: Way) -> tuple[float, float]:
+    def stretch(self, q: float, direction: Direction) -> tuple[float, float]:
         """Return the ends of the stretch between breaks that lies ahead, infinite where there are none."""
         ends = self.breaks
         if len(ends) == 2 and math.isfinite(self.period):
             return -math.inf, math.inf
-        k = (bisect.bisect_right(ends, q) if way > 0 else bisect.bisect_left(ends, q)) - 1
+        k = (bisect.bisect_right(ends, q) if direction > 0 else bisect.bisect_left(ends, q)) - 1
         k = min(max(k, 0), len(ends) - 2)
         return ends[k], ends[k + 1]
 
 
 @dataclass
-class Course:
-    """What has been gone through: steps, whole periods before each of them, and events."""
+class Trajectory:
+    """Steps of a motion with the whole periods before each of them, and its events."""
 
     steps: list[Step] = field(default_factory=list)
     turned: list[float] = field(default_factory=list)
@@ -147,14 +149,14 @@ class Course:
     def at(self, times: Array) -> tuple[Array, Array, Array]:
         """Return coordinate, rate and acceleration at some times."""
         times = np.asarray(times, dtype=float)
-        starts = np.array([one.time for one in self.steps])
+        starts = np.array([step.time for step in self.steps])
         which = np.clip(np.searchsorted(starts, times, side="right") - 1, 0, len(starts) - 1)
-        found = np.empty((3, *times.shape))
+        result = np.empty((3, *times.shape))
         for k in np.unique(which):
-            here = which == k
-            q, v, a = self.steps[k].at(times[here])
-            found[:, here] = q + self.turned[k], v, a
-        return found[0], found[1], found[2]
+            rows = which == k
+            q, v, a = self.steps[k].at(times[rows])
+            result[:, rows] = q + self.turned[k], v, a
+        return result[0], result[1], result[2]
 
 
 class _Stretch(NamedTuple):
@@ -168,9 +170,9 @@ class Run:
     """One motion, from a coordinate and a rate."""
 
     def __init__(self, machine: FreeMachine, coordinate: float, rate: float) -> None:
-        self.machine, self.course = machine, Course()
+        self.machine, self.trajectory = machine, Trajectory()
         self.time, self.q, self.v, self.base = 0.0, coordinate, rate, 0.0
-        self.way: Way = 1 if rate >= 0 else -1
+        self.direction: Direction = 1 if rate >= 0 else -1
         self.largest = max(abs(rate), _SLOW * machine.natural_rate)
         self.before: Step | None = None  # The step before under the same law
         self.is_over = self.is_lost = False
@@ -178,14 +180,16 @@ class Run:
         self._wrap()
         low, high = machine.stops
         if (rate > 0 and coordinate >= high) or (rate < 0 and coordinate <= low):
-            self._stopped(self.way)
+            self._stopped(self.direction)
         elif rate == 0 and not low < coordinate < high:
             self._lean(1 if coordinate >= high else -1)
         elif rate == 0:
             self._set_off()
         self.stretch = self._stretch_at()
 
-    def until(self, end: float, *, watched: Sequence[float] = (), each: Callable[[Run], bool] | None = None) -> Course:
+    def until(
+        self, end: float, *, watched: Sequence[float] = (), each: Callable[[Run], bool] | None = None
+    ) -> Trajectory:
         """Go on to a time, or until `each`, asked after every step, says that it is enough. [s]
 
         `watched`: speeds of the crank whose passing is told [rad/s].
@@ -194,20 +198,20 @@ class Run:
         try:
             while self.time < end * (1 - AT_END) and not (self.is_over or self.is_lost):
                 tried += 1
-                if tried >= 3 * MOST_STEPS or len(self.course.steps) >= MOST_STEPS:
-                    self.tell("many_steps")
-                    return self.course
+                if tried >= 3 * MOST_STEPS or len(self.trajectory.steps) >= MOST_STEPS:
+                    self.record_event("many_steps")
+                    return self.trajectory
                 length = self._advance(min(length, end - self.time), watched)
                 if each is not None and each(self):
                     break
         except KeyboardInterrupt:
-            self.tell("interrupted")
-            return self.course
+            self.record_event("interrupted")
+            return self.trajectory
         if self.is_over and self.time < end:
             # who asks for no more than the first rest sees a moment of it
             rest = end - self.time if each is None or not each(self) else _MOMENT * end
             self._add(Step(self.time, self.q, 0.0, rest, np.zeros(POINTS)))
-        return self.course
+        return self.trajectory
 
     def _advance(self, length: float, watched: Sequence[float]) -> float:
         """Take a step, or find that it has to be shorter; return the length to try next."""
@@ -233,42 +237,42 @@ class Run:
             self._wrap()
         if cut is not None:
             self.before = None
-            self._happen(cut[1])
+            self._handle_event(cut[1])
             return length
         return step.length * min(GROWTH, 0.9 * math.pow(max(tail, 1e-30), -1 / POINTS))
 
     def _law(self) -> Callable[[Array, Array], Array]:
-        way, (low, high) = self.way, self.stretch
-        return lambda q, v: self.machine.acceleration(q, v, way, low, high)
+        direction, (low, high) = self.direction, self.stretch
+        return lambda q, v: self.machine.acceleration(q, v, direction, low, high)
 
     def _tail(self, step: Step) -> float:
-        """Return what a step leaves out, over what it may leave out."""
+        """Return the error of a step in units of the tolerance."""
         q, v, share = step.tail
-        felt = max(q / (TAIL * self.machine.size), v / (TAIL * max(self.largest, abs(step.end[1]), 1e-300)))
+        left = max(q / (TAIL * self.machine.size), v / (TAIL * max(self.largest, abs(step.end[1]), 1e-300)))
         # polynomials of the coordinate end in rounding, and so does the acceleration
-        return min(felt, share / SHARE)
+        return min(left, share / SHARE)
 
     def _shorter(self, length: float) -> float:
         if length / 2 <= SHORTEST * max(self.time, 1e-3):
-            self.tell("lost")
+            self.record_event("lost")
             self.is_lost = True
         return length / 2
 
     def _limits(self) -> dict[str, Callable[[Array, Array], Array]]:
-        """Return what changes its sign where the law of the step ends."""
+        """Return functions whose change of sign ends the law of the step."""
         low, high = self.stretch
-        stop_low, stop_high = (one - self.base for one in self.machine.stops)
-        found: dict[str, Callable[[Array, Array], Array]] = {}
-        if math.isfinite(high) and self.way > 0:
-            found["high"] = lambda q, _: q - high
-        if math.isfinite(low) and self.way < 0:
-            found["low"] = lambda q, _: q - low
+        stop_low, stop_high = (stop - self.base for stop in self.machine.stops)
+        limits: dict[str, Callable[[Array, Array], Array]] = {}
+        if math.isfinite(high) and self.direction > 0:
+            limits["high"] = lambda q, _: q - high
+        if math.isfinite(low) and self.direction < 0:
+            limits["low"] = lambda q, _: q - low
         if math.isfinite(stop_high):
-            found["stop_high"] = lambda q, _: q - stop_high
+            limits["stop_high"] = lambda q, _: q - stop_high
         if math.isfinite(stop_low):
-            found["stop_low"] = lambda q, _: q - stop_low
-        found["turn"] = lambda _, v: v
-        return found
+            limits["stop_low"] = lambda q, _: q - stop_low
+        limits["turn"] = lambda _, v: v
+        return limits
 
     def _first_cut(self, step: Step) -> tuple[float, str] | None:
         """Return when the law of a step ends within it, and by what."""
@@ -292,7 +296,7 @@ class Run:
                 return None
         return step
 
-    def _happen(self, what: str) -> None:
+    def _handle_event(self, what: str) -> None:
         """Go over to the law after an event."""
         if what in ("stop_high", "stop_low"):
             self._stopped(1 if what == "stop_high" else -1)
@@ -304,62 +308,62 @@ class Run:
             return
         self.stretch = self._stretch_at()
 
-    def _cross(self, side: Way) -> None:
+    def _cross(self, side: Direction) -> None:
         """Go over into the next stretch."""
         ends = self.machine.breaks
-        at = self.stretch[0 if side < 0 else 1]
-        self.q = at
-        k = ends.index(at)
-        if math.isinf(self.machine.period) and at in (ends[0], ends[-1]):
-            self.tell("end_of_way")
+        end = self.stretch[0 if side < 0 else 1]
+        self.q = end
+        k = ends.index(end)
+        if math.isinf(self.machine.period) and end in (ends[0], ends[-1]):
+            self.record_event("end_of_way")
             self.is_lost = True
             return
-        if at in self.machine.dead:
-            self.tell("dead_position")
-        if math.isfinite(self.machine.period) and at == (ends[-1] if side > 0 else ends[0]):
+        if end in self.machine.dead:
+            self.record_event("dead_position")
+        if math.isfinite(self.machine.period) and end == (ends[-1] if side > 0 else ends[0]):
             self.base += side * self.machine.period
             self.q -= side * self.machine.period
             k = 0 if side > 0 else len(ends) - 1
         low = k if side > 0 else k - 1
         self.stretch = _Stretch(ends[low], ends[low + 1])
 
-    def _stopped(self, side: Way) -> None:
+    def _stopped(self, side: Direction) -> None:
         self.q = self.machine.stops[max(side, 0)] - self.base
-        self.tell("stop")
+        self.record_event("stop")
         self.v = -self.machine.restitution * self.v
         if abs(self.v) <= _STILL * self.largest:
             self._lean(side)
         else:
-            self.way = 1 if self.v > 0 else -1
+            self.direction = 1 if self.v > 0 else -1
 
-    def _lean(self, side: Way) -> None:
+    def _lean(self, side: Direction) -> None:
         """Stay at a stop, or leave it if that is where the forces go."""
         self.v = 0.0
-        self.way = 1 if side < 0 else -1
-        away = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), self.way, *self._stretch_at())[0])
-        if away * self.way <= 0:
-            self.tell("comes_to_rest")
+        self.direction = 1 if side < 0 else -1
+        away = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), self.direction, *self._stretch_at())[0])
+        if away * self.direction <= 0:
+            self.record_event("comes_to_rest")
             self.is_over = True
 
     def _set_off(self, word: EventWord | None = None) -> None:
-        """Find which way it goes from rest, if any; `word` says what that is."""
-        ways: list[Way] = [1, -1]
-        for way in ways:
-            self.way = way
+        """Set off from rest in the direction of the forces, if any; `word` is the kind of the event."""
+        directions: list[Direction] = [1, -1]
+        for direction in directions:
+            self.direction = direction
             stretch = self._stretch_at()
-            forced = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), way, *stretch)[0])
-            if way * forced > _NO_FORCE * self.machine.natural_rate**2 / self.machine.size:
+            forced = float(self.machine.acceleration(np.array([self.q]), np.zeros(1), direction, *stretch)[0])
+            if direction * forced > _NO_FORCE * self.machine.natural_rate**2 / self.machine.size:
                 if word is not None:
-                    self.tell(word)
+                    self.record_event(word)
                 return
-        self.tell("comes_to_rest")
+        self.record_event("comes_to_rest")
         self.is_over = True
 
     def _stretch_at(self) -> _Stretch:
         """Return the stretch between breaks that lies ahead."""
-        placed = self.machine.placed(self.q, self.way)
+        placed = self.machine.placed(self.q, self.direction)
         self.base, self.q = self.base + self.q - placed, placed
-        return _Stretch(*self.machine.stretch(placed, self.way))
+        return _Stretch(*self.machine.stretch(placed, self.direction))
 
     def _wrap(self) -> None:
         """Bring the coordinate into the first period."""
@@ -373,17 +377,17 @@ class Run:
         for rate in watched:
             for time in step.crossings(lambda q, v, rate=rate: self.machine.reduced(q)[RATE] * v - rate):  # type: ignore[misc]
                 q, v, _ = step.at(np.array(time))
-                self.course.events.append(Event(time, "reaches_speed", float(q) + self.base, float(v)))
+                self.trajectory.events.append(Event(time, "reaches_speed", float(q) + self.base, float(v)))
         around = (0.0,) if math.isinf(self.machine.period) else (-self.machine.period, 0.0, self.machine.period)
         for place in (change + turn for change in self.machine.changes for turn in around):
             for time in step.crossings(lambda q, _, place=place: q - place):  # type: ignore[misc]
                 _, v, _ = step.at(np.array(time))
-                self.course.events.append(Event(time, "change_point", place + self.base, float(v)))
+                self.trajectory.events.append(Event(time, "change_point", place + self.base, float(v)))
 
-    def tell(self, word: EventWord) -> None:
+    def record_event(self, word: EventWord) -> None:
         """Note that something happens now."""
-        self.course.events.append(Event(self.time, word, self.q + self.base, self.v))
+        self.trajectory.events.append(Event(self.time, word, self.q + self.base, self.v))
 
     def _add(self, step: Step) -> None:
-        self.course.steps.append(step)
-        self.course.turned.append(self.base)
+        self.trajectory.steps.append(step)
+        self.trajectory.turned.append(self.base)

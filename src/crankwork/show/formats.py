@@ -1,17 +1,90 @@
-"""All formats that a drawing can be written in."""
+"""All formats that a drawing can be written in, and animations as GIF, or as MP4 by the program ffmpeg."""
 
 from __future__ import annotations
 
+import io
+import shutil
+import subprocess
 from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
 
+from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.locale import Refusal
 from crankwork.show.dxf import dxf
-from crankwork.show.film import Progress, gif, mp4
 from crankwork.show.moving import Animation
 from crankwork.show.moving_svg import moving_svg
-from crankwork.show.pdf import pdf, png
+from crankwork.show.pdf import pdf, png, pngs
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
+
+# takes the fraction that is done, from 0 to 1
+Progress = Callable[[float], None]
+# number of frames that are drawn together, which is faster than one by one
+_BATCH_SIZE = 10
+# largest width in pixels, largest density in pixels per inch; colours of a GIF
+_WIDEST, _DENSEST, _COLOURS = 760.0, 120.0, 28
+_INCH = 25.4
+
+
+def gif(film: Animation, theme: Theme = "colour", progress: Progress = lambda _: None) -> bytes:
+    """Return an animation as GIF that repeats."""
+    try:
+        from PIL import Image  # noqa: PLC0415 - an optional part
+        from PIL.PngImagePlugin import PngImageFile  # noqa: PLC0415
+    except ImportError:
+        raise MissingExtraError(Refusal("extra_writing", names="GIF"), "report") from None
+    frames = [PngImageFile(io.BytesIO(picture)).convert("RGB") for picture in _pictures(film, theme, progress)]
+    # colours of all frames: gas and flashes are not visible on each
+    wide, tall = frames[0].size
+    samples = frames[:: max(len(frames) // 12, 1)]
+    combined = Image.new("RGB", (wide, tall * len(samples)))
+    for index, frame in enumerate(samples):
+        combined.paste(frame, (0, index * tall))
+    palette = combined.quantize(_COLOURS, dither=Image.Dither.NONE)
+    shown: list[Any] = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
+    # in hundredths of a second, as in the format, without drift
+    ends = [round(100 * film.seconds * index / len(shown)) for index in range(len(shown) + 1)]
+    times = [10 * (end - start) for start, end in pairwise(ends)]
+    stream = io.BytesIO()
+    shown[0].save(
+        stream, "GIF", save_all=True, append_images=shown[1:], duration=times, loop=0, disposal=1, optimize=True
+    )
+    return stream.getvalue()
+
+
+def mp4(film: Animation, theme: Theme = "colour", progress: Progress = lambda _: None) -> bytes:
+    """Return one cycle of an animation as MP4."""
+    program = shutil.which("ffmpeg")
+    if program is None:
+        raise CrankworkError(Refusal("ffmpeg_missing"))
+    rate, even = f"{film.frames / film.seconds:.6g}", "pad=ceil(iw/2)*2:ceil(ih/2)*2"
+    read = ["-f", "image2pipe", "-c:v", "png", "-framerate", rate, "-i", "-"]
+    # output to a pipe cannot be rewound to write the header
+    write = [
+        "-c:v", "libx264", "-pix_fmt", "yuv420p", "-vf", even, "-movflags", "frag_keyframe+empty_moov", "-f", "mp4",
+    ]  # fmt: skip
+    ran = subprocess.run(  # noqa: S603 - the program that the owner has on the path
+        [program, "-loglevel", "error", *read, *write, "-"],
+        input=b"".join(_pictures(film, theme, progress)),
+        capture_output=True,
+        check=False,
+    )
+    if ran.returncode or not ran.stdout:
+        messages = ran.stderr.decode("utf-8", "replace").strip().splitlines()
+        raise CrankworkError(Refusal("ffmpeg_failed", reason=(messages or [str(ran.returncode)])[-1][:200]))
+    return ran.stdout
+
+
+def _pictures(film: Animation, theme: Theme, progress: Progress) -> list[bytes]:
+    density, pictures = min(_DENSEST, _WIDEST / film.ground.width * _INCH), list[bytes]()
+    for start in range(0, film.frames, _BATCH_SIZE):
+        frames = range(start, min(start + _BATCH_SIZE, film.frames))
+        pictures += pngs([film.still(frame) for frame in frames], theme, density)
+        progress(len(pictures) / film.frames)
+    return pictures
+
 
 FORMATS: dict[str, Callable[[Drawing, Theme], bytes]] = {"svg": svg, "pdf": pdf, "png": png, "dxf": dxf}
 FILMS: dict[str, Callable[[Animation, Theme, Progress], bytes]] = {

@@ -1,36 +1,43 @@
-"""Requests of the studio's page: errors by line, the form, the machine, its figures and values."""
+"""Requests of the studio's page: errors by line, form, machine, figures and values, live preview, experiments."""
 
 from __future__ import annotations
 
 import base64
 import binascii
 import io
+import math
 import re
+import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from crankwork import files
 from crankwork.analysis import Results, analyse
+from crankwork.analysis.full_turn import full_turn_bounds
 from crankwork.description.document import Description
 from crankwork.description.machine_file import template
 from crankwork.description.origins import origins_of
+from crankwork.description.written import document
 from crankwork.errors import CrankworkError, InputError
-from crankwork.locale import Language, Refusal, told
-from crankwork.locale.numbers import unit_name
+from crankwork.locale import Language, Refusal, say, told
+from crankwork.locale.numbers import number, unit_name
+from crankwork.mechanism.mechanism import Crank
 from crankwork.note.contents import note_of, sheets_of, written_note
 from crankwork.note.explain import place_text
 from crankwork.note.live import controls, page_data
 from crankwork.note.options import NoteOptions
-from crankwork.page.document import page, tables, values
+from crankwork.page.document import follow, page, tables, values
 from crankwork.page.memories import TraceExport
-from crankwork.page.sliders import scale
+from crankwork.page.sliders import FAINT, LivePage, Slider, scale
 from crankwork.report.drawing import drawn, film_of
 from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import drawings, figure_names
-from crankwork.report.language import key_unit
+from crankwork.report.language import in_own_units, key_unit
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook
@@ -38,20 +45,32 @@ from crankwork.show.alt import alt_text
 from crankwork.show.formats import FORMATS
 from crankwork.show.inline import frame_data, frame_marks, inline_film, inline_svg
 from crankwork.show.moving import Animation
+from crankwork.show.scene import Drawing
 from crankwork.studio.additions import additions, with_addition
-from crankwork.studio.ahead import live_preview
 from crankwork.studio.form import form, stated_text
-from crankwork.studio.full_turn import full_turn
-from crankwork.studio.handles import dyads, handles
 from crankwork.studio.pmks import from_pmks, is_pmks
-from crankwork.studio.reach import dependent_results
-from crankwork.studio.sketch import measured, missing, redrawn, sketched, swapped
-from crankwork.studio.trials import run_experiment
-from crankwork.units import use_units
+from crankwork.studio.sketch import dyads, handles, measured, missing, redrawn, sketched, swapped
+from crankwork.study.map_figures import map_drawings
+from crankwork.study.mapped import ends_of, map_text, mapped
+from crankwork.study.sliders import around, ends, moved
+from crankwork.units import from_si, use_units
 
 SHARE = "crankwork:"
 _LINE = re.compile(r":(\d+)$")
 _PLACE = re.compile(r"^.{0,400}?:(\d+): ", re.DOTALL)
+# relative range of the number in which the calculation is compiled
+_NEAR = 0.02
+# relative values of the machines to interpolate between, close to Chebyshev nodes
+_AROUND = (-0.25, -0.177, 0.0, 0.177, 0.25)
+# default ends of the slider; machines there and halfway are analysed but not drawn
+_ENDS = (-0.5, 1.0)
+_ROUNDING = 1e-9
+_DIGITS = 3
+# relative error of bounds found between sampled positions
+_BOUND_ERROR = 1e-6
+# relative change of the number, and relative difference of equal values
+_MOVED = 0.01
+_SAME = 1e-7
 
 
 class Session:
@@ -383,3 +402,191 @@ def opened_share(word: str, language: Language = "en") -> str:
     if not unfolded.eof or len(data) > files.MAX_MACHINE_FILE:
         raise CrankworkError(Refusal("share_damaged"))
     return text
+
+
+@in_own_units
+def live_preview(
+    results: Results,
+    description: Description,
+    key: str,
+    names: Collection[str],
+    language: Language,
+    reach: tuple[str, str] | None = None,
+) -> tuple[dict[str, Any], str]:
+    """Return the data of a live preview and the script of its calculation.
+
+    `reach`: range of the slider as text. In the data, `behind`: figures that cannot follow, or only in part; `stays`:
+    whether the machine follows. Figures and curves that are not calculated are interpolated between `films` of machines
+    with other `values` of the number.
+    """
+    made = moved(description, [key], (), results, _NEAR)
+    now = made.sliders[0].now
+    near = [now * (1 + share) for share in _AROUND]
+    low, high = (reach and ends(description, key, *reach)) or [now * (1 + share) for share in _ENDS]
+    far = [low, (low + now) / 2, (now + high) / 2, high]
+    far = [value for value in far if not np.isclose(value, near, rtol=_ROUNDING, atol=0.0).any()]
+    variants = around(description, key, results, near)
+    further = around(description, key, results, far)
+    live = LivePage(made, language, names, variants, further)
+    data = page_data(results, live.drawn, None, language, only_read=True)
+    marks, steps, stays = follow(live, results, data)
+    behind = [name for name, figure in data["figures"].items() if figure.pop("filed", False) or FAINT in marks[name]]
+    for name, drawing in live.drawn.items():
+        data["figures"][name]["told"] = alt_text(drawing)
+    figures = {
+        name: inline_svg(figure, name, figure.title, marks[name])
+        for name, figure in live.drawn.items()
+        if name not in behind
+    }
+    trusted = _trusted(made.sliders[0], [*near, *far], {*variants, *further})
+    preview = {
+        "unit": made.sliders[0].unit,
+        "trusted": trusted,
+        "behind": behind,
+        "stays": stays,
+        "data": data,
+        "figures": figures,
+    }
+    films = [_filmed(variant, language) for variant in variants.values()] if stays else []
+    return {**preview, "values": list(variants), "films": films}, steps
+
+
+def _trusted(slider: Slider, values: Collection[float], available: Collection[float]) -> tuple[float, float]:
+    """Return the range of the number in which the script is valid: up to the first value without a machine. [SI]"""
+    reached, now = [slider.low, slider.high], slider.now
+    outwards = sorted(values, key=lambda item: abs(item - now))
+    for end in (0, 1):
+        for value in (item for item in outwards if (item > now if end else item < now)):
+            if value not in available or abs(reached[end] - now) < _NEAR * abs(now) * (1 - _ROUNDING):
+                break
+            reached[end] = value
+    margin = _ROUNDING * max(map(abs, reached))
+    return reached[0] - margin, reached[1] + margin
+
+
+def _filmed(results: Results, language: Language) -> dict[str, Any]:
+    """Return the animation of a machine as page data."""
+    film = film_of(results, language=language)
+    if film is None:
+        return {}
+    data = page_data(results, {}, film, language, only_read=True)
+    return {"drawn": inline_film(film, "machine"), "film": data["film"]}
+
+
+def full_turn(
+    description: Description, results: Results, handles: Iterable[Mapping[str, Any]], language: Language
+) -> dict[str, str] | None:
+    """Return the least change of one length that lets a rocking crank turn fully; None if there is none."""
+    crank_range, mechanism = results.machine.way, results.machine.mechanism
+    if crank_range is None or crank_range.is_whole or not isinstance(mechanism.driver, Crank):
+        return None
+    stated = {handle["key"]: handle for handle in handles}
+    choices = []
+    for bound in full_turn_bounds(mechanism):
+        handle = stated.get(bound.key)
+        if handle is None or handle["power"] != 1:
+            continue
+        value = _rounded(float(from_si(bound.length, handle["unit"])), bound.sign)
+        if value > 0:
+            choices.append((abs(value / handle["number"] - 1), bound, f"{value:g} {handle['unit']}", value))
+    for _, bound, written, value in sorted(choices):
+        try:
+            other = description.machine([f"{bound.key}={written}"])
+        except CrankworkError:
+            continue
+        if other.way is None or other.way.is_whole:
+            name = bound.key.rpartition(".")[0].removeprefix("links.")
+            name = bound.key if name.isdigit() else name
+            shown = f"{number(value, language)} {unit_name(stated[bound.key]['unit'], language)}"
+            start, end = (number(round(angle, 1), language) for angle in (crank_range.start, crank_range.end))
+            text = say("studio.full_turn", language, name=name, sign=bound.sign, value=shown, start=start, end=end)
+            return {"key": bound.key, "value": written, "text": text, "use": say("studio.use", language, value=shown)}
+    return None
+
+
+def _rounded(value: float, sign: str) -> float:
+    """Return a bound rounded to the side where it holds; at the bound itself links come into line."""
+    step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) + 1 - _DIGITS)
+    parts = value / step
+    slack = _BOUND_ERROR * abs(parts)
+    steps = math.floor(parts + slack) + 1 if sign == "≥" else math.ceil(parts - slack) - 1
+    return round(steps * step, 12)
+
+
+def dependent_results(results: Results, description: Description, key: str, language: Language) -> dict[str, list[str]]:
+    """Return the single values and columns that change with a number.
+
+    `description`: that of the results; it is changed.
+    """
+    rows = (row for group in form(description, language) for row in group["rows"])
+    row = next((row for row in rows if row["key"] == key and "number" in row), None)
+    if row is None:
+        return {"values": [], "columns": []}
+    number = row["number"]
+    size = 1 if row.get("whole") else _MOVED * (abs(number) or 1.0)
+    try:
+        moved = _moved(description, key, f"{number + size:.9g}{row['after']}", language)
+    except CrankworkError:
+        moved = _moved(description, key, f"{number - size:.9g}{row['after']}", language)
+    values = [name for name, value in results.summary.items() if not _same(value, moved.summary.get(name))]
+    columns = [name for name, column in results.columns.items() if not _same(column, moved.columns.get(name))]
+    return {"values": values, "columns": columns}
+
+
+def _moved(description: Description, key: str, text: str, language: Language) -> Results:
+    description[key] = stated_text(description, key, text, language)
+    return analyse(description.machine())
+
+
+def _same(value: object, other: object) -> bool:
+    a, b = np.asarray(value, dtype=float), np.asarray(np.nan if other is None else other, dtype=float)
+    return a.shape == b.shape and bool(
+        np.allclose(a, b, rtol=_SAME, atol=_SAME * float(np.max(np.abs(a), initial=0.0)), equal_nan=True)
+    )
+
+
+class StoppedError(Exception):
+    """The client has disconnected."""
+
+
+def run_experiment(
+    description: Description, request: Mapping[str, Any], language: Language, progress: Callable[[float], None]
+) -> dict[str, Any]:
+    """Return text and figures of a map over `over`, ranges by key, or of `count` designs drawn from these."""
+    over = {str(key): str(ends) for key, ends in request["over"].items()}
+    if request.get("count"):
+        return _swept(description, over, request, language, progress)
+    parameter_map = mapped(description, [f"{key}={ends}" for key, ends in over.items()], (), progress)
+    return {"text": map_text(parameter_map, language), "figures": _figures(map_drawings(parameter_map, language))}
+
+
+def _swept(
+    description: Description, over: Mapping[str, str], request: Mapping[str, Any], language: Language,
+    progress: Callable[[float], None],
+) -> dict[str, Any]:  # fmt: skip
+    from crankwork.study.found_figures import found_drawings  # noqa: PLC0415 - only sweeps need its parts
+    from crankwork.study.found_text import found_text  # noqa: PLC0415
+    from crankwork.study.running import ExecutionOptions, run_study  # noqa: PLC0415
+    from crankwork.study.study_file import read_study  # noqa: PLC0415
+
+    ends = {key: dict(zip(("from", "to"), ends_of(text), strict=True)) for key, text in over.items()}
+    if not re.fullmatch("[0-9]{1,9}", str(request["count"])):
+        raise CrankworkError(Refusal("whole_range", value=str(request["count"])[:20], low="1", high="1000000"))
+    text = document({
+        "machine": "machine.toml",
+        "designs": {"drawing": "sobol", "count": int(request["count"])},
+        "vary": ends,
+        "objectives": {str(key): str(sense) for key, sense in request.get("objectives", {}).items()},
+    })  # fmt: skip
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        files.write_files({Path(folder) / "machine.toml": description.dump().encode()})
+        study = read_study(text, "study", folder=Path(folder))
+        done: Callable[[int], None] = lambda count: progress(count / study.count)  # noqa: E731
+        aggregate = run_study(study, Path(folder) / "found", ExecutionOptions(1), progress=done)
+        drawn = found_drawings(study, aggregate, language)
+        return {"text": found_text(study, aggregate, language), "figures": _figures(drawn)}
+
+
+def _figures(drawn: Mapping[str, Drawing]) -> dict[str, tuple[str, str]]:
+    """Return figures by name, each with its title."""
+    return {name: (drawing.title, inline_svg(drawing, name, drawing.title)) for name, drawing in drawn.items()}

@@ -16,8 +16,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Refusal
 from crankwork.report.language import key_unit
 from crankwork.study.box import DesignSpace
-from crankwork.study.limits import written_limits
-from crankwork.study.search import REACHED, Candidate, Problem, SearchMethod, searched
+from crankwork.study.search import REACHED, Candidate, Problem, SearchMethod, searched, written_limits
 from crankwork.study.study_file import Study
 from crankwork.study.sweep import Swept, units_of
 from crankwork.units import coherent_unit, from_si, use_units

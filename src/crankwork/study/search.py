@@ -7,16 +7,19 @@ minimised.
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
+from crankwork.locale import Refusal
 from crankwork.report.dataset import check_extras
 from crankwork.study.box import PARTS, DesignSpace, LocalModel
-from crankwork.study.limits import Limit
+from crankwork.study.wanted import level
 
 SearchMethod = Literal["slsqp", "trust-constr", "evolution"]
 # relative tolerances of a satisfied limit and of an active one
@@ -31,6 +34,9 @@ _ABSENT = 1e3
 # below this fraction of its start an objective may have a corner at zero; its square has none
 _NEAR_ZERO = 1e-2
 _POPULATION, _GENERATIONS = 15, 150
+Sense = Literal["<=", ">=", "="]
+_FORM = re.compile(r"\s*(?P<key>[^<>=\s]+)\s*(?P<sense><=|>=|=)\s*(?P<level>[^<>=]+?)\s*")
+_EXAMPLE = "stroke >= 80 mm"
 
 
 class Constraints(NamedTuple):
@@ -340,3 +346,39 @@ class _Form:
         """Return the derivatives of the equality constraints."""
         slopes = self._problem(z[: self._n]).equality_slopes
         return np.column_stack([slopes, np.zeros(len(slopes))]) if self._has_more else np.asarray(slopes)
+
+
+class Limit(NamedTuple):
+    """A single value and its upper, lower or required level. [SI]"""
+
+    key: str
+    sense: Sense
+    level: float
+
+    def violation(self, value: float) -> float:
+        """Return by how much a value violates the limit; 0 if it is satisfied. [SI]"""
+        above = value - self.level
+        return {"<=": max(above, 0.0), ">=": max(-above, 0.0), "=": abs(above)}[self.sense]
+
+
+class WrittenLimit(NamedTuple):
+    """A limit as text."""
+
+    key: str
+    sense: Sense
+    level: str
+
+    def in_si(self) -> Limit:
+        """Return the limit in SI; a bare number is in the unit of the tables."""
+        return Limit(self.key, self.sense, level(self.key, self.level))
+
+
+def written_limits(texts: Sequence[str]) -> list[WrittenLimit]:
+    """Parse limits such as `stroke >= 80 mm`."""
+    limits = []
+    for text in texts:
+        form = _FORM.fullmatch(text)
+        if form is None or len(text) > 200:
+            raise CrankworkError(Refusal("limit_form", limit=text[:60], example=_EXAMPLE))
+        limits.append(WrittenLimit(form["key"], form["sense"], form["level"]))  # type: ignore[arg-type]
+    return limits

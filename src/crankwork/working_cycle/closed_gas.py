@@ -1,15 +1,23 @@
-"""The gas from intake closing to exhaust opening, as functions of crank angle and pressure."""
+"""The gas from intake closing to exhaust opening, as functions of crank angle and pressure: one zone of ideal gas.
+
+By the Wiebe function combustion ends when the exponent reaches ln 1000, that is when 0.999 of the fuel is burnt. The
+correlation of Woschni for the heat to the walls is empirical and has its units built in: the bore in metres, the
+temperature in kelvins, the gas speed in metres per second, the pressure in kilopascals (divided from pascals in the
+formula itself), the coefficient in W/(m2 K).
+"""
 
 from __future__ import annotations
 
 import itertools
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.formula.expression import Value, formula
 from crankwork.formula.known import Found, Known, given
 from crankwork.formula.worked import Worked
 from crankwork.kinematics.crank_grid import Array
@@ -17,14 +25,12 @@ from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import VolumeAt
 from crankwork.locale import Refusal
-from crankwork.working_cycle import first_law, wiebe, woschni
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, check_heat_release, stages
 
 # a cycle of an engine takes one or two thousand evaluations
 _MAX_EVALUATIONS = 10_000
 # hydrogen with oxygen releases 13 MJ/kg
 _MAX_HEAT = 2e7
-
 Flags = npt.NDArray[np.bool_]
 
 
@@ -53,15 +59,15 @@ class ClosedGas:
     def temperature(self, degrees: Array, pressure: Array) -> Array:
         """Return the temperature at crank angles [deg] and pressures [Pa]. [K]"""
         volume = self.volume_at(degrees)
-        return np.asarray(first_law.gas_temperature(pressure, volume, self.mass, self.data.gas_constant))
+        return np.asarray(gas_temperature(pressure, volume, self.mass, self.data.gas_constant))
 
     def _progress(self, degrees: Array) -> Array:
         start, end = self.burning
-        return np.asarray(np.clip(wiebe.burning_progress(degrees, start, end - start), 0.0, 1.0))
+        return np.asarray(np.clip(burning_progress(degrees, start, end - start), 0.0, 1.0))
 
     def burnt(self, degrees: Array) -> Array:
         """Return the burnt fraction at crank angles [deg]. [-]"""
-        return np.asarray(wiebe.wiebe_burnt_fraction(self._progress(degrees), self.data.burning_shape))
+        return np.asarray(wiebe_burnt_fraction(self._progress(degrees), self.data.burning_shape))
 
     def is_burning(self, degrees: Array) -> Flags:
         """Return whether burning has begun at crank angles [deg]."""
@@ -71,15 +77,13 @@ class ClosedGas:
         """Return the gas speed at the walls at volumes [m3] and pressures [Pa]. [m/s]"""
         data = self.data
         motored = gas_formulas.polytropic_pressure(data.shut_pressure, self.shut_volume, volume, data.motored_exponent)
-        factors = woschni.EXPANSION
+        factors = EXPANSION
         # late in the expansion of a cold charge the difference may be negative, but combustion never slows the gas down
         above = np.maximum(pressure, motored)
         factor = np.where(has_burnt, factors.burning, 0.0)
         shut = (data.shut_temperature, data.shut_pressure, self.shut_volume)
         return np.asarray(
-            woschni.woschni_gas_speed(
-                factors.piston, self.piston_speed, factor, self.swept, *shut, above, np.asarray(motored)
-            )
+            woschni_gas_speed(factors.piston, self.piston_speed, factor, self.swept, *shut, above, np.asarray(motored))
         )
 
     def wall_rate(self, degrees: Array, pressure: Array, has_burnt: Flags) -> Array:
@@ -90,12 +94,12 @@ class ClosedGas:
 
     def _wall_rate(self, volume: Array, pressure: Array, has_burnt: Flags) -> Array:
         data = self.data
-        temperature = first_law.gas_temperature(pressure, volume, self.mass, data.gas_constant)
+        temperature = gas_temperature(pressure, volume, self.mass, data.gas_constant)
         speed = self.gas_speed(volume, pressure, has_burnt)
-        coefficient = woschni.woschni_coefficient(data.bore, pressure, temperature, speed)
+        coefficient = woschni_coefficient(data.bore, pressure, temperature, speed)
         x = (volume - self.clearance) / (math.pi * data.bore**2 / 4)
-        area = woschni.wall_area(*self.areas, math.pi, data.bore, x)
-        return np.asarray(woschni.wall_heat_rate(coefficient, area, temperature, data.wall_temperature, self.speed))
+        area = wall_area(*self.areas, math.pi, data.bore, x)
+        return np.asarray(wall_heat_rate(coefficient, area, temperature, data.wall_temperature, self.speed))
 
     def rates(self, degrees: Array, pressure: Array, stage: Stage) -> Array:
         """Return the derivatives of pressure, work and heat to the walls by crank angle, shape (3, n).
@@ -104,16 +108,16 @@ class ClosedGas:
         """
         data = self.data
         volume, growth = self.volume_at(degrees), self.volume_rate_at(degrees)
-        temperature = first_law.gas_temperature(pressure, volume, self.mass, data.gas_constant)
-        ratio = first_law.gas_heat_ratio(data.heat_ratio, data.heat_ratio_slope, temperature)
+        temperature = gas_temperature(pressure, volume, self.mass, data.gas_constant)
+        ratio = gas_heat_ratio(data.heat_ratio, data.heat_ratio_slope, temperature)
         burning: Array | float = 0.0
         if stage.burns:
             duration = math.radians(stage.end - stage.start)
-            burning = wiebe.wiebe_burning_rate(self._progress(degrees), data.burning_shape, duration)
+            burning = wiebe_burning_rate(self._progress(degrees), data.burning_shape, duration)
         wall = np.zeros_like(pressure)
         if data.has_wall_loss:
             wall = self._wall_rate(volume, pressure, np.full(len(volume), stage.has_burnt))
-        rise = first_law.pressure_rise(ratio, volume, self.heat, burning, wall, pressure, growth)
+        rise = pressure_rise(ratio, volume, self.heat, burning, wall, pressure, growth)
         return np.array([rise, pressure * growth, wall])
 
     def integrated(self, stage: Stage, pressure: float, relative: float, absolute: float) -> tuple[VolumeAt, Array]:
@@ -159,7 +163,7 @@ class ClosedGas:
         data = self.data
         constant = self.mass * data.gas_constant
         ratio = (data.heat_ratio, data.heat_ratio_slope)
-        return first_law.internal_energy_change(constant, *ratio, data.shut_temperature, float(temperature))
+        return internal_energy_change(constant, *ratio, data.shut_temperature, float(temperature))
 
 
 def closed_gas(
@@ -182,8 +186,8 @@ def closed_gas(
     for key in ("head_area", "crown_area"):
         worked.known.setdefault(key, worked["piston_area"])
     if data.heat is None:
-        worked(wiebe.fuel_heat)
-    mass, heat = worked(first_law.gas_mass).value, worked["fuel_heat"].value
+        worked(fuel_heat)
+    mass, heat = worked(gas_mass).value, worked["fuel_heat"].value
     if heat > _MAX_HEAT * mass:
         raise CrankworkError(Refusal("heat_excessive", heat=heat, share=heat / mass / 1e6))
     return ClosedGas(
@@ -215,7 +219,7 @@ def _give_sizes(worked: Worked, clearance: float, largest: float, data: HeatRele
 def volume_when(worked: Worked, volume: float, degrees: float) -> Known:
     """Return the volume of the cylinder at a crank angle, from the displacement of the piston. [m3]"""
     clearance, area = worked["clearance_volume"], worked["piston_area"]
-    displacement = Known(Found((volume - clearance.value) / area.value, "motion", at=degrees), "piston_displacement")
+    displacement = Known(Found((volume - clearance.value) / area.value, "motion", angle=degrees), "piston_displacement")
     cylinder_volume: Known = gas_formulas.cylinder_volume(clearance, area, displacement)
     return cylinder_volume
 
@@ -255,3 +259,113 @@ def _give(worked: Worked, data: HeatReleaseData) -> None:
         "gamma_cyl_0": given("gas_heat_ratio", data.heat_ratio, data.stated_at("cycle.adiabatic_exponent")),
         "n_p": given("polytropic_exponent", data.motored_exponent),
     }
+
+
+@formula("gas_mass", "heywood_1988, ch. 3")
+def gas_mass(p_shut: Value, V_1: Value, R_gas: Value, T_shut: Value) -> Value:
+    """Mass of the gas enclosed at intake closing."""
+    return p_shut * V_1 / (R_gas * T_shut)
+
+
+@formula("cylinder_temperature", "heywood_1988, ch. 3")
+def gas_temperature(p_cyl: Value, V: Value, m_gas: Value, R_gas: Value) -> Value:
+    """Mean temperature of the enclosed gas."""
+    return p_cyl * V / (m_gas * R_gas)
+
+
+@formula("gas_heat_ratio", "heywood_1988, ch. 9")
+def gas_heat_ratio(gamma_cyl_0: Value, gamma_cyl_T: Value, T_cyl: Value) -> Value:
+    """Ratio of specific heats, linear in temperature."""
+    return gamma_cyl_0 + gamma_cyl_T * T_cyl
+
+
+@formula("pressure_rise", "heywood_1988, ch. 9")
+def pressure_rise(  # noqa: PLR0913 - one argument per symbol
+    gamma_cyl: Value, V: Value, Q_fuel: Value, x_burn_1: Value, Q_wall_1: Value, p_cyl: Value, V_phi: Value
+) -> Value:
+    """Pressure rise of the enclosed gas by the first law."""
+    return (gamma_cyl - 1) / V * (Q_fuel * x_burn_1 - Q_wall_1) - gamma_cyl * p_cyl / V * V_phi
+
+
+def internal_energy_change(heat_constant: float, ratio: float, ratio_slope: float, start: float, end: float) -> float:
+    """Return the change of internal energy between two temperatures, of m R / (gamma - 1) (heywood_1988, ch. 9). [J]"""
+    first = ratio + ratio_slope * start - 1
+    growth = ratio_slope * (end - start) / first
+    # ln(1 + g) / g keeps its digits as the slope goes to zero
+    mean = np.log1p(growth) / growth if growth else 1.0
+    return float(heat_constant * (end - start) / first * mean)
+
+
+@formula("burning_progress", "vibe_1970")
+def burning_progress(phi: Value, phi_burn_0: Value, phi_burn: Value) -> Value:
+    """Progress of burning: 0 at its start, 1 at its end."""
+    return (phi - phi_burn_0) / phi_burn
+
+
+@formula("burnt_fraction", "vibe_1970")
+def wiebe_burnt_fraction(s_burn: Value, m_vibe: Value) -> Value:
+    """Fraction burnt by the Wiebe function."""
+    return 1 - np.exp(-6.908 * s_burn ** (m_vibe + 1))
+
+
+@formula("burning_rate", "vibe_1970", unit="1/rad")
+def wiebe_burning_rate(s_burn: Value, m_vibe: Value, phi_burn: Value) -> Value:
+    """Rate of burning by the Wiebe function."""
+    return 6.908 * (m_vibe + 1) / phi_burn * s_burn**m_vibe * np.exp(-6.908 * s_burn ** (m_vibe + 1))
+
+
+@formula("fuel_heat", "heywood_1988, ch. 3")
+def fuel_heat(m_fuel: Value, H_fuel: Value, eta_burn: Value) -> Value:
+    """Heat that the fuel of one cycle gives."""
+    return m_fuel * H_fuel * eta_burn
+
+
+class GasSpeedFactors(NamedTuple):
+    """The two factors of Woschni's gas speed: of the mean piston speed [-] and of the rise by burning [m/(s K)]."""
+
+    piston: float
+    burning: float
+
+
+COMPRESSION = GasSpeedFactors(2.28, 0.0)
+EXPANSION = GasSpeedFactors(2.28, 3.24e-3)
+
+
+@formula("wall_gas_speed", "woschni_1967")
+def woschni_gas_speed(  # noqa: PLR0913 - one argument per symbol
+    C_speed: Value,
+    S_pm: Value,
+    C_burn: Value,
+    V_d: Value,
+    T_shut: Value,
+    p_shut: Value,
+    V_1: Value,
+    p_cyl: Value,
+    p_mot: Value,
+) -> Value:
+    """Gas speed at the walls."""
+    return C_speed * S_pm + C_burn * V_d * T_shut / (p_shut * V_1) * (p_cyl - p_mot)
+
+
+@formula("heat_transfer_coefficient", "woschni_1967", constants="kPa, m, m/s, K")
+def woschni_coefficient(D: Value, p_cyl: Value, T_cyl: Value, w_gas: Value) -> Value:
+    """Heat transfer coefficient from gas to walls.
+
+    Notes
+    -----
+    The exponent of the bore is 0.2, that of the temperature 0.75 - 1.62 * 0.8 = -0.546,
+    rounded to -0.55.
+    """
+    return 3.26 * (p_cyl / 1000) ** 0.8 * w_gas**0.8 / (D**0.2 * T_cyl**0.55)
+
+
+@formula("wall_area", "heywood_1988, ch. 2")
+def wall_area(A_head: Value, A_crown: Value, pi: Value, D: Value, x: Value) -> Value:
+    """Area of the walls around the gas."""
+    return A_head + A_crown + pi * D * x
+
+
+@formula("wall_heat_rate", "heywood_1988, ch. 12", unit="J/rad")
+def wall_heat_rate(h_wall: Value, A_wall: Value, T_cyl: Value, T_wall: Value, w: Value) -> Value:
+    """Heat to the walls by crank angle."""
+    return h_wall * A_wall * (T_cyl - T_wall) / w

@@ -1,4 +1,8 @@
-"""Ideal cycles: Otto, Diesel and dual, of 1 kg of a gas with constant heat capacities."""
+"""Ideal cycles of 1 kg of a gas with constant heat capacities: their formulas and their diagrams.
+
+Points: 1 begins the compression, 2 ends it. Otto: heat up to 3, expansion to 4. Diesel: heat at constant pressure up
+to 3, expansion to 4. Dual: heat at constant volume up to 3, at constant pressure up to 4, expansion to 5.
+"""
 
 from __future__ import annotations
 
@@ -6,16 +10,129 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from crankwork.formula.expression import FORMULAS
+from crankwork.formula.expression import FORMULAS, Value, formula
 from crankwork.formula.known import Known
 from crankwork.formula.worked import Worked
 from crankwork.locale import Refusal
 from crankwork.notation import ARGUMENTS
-from crankwork.working_cycle import ideal_formulas as formulas
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners
 from crankwork.working_cycle.fuels import CycleError
 
 IdealKind = Literal["otto", "ideal-diesel", "dual"]
+
+
+@formula("isochoric_heat", "cengel_boles_2015, ch. 4")
+def isochoric_heat(R_gas: Value, kappa: Value) -> Value:
+    """Specific heat at constant volume of an ideal gas."""
+    return R_gas / (kappa - 1)
+
+
+@formula("state_temperature", "cengel_boles_2015, ch. 9")
+def compressed_temperature(T_st1: Value, r_c: Value, kappa: Value) -> Value:
+    """Temperature after isentropic compression."""
+    return T_st1 * r_c ** (kappa - 1)
+
+
+@formula("state_pressure", "cengel_boles_2015, ch. 9")
+def compressed_pressure(p_st1: Value, r_c: Value, kappa: Value) -> Value:
+    """Pressure after isentropic compression."""
+    return p_st1 * r_c**kappa
+
+
+@formula("state_temperature", "cengel_boles_2015, ch. 9")
+def isochorically_heated(T_st2: Value, q_add: Value, c_v: Value) -> Value:
+    """Temperature after heat at constant volume."""
+    return T_st2 + q_add / c_v
+
+
+@formula("state_temperature", "cengel_boles_2015, ch. 9")
+def isobarically_heated(T_st2: Value, q_add: Value, kappa: Value, c_v: Value) -> Value:
+    """Temperature after heat at constant pressure."""
+    return T_st2 + q_add / (kappa * c_v)
+
+
+@formula("state_temperature", "cengel_boles_2015, ch. 9")
+def dually_heated(T_st3: Value, q_add: Value, c_v: Value, T_st2: Value, kappa: Value) -> Value:
+    """Temperature after the rest of the heat at constant pressure."""
+    return T_st3 + (q_add - c_v * (T_st3 - T_st2)) / (kappa * c_v)
+
+
+@formula("state_temperature", "cengel_boles_2015, ch. 9")
+def raised_temperature(lam_p: Value, T_st2: Value) -> Value:
+    """Temperature after a rise of pressure at constant volume, or of volume at constant pressure."""
+    return lam_p * T_st2
+
+
+@formula("state_pressure", "cengel_boles_2015, ch. 9")
+def raised_pressure(lam_p: Value, p_st2: Value) -> Value:
+    """Pressure after a pressure rise at constant volume."""
+    return lam_p * p_st2
+
+
+@formula("pressure_rise_ratio", "cengel_boles_2015, ch. 9")
+def temperature_ratio(T_st3: Value, T_st2: Value) -> Value:
+    """Ratio of temperatures: of the pressures at constant volume, of the volumes at constant pressure."""
+    return T_st3 / T_st2
+
+
+@formula("state_temperature", "cengel_boles_2015, ch. 9")
+def expanded_temperature(T_st3: Value, rho_cut: Value, r_c: Value, kappa: Value) -> Value:
+    """Temperature after isentropic expansion from the highest one."""
+    return T_st3 * (rho_cut / r_c) ** (kappa - 1)
+
+
+@formula("state_pressure", "cengel_boles_2015, ch. 9")
+def expanded_pressure(p_st3: Value, rho_cut: Value, r_c: Value, kappa: Value) -> Value:
+    """Pressure after isentropic expansion of an Otto or Diesel cycle."""
+    return p_st3 * (rho_cut / r_c) ** kappa
+
+
+@formula("heat_added", "cengel_boles_2015, ch. 9")
+def heat_at_constant_volume(c_v: Value, T_st3: Value, T_st2: Value) -> Value:
+    """Heat between two temperatures at constant volume."""
+    return c_v * (T_st3 - T_st2)
+
+
+@formula("heat_added", "cengel_boles_2015, ch. 9")
+def isobaric_heat_added(kappa: Value, c_v: Value, T_st3: Value, T_st2: Value) -> Value:
+    """Heat added at constant pressure."""
+    return kappa * c_v * (T_st3 - T_st2)
+
+
+@formula("heat_added", "cengel_boles_2015, ch. 9")
+def dual_heat_added(c_v: Value, T_st3: Value, T_st2: Value, kappa: Value, T_st4: Value) -> Value:
+    """Heat added at constant volume, then pressure."""
+    return c_v * (T_st3 - T_st2) + kappa * c_v * (T_st4 - T_st3)
+
+
+@formula("ideal_work", "cengel_boles_2015, ch. 9")
+def ideal_work(q_add: Value, q_rej: Value) -> Value:
+    """Work of a cycle."""
+    return q_add - q_rej
+
+
+@formula("thermal_efficiency", "cengel_boles_2015, ch. 9")
+def thermal_efficiency(w_t: Value, q_add: Value) -> Value:
+    """Work over heat added."""
+    return w_t / q_add
+
+
+@formula("thermal_efficiency", "cengel_boles_2015, ch. 9")
+def otto_efficiency(r_c: Value, kappa: Value) -> Value:
+    """Efficiency of the Otto cycle in closed form."""
+    return 1 - 1 / r_c ** (kappa - 1)
+
+
+@formula("thermal_efficiency", "cengel_boles_2015, ch. 9")
+def dual_efficiency(r_c: Value, kappa: Value, lam_p: Value, rho_cut: Value) -> Value:
+    """Efficiency of the dual cycle in closed form; of the Diesel cycle with a pressure ratio of 1."""
+    return 1 - (lam_p * rho_cut**kappa - 1) / (r_c ** (kappa - 1) * (lam_p - 1 + kappa * lam_p * (rho_cut - 1)))
+
+
+@formula("ideal_mean_pressure", "cengel_boles_2015, ch. 9")
+def ideal_mean_pressure(w_t: Value, p_st1: Value, r_c: Value, R_gas: Value, T_st1: Value) -> Value:
+    """Work over the change of volume."""
+    return w_t * p_st1 * r_c / (R_gas * T_st1 * (r_c - 1))
 
 
 @dataclass(frozen=True)
@@ -50,10 +167,10 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
     """
     _check(data)
     worked = _given(data)
-    worked(formulas.isochoric_heat)
+    worked(isochoric_heat)
     # 1 and 2 are before and after compression; heat leads to 3, in a dual cycle over 3 to 4
-    cold = _work(worked, formulas.compressed_temperature, "state_temperature.2")
-    compressed = _work(worked, formulas.compressed_pressure, "state_pressure.2")
+    cold = _work(worked, compressed_temperature, "state_temperature.2")
+    compressed = _work(worked, compressed_pressure, "state_pressure.2")
     _HEATINGS[data.kind](worked, data)
     last = 5 if data.kind == "dual" else 4
     hot, heated = f"state_temperature.{last - 1}", f"state_pressure.{last - 1}"
@@ -106,25 +223,25 @@ def _work(worked: Worked, function: Callable[..., Any], key: str = "", *, later:
 def _otto(worked: Worked, data: IdealData) -> None:
     worked.absent("cut_off", 1.0)
     if data.heat is not None:
-        _work(worked, formulas.isochorically_heated, "state_temperature.3")
+        _work(worked, isochorically_heated, "state_temperature.3")
     if data.pressure_ratio is not None:
-        _work(worked, formulas.raised_temperature, "state_temperature.3")
+        _work(worked, raised_temperature, "state_temperature.3")
     elif "state_temperature.3" in worked.known:
-        _work(worked, formulas.temperature_ratio)
+        _work(worked, temperature_ratio)
     else:
         raise CycleError(Refusal("otto_heat"))
-    _work(worked, formulas.raised_pressure, "state_pressure.3")
+    _work(worked, raised_pressure, "state_pressure.3")
 
 
 def _diesel(worked: Worked, data: IdealData) -> None:
     worked.absent("pressure_rise_ratio", 1.0)
     worked.known["state_pressure.3"] = worked["state_pressure.2"].named("state_pressure.3")
     if data.heat is not None:
-        _work(worked, formulas.isobarically_heated, "state_temperature.3")
+        _work(worked, isobarically_heated, "state_temperature.3")
     if data.cut_off is not None:
-        _work(worked, formulas.raised_temperature, "state_temperature.3", lam_p=worked["cut_off"])
+        _work(worked, raised_temperature, "state_temperature.3", lam_p=worked["cut_off"])
     elif "state_temperature.3" in worked.known:
-        _work(worked, formulas.temperature_ratio, "cut_off")
+        _work(worked, temperature_ratio, "cut_off")
     else:
         raise CycleError(Refusal("diesel_heat"))
 
@@ -132,40 +249,40 @@ def _diesel(worked: Worked, data: IdealData) -> None:
 def _dual(worked: Worked, data: IdealData) -> None:
     if data.pressure_ratio is None:
         raise CycleError(Refusal("dual_rise"))
-    _work(worked, formulas.raised_temperature, "state_temperature.3")
-    raised = _work(worked, formulas.raised_pressure, "state_pressure.3")
+    _work(worked, raised_temperature, "state_temperature.3")
+    raised = _work(worked, raised_pressure, "state_pressure.3")
     worked.known["state_pressure.4"] = raised.named("state_pressure.4")
     if data.heat is not None:
-        _work(worked, formulas.dually_heated, "state_temperature.4")
+        _work(worked, dually_heated, "state_temperature.4")
     if data.cut_off is not None:
-        _work(worked, formulas.raised_temperature, "state_temperature.4", later=1, lam_p=worked["cut_off"])
+        _work(worked, raised_temperature, "state_temperature.4", later=1, lam_p=worked["cut_off"])
     elif "state_temperature.4" in worked.known:
-        _work(worked, formulas.temperature_ratio, "cut_off", later=1)
+        _work(worked, temperature_ratio, "cut_off", later=1)
     else:
         raise CycleError(Refusal("dual_heat"))
 
 
 _HEATINGS = {"otto": _otto, "ideal-diesel": _diesel, "dual": _dual}
 _HEATS: dict[str, Callable[..., Any]] = {
-    "otto": formulas.heat_at_constant_volume,
-    "ideal-diesel": formulas.isobaric_heat_added,
-    "dual": formulas.dual_heat_added,
+    "otto": heat_at_constant_volume,
+    "ideal-diesel": isobaric_heat_added,
+    "dual": dual_heat_added,
 }
 
 
 def _results(worked: Worked, data: IdealData, last: int) -> None:
     """Calculate expansion, heats, work, efficiency and mean pressure."""
-    _work(worked, formulas.expanded_temperature, f"state_temperature.{last}", later=last - 4)
-    _work(worked, formulas.expanded_pressure, f"state_pressure.{last}", later=last - 4)
+    _work(worked, expanded_temperature, f"state_temperature.{last}", later=last - 4)
+    _work(worked, expanded_pressure, f"state_pressure.{last}", later=last - 4)
     if data.heat is None:
         _work(worked, _HEATS[data.kind])
     warm, cold = worked[f"state_temperature.{last}"], worked["state_temperature.1"]
-    worked(formulas.heat_at_constant_volume, "heat_rejected", T_st3=warm, T_st2=cold)
-    worked(formulas.ideal_work)
-    worked(formulas.thermal_efficiency)
-    closed = formulas.otto_efficiency if data.kind == "otto" else formulas.dual_efficiency
+    worked(heat_at_constant_volume, "heat_rejected", T_st3=warm, T_st2=cold)
+    worked(ideal_work)
+    worked(thermal_efficiency)
+    closed = otto_efficiency if data.kind == "otto" else dual_efficiency
     worked(closed, "thermal_efficiency.closed")
-    _work(worked, formulas.ideal_mean_pressure)
+    _work(worked, ideal_mean_pressure)
 
 
 def _check(data: IdealData) -> None:

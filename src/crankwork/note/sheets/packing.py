@@ -33,7 +33,7 @@ from crankwork.show.scene import (
 _TITLE_ROW, _ROW = 8.5, 6.0
 _LEFT, _RIGHT = 35.0, 7.0
 # how much taller than in a text the graphs of a figure are tried
-_TALLS = tuple(0.3 * 1.16**at for at in range(21))
+_SCALES = tuple(0.3 * 1.16**step for step in range(21))
 # how much higher than in a text it is, for its width, and still looks as it should
 _HIGHEST = 1.6
 _GAP, _FEW, _CLEAR = 7.0, 2, 0.3
@@ -41,7 +41,7 @@ _SYMBOL = re.compile(r"/\{([^{}]+)\}([′″]*)")
 
 
 class Picture(NamedTuple):
-    """What draws something where it is placed, its name, and whether its title is written above it."""
+    """A function that draws a picture in the current layout, its name, and whether its title is written above it."""
 
     name: str
     draw: Callable[[], Drawing]
@@ -71,7 +71,7 @@ def packed(
 ) -> list[Fit]:
     """Return pictures placed in columns in their order, so that they fill as much of the field as they can.
 
-    `taken`: what is left free at the upper left and at the lower right of the field [mm]; `layouts`: shares of the
+    `taken`: free areas at the upper left and at the lower right of the field [mm]; `layouts`: shares of the
     width of columns; `least`: how tall graphs are at least, against those of a text.
     """
     sizes: Sizes = {}
@@ -83,28 +83,29 @@ def packed(
         boxes = list(_columns(field, taken, layout))
         for ends in itertools.combinations(range(1, len(pictures)), len(layout) - 1):
             parts = [pictures[start:end] for start, end in itertools.pairwise((0, *ends, len(pictures)))]
-            found = [_stacked(some, box, (field.height, least), sizes) for some, box in zip(parts, boxes, strict=True)]
-            if any(one is None for one in found):
+            limits = (field.height, least)
+            columns = [_stacked(part, box, limits, sizes) for part, box in zip(parts, boxes, strict=True)]
+            if any(fits is None for fits in columns):
                 continue
-            placed_ones = [one for some in found for one in some or ()]
+            placed_ones = [fit for fits in columns for fit in fits or ()]
             score = math.fsum(map(_worth, placed_ones))
             if score > most:
                 best, most = placed_ones, score
-    return [_finished(one, field, taken[0]) for one in best]
+    return [_finished(fit, field, taken[0]) for fit in best]
 
 
 def _finished(fit: Fit, field: Box, corner: Box) -> Fit:
-    """Return a picture drawn whole where its rough drawing is, in the field."""
+    """Return a picture drawn in full in the place of its rough drawing, inside the field."""
     with use_layout(fit.place._replace(is_rough=False)):
-        whole = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
-    left = fit.ink.left + (fit.ink.width - whole.ink.width) / 2
-    top = max(fit.ink.top, field.bottom + whole.ink.height)
-    left = min(max(left, field.left), field.right - whole.ink.width)
-    found = _at(whole, left, top)
-    words = [extent(one._replace(wide=WIDER)) for one in found.drawing.items if isinstance(one, Text)]
-    into = max((one.top - corner.bottom for one in words if one.left < corner.right), default=0.0)
+        complete = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
+    left = fit.ink.left + (fit.ink.width - complete.ink.width) / 2
+    top = max(fit.ink.top, field.bottom + complete.ink.height)
+    left = min(max(left, field.left), field.right - complete.ink.width)
+    placed = _at(complete, left, top)
+    words = [extent(item._replace(wide=WIDER)) for item in placed.drawing.items if isinstance(item, Text)]
+    into = max((word.top - corner.bottom for word in words if word.left < corner.right), default=0.0)
     # a heading does not touch the cell in the corner
-    return found if into <= 0 else _at(whole, left, top - into - _CLEAR)
+    return placed if into <= 0 else _at(complete, left, top - into - _CLEAR)
 
 
 def _columns(field: Box, taken: tuple[Box, Box], layout: Layout) -> Iterator[Box]:
@@ -121,17 +122,17 @@ def _columns(field: Box, taken: tuple[Box, Box], layout: Layout) -> Iterator[Box
 def _stacked(pictures: Sequence[Picture], box: Box, limits: tuple[float, float], sizes: Sizes) -> list[Fit] | None:
     """Return pictures one below the other in a column, or None if it has no room for them."""
     choices = []
-    for one in pictures:
-        key = one.name, box.width
+    for picture in pictures:
+        key = picture.name, box.width
         if key not in sizes:
-            sizes[key] = _sizes(one, box.width, limits)
+            sizes[key] = _sizes(picture, box.width, limits)
         choices.append([fit for fit in sizes[key] if fit.ink.height <= box.height])
     room = int(box.height - _GAP * (len(pictures) - 1))
-    # what is worth most and fits, by what is used [mm]
+    # the best value for each height used [mm]
     best: dict[int, tuple[float, tuple[Fit, ...]]] = {0: (0.0, ())}
-    for some in choices:
+    for fits in choices:
         further: dict[int, tuple[float, tuple[Fit, ...]]] = {}
-        for (used, (score, chosen)), fit in itertools.product(best.items(), some):
+        for (used, (score, chosen)), fit in itertools.product(best.items(), fits):
             total = used + math.ceil(fit.ink.height)
             value = score + _worth(fit)
             if total <= room and value > further.get(total, (-math.inf, ()))[0]:
@@ -139,20 +140,20 @@ def _stacked(pictures: Sequence[Picture], box: Box, limits: tuple[float, float],
         best = further
     if not best:
         return None
-    used, (_, chosen) = max(best.items(), key=lambda one: one[1][0])
-    spare, top, result = (room - used) / len(chosen), box.top, []
+    used, (_, chosen) = max(best.items(), key=lambda item: item[1][0])
+    margin, top, result = (room - used) / len(chosen), box.top, []
     for fit in chosen:
-        top -= spare / 2
+        top -= margin / 2
         result.append(_at(fit, box.left + (box.width - fit.ink.width) / 2, top))
-        top -= fit.ink.height + spare / 2 + _GAP
+        top -= fit.ink.height + margin / 2 + _GAP
     return result
 
 
 def _worth(fit: Fit) -> float:
-    """Return what the size of a picture is worth: none is left small to make another one large."""
+    """Return the value of the size of a picture: none is left small to make another one large."""
     # titles and legends beside a small graph make it no larger
     area = fit.ink.width * fit.ink.height
-    seen = sum(one.box.width * one.box.height for one in fit.drawing.plots) or area
+    seen = sum(plot.box.width * plot.box.height for plot in fit.drawing.plots) or area
     return -1.0 / math.sqrt(math.sqrt(seen * area))
 
 
@@ -163,8 +164,8 @@ def _at(fit: Fit, left: float, top: float) -> Fit:
         first = fit.drawing.plots[0].box
         right, up = round(first.left + right) - first.left, math.ceil(first.bottom + up - 0.5) - first.bottom
     ink = fit.ink._replace(left=fit.ink.left + right, bottom=fit.ink.bottom + up)
-    items = tuple(moved(one, right, up) for one in fit.drawing.items)
-    plots = tuple(moved_plot(one, right, up) for one in fit.drawing.plots)
+    items = tuple(moved(item, right, up) for item in fit.drawing.items)
+    plots = tuple(moved_plot(plot, right, up) for plot in fit.drawing.plots)
     return fit._replace(drawing=fit.drawing._replace(items=items, plots=plots), ink=ink)
 
 
@@ -174,44 +175,44 @@ def _sizes(picture: Picture, width: float, limits: tuple[float, float]) -> list[
     `limits`: of what use a height is at most [mm], and how tall graphs are at least.
     """
     limit, least = limits
-    talls = [one for one in _TALLS if one >= least]
+    usable = [scale for scale in _SCALES if scale >= least]
     with use_layout(ChartLayout(is_rough=True)):
         in_text = picture.draw()
     highest, point = _HIGHEST * in_text.height / in_text.width, MM * LARGER
 
-    def fit(at: int) -> Fit:
-        place = ChartLayout(width / point, _LEFT / point, _RIGHT / point, talls[at], is_sheet=True, is_rough=True)
+    def fit(index: int) -> Fit:
+        place = ChartLayout(width / point, _LEFT / point, _RIGHT / point, usable[index], is_sheet=True, is_rough=True)
         with use_layout(place):
             return headed(picture, picture.draw(), width, place)
 
-    found = {0: fit(0), len(talls) - 1: fit(len(talls) - 1)}
-    parts = [(0, len(talls) - 1)]
+    fits = {0: fit(0), len(usable) - 1: fit(len(usable) - 1)}
+    parts = [(0, len(usable) - 1)]
     while parts:
         first, last = parts.pop()
-        low, high = found[first].ink, found[last].ink
+        low, high = fits[first].ink, fits[last].ink
         # between two of about one height there is no other, and no need of higher ones
         useful = min(highest * low.width, limit)
         if last - first > 1 and high.height > low.height + 1 and low.height < useful:
             middle = (first + last) // 2
-            found[middle] = fit(middle)
+            fits[middle] = fit(middle)
             parts += [(first, middle), (middle, last)]
     result: list[Fit] = []
-    for _, one in sorted(found.items()):
-        if result and one.ink.height > highest * one.ink.width:
+    for _, fit_at in sorted(fits.items()):
+        if result and fit_at.ink.height > highest * fit_at.ink.width:
             break
-        if one.ink.width <= width + _GAP / 2 and (not result or one.ink.height > result[-1].ink.height + 1):
-            result.append(one)
+        if fit_at.ink.width <= width + _GAP / 2 and (not result or fit_at.ink.height > result[-1].ink.height + 1):
+            result.append(fit_at)
     return result
 
 
 def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout) -> Fit:
-    """Return a drawing with its title and its scales over it, and what they cover."""
+    """Return a drawing with its title and its scales above it, and the area that they cover."""
     ink = covered(drawing.items)
     if not picture.has_title:
         return Fit(picture, place, drawing, ink)
     middle, top = ink.left + ink.width / 2, ink.top + 2.0
-    rows = [(one, TEXT) for one in flow_rows(scales(drawing), ";  ", width)]
-    rows = [*((one, TITLE) for one in flow_rows(capital(drawing.title).split(" "), " ", 0.7 * width)), *rows]
+    rows = [(row_text, TEXT) for row_text in flow_rows(scales(drawing), ";  ", width)]
+    rows = [*((row_text, TITLE) for row_text in flow_rows(capital(drawing.title).split(" "), " ", 0.7 * width)), *rows]
     items: list[Item] = []
     for text, height in reversed(rows):
         items.append(Text((middle, top + 1.5), text, height, "middle"))
@@ -221,25 +222,25 @@ def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout)
 
 
 def covered(items: Sequence[Item]) -> Box:
-    """Return what items cover, letters as wide as a reader may have them. [mm]"""
-    wide = (one._replace(wide=WIDER * one.wide) if isinstance(one, Text) else one for one in items)
-    boxes = [extent(one) for one in wide if not isinstance(one, Polyline)]
-    corners = [(one.left, one.bottom) for one in boxes] + [(one.right, one.top) for one in boxes]
-    found = np.concatenate(
-        [np.array(corners).reshape(-1, 2), *(one.points for one in items if isinstance(one, Polyline))]
+    """Return the area that items cover, with letters as wide as a reader may have them. [mm]"""
+    wide = (item._replace(wide=WIDER * item.wide) if isinstance(item, Text) else item for item in items)
+    boxes = [extent(item) for item in wide if not isinstance(item, Polyline)]
+    corners = [(box.left, box.bottom) for box in boxes] + [(box.right, box.top) for box in boxes]
+    points = np.concatenate(
+        [np.array(corners).reshape(-1, 2), *(item.points for item in items if isinstance(item, Polyline))]
     )
-    (left, bottom), (right, top) = found.min(axis=0), found.max(axis=0)
+    (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
     return Box(float(left), float(bottom), float(right - left), float(top - bottom))
 
 
 def scales(drawing: Drawing) -> list[str]:
     """Return the scales of the graphs of a drawing, `μ_p = 0.02 MPa/mm`, each once."""
-    found = [
+    texts = [
         _scale(drawing, title, (ends[1] - ends[0]) / length)
         for plot in drawing.plots
         for title, ends, length in _axes(plot)
     ]
-    return list(dict.fromkeys(one for one in found if one))
+    return list(dict.fromkeys(text for text in texts if text))
 
 
 def _axes(plot: Plot) -> Iterator[tuple[str, tuple[float, float], float]]:
@@ -259,7 +260,7 @@ def _scale(drawing: Drawing, title: str, value: float) -> str:
 
 
 def _unit(title: str) -> str:
-    """Return what stands after the last comma of a title, if no symbol does."""
+    """Return the text after the last comma of a title, if it has no symbol."""
     last = title.rpartition(", ")[2]
     return "" if "/{" in last or last == title else last
 
@@ -280,23 +281,23 @@ def in_grid(
     columns = min(columns, len(cells), max(1, int(place.width * MM * LARGER / _LEAST)))
     rows = -(-len(cells) // columns)
     with use_layout(place._replace(width=place.width / columns, tall=_LOWER * place.tall / math.sqrt(rows))):
-        drawings = [one() for one in cells]
-    inks = [covered(one.items) for one in drawings]
-    wide = max(*(one.width for one in drawings), *(one.width + _BETWEEN for one in inks))
+        drawings = [cell() for cell in cells]
+    inks = [covered(picture.items) for picture in drawings]
+    wide = max(*(picture.width for picture in drawings), *(cover.width + _BETWEEN for cover in inks))
     items, foot = list[Item](), 0.0
     for start in range(0, len(cells), columns):
         row = list(zip(drawings[start : start + columns], inks[start : start + columns], strict=True))
         high = max(ink.height for _, ink in row) + (_NAMES if place.is_rough else 0.0)
-        for at, (drawing, ink) in enumerate(row):
-            right, up = _middle(ink, wide * (at + 0.5), foot - high / 2)
-            items += [moved(one, right, up) for one in drawing.items]
+        for index, (drawing, ink) in enumerate(row):
+            right, up = _middle(ink, wide * (index + 0.5), foot - high / 2)
+            items += [moved(item, right, up) for item in drawing.items]
         foot -= high + _BETWEEN
-    items = [moved(one, 0.0, -foot) for one in items]
-    if told := remark():
-        items.append(Text((wide * columns / 2, 2.0 - foot), told, TEXT, "middle"))
+    items = [moved(item, 0.0, -foot) for item in items]
+    if text := remark():
+        items.append(Text((wide * columns / 2, 2.0 - foot), text, TEXT, "middle"))
     return Drawing(title, language, wide * columns, -foot, tuple(items))
 
 
 def _middle(ink: Box, x: float, y: float) -> tuple[float, float]:
-    """Return how far to move what covers a box until its middle is at a place. [mm]"""
+    """Return the shift that moves the middle of a box to a place. [mm]"""
     return x - ink.left - ink.width / 2, y - ink.bottom - ink.height / 2

@@ -46,7 +46,7 @@ _BINDING, _EDGE = 20.0, 5.0
 
 
 class Paper(NamedTuple):
-    """What sheets are drawn on: format `A0` to `A3`, millimetre grid, frame, and the title block if they have one."""
+    """The paper of sheets: format `A0` to `A3`, millimetre grid, frame, and the title block if they have one."""
 
     size: Size = "A1"
     has_grid: bool = False
@@ -60,7 +60,7 @@ class Paper(NamedTuple):
 
     @property
     def frame(self) -> Box:
-        """What the frame encloses: a margin of 20 mm to the left, for binding, and of 5 mm elsewhere. [mm]"""
+        """The inside of the frame: a margin of 20 mm to the left, for binding, and of 5 mm elsewhere. [mm]"""
         return self.box.inset(_BINDING, _EDGE, _EDGE, _EDGE)
 
     @property
@@ -90,8 +90,8 @@ class Sheet(NamedTuple):
         """All that is drawn, from the ground up."""
         paper = self.paper
         drawn: list[Item] = _millimetres(paper.frame) if paper.has_grid else []
-        for one in self.figures:
-            drawn.extend(one.drawing.items)
+        for figure in self.figures:
+            drawn.extend(figure.drawing.items)
         if paper.has_frame:
             drawn += [rectangle(paper.box, "net"), rectangle(paper.frame, "thick")]
             if paper.block is not None:
@@ -104,17 +104,17 @@ class Sheet(NamedTuple):
     def drawing(self) -> Drawing:
         """The sheet as what is written."""
         box = self.paper.box
-        plots = tuple(plot for one in self.figures for plot in one.drawing.plots)
+        plots = tuple(plot for figure in self.figures for plot in figure.drawing.plots)
         return Drawing(self.title, self.language, box.width, box.height, self.items, plots)
 
     def figure(self, name: str) -> Fit:
         """Return a figure by its name."""
-        found = next((one for one in self.figures if one.name == name), None)
-        if found is None:
+        figure = next((fit for fit in self.figures if fit.name == name), None)
+        if figure is None:
             raise CrankworkError(
-                f"there is no figure {name} on this sheet; there is {', '.join(one.name for one in self.figures)}"
+                f"there is no figure {name} on this sheet; there is {', '.join(fit.name for fit in self.figures)}"
             )
-        return found
+        return figure
 
 
 def sheets_with(
@@ -125,18 +125,18 @@ def sheets_with(
         raise CrankworkError(f"no paper of size {paper.size} is known; take {', '.join(SIZES)}")
     count = math.ceil(len(pictures) / _MOST[paper.size])
     while count and count <= len(pictures):
-        ends = [len(pictures) * at // count for at in range(count + 1)]
+        ends = [len(pictures) * index // count for index in range(count + 1)]
         parts = [pictures[start:end] for start, end in itertools.pairwise(ends)]
-        found = [_packed(some, paper) for some in parts]
-        if all(found):
-            for figures in found:
+        packed_sheets = [_packed(part, paper) for part in parts]
+        if all(packed_sheets):
+            for figures in packed_sheets:
                 yield Sheet(name, title, language, paper, tuple(figures))
             return
         if count == len(pictures):
-            # what has no room even alone is named where it would stand
-            alone = zip(pictures, found, strict=True)
-            some = [one if figures else _without_room(one, paper, language) for one, figures in alone]
-            yield from sheets_with(name, title, some, paper, language)
+            # a picture that does not fit even alone is named in its place
+            alone = zip(pictures, packed_sheets, strict=True)
+            replaced = [picture if figures else _without_room(picture, paper, language) for picture, figures in alone]
+            yield from sheets_with(name, title, replaced, paper, language)
             return
         count += 1
 
@@ -145,8 +145,8 @@ def _without_room(picture: Picture, paper: Paper, language: Language) -> Picture
     """Return a sentence that says which figure a paper is too small for."""
     with use_layout(ChartLayout(is_rough=True)):
         title = picture.draw().title
-    told = say("sheets.no_room", language, title=title, size=paper.size)
-    return Picture(picture.name, partial(text_block, [told], title, language), has_title=False)
+    text = say("sheets.no_room", language, title=title, size=paper.size)
+    return Picture(picture.name, partial(text_block, [text], title, language), has_title=False)
 
 
 def _packed(pictures: Sequence[Picture], paper: Paper) -> list[Fit]:
@@ -159,10 +159,10 @@ def numbered(sheets: Sequence[Sheet], paper: Paper) -> tuple[Sheet, ...]:
     if paper.block is None:
         return tuple(sheets)
     first, count = paper.block.sheet, max(paper.block.sheets, len(sheets))
-    height = min((title_height(paper.block, one.title) for one in sheets), default=paper.block.title_height)
+    height = min((title_height(paper.block, sheet.title) for sheet in sheets), default=paper.block.title_height)
     block = paper.block._replace(sheets=count, title_height=height)
-    blocks = [block._replace(sheet=first + at) for at in range(len(sheets))]
-    return tuple(one._replace(paper=paper._replace(block=block)) for one, block in zip(sheets, blocks, strict=True))
+    blocks = [block._replace(sheet=first + index) for index in range(len(sheets))]
+    return tuple(sheet._replace(paper=paper._replace(block=block)) for sheet, block in zip(sheets, blocks, strict=True))
 
 
 def _millimetres(frame: Box) -> list[Item]:
@@ -172,8 +172,8 @@ def _millimetres(frame: Box) -> list[Item]:
         (frame.left, frame.right, frame.bottom, frame.top, True),
         (frame.bottom, frame.top, frame.left, frame.right, False),
     ):
-        for count, at in enumerate(np.arange(start, end + 1e-9, 1.0)):
-            ends = [[at, low], [at, high]] if is_upright else [[low, at], [high, at]]
+        for count, position in enumerate(np.arange(start, end + 1e-9, 1.0)):
+            ends = [[position, low], [position, high]] if is_upright else [[low, position], [high, position]]
             items.append(Polyline(np.array(ends), "grid" if count % 10 else "grid_bold"))
-    items.sort(key=lambda one: isinstance(one, Polyline) and one.kind == "grid_bold")
+    items.sort(key=lambda grid_line: isinstance(grid_line, Polyline) and grid_line.kind == "grid_bold")
     return items

@@ -35,46 +35,46 @@ class Column(NamedTuple):
 
 def numbers(values: Sequence[float], language: Language, digits: int = _DIGITS) -> list[str]:
     """Return numbers with as many decimals as give the largest that many digits, a dash for none."""
-    largest = max((abs(one) for one in values if math.isfinite(one)), default=0.0)
+    largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
     places = max(0, digits - 1 - math.floor(math.log10(largest))) if largest else 0
-    shown = [f"{one:.{places}f}" if math.isfinite(one) else "–" for one in values]
-    shown = ["0" if not one.strip("-0.") else one for one in shown]
-    return [decimal(one, language).replace("-", "−") for one in shown]
+    shown = [f"{value:.{places}f}" if math.isfinite(value) else "–" for value in values]
+    shown = ["0" if not text.strip("-0.") else text for text in shown]
+    return [decimal(text, language).replace("-", "−") for text in shown]
 
 
 def table(first: Sequence[Column], columns: Sequence[Column], title: str, language: Language) -> Drawing:
     """Draw a table; `first`: the columns that every part of it begins with."""
-    parts, size = next((found for one in _SIZES if (found := _parts(first, columns, one))), None) or (
-        [[*first, one] for one in columns], _SIZES[-1]
+    parts, size = next((fitting for height in _SIZES if (fitting := _parts(first, columns, height))), None) or (
+        [[*first, column] for column in columns], _SIZES[-1]
     )  # fmt: skip
-    widths = np.array([sum(_width(one, size) for one in part) for part in parts])
+    widths = np.array([sum(_width(column, size) for column in part) for part in parts])
     # as wide as what stands above and below it, if that is not much wider, and with rows as tall
     wider = float(np.clip((current_layout().width - _FREE) / widths.max(), 1.0, _WIDEST))
     row, rows = _ROW * min(max(current_layout().tall, 1.0), _TALLEST), len(first[0].cells) + 1
     hand = Canvas(wider * float(widths.max()), len(parts) * (row * rows + _BETWEEN) - _BETWEEN)
-    for at, part in enumerate(parts):
-        _draw(hand, part, [wider * _width(one, size) for one in part], (at * (row * rows + _BETWEEN), row), size)
+    for index, part in enumerate(parts):
+        _draw(hand, part, [wider * _width(item, size) for item in part], (index * (row * rows + _BETWEEN), row), size)
     return hand.drawing(title, language)
 
 
 def _parts(first: Sequence[Column], columns: Sequence[Column], size: float) -> tuple[list[list[Column]], float] | None:
     """Return columns in parts that fit, about as many in each, or nothing where one does not."""
-    room = current_layout().width - _FREE - sum(_width(one, size) for one in first)
-    if max(_width(one, size) for one in columns) > room:
+    room = current_layout().width - _FREE - sum(_width(column, size) for column in first)
+    if max(_width(column, size) for column in columns) > room:
         return None
-    count = next(at for at in range(1, len(columns) + 1) if all(
-        sum(_width(one, size) for one in part) <= room for part in _divided(columns, at)
+    count = next(parts for parts in range(1, len(columns) + 1) if all(
+        sum(_width(column, size) for column in part) <= room for part in _divided(columns, parts)
     ))  # fmt: skip
     return [[*first, *part] for part in _divided(columns, count)], size
 
 
 def _divided(columns: Sequence[Column], count: int) -> Iterator[Sequence[Column]]:
-    ends = [round(len(columns) * at / count) for at in range(count + 1)]
+    ends = [round(len(columns) * index / count) for index in range(count + 1)]
     yield from (columns[start:end] for start, end in itertools.pairwise(ends))
 
 
 def _width(column: Column, size: float) -> float:
-    return WIDER * max(text_width(one, size) for one in (column.head, *column.cells)) + 2 * _PAD
+    return WIDER * max(text_width(text, size) for text in (column.head, *column.cells)) + 2 * _PAD
 
 
 def _draw(
@@ -93,8 +93,8 @@ def _draw(
     hand.segments(np.array([(0.0, y, right, y) for y in levels[2:-1]]).reshape(-1, 4), width=_THIN)
     hand.segments(np.array(thick), width=_THICK)
     for column, left, width in zip(columns, sides, widths, strict=False):
-        for at, text in enumerate((column.head, *column.cells)):
-            hand.text(left + width / 2, levels[at] + row / 2 + 0.22 * _ROW, text, size=size, anchor="middle")
+        for index, text in enumerate((column.head, *column.cells)):
+            hand.text(left + width / 2, levels[index] + row / 2 + 0.22 * _ROW, text, size=size, anchor="middle")
 
 
 def text_block(entries: list[str], title: str, language: Language) -> Drawing:
@@ -104,10 +104,10 @@ def text_block(entries: list[str], title: str, language: Language) -> Drawing:
     width = 0.82 * current_layout().width
     rows = [
         line
-        for one in flow_rows(entries, ";   ", width, partial(text_width, size=size))
-        for line in fitted_lines(one, size, width)
+        for entry_row in flow_rows(entries, ";   ", width, partial(text_width, size=size))
+        for line in fitted_lines(entry_row, size, width)
     ]
     hand = Canvas(current_layout().width, row * len(rows))
-    for at, text in enumerate(rows):
-        hand.text(0.0, row * (at + 0.7), text, size=size)
+    for index, text in enumerate(rows):
+        hand.text(0.0, row * (index + 0.7), text, size=size)
     return hand.drawing(title, language)

@@ -19,7 +19,7 @@ _READERS, _NARROWEST, _STEP = 1.15, 0.55, 1.6
 
 
 class TitleBlock(NamedTuple):
-    """What the title block says, in the form of a language; what is empty is left to be filled in by hand.
+    """Texts of the title block, in the form of a language; empty ones are left to be filled in by hand.
 
     `title` replaces that of the sheet, `designation` is the number of the document; `scale`, `mass` and `date` stand
     as they are written.
@@ -46,7 +46,7 @@ class TitleBlock(NamedTuple):
 
 
 def block_of(document: Document, form: Language, author: str = "") -> TitleBlock:
-    """Return what a document says of itself in a title block; `author`: in the place of its own."""
+    """Return the title block of a document; `author` replaces its own."""
     date = printed_date(document.date, form) if document.date is not None else str(document.year or "")
     return TitleBlock(
         form=form,
@@ -89,11 +89,11 @@ def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[I
     block = block._replace(title=block.title or title)
     cells = _iso(block, paper) if block.form == "en" else _form_1(block)
     items: list[Item] = []
-    for one in cells:
-        box = Box(place.left + one.left, place.bottom + one.bottom, one.width, one.height)
+    for cell in cells:
+        box = Box(place.left + cell.left, place.bottom + cell.bottom, cell.width, cell.height)
         # rows that are filled in by hand are parted by thin lines
-        items.append(rectangle(box, "thin" if one.left < 65 and block.form != "en" else "thick"))
-        items += _labelled(one, box) if block.form == "en" else _written(one.label or one.text, box, one.most)
+        items.append(rectangle(box, "thin" if cell.left < 65 and block.form != "en" else "thick"))
+        items += _labelled(cell, box) if block.form == "en" else _written(cell.label or cell.text, box, cell.most)
     for left in _UPRIGHT if block.form != "en" else ():
         foot = place.left + left, place.bottom
         items.append(line(foot, (foot[0], foot[1] + _FOOT[block.form]), "thick"))
@@ -102,9 +102,9 @@ def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[I
 
 
 def title_height(block: TitleBlock, title: str) -> float:
-    """Return how tall the letters of a title are where it has its place to itself. [mm]"""
+    """Return the height of the letters of a title that has its place to itself. [mm]"""
     wide, high = (100.0, 14.0) if block.form == "en" else (70.0, 25.0)
-    letters = (one.height for one in _written(block.title or title, Box(0, 0, wide, high), block.title_height))
+    letters = (row.height for row in _written(block.title or title, Box(0, 0, wide, high), block.title_height))
     return min(letters, default=block.title_height)
 
 
@@ -137,10 +137,10 @@ def _form_1(block: TitleBlock) -> Iterator[_Cell]:
         lefts = (0.0, 17.0, 17.0, 40.0, 55.0, 65.0)
     for key, (left, right) in zip(heads, itertools.pairwise(lefts), strict=True):
         if right > left:
-            yield _Cell(left, 30, right - left, 5, _say(key, language), most=SMALL)
+            yield _Cell(left, 30, right - left, 5, _text(key, language), most=SMALL)
     for row, role in enumerate(_ROLES[language]):
         foot = 25 - 5.0 * row
-        yield _Cell(0, foot, 17, 5, _say(role, language), most=SMALL)
+        yield _Cell(0, foot, 17, 5, _text(role, language), most=SMALL)
         yield _Cell(17, foot, 23, 5, text=names.get(role, ""), most=SMALL)
         yield _Cell(40, foot, 15, 5)
         yield _Cell(55, foot, 10, 5, text=block.date if row == 0 else "", most=SMALL)
@@ -150,17 +150,17 @@ def _form_1(block: TitleBlock) -> Iterator[_Cell]:
     for left, width, key, text in (
         (135.0, 15.0, "letter", ""), (150.0, 17.0, "mass", block.mass), (167.0, 18.0, "scale", block.scale)
     ):  # fmt: skip
-        yield _Cell(left, 35, width, 5, _say(key, language), most=SMALL)
+        yield _Cell(left, 35, width, 5, _text(key, language), most=SMALL)
         if key == "letter":
-            for at in range(3):
-                yield _Cell(left + 5 * at, 20, 5, 15)
+            for column in range(3):
+                yield _Cell(left + 5 * column, 20, 5, 15)
         else:
             yield _Cell(left, 20, width, 15, text=text)
-    yield _Cell(135, 15, 20, 5, f"{_say('sheet', language)} {block.sheet}", most=SMALL)
+    yield _Cell(135, 15, 20, 5, f"{_text('sheet', language)} {block.sheet}", most=SMALL)
     # GOST 2.104 has the number of sheets on the first of them only
     count = block.sheets if block.sheet == 1 or language != "ru" else ""
-    yield _Cell(155, 15, 30, 5, f"{_say('sheets', language)} {count}", most=SMALL)
-    yield _Cell(135, 0, 50, 15, text=", ".join(one for one in (block.institution, block.group) if one))
+    yield _Cell(155, 15, 30, 5, f"{_text('sheets', language)} {count}", most=SMALL)
+    yield _Cell(135, 0, 50, 15, text=", ".join(part for part in (block.institution, block.group) if part))
 
 
 def _iso(block: TitleBlock, paper: str) -> Iterator[_Cell]:
@@ -170,19 +170,19 @@ def _iso(block: TitleBlock, paper: str) -> Iterator[_Cell]:
         (27.0, ((60.0, 44.0, "department", block.department), (104.0, 38.0, "supervisor", block.supervisor),
                 (142.0, 38.0, "course", block.subject))),
         (18.0, ((60.0, 44.0, "creator", creator), (104.0, 38.0, "note.cover_approved_by", block.approved_by),
-                (142.0, 38.0, "document_type", _say("page.diagrams", "en")))),
+                (142.0, 38.0, "document_type", _text("page.diagrams", "en")))),
         (9.0, ((100.0, 60.0, "number", block.designation), (160.0, 20.0, "format", paper))),
         (0.0, ((100.0, 15.0, "change", ""), (115.0, 30.0, "issued", block.date), (145.0, 15.0, "language", "en"),
                (160.0, 20.0, "sheet", f"{block.sheet}/{block.sheets}"))),
     )  # fmt: skip
-    yield _Cell(0, 18, 60, 18, _say("owner", "en"), block.institution)
-    yield _Cell(0, 0, 100, 18, _say("title", "en"), block.title, block.title_height)
+    yield _Cell(0, 18, 60, 18, _text("owner", "en"), block.institution)
+    yield _Cell(0, 0, 100, 18, _text("title", "en"), block.title, block.title_height)
     for foot, cells in rows:
         for left, width, key, text in cells:
-            yield _Cell(left, foot, width, 9, _say(key, "en"), text)
+            yield _Cell(left, foot, width, 9, _text(key, "en"), text)
 
 
-def _say(key: str, language: Language) -> str:
+def _text(key: str, language: Language) -> str:
     return say(key if "." in key else f"sheets.{key}", language) if key else ""
 
 
@@ -214,14 +214,14 @@ def _written(text: str, box: Box, most: float, angle: float = 0.0) -> list[Text]
     # what is turned stands on one row
     high = min(high, 1.3 * most) if angle else high
     tried = (
-        (one, wide)
-        for one in _HEIGHTS
-        if one <= most
-        for wide in (1.0, 0.8, *((0.65, _NARROWEST) if one == SMALL else ()))
+        (size, wide)
+        for size in _HEIGHTS
+        if size <= most
+        for wide in (1.0, 0.8, *((0.65, _NARROWEST) if size == SMALL else ()))
     )
-    broken = ((one, wide, _broken(text, room / wide, one)) for one, wide in tried)
+    broken = ((size, wide, _broken(text, room / wide, size)) for size, wide in tried)
     height, wide, rows = next(
-        (found for found in broken if found[2] and _tall(found[2], found[0]) <= high),
+        (candidate for candidate in broken if candidate[2] and _tall(candidate[2], candidate[0]) <= high),
         (SMALL, _NARROWEST, _cut(text, room / _NARROWEST, high)),
     )
     step, middle = _STEP * height, box.left + box.width / 2
@@ -229,11 +229,11 @@ def _written(text: str, box: Box, most: float, angle: float = 0.0) -> list[Text]
     if angle:
         place = middle, box.bottom + box.height / 2 + height / 2
         return [Text(place, rows[0], height, "middle", angle, wide=wide)]
-    return [Text((middle, foot - step * count), one, height, "middle", wide=wide) for count, one in enumerate(rows)]
+    return [Text((middle, foot - step * count), words, height, "middle", wide=wide) for count, words in enumerate(rows)]
 
 
 def _width(text: str, height: float) -> float:
-    """Return how wide a text is at most in the letters of a reader. [mm]"""
+    """Return the largest width of a text in the letters of a reader. [mm]"""
     return _READERS * text_width(text, height)
 
 
