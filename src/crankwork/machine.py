@@ -39,7 +39,10 @@ if TYPE_CHECKING:
     from crankwork.shaft.wheel import Wheel
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
-
+__all__ = [
+    "Bearings", "Cylinder", "Document", "Drive", "Engine", "Gas", "InputNumber", "Machine", "Shaft", "TransferTable",
+    "Transient",
+]  # fmt: skip
 _TURN = 360.0
 
 

@@ -31,19 +31,19 @@ class CellChambers:
 
 def chambers_of(machine: Machine, cells: Sequence[Cell]) -> dict[str, CellChambers]:
     """Return the chambers of each sliding piece."""
-    found = {cell.slider: CellChambers() for cell in cells}
+    chambers_by_slider = {cell.slider: CellChambers() for cell in cells}
     senses = {cell.slider: cell.sense for cell in cells}
     for name, chamber in machine.chambers.items():
         face = chamber.faces[0]
-        if len(chamber.faces) > 1 or face.slider not in found:
+        if len(chamber.faces) > 1 or face.slider not in chambers_by_slider:
             raise NoCellsError(Refusal("cells_chamber", name=name))
         # it shrinks towards the head
         side = "head" if face.sense == -senses[face.slider] else "crank_end"
         is_plain = side == "head" or (chamber.pressure is not None and chamber.factor == 1)
-        if getattr(found[face.slider], side) is not None or not is_plain:
+        if getattr(chambers_by_slider[face.slider], side) is not None or not is_plain:
             raise NoCellsError(Refusal("cells_chamber", name=name))
-        found[face.slider] = replace(found[face.slider], **{side: (name, chamber)})
-    return found
+        chambers_by_slider[face.slider] = replace(chambers_by_slider[face.slider], **{side: (name, chamber)})
+    return chambers_by_slider
 
 
 def bore_of(chamber: Chamber, machine: Machine) -> float:
@@ -85,28 +85,30 @@ def _calculated(chamber: Chamber) -> Any:  # noqa: ANN401 - a release of heat ha
     return chamber.released
 
 
-def is_close(one: float, other: float) -> bool:
+def is_close(value: float, other: float) -> bool:
     """Return whether two numbers are the same but for rounding."""
-    return math.isclose(one, other, rel_tol=_SAME)
+    return math.isclose(value, other, rel_tol=_SAME)
 
 
-def are_alike(one: Any, other: Any) -> bool:  # noqa: ANN401 - numbers, and records of them
+def nearly_equal(value: Any, other: Any) -> bool:  # noqa: ANN401 - numbers, and records of them
     """Return whether two values are the same but for rounding, and for where each is stated."""
-    match one:
+    match value:
         case float() | int() if isinstance(other, float | int):
-            return is_close(one, other)
+            return is_close(value, other)
         case np.ndarray():
-            return isinstance(other, np.ndarray) and one.shape == other.shape and np.allclose(one, other, 1e-12, 0.0)
+            return (
+                isinstance(other, np.ndarray) and value.shape == other.shape and np.allclose(value, other, 1e-12, 0.0)
+            )
         case Mapping():
-            return isinstance(other, Mapping) and one.keys() == other.keys() and all(
-                are_alike(value, other[name]) for name, value in one.items()
+            return isinstance(other, Mapping) and value.keys() == other.keys() and all(
+                nearly_equal(entry, other[name]) for name, entry in value.items()
             )  # fmt: skip
         case tuple():
-            return isinstance(other, tuple) and len(one) == len(other) and all(map(are_alike, one, other))
-    if is_dataclass(one):
-        return type(one) is type(other) and all(
-            are_alike(getattr(one, part.name), getattr(other, part.name))
-            for part in fields(one)
+            return isinstance(other, tuple) and len(value) == len(other) and all(map(nearly_equal, value, other))
+    if is_dataclass(value):
+        return type(value) is type(other) and all(
+            nearly_equal(getattr(value, part.name), getattr(other, part.name))
+            for part in fields(value)
             if part.name not in _WHERE
         )
-    return bool(one == other)
+    return bool(value == other)

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from crankwork.analysis.cell_gas import CellChambers, are_alike, bore_of, chambers_of, gas_of, is_close
+from crankwork.analysis.cell_gas import CellChambers, bore_of, chambers_of, gas_of, is_close, nearly_equal
 from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
 from crankwork.cylinders.firing import SAME_ANGLE, wrap_angle
 from crankwork.cylinders.journal_loads import check_journals
@@ -61,7 +61,7 @@ def _check_expressible(machine: Machine) -> None:
     if partial or machine.mechanism.passages:
         raise NoCellsError(Refusal("cells_turn"))
     drive = machine.drive
-    unsaid = {
+    unsupported = {
         "friction": machine.friction,
         "charges": machine.charges,
         "links": machine.redundant,
@@ -70,7 +70,7 @@ def _check_expressible(machine: Machine) -> None:
         "efficiency": drive.chain or drive.efficiency != 1,
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,
     }
-    for table, stated in unsaid.items():
+    for table, stated in unsupported.items():
         if stated:
             raise NoCellsError(Refusal("cells_unsaid", table=table))
     if any(load.gravity != machine.method.gravity for load in machine.loads if isinstance(load, Weight)):
@@ -97,14 +97,15 @@ class _Form:
     def machine(self) -> Machine:
         """Return the machine."""
         machine, layout = self._machine, self._layout()
-        masses, slave_rod, inertia = self._masses(layout)
+        masses, articulated_masses, inertia = self._masses(layout)
         cylinder, gases = self._cylinder(layout), self._gases(layout)
-        slaves = self._slaves(layout)
-        offsets = tuple(self._offsets.get(cell.link, self._lengths.offset) for cell in self._cells)
+        articulated = self._articulated_rods(layout)
+        first_offset = float(self._lengths.offset)
+        offsets = tuple(self._offsets.get(cell.link, first_offset) for cell in self._cells)
         engine = Engine(
             layout=layout,
-            slaves=slaves if any(slaves) else (),
-            slave_rod=slave_rod,
+            slaves=articulated if any(articulated) else (),
+            slave_rod=articulated_masses,
             offsets=offsets if len(set(offsets)) > 1 else (),
             gases=() if len({id(gas) for gas in gases}) < 2 else gases,
             misfires=tuple(sorted(self._number_of("shaft.misfire", name) for name in self._shaft.misfires)),
@@ -222,12 +223,12 @@ class _Form:
             middle = {
                 pin: np.mean([positions.get(cell.slider, 0.0) for cell in cells if cell.pin == pin]) for pin in used
             }
-            return {pin: (at, at) for at, pin in enumerate(sorted(used, key=lambda pin: float(middle[pin])))}
+            return {pin: (index, index) for index, pin in enumerate(sorted(used, key=lambda pin: float(middle[pin])))}
         listed = [(pin, throw) for throw, pins in enumerate(self._shaft.throws) for pin in pins]
         names = [pin for pin, _ in listed]
         if sorted(names) != sorted(used):
             raise NoCellsError(Refusal("shaft_throws", names=", ".join(sorted(used))), "shaft.throws")
-        return {pin: (at, throw) for at, (pin, throw) in enumerate(listed)}
+        return {pin: (index, throw) for index, (pin, throw) in enumerate(listed)}
 
     def _axes(self, pins: Mapping[str, tuple[int, int]]) -> list[float]:
         """Return the directions of the cylinders from the reference, of a row around the shaft those from the first."""
@@ -268,7 +269,9 @@ class _Form:
         positions = [stated.get(cell.slider, 0.0) for cell in self._cells]
         middle = (min(positions) + max(positions)) / 2
         middle = middle if abs(middle) > _SAME * max(map(abs, (*positions, 1e-3))) else 0.0
-        return [position - middle for position in positions], tuple(at - middle for at in self._shaft.journals)
+        return [position - middle for position in positions], tuple(
+            journal - middle for journal in self._shaft.journals
+        )
 
     def _firing(self, cell: Cell, base: float, top: float, cycle: float) -> float:
         """Return the crank angle at which a cylinder begins its cycle, as far as whole turns are left. [deg]"""
@@ -288,20 +291,20 @@ class _Form:
         head = self._chambers[cell.slider].head
         return head[1].delay if head is not None else 0.0
 
-    def _slaves(self, layout: Layout) -> tuple[ArticulatedRod | None, ...]:
+    def _articulated_rods(self, layout: Layout) -> tuple[ArticulatedRod | None, ...]:
         """Return the articulated rod of each cylinder, None of a master rod."""
-        found = list[ArticulatedRod | None]()
+        rods = list[ArticulatedRod | None]()
         for cell, place in zip(self._cells, layout.places, strict=True):
             if not cell.master:
-                found.append(None)
+                rods.append(None)
                 continue
             between = _clean(place.axis - layout.places[place.master - 1].axis)
             angle = _clean(self._sense * math.degrees(cmath.phase(cell.knuckle)))
             angle += _TURN * round((between - angle) / _TURN)
             rod = ArticulatedRod(cell.length, abs(cell.knuckle), angle, between, cell.offset)
             check_articulated_rod(self._lengths._replace(offset=self._offsets[cell.master]), rod)
-            found.append(rod)
-        return tuple(found)
+            rods.append(rod)
+        return tuple(rods)
 
     def _masses(self, layout: Layout) -> tuple[CrankGearMasses | None, CrankGearMasses | None, float]:
         """Return the masses of a cylinder and of articulated rods, and the inertia of the crank beyond its throws."""
@@ -311,9 +314,9 @@ class _Form:
         piston = self._common([cell.piston for cell in self._cells], [cell.slider for cell in self._cells])
         if abs(piston.centre.imag) > _SAME * self._lengths.rod_length and piston.mass:
             raise NoCellsError(Refusal("cells_centre", name=self._first.slider))
-        slaves = [cell for cell in self._cells if cell.master]
+        articulated = [cell for cell in self._cells if cell.master]
         rod = _two_masses(self._masters)
-        own = _two_masses(slaves) if slaves else None
+        own = _two_masses(articulated) if articulated else None
         if own is not None and _have_same_masses(own, replace(rod, rod_inertia_excess=0.0), self._lengths.rod_length):
             own = None
         return replace(rod, piston=piston.mass, crank=throw), own, inertia
@@ -355,12 +358,12 @@ class _Form:
 
     def _cylinder(self, layout: Layout) -> Cylinder | None:
         """Return the cylinder that all cells have alike, None without gas."""
-        found = [self._chambers[cell.slider] for cell in self._cells]
-        if all(chambers == CellChambers() for chambers in found):
+        chambers_of_cells = [self._chambers[cell.slider] for cell in self._cells]
+        if all(chambers == CellChambers() for chambers in chambers_of_cells):
             bore = self._shaft.bore
             return None if bore is None else Cylinder(bore, inclination=self._stated_inclination(layout))
         sizes = list[tuple[float, float, float | None, float | None]]()
-        for cell, chambers in zip(self._cells, found, strict=True):
+        for cell, chambers in zip(self._cells, chambers_of_cells, strict=True):
             if chambers.head is None:
                 raise NoCellsError(Refusal("cells_gas", name=cell.slider))
             (name, head), behind = chambers.head, chambers.crank_end
@@ -370,7 +373,7 @@ class _Form:
             if behind is not None and not (rod and is_close(bore_of(behind[1], self._machine), bore)):
                 raise NoCellsError(Refusal("cells_chamber", name=behind[0]))
             sizes.append((bore, rod, head.clearance_volume, head.compression_ratio))
-            if not are_alike(sizes[-1], sizes[0]):
+            if not nearly_equal(sizes[-1], sizes[0]):
                 raise NoCellsError(Refusal("cells_unequal", name=cell.slider, other=self._first.slider))
         bore, rod, clearance, ratio = sizes[0]
         return Cylinder(bore, clearance, ratio, rod, self._stated_inclination(layout))
@@ -389,7 +392,7 @@ class _Form:
             if head is not None:
                 gas = gas_of(*head, layout.cycle, behind[1] if behind else None)
                 gas = replace(gas, delay=self._gas_delay(cell, head[1], place, layout.cycle))
-                gases.append(next((known for known in gases if are_alike(known, gas)), gas))
+                gases.append(next((known for known in gases if nearly_equal(known, gas)), gas))
         return tuple(gases)
 
     def _gas_delay(self, cell: Cell, chamber: Chamber, place: CylinderPlace, cycle: float) -> float:
@@ -409,18 +412,18 @@ class _Form:
 
 def _two_masses(cells: Sequence[Cell]) -> CrankGearMasses:
     """Return the masses of rods that are alike at their ends, and their excess of inertia."""
-    first, *others = (_masses_of_rod(cell) for cell in cells)
-    for masses, cell in zip(others, cells[1:], strict=True):
+    first, *following = (_masses_of_rod(cell) for cell in cells)
+    for masses, cell in zip(following, cells[1:], strict=True):
         if not _have_same_masses(masses, first, cells[0].length):
             raise NoCellsError(Refusal("cells_unequal", name=cell.link, other=cells[0].link))
     return first
 
 
-def _have_same_masses(one: CrankGearMasses, other: CrankGearMasses, length: float) -> bool:
+def _have_same_masses(masses: CrankGearMasses, other: CrankGearMasses, length: float) -> bool:
     """Return whether two rods have the same masses but for rounding."""
     size = 10 * _SAME * (other.rod_small_end + other.rod_big_end)
-    ends = (one.rod_small_end - other.rod_small_end, one.rod_big_end - other.rod_big_end)
-    excess = one.rod_inertia_excess - other.rod_inertia_excess
+    ends = (masses.rod_small_end - other.rod_small_end, masses.rod_big_end - other.rod_big_end)
+    excess = masses.rod_inertia_excess - other.rod_inertia_excess
     return max(map(abs, ends)) <= size and abs(excess) <= size * length**2
 
 
@@ -445,8 +448,8 @@ def _kind(places: Sequence[CylinderPlace]) -> str:
         return "radial"
     if len(axes) > 2:
         return "W"
-    one, other = axes
-    is_flat = abs(abs(one - other) - _TURN / 2) <= _SAME_ANGLE
+    first, other = axes
+    is_flat = abs(abs(first - other) - _TURN / 2) <= _SAME_ANGLE
     return "boxer" if is_flat and len({place.crankpin for place in places}) == len(places) else "V"
 
 
@@ -458,7 +461,7 @@ def _clean(angle: float) -> float:
 
 def _unified(values: Sequence[float], distance: float) -> list[float]:
     """Return values, each as the first that is as near as that."""
-    found = list[float]()
+    kept = list[float]()
     for value in values:
-        found.append(next((known for known in found if abs(known - value) <= distance), value))
-    return found
+        kept.append(next((known for known in kept if abs(known - value) <= distance), value))
+    return kept

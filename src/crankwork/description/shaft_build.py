@@ -21,8 +21,8 @@ def build_shaft(values: Values, reader: Reader) -> Shaft | None:
     firing = {name: math.degrees(angle.value) for name, angle in shaft["firing"].items() if angle is not None}
     return Shaft(
         cylinders=_names(shaft["cylinders"]),
-        positions={name: at.value for name, at in shaft["positions"].items() if at is not None},
-        journals=tuple(at.value for at in shaft["journals"] if at is not None),
+        positions={name: position.value for name, position in shaft["positions"].items() if position is not None},
+        journals=tuple(position.value for position in shaft["journals"] if position is not None),
         throws=tuple(_names(pins) for pins in shaft["throws"] if pins),
         firing=firing,
         period=float(shaft["period"].split()[0]) if shaft["period"] else None,

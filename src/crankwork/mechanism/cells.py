@@ -1,4 +1,4 @@
-"""Cells: the rods between the crank, or a rod on it, and pieces on fixed guides, found from the structure alone."""
+"""Cells: the rods between the crank, or a rod on it, and pieces on fixed guides, cells from the structure alone."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def crank_cells(mechanism: Mechanism) -> CrankCells:
     points = {point.name: point for point in mechanism.points}
     on_crank = {name: complex(point.along, point.across) for name, point in points.items() if point.link == crank.link}
     on_crank[crank.pin] = complex(crank.radius)
-    found = dict[str, Cell]()
+    cells = dict[str, Cell]()
     for dyad in mechanism.dyads:
         if not isinstance(dyad, RRP) or dyad.guide_link:
             raise NoCellsError(Refusal("cells_dyad", name=_names(dyad)))
@@ -82,14 +82,14 @@ def crank_cells(mechanism: Mechanism) -> CrankCells:
         if dyad.joint in on_crank:
             cell = replace(cell, pin=dyad.joint)
         else:
-            cell = _on_master(cell, points.get(dyad.joint), found, mechanism.bars)
-        found[cell.link] = cell
-    if not found:
+            cell = _on_master(cell, points.get(dyad.joint), cells, mechanism.bars)
+        cells[cell.link] = cell
+    if not cells:
         raise NoCellsError(Refusal("cells_driver"))
-    pins = {cell.pin: on_crank[cell.pin] for cell in found.values()}
+    pins = {cell.pin: on_crank[cell.pin] for cell in cells.values()}
     if any(abs(abs(pin) - crank.radius) > _SAME * crank.radius for pin in pins.values()):
         raise NoCellsError(Refusal("cells_radii"))
-    return _with_bodies(CrankCells(crank, tuple(found.values()), pins, Part()), mechanism, on_crank)
+    return _with_bodies(CrankCells(crank, tuple(cells.values()), pins, Part()), mechanism, on_crank)
 
 
 def _names(group: object) -> str:
@@ -107,9 +107,9 @@ def _cell(rod: RRP, crank: Crank) -> Cell:
     return Cell(rod.piece, rod.link, "", rod.length, head, offset, rod.branch)
 
 
-def _on_master(cell: Cell, joint: LinkPoint | None, found: Mapping[str, Cell], bars: Mapping[str, Bar]) -> Cell:
+def _on_master(cell: Cell, joint: LinkPoint | None, cells: Mapping[str, Cell], bars: Mapping[str, Bar]) -> Cell:
     """Return a cell whose rod turns on a point of another rod."""
-    master = found.get(joint.link) if joint is not None else None
+    master = cells.get(joint.link) if joint is not None else None
     if joint is None or master is None or master.master:
         raise NoCellsError(Refusal("cells_joint", name=cell.link))
     return replace(
