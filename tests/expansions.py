@@ -10,11 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from crankwork.analysis.results import Results
+from crankwork.analysis.results import Listing, Results
 from crankwork.description.written import key_text, toml
-
-# what a calculated cycle adds to the results of its engine
-_DIRECTIONS = (("guides", "angle"), ("crank", "start"), ("shaft", "reference"))
+from crankwork.quantities import QUANTITIES, base_key
 
 
 def written(values: Mapping[str, Any]) -> str:
@@ -146,38 +144,25 @@ def _moved(values: Mapping[str, Any], place: Any, angle: Any) -> dict[str, Any]:
 
 def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str]:
     """Return where the results of an engine and of its form differ, without those of a calculated cycle."""
-    found, lost = list[str](), of_cycle(engine)
-
-    def compare(kind: str, own: Mapping[str, Any], other: Mapping[str, Any]) -> None:
-        for key, value in own.items():
-            if key in lost:
-                continue
-            if key not in other:
-                found.append(f"{kind} {key} is missing")
-                continue
-            one, two = np.asarray(value, dtype=float), np.asarray(other[key], dtype=float)
-            if one.shape != two.shape or not np.allclose(
-                one, two, rtol=0, atol=limit * _size(key, one, own), equal_nan=True
-            ):
-                found.append(f"{kind} {key}: {value} is {other[key]}")
-        found.extend(f"{kind} {key} is too much" for key in other if key not in own)
-
-    compare("summary", engine.summary, form.summary)
-    compare("column", engine.columns, form.columns)
-    for name, listing in engine.listings.items():
-        if name not in form.listings:
-            found.append(f"listing {name} is missing")
-        else:
-            compare(f"listing {name}", listing.columns, form.listings[name].columns)
-            if listing.names != form.listings[name].names:
-                found.append(f"listing {name}: {listing.names} are {form.listings[name].names}")
-    found += [f"check {key}" for key in (engine.checks.keys() ^ form.checks.keys()) - lost]
-    found += [
-        f"check {key}: {value}"
-        for key, value in form.checks.items()
-        if value > max(limit, engine.checks.get(key, 0.0) * 10)
+    lost, scales = of_cycle(engine), _scales(engine)
+    pairs = [("summary", engine.summary, form.summary), ("column", engine.columns, form.columns)]
+    empty = Listing({})
+    pairs += [
+        (f"listing {name}", listing.columns, form.listings.get(name, empty).columns)
+        for name, listing in engine.listings.items()
     ]
-    return found
+    found = [f"listing {name}" for name in engine.listings.keys() ^ form.listings.keys()]
+    for kind, own, other in pairs:
+        found += [f"{kind} {key}" for key in (own.keys() ^ other.keys()) - lost]
+        for key in own.keys() & other.keys() - lost:
+            first, second = (_without_noise(key, values, limit, scales) for values in (own, other))
+            scale = limit * scales.get(_unit(key), 1.0)
+            same = first.shape == second.shape and np.allclose(first, second, rtol=0, atol=scale, equal_nan=True)
+            found += [] if same else [f"{kind} {key}: {own[key]} is {other[key]}"]
+    found += [f"check {key}" for key in (engine.checks.keys() ^ form.checks.keys()) - lost]
+    return found + [
+        f"check {key}: {value}" for key, value in form.checks.items() if value > form.allowed.get(key, limit)
+    ]
 
 
 def of_cycle(results: Results) -> set[str]:
@@ -187,8 +172,27 @@ def of_cycle(results: Results) -> set[str]:
     return (found | {key for key in results.summary if key.endswith(".cycle")}) - {"indicated_mean_pressure"}
 
 
-def _size(key: str, value: Any, beside: Mapping[str, Any]) -> float:
-    """Return the size of a value: its largest, for the extremes and means of a column the largest of all of them."""
-    size = float(np.nanmax(np.abs(np.append(value, 0.0))))
-    quantity = key.partition("_m")[0] if "." not in key else key
-    return max([size, *(abs(v) for k, v in beside.items() if isinstance(v, float) and k.startswith(quantity[:12]))])
+def _unit(key: str) -> str:
+    quantity = QUANTITIES.get(base_key(key))
+    return "" if quantity is None else quantity.unit
+
+
+def _scales(results: Results) -> dict[str, float]:
+    """Return the largest value of every unit, of angles a turn."""
+    scales = {"": 1.0}
+    tables = [results.summary, results.columns, *(listing.columns for listing in results.listings.values())]
+    for table in tables:
+        for key, value in table.items():
+            values = np.abs(np.append(np.asarray(value, dtype=float), 0.0))
+            scales[_unit(key)] = max(scales.get(_unit(key), 0.0), float(np.nanmax(values)))
+    return scales
+
+
+def _without_noise(key: str, values: Mapping[str, Any], limit: float, scales: Mapping[str, float]) -> Any:
+    """Return a value; the direction of nothing but rounding is none, and directions repeat after half a turn."""
+    value = np.asarray(values[key], dtype=float)
+    size = {"free_force_direction": "free_force", "harmonic_phase": "harmonic_amplitude"}.get(key)
+    size = key.replace("_angle", "") if size is None and key.replace("_angle", "") in values else size
+    if size in values and size != key:
+        value = np.where(np.abs(values[size]) <= 1e3 * limit * scales[_unit(size)], 0.0, np.cos(2 * value))
+    return value
