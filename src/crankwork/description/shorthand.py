@@ -22,6 +22,8 @@ from crankwork.working_cycle.pressures import MisfirePressure
 _DIAGRAM = ("points", "pieces", "measured", "valves")
 _COUNTED = ("pressures", "ambient")
 _OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
+# of sums of angles [deg]
+_ROUNDING = 1e-12
 _ALONE = CylinderPlace(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
 
 
@@ -90,7 +92,13 @@ def crank_mechanisms(machine: Machine) -> list[CrankMechanism]:
 
 def _head(machine: Machine, axis: float, first: float) -> float:
     """Return the direction of a head; cylinder 1 is inclined as the machine. [deg]"""
-    return round(90.0 - axis + first - math.degrees(machine.inclination), 9)
+    return _rounded(90.0 - axis + first - math.degrees(machine.inclination))
+
+
+def _rounded(degrees: float) -> float:
+    """Return an angle without the rounding of sums; one that has more digits keeps them. [deg]"""
+    near = round(degrees, 9)
+    return near if abs(near - degrees) <= _ROUNDING else degrees
 
 
 def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str, Any]]:
@@ -187,7 +195,7 @@ def _shaft(machine: Machine, engine: Engine, gears: list[CrankMechanism]) -> dic
     if machine.gas is None:
         shaft["period"] = f"{engine.layout.cycle:g} deg"
     if places[0].axis:
-        shaft["reference"] = f"{round(gears[0].head + places[0].axis, 9):.15g} deg"
+        shaft["reference"] = f"{_rounded(gears[0].head + places[0].axis):.15g} deg"
     if engine.misfires:
         shaft["misfire"] = [names[number] for number in engine.misfires]
     return shaft
