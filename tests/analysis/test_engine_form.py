@@ -12,11 +12,15 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork import analyse, read_machine, template, template_names
+from crankwork import CrankGrid, analyse, read_machine, template, template_names
 from crankwork.analysis.engine_form import engine_form, engine_form_or_reason
+from crankwork.analysis.form_paths import linkage_paths, relocate
 from crankwork.analysis.results import Results
 from crankwork.description.expand import expanded
 from crankwork.errors import CrankworkError, InputError, Problem
+from crankwork.formula.known import Given, in_order
+from crankwork.kernel.compiled import Kernel
+from crankwork.kernel.trace import NotCompiledError
 from crankwork.machine import Machine
 from each import for_each
 from expansions import differences, mirrored, renamed, shuffled, turned, written
@@ -312,3 +316,36 @@ def test_cylinders_without_a_crankshaft_are_numbered_by_their_chambers(tmp_path)
     form = form_of(written(backwards))
     assert form.engine is not None
     assert (form.engine.layout.firing_order, form.gas.delay) == ((1, 3, 4, 2), pytest.approx(360.0))
+
+
+@for_each(("text", "changes"), [(COMPRESSOR, DOUBLE), (V_TWO, {}), (RADIAL, {}), (NARROW, {})])
+def test_inputs_of_the_form_are_those_of_the_linkage(tmp_path, text, changes):
+    machine = read_machine(linkage_of(tmp_path, with_changes(text, changes)))
+    results, paths = analyse(engine_form(machine)), linkage_paths(machine)
+    relocate(results.memory.values(), paths)
+    nodes = [known.node for known in in_order(results.memory.values()) if isinstance(known.node, Given)]
+    tables = {node.path.partition(".")[0] for node in nodes} - {"", "method", "table"}
+    assert tables <= {"crank", "links", "sliders", "guides", "chambers", "shaft", "bearings", "balance", "flywheel"}
+    assert results.memory["rod_length"].node.path in {f"links.{rod}.length" for rod in ("rod", "rod_1")}
+    stated = machine.stated
+    assert {path for path in ("links.rod.length", "links.rod_1.length") if path in stated} <= {
+        node.path for node in nodes
+    }
+
+
+def test_a_study_of_a_linkage_calculates_its_engine_form_anew():
+    """A kernel compares the traces of analyses: a leaf of the form differs where the linkage does."""
+    traces, lengths = [], (0.2, 0.19, 0.22)
+    for length in lengths:
+        text = DRAWN.replace('length = "200 mm"', f'length = "{length} m"')
+        machine = read_machine(text)
+        results = analyse(engine_form(machine))
+        relocate(results.memory.values(), linkage_paths(machine))
+        traces.append(results.memory)
+    keys = ["piston_velocity_max", "crank_torque_max"]
+    kernel = Kernel(traces, np.array(lengths)[:, None], keys[:1], CrankGrid.from_degrees, cycle=360.0)
+    wanted = analyse(form_of(DRAWN.replace('length = "200 mm"', 'length = "0.21 m"'))).summary
+    assert kernel(np.array([[0.21]])).values[0, 0] == pytest.approx(wanted[keys[0]], rel=1e-9)
+    # the masses of the rod at its ends are worked out of the length before they are remembered
+    with pytest.raises(NotCompiledError, match="curved_field"):
+        Kernel(traces, np.array(lengths)[:, None], keys[1:], CrankGrid.from_degrees, cycle=360.0)
