@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from crankwork.cylinders.crankshaft import Bearings, Shaft
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError
@@ -38,7 +39,10 @@ if TYPE_CHECKING:
     from crankwork.shaft.wheel import Wheel
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
-
+__all__ = [
+    "Bearings", "Cylinder", "Document", "Drive", "Engine", "Gas", "InputNumber", "Machine", "Shaft", "TransferTable",
+    "Transient",
+]  # fmt: skip
 _TURN = 360.0
 
 
@@ -119,6 +123,8 @@ class Gas:
         Samples instead of points and pieces.
     angle_shift, resample : float and float or None
         Added to measured angles; step at which they are resampled. [deg]
+    delay : float
+        Crank angle by which points or measured samples come later than the cycle of the cylinder. [deg]
     is_absolute : bool
         Whether pressures are absolute; then `ambient` is subtracted.
     ambient : float
@@ -142,6 +148,7 @@ class Gas:
     measured: MeasuredPressure | None = None
     angle_shift: float = 0.0
     resample: float | None = None
+    delay: float = 0.0
     is_absolute: bool = False
     ambient: float = 101325.0
     names_ambient: bool = False
@@ -150,27 +157,6 @@ class Gas:
     factor: float = 1.0
     factor_path: str = ""
     path: str = "gas"
-
-
-@dataclass(frozen=True)
-class Bearings:
-    """Known sizes of the bearings, and the rays of their wear diagrams.
-
-    Parameters
-    ----------
-    crankpin_diameter, crankpin_length, main_diameter, main_length, pin_diameter, pin_length : float or None
-        Diameters and working lengths of crankpin, main journals and piston pin. [m]
-    rays : int
-        Rays of the wear diagram, 12 or 24.
-    """
-
-    crankpin_diameter: float | None = None
-    crankpin_length: float | None = None
-    main_diameter: float | None = None
-    main_length: float | None = None
-    pin_diameter: float | None = None
-    pin_length: float | None = None
-    rays: int = 12
 
 
 @dataclass(frozen=True)
@@ -358,6 +344,8 @@ class Machine:
         Friction in pins and guides of a linkage.
     chambers, charges : mapping of str to Chamber and to Charge
         The gas between sliding pieces of a linkage, and the gas sealed in several chambers, by name.
+    shaft : Shaft or None
+        The crankshaft of a linkage of crank, rods and pistons, if more of it is known than the linkage shows.
     drive : Drive
         Motor, flywheel and efficiency on the crank.
     transient : Transient or None
@@ -394,6 +382,7 @@ class Machine:
     friction: tuple[Friction, ...] = ()
     chambers: Mapping[str, Chamber] = field(default_factory=dict)
     charges: Mapping[str, Charge] = field(default_factory=dict)
+    shaft: Shaft | None = None
     drive: Drive = Drive()
     transient: Transient | None = None
     method: Method = EXACT
@@ -470,4 +459,5 @@ class Machine:
             return self.gas.cycle
         if self.engine is not None:
             return self.engine.layout.cycle
-        return least_common(cycle_of(self.chambers), self.mechanism.period)
+        stated = self.shaft.period if self.shaft is not None and self.shaft.period is not None else _TURN
+        return least_common(max(cycle_of(self.chambers), stated), self.mechanism.period)

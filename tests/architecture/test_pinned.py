@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "9c940da83c5f",
     "quantities": "6afc290ef2c5",
-    "defaults": "a9de6e8b2d42",
+    "defaults": "b15b419622e7",
 }
 
 

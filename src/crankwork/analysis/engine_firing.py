@@ -127,13 +127,15 @@ def delivery_memory(whole: WholeEngine, firing: Mapping[str, Known], works: Mapp
 
 
 def firing_listing(whole: WholeEngine, firing: Mapping[str, Known]) -> Listing:
-    """Return where each cylinder stands and fires; where they differ, also stroke and dead centre, or the work.
+    """Return where each cylinder stands and fires; where they differ, also stroke, dead centre and work.
 
     `firing`: number, volume, firing and work of the cylinders.
     """
     numbers = [one.number for one in whole.layout.places]
     columns = {"cylinder_number": np.array(numbers, dtype=float)}
-    unlike = (*(_OF_SLAVES if "stroke.1" in firing else ()), *(("indicated_work",) if whole.engine.gases else ()))
+    unlike = _OF_SLAVES if "stroke.1" in firing else ()
+    if unlike or whole.engine.gases:
+        unlike = (*unlike, "indicated_work")
     for kind in (*_LISTED, *unlike):
         each = [firing.get(f"{kind}.{number}", firing.get(kind)) for number in numbers]
         if all(one is not None for one in each):

@@ -94,11 +94,13 @@ def _retold(
 
 
 def _begins(solved: SolvedCylinder) -> Value:
-    """Return the crank angle that the points of a diagram count from, remembered where it is not zero. [deg]"""
-    if not solved.begins:
-        return 0.0
+    """Return the crank angle that the points of a diagram count from, remembered where it depends on lengths. [deg]"""
+    delay = solved.machine.gas.delay if solved.machine.gas is not None else 0.0
+    if not (solved.counts_from_top and solved.stroke[1]):
+        return delay
     r, l, e = solved.moving.lengths  # noqa: E741
-    return top_dead_centre_angle(e, l, r) * (180 / math.pi)
+    top = top_dead_centre_angle(e, l, r) * (180 / math.pi)
+    return top + delay if delay else top
 
 
 def _ambient(solved: SolvedCylinder) -> str:

@@ -113,8 +113,14 @@ class SolvedCylinder(Solved):
     @property
     def begins(self) -> float:
         """The crank angle that a stated diagram counts from: its own top dead centre where offsets differ. [deg]"""
+        delay = self.machine.gas.delay if self.machine.gas is not None else 0.0
+        return delay + self.stroke[1] if self.counts_from_top else delay
+
+    @property
+    def counts_from_top(self) -> bool:
+        """Whether each cylinder counts from its own top dead centre, because offsets differ."""
         places = self.machine.engine.layout.places if self.machine.engine is not None else ()
-        return self.stroke[1] if any(place.top for place in places) else 0.0
+        return any(place.top for place in places)
 
     @property
     def stroke(self) -> tuple[float, float, float]:

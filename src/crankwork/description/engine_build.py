@@ -16,6 +16,7 @@ from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
 from crankwork.description.build import rod_masses
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
+from crankwork.description.shaft_build import check_counterweights
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError, GeometryError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
@@ -46,8 +47,7 @@ def build_engine(
     _check_places(layout, table, reader)
     rods = _articulated_rods(table, layout, lengths, reader)
     sizes, balance = values["bearings"], values["balance"]
-    if sizes.si("counterweight") and balance["rotating_share"]:
-        reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
+    check_counterweights(sizes, balance, reader)
     return Engine(
         layout=layout,
         slaves=rods,

@@ -16,13 +16,6 @@ from crankwork.description.written import key_text, toml, with_value
 from crankwork.locale import Language, Refusal, say
 from crankwork.machine import Machine
 
-# tables of an engine that a linkage does not have
-_NOT_EXPRESSIBLE = {
-    "engine": "check.unsaid_engine",
-    "cycle": "check.unsaid_cycle",
-    "bearings": "check.unsaid_bearings",
-    "balance": "check.unsaid_balance",
-}
 # tables that may be left out because all of them has a default
 _ALWAYS = ("method", "table")
 
@@ -55,7 +48,9 @@ def _check_expressible(machine: Machine, reader: Reader) -> None:
 
 def _linkage_text(values: Mapping[str, Any], machine: Machine, language: Language) -> str:
     """Return the tables of a linkage for a crank mechanism."""
-    lines = [f"# {say(text_key, language)}" for key, text_key in _NOT_EXPRESSIBLE.items() if key in values]
+    # a release of heat is written out whole
+    is_lost = "cycle" in values and values["cycle"].get("kind") != "wiebe"
+    lines = [f"# {say('check.unsaid_cycle', language)}"] if is_lost else []
     for key, value in linkage_tables(values, machine):
         for table in value if isinstance(value, list) else [value]:
             if isinstance(table, Mapping):

@@ -21,6 +21,7 @@ from crankwork.description.linkage_reach import checked_motion, explain_redundan
 from crankwork.description.positions_build import branches_from_positions, position_notices
 from crankwork.description.redundant_build import fitting, geometry_of, without_redundant, without_unshared
 from crankwork.description.schema import Values
+from crankwork.description.shaft_build import build_shaft, check_shaft
 from crankwork.description.stated import stated_numbers
 from crankwork.description.wheel_build import read_flywheel
 from crankwork.dynamics.tabulated import TabulatedBody
@@ -101,6 +102,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         notices=notices,
         chambers=chambers,
         charges=charges,
+        shaft=build_shaft(values, reader),
         drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + (crank.si("inertia") or 0.0)),
         transient=transient,
         method=method,
@@ -110,7 +112,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     )
     check_friction(machine, reader)
     moving = checked_motion(machine, crank, reader)
-    return moving if moving is not None and _is_filled(moving, values, reader) else None
+    return moving if moving is not None and _fits(moving, values, reader) else None
 
 
 def _drive(values: Values, method: Method, reader: Reader) -> Drive:
@@ -153,10 +155,10 @@ def _table_step(given: float | None, law: Law | None) -> float:
     return 10.0 if given is None else min(360.0 * given / law.period, 360.0)
 
 
-def _is_filled(machine: Machine, values: Values, reader: Reader) -> bool:
-    """Return whether the gas suits the volumes of its chambers; report if not."""
+def _fits(machine: Machine, values: Values, reader: Reader) -> bool:
+    """Return whether the gas suits the volumes of its chambers, and the crankshaft the linkage; report if not."""
     if not machine.chambers:
-        return True
+        return check_shaft(machine, values, reader)
     reached = reachable(machine, _STEP)
     if reached.travel is not None:
         reader.complain("chambers", Refusal("chambers_partial"))
@@ -173,7 +175,7 @@ def _is_filled(machine: Machine, values: Values, reader: Reader) -> bool:
             mistake = Refusal("in_period", mistake=mistake)
         reader.complain(error.key, mistake)
         return False
-    return True
+    return check_shaft(machine, values, reader)
 
 
 def build_tabulated(values: Values, reader: Reader) -> Machine | None:

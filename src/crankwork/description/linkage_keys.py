@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import get_args
 
+from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description import document_keys
-from crankwork.description.engine_keys import FLYWHEEL, HEAT_RELEASE
+from crankwork.description.engine_keys import BALANCE, BEARINGS, FLYWHEEL, HEAT_RELEASE
 from crankwork.description.keys import (
     AMBIENT,
     DIAGRAM,
@@ -240,6 +241,19 @@ _CHARGE = TableSpec("charge", {
     "mass": KeySpec(Quantity(("mass",), 1e-12, 1e6), instead_of=("mean_pressure", "pressure")),
 })  # fmt: skip
 
+_ALONG = Quantity(("length",), -100.0, 100.0)
+_SHAFT = TableSpec("shaft", {
+    "cylinders": KeySpec(ListOf(_NAME, fewest=1, most=MOST_CYLINDERS)),
+    "positions": KeySpec(MapOf(_ALONG, most=MOST_CYLINDERS)),
+    "journals": KeySpec(ListOf(_ALONG, fewest=2, most=MOST_CYLINDERS + 1)),
+    "throws": KeySpec(ListOf(ListOf(_NAME, fewest=1, most=MOST_CYLINDERS), fewest=1, most=MOST_CYLINDERS)),
+    "firing": KeySpec(MapOf(_TURN, most=MOST_CYLINDERS)),
+    "period": KeySpec(Choice(("360 deg", "720 deg"))),
+    "reference": KeySpec(_ANGLE),
+    "misfire": KeySpec(ListOf(_NAME, fewest=1, most=MOST_CYLINDERS)),
+    "bore": KeySpec(_LENGTH),
+})  # fmt: skip
+
 LINKAGE_FILE = TableSpec("file", {
     **TITLE,
     "document": document_keys.LINKAGE,
@@ -255,6 +269,9 @@ LINKAGE_FILE = TableSpec("file", {
     "friction": KeySpec(_FRICTION),
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
+    "shaft": KeySpec(_SHAFT),
+    "bearings": KeySpec(BEARINGS),
+    "balance": KeySpec(BALANCE),
     "efficiency": KeySpec(EFFICIENCY),
     "motor": KeySpec(_MOTOR),
     "flywheel": KeySpec(FLYWHEEL),

@@ -15,13 +15,15 @@ from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.engine_keys import HEAT_RELEASE
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.loads.indicator import DiagramPoint
-from crankwork.machine import Gas, Machine
+from crankwork.machine import Engine, Gas, Machine
 from crankwork.units import from_si
 from crankwork.working_cycle.pressures import MisfirePressure
 
 _DIAGRAM = ("points", "pieces", "measured", "valves")
 _COUNTED = ("pressures", "ambient")
 _OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
+# of sums of angles [deg]
+_ROUNDING = 1e-12
 _ALONE = CylinderPlace(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
 
 
@@ -90,7 +92,13 @@ def crank_mechanisms(machine: Machine) -> list[CrankMechanism]:
 
 def _head(machine: Machine, axis: float, first: float) -> float:
     """Return the direction of a head; cylinder 1 is inclined as the machine. [deg]"""
-    return round(90.0 - axis + first - math.degrees(machine.inclination), 9)
+    return _rounded(90.0 - axis + first - math.degrees(machine.inclination))
+
+
+def _rounded(degrees: float) -> float:
+    """Return an angle without the rounding of sums; one that has more digits keeps them. [deg]"""
+    near = round(degrees, 9)
+    return near if abs(near - degrees) <= _ROUNDING else degrees
 
 
 def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str, Any]]:
@@ -115,8 +123,11 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     yield "positions", {name: _place(position) for name, position in _positions(gears)}
     for mechanism in gears:
         yield from _chambers(values, mechanism)
-    if "flywheel" in values:
-        yield "flywheel", values["flywheel"]
+    shaft = _shaft(machine, machine.engine, gears) if machine.engine is not None else {}
+    if machine.cylinder is not None and machine.gas is None:
+        shaft["bore"] = _unit(machine.cylinder.bore, "mm")
+    yield from ((key, table) for key, table in {"shaft": shaft}.items() if table)
+    yield from ((key, values[key]) for key in ("bearings", "balance", "flywheel") if key in values)
     method = {
         key: value
         for key, value in values.get("method", {}).items()
@@ -164,6 +175,30 @@ def _rod(gear: CrankMechanism, gears: list[CrankMechanism]) -> dict[str, Any]:
     inertia = mass * centre * (gear.length - centre)
     inertia += masses.rod_inertia_excess if machine.method.rod == "rigid" else 0.0
     return rod | {"mass": _unit(mass, "kg"), "centre": _place(centre), "inertia": _unit(inertia, "kg*m2")}
+
+
+def _shaft(machine: Machine, engine: Engine, gears: list[CrankMechanism]) -> dict[str, Any]:
+    """Return what the linkage does not show of the crankshaft."""
+    places, names = engine.layout.places, {gear.place.number: f"piston{gear.own}" for gear in gears}
+    shaft: dict[str, Any] = {"cylinders": list(names.values())}
+    if len({place.position for place in places}) > 1 or engine.layout.journal_positions:
+        shaft["positions"] = {names[place.number]: _unit(place.position, "mm") for place in places}
+    if engine.layout.journal_positions:
+        shaft["journals"] = [_unit(position, "mm") for position in engine.layout.journal_positions]
+    pins = {place.crankpin: place.throw for place in places}
+    if len(pins) > 1:
+        shaft["throws"] = [
+            [f"A{pin + 1}" for pin in sorted(pins) if pins[pin] == throw] for throw in sorted(set(pins.values()))
+        ]
+    if len(places) > 1:
+        shaft["firing"] = {names[place.number]: f"{place.firing_angle:.15g} deg" for place in places}
+    if machine.gas is None:
+        shaft["period"] = f"{engine.layout.cycle:g} deg"
+    if places[0].axis:
+        shaft["reference"] = f"{_rounded(gears[0].head + places[0].axis):.15g} deg"
+    if engine.misfires:
+        shaft["misfire"] = [names[number] for number in engine.misfires]
+    return shaft
 
 
 def _positions(gears: list[CrankMechanism]) -> Iterator[tuple[str, complex]]:

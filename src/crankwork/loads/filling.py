@@ -366,7 +366,7 @@ def _of_its_own(
         begins,
     )
     retold = partial(stated.retold, diagram) if len(diagrams) == 1 and chamber.pieces else None
-    pressure = remembered_pressure(diagram, space.volume, path, retold)
+    pressure = remembered_pressure(diagram, space.volume, path, retold, name)
     own_phases = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)
     return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices

@@ -20,20 +20,23 @@ _SAME_VOLUME = 1e-12
 
 
 def remembered_pressure(
-    diagram: IndicatorDiagram, volume: Known, path: str = "gas", retold: Callable[[], Known] | None = None
+    diagram: IndicatorDiagram,
+    volume: Known,
+    path: str = "gas",
+    retold: Callable[[], Known] | None = None,
+    owner: str = "",
 ) -> Known:
     """Return the pressure of a diagram as a sequence of laws; `retold`: its form that holds for all inputs.
 
-    `path`: of the diagram in the description, `chambers.NAME` or `gas`.
+    `path`: of the diagram in the description; `owner`: the chamber it belongs to, if it is one of a linkage.
     """
-    laws = tuple(_law(diagram, segment, volume, path) for segment in diagram.segments)
+    laws = tuple(_law(diagram, segment, volume, (path, owner)) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
-    return Known(Pieces(ends, laws, diagram.breaks.tolist(), retold), _of("diagram_pressure", path))
+    return Known(Pieces(ends, laws, diagram.breaks.tolist(), retold), _of("diagram_pressure", owner))
 
 
-def _of(key: str, path: str, name: str = "") -> str:
+def _of(key: str, owner: str, name: str = "") -> str:
     """Return the key of a column, or of its value at a named point, with the chamber it belongs to."""
-    owner = path.removeprefix("chambers.") if path.startswith("chambers.") else ""
     return ".".join((key, *(part for part in (owner, name) if part)))
 
 
@@ -44,7 +47,7 @@ def at_angle(column: Known, degrees: float, key: str, angle: Known | None = None
 
 
 def polytrope_origin(
-    diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str = "gas"
+    diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str = "gas", owner: str = ""
 ) -> tuple[Known, Known, Known]:
     """Return pressure and volume of the state that a polytrope passes through, and its exponent."""
     pressure, state_volume, exponent = segment.state
@@ -58,7 +61,7 @@ def polytrope_origin(
                 return p_1, burnt, n_p
         angle = diagram.named.get(name, (None, 0.0))[0]
         return p_1, Known(Found(state_volume, "at", (volume, *remaining), angle), f"cylinder_volume.{name}"), n_p
-    keys = [_of(key, path, name) if name else "" for key in ("diagram_pressure", "cylinder_volume")]
+    keys = [_of(key, owner, name) if name else "" for key in ("diagram_pressure", "cylinder_volume")]
     place = f"{path}.points.{_stated(name)}"
     p_1 = given(keys[0], pressure, f"{place}.pressure")
     V_1 = given(keys[1], state_volume, f"{place}.volume")
@@ -75,14 +78,16 @@ def _stated(name: str) -> str:
     return name.rstrip("′")
 
 
-def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str) -> Known:
+def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known, stated: tuple[str, str]) -> Known:
+    path, owner = stated
     match segment.law:
         case "constant":
             name, pressure = segment.origin, float(segment.pressures[0])
-            stated = given(_of("diagram_pressure", path, name), pressure, f"{path}.points.{_stated(name)}.pressure")
-            return segment.operands[0] if segment.operands else stated
+            place = f"{path}.points.{_stated(name)}.pressure"
+            plain = given(_of("diagram_pressure", owner, name), pressure, place)
+            return segment.operands[0] if segment.operands else plain
         case "polytropic":
-            p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path)
+            p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path, owner)
             return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]
     word = "first_law" if segment.operands else "measured" if segment.is_measured else "curve"
     return Known(Table(PressureCurve(segment), word, segment.knots.tolist(), segment.operands), "diagram_pressure")

@@ -1,0 +1,65 @@
+"""From the values of a machine file to the crankshaft of a linkage of crank, rods and pistons."""
+
+from __future__ import annotations
+
+import math
+
+from crankwork.description.kinds import Reader
+from crankwork.description.schema import Values
+from crankwork.locale import Refusal
+from crankwork.machine import Bearings, Machine, Shaft
+
+_TABLES = ("shaft", "bearings", "balance")
+
+
+def build_shaft(values: Values, reader: Reader) -> Shaft | None:
+    """Return the crankshaft that a file describes, None if it says nothing of it."""
+    if set(_TABLES).isdisjoint(values):
+        return None
+    shaft, sizes, balance = (values[name] for name in _TABLES)
+    check_counterweights(sizes, balance, reader)
+    firing = {name: math.degrees(angle.value) for name, angle in shaft["firing"].items() if angle is not None}
+    return Shaft(
+        cylinders=_names(shaft["cylinders"]),
+        positions={name: position.value for name, position in shaft["positions"].items() if position is not None},
+        journals=tuple(position.value for position in shaft["journals"] if position is not None),
+        throws=tuple(_names(pins) for pins in shaft["throws"] if pins),
+        firing=firing,
+        period=float(shaft["period"].split()[0]) if shaft["period"] else None,
+        reference=shaft.si("reference"),
+        misfires=_names(shaft["misfire"]),
+        bore=shaft.si("bore"),
+        bearings=sizes.made(Bearings),
+        counterweight=sizes.si("counterweight"),
+        rotating_share=balance["rotating_share"],
+        reciprocating_share=balance["reciprocating_share"],
+        balance_shafts=tuple(dict.fromkeys(balance["shafts"])),
+    )
+
+
+def check_counterweights(sizes: Values, balance: Values, reader: Reader) -> None:
+    """Report counterweights that are stated twice: as mass moments, and as a share of the masses."""
+    if sizes.si("counterweight") and balance["rotating_share"]:
+        reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
+
+
+def check_shaft(machine: Machine, values: Values, reader: Reader) -> bool:
+    """Return whether a linkage is that of a crankshaft if its file describes one; report if not."""
+    if machine.shaft is None:
+        return True
+    # most linkages do not load it
+    from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
+
+    form = engine_form_or_reason(machine)
+    if isinstance(form, Machine):
+        return True
+    if form.key:
+        reader.complain(form.key, form.message)
+    else:
+        for table in set(_TABLES).intersection(values):
+            reader.complain(table, Refusal("shaft_of_engine", reason=form.message))
+    return False
+
+
+def _names(listed: list[str | None]) -> tuple[str, ...]:
+    return tuple(name for name in listed if name)
