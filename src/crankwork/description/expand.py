@@ -54,7 +54,9 @@ def linkage_of(description: Description) -> dict[str, Any]:
 
 def engine_of(description: Description) -> Machine:
     """Return the engine of a file, without loads, friction and motor."""
-    alone = {key: value for key, value in description.values.items() if key not in LOADING}
+    # with these it may have sections of another note
+    left_out = {*LOADING, "document"}
+    alone = {key: value for key, value in description.values.items() if key not in left_out}
     return Description(alone, description.name, folder=description.folder).machine()
 
 

@@ -115,7 +115,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     keys = file_keys(values)
     read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader, folder)
-    if machine is not None and keys in (LOADED_FILE, LOADED_SIZED_FILE):
+    if machine is not None and not reader.problems and keys in (LOADED_FILE, LOADED_SIZED_FILE):
         machine = _loaded(machine, values, reader, folder)
     return None if machine is None else replace(machine, document=stated_document(read_values))
 
