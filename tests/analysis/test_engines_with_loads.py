@@ -57,7 +57,7 @@ def torque_by_hand(degrees: float) -> float:
     rho = {pin: COEFFICIENTS[pin] * RADII[pin] for pin in RADII}
 
     def missing(force: np.ndarray) -> list[float]:
-        """Return what the piston and the rod lack for equilibrium; `force`: of the rod on the piston, and of the wall."""
+        """Return what piston and rod lack for equilibrium; `force`: of the rod on the piston, and of the wall."""
         x, y, wall = force
         size = math.hypot(x, y)
         lever = b - a
@@ -87,8 +87,8 @@ def test_a_crank_gear_with_friction_is_its_linkage() -> None:
 @pytest.mark.elsewhere
 def test_a_dragging_piston_takes_its_force_over_both_strokes_of_every_turn() -> None:
     """P = 4 r F n; a spring between head and piston takes no power, and pushes with c s along the axis."""
-    text = f"{GEAR}friction.sliders.piston.force = '30 N'\nloads = [{{ kind = 'spring', slider = 'piston', stiffness = '2 N/mm' }}]"
-    results = analysed(text, 20.0, 75.0, 200.0, 340.0)
+    spring = "loads = [{ kind = 'spring', slider = 'piston', stiffness = '2 N/mm' }]"
+    results = analysed(f"{GEAR}friction.sliders.piston.force = '30 N'\n{spring}", 20.0, 75.0, 200.0, 340.0)
     assert results["mean_friction_power"] == pytest.approx(4 * R * 30 * 5, rel=1e-12)
     phi = np.radians(results.grid.degrees)
     along = np.sqrt(L**2 - (R * np.sin(phi)) ** 2)

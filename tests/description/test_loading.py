@@ -31,7 +31,7 @@ friction.pins.A = { coefficient = 0.1, radius = "20 mm" }
     ("changed", "place"),
     [
         (('piston.mass = "0.8 kg"', 'piston.mass = "1e-10 kg"'), "text:4: piston.mass: "),
-        (('"20 mm" }', '"20 mm" }\nflywheel.recovery = "1 s"\nflywheel.fluctuation = 0.1'), "text:14: flywheel.recovery: "),
+        (('"20 mm" }', '"20 mm" }\nflywheel = { percent = 1, recovery = "1 s" }'), "text:14: flywheel.recovery: "),
         (('"360 deg", pressure = "1 MPa"', '"360 deg"'), "text:8: gas.pieces: the diagram does not close"),
         (("friction.pins.A", "friction.pins.C"), "text:13: friction.pins.C: "),
         (("coefficient = 0.1", "coeficient = 0.1"), "text:13: friction.pins.A.coeficient: "),
@@ -48,14 +48,18 @@ def test_a_mistake_is_told_at_the_line_of_the_file(changed, place) -> None:
 
 
 def test_what_a_setting_adds_is_told_of_the_setting() -> None:
-    with pytest.raises(InputError, match=r"--set friction\.sliders\.bore: nothing slides by the name \"bore\"; there is"):
+    with pytest.raises(
+        InputError, match=r"--set friction\.sliders\.bore: nothing slides by the name \"bore\"; there is"
+    ):
         crankwork.read_machine(GEAR, overrides=["friction.sliders.bore.force=1 N"])
 
 
 def test_every_number_of_the_calculation_is_from_a_line_of_the_file_or_a_default() -> None:
     results = crankwork.analyse(crankwork.read_machine(GEAR))
     origin = origins_of(GEAR)
-    leaves = {known.node.path: known.node for known in in_order(results.memory.values()) if isinstance(known.node, Given)}
+    leaves = {
+        known.node.path: known.node for known in in_order(results.memory.values()) if isinstance(known.node, Given)
+    }
     places = {path: origin(path, (node.value,)) for path, node in leaves.items() if path}
     expected = {
         "crank.radius": ("line", "2"), "links.rod.length": ("follows_line", "3"), "links.rod.mass": ("line", "3"),

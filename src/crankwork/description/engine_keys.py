@@ -193,7 +193,10 @@ OF_LINKAGE = (
     (r"guides\.bore(_\d+)?\..*", ("cylinder.offset", "engine.offsets", "engine.bank_angle", "cylinder.inclination")),
     (r"chambers\.[^.]+\.(faces\[1\]\.)?bore", ("cylinder.bore",)),
     (r"chambers\.[^.]+\.(faces\[1\]\.)?rod_diameter", ("cylinder.piston_rod_diameter",)),
-    (r"chambers\.[^.]+\.(compression_ratio|clearance_volume)", ("cylinder.compression_ratio", "cylinder.clearance_volume")),
+    (
+        r"chambers\.[^.]+\.(compression_ratio|clearance_volume)",
+        ("cylinder.compression_ratio", "cylinder.clearance_volume"),
+    ),
     (r"chambers\.[^.]+\.period", ("gas.cycle", "cycle.cycle")),
     (r"chambers\.[^.]+\.delay", ("engine.firing_order", "engine.layout")),
     (r"chambers\.[^.]+\.ambient", ("gas.ambient", "cycle.ambient_pressure")),

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
-FILES = (MACHINE_FILE, SIZED_FILE, LOADED_FILE, LOADED_SIZED_FILE, LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE, TURNING_FILE,
-         PRESS_FILE)  # fmt: skip
+_LOADED, _LINKAGES = (LOADED_FILE, LOADED_SIZED_FILE), (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)
+FILES = (MACHINE_FILE, SIZED_FILE, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -115,7 +115,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     keys = file_keys(values)
     read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader, folder)
-    if machine is not None and not reader.problems and keys in (LOADED_FILE, LOADED_SIZED_FILE):
+    if machine is not None and not reader.problems and keys in _LOADED:
         machine = _loaded(machine, values, reader, folder)
     return None if machine is None else replace(machine, document=stated_document(read_values))
 
@@ -153,7 +153,7 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path)
         from crankwork.description.turning_build import build_turning  # noqa: PLC0415 - loaded where it is needed
 
         return build_turning(read_values, reader)
-    if keys in (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE):
+    if keys in _LINKAGES:
         # an engine starts faster without these modules
         from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
             build_linkage,

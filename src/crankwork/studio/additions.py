@@ -237,8 +237,7 @@ def _motor(values: Mapping[str, Any], results: Results | None) -> dict[str, Any]
     """Return a motor rated for the greatest torque of the crank, and a gear between them."""
     speed = _si(values.get("crank", {}).get("speed"), "speed")
     power = 1e-3 * speed * (_torque(results) or 0.0)
-    drives = results is not None and results.machine.lengths is not None and results.summary.get("mean_torque", 0.0) > 0
-    if not speed or drives:
+    if not speed or _mean_torque(results) > 0:
         return {}
     return {
         "rated_power": f"{next((rating for rating in _POWERS if rating >= power), 1000):g} kW",
@@ -248,13 +247,18 @@ def _motor(values: Mapping[str, Any], results: Results | None) -> dict[str, Any]
 
 
 def _transient(values: Mapping[str, Any], results: Results | None) -> dict[str, Any]:
-    """Return a start of the machine from rest over some turns."""
+    """Return a start of the machine from rest, or an engine at its speed, over some turns."""
     speed = _si(values.get("crank", {}).get("speed"), "speed")
     parts = [values.get("crank", {}), *values.get("links", {}).values(), *values.get("sliders", {}).values()]
     parts += [values.get(part, {}) for part in ("rod", "piston")]
     if not speed or not any("mass" in part for part in parts):
         return {}
     settings: dict[str, Any] = {"time": f"{_round(10 * math.tau / speed, 2):g} s"}
+    if "rod" in values:
+        # an engine goes on at its speed, against what it gives or with what it takes
+        settings["speed"] = values["crank"]["speed"]
+        torque = _mean_torque(results)
+        return settings | ({"torque": f"{_round(-torque, 3):g} N*m"} if torque and "motor" not in values else {})
     if "motor" not in values:
         settings["torque"] = f"{_round(_torque(results) or _FORCE, 2):g} N*m"
     return settings
@@ -267,6 +271,14 @@ def _torque(results: Results | None) -> float | None:
         if f"{torque}_max" in summary:
             return max(abs(summary[f"{torque}_{end}"]) for end in ("max", "min"))
     return None
+
+
+def _mean_torque(results: Results | None) -> float:
+    """Return the mean torque that an engine gives, negative where it is driven; 0 for other machines. [N·m]"""
+    if results is None or results.machine.lengths is None:
+        return 0.0
+    summary = results.summary
+    return float(summary.get("mean_total_torque", summary.get("mean_torque", 0.0)))
 
 
 def _free(results: Results | None, pivot: str, point: str, values: Mapping[str, Any], size: float) -> float:
