@@ -132,7 +132,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
     own = Reader(decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
     linkage = _build(linkage_values(values, machine), own, folder)
     for problem in own.problems:
-        reader.complain(key_of_engine(problem.key), problem.message)
+        reader.complain(key_of_engine(problem.key, values), problem.message)
     if linkage is None:
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]

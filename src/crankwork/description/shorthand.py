@@ -139,10 +139,13 @@ def linkage_values(values: Mapping[str, Any], machine: Machine) -> dict[str, Any
     return nested
 
 
-def key_of_engine(key: str) -> str:
+def key_of_engine(key: str, values: Mapping[str, Any]) -> str:
     """Return the key of the file of an engine that a key of its linkage follows from, itself if it is copied."""
-    followed = ((re.fullmatch(pattern, key), keys) for pattern, keys in OF_LINKAGE)
-    return next((match.expand(keys[0]) for match, keys in followed if match), key)
+    for pattern, keys in OF_LINKAGE:
+        if match := re.fullmatch(pattern, key):
+            candidates = [match.expand(stated) for stated in keys]
+            return next((stated for stated in candidates if stated.partition(".")[0] in values), candidates[0])
+    return key
 
 
 def _crank(stated: Mapping[str, Any], machine: Machine, gears: list[CrankMechanism]) -> dict[str, Any]:

@@ -223,8 +223,8 @@ def _templates() -> list[Mapping[str, Any]]:
 
 
 def _of_template(keys: TableSpec, name: str) -> Mapping[str, Any]:
-    alike = (values for values in _templates() if file_keys(values).keys.get(name) is keys.keys[name])
-    return next((values[name] for values in alike if name in values), {})
+    machines = (values for values in _templates() if file_keys(values).keys.get(name) is keys.keys[name])
+    return next((values[name] for values in machines if name in values), {})
 
 
 def _required(kind: object) -> dict[str, Any]:
