@@ -6,6 +6,7 @@ import math
 import re
 import runpy
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -308,3 +309,35 @@ def test_measured_pressure_is_that_of_a_chamber(tmp_path):
 def test_an_engine_of_one_cylinder_is_a_crank_gear(tmp_path):
     text = template("engine").replace("[method]", '[engine]\nlayout = "inline"\ncylinders = 1\n\n[method]')
     numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text)
+
+
+LOADING = """
+friction.pins = { O = { coefficient = 0.01, radius = "20 mm" } }
+motor = { rated_power = "30 hp", rated_speed = "1450 rpm", overload = 2.2, pole_pairs = 2 }
+efficiency = { chain = [0.9], losses = "drive" }
+transient = { time = "0.1 s", speed = "100 rpm" }
+loads = [
+    { kind = "torque", link = "crank", torque = "5 N*m" },
+    { kind = "torque", link = "crank", file = "brake.csv", at = "angle", torque = "torque" },
+]
+document = { author = "A. Student", sections = ["task", "friction"] }
+"""
+
+
+@in_parts("name", ["engine"], ["v8-diesel", "radial-five", "narrow-v6", "leaning-compressor", "wiebe", "wanted-power"])
+def test_an_engine_with_loads_and_friction_is_written_out_as_what_it_is_read_as(tmp_path, name):
+    text = FILES[name]
+    # a format that reads hp as metric
+    text = f"{LOADING}{text}".replace("format = 2\n", "")
+    (tmp_path / "brake.csv").write_text("angle [deg],torque [N*m]\n0,1\n180,2\n360,1\n", "utf-8")
+    path = written(tmp_path, text)
+    out = expanded(path)
+    again = written(tmp_path, out, "again")
+    assert expanded(again) == out
+    one, other = read(path), read(again)
+    assert replace(one, notices=()) == replace(other, notices=())
+    assert one.document == other.document
+    assert one.loads
+    assert one.friction
+    assert one.transient is not None
+    assert one.drive.rated_power == pytest.approx(30 * 735.49875)

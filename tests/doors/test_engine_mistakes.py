@@ -12,11 +12,29 @@ from each import for_each
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ORDER = "firing_order = [1, 3, 4, 2]"
 WIEBE = "combustion_duration = "
+TITLE, SPRING = "title = ", "{ kind = 'spring', slider = '%s', stiffness = '1 N/mm' }"
+PUSH = "{ kind = 'torque', link = '%s', torque = '1 N*m' }"
 
 # example, the original text, what a user writes, the key blamed, and words of the advice
 MISTAKES = {
-    "rubbing pins": ("petrol-four", ORDER, f"{ORDER}\n[friction.pins.crank_pin]\nmoment = '1 N*m'", "friction",
-                     "crankwork check FILE --expand prints it as a linkage"),
+    "no such pin": ("petrol-four", TITLE, f"friction.pins.crank_pin.moment = '1 N*m'\n{TITLE}",
+                    "friction.pins.crank_pin", "there is O, A1, B1, A2, B2, A3, B3, A4, B4"),
+    "pin of two rods": ("v8-diesel", TITLE, f"friction.pins.A1.moment = '1 N*m'\n{TITLE}", "friction.pins.A1",
+                        "there is O, A1_rod_1, B1, A2_rod_2"),
+    "bore for piston": ("two-stroke", TITLE, f"friction.sliders.bore_1.force = '1 N'\n{TITLE}",
+                        "friction.sliders.bore_1", "there is piston_1, piston_2, piston_3"),
+    "no such piston": ("two-stroke", TITLE, f"loads = [{SPRING % 'piston'}]\n{TITLE}", "loads[1].slider",
+                       "there is piston_1, piston_2, piston_3"),
+    "no such link": ("two-stroke", TITLE, f"loads = [{PUSH % 'con-rod'}]\n{TITLE}", "loads[1].link",
+                     "there is crank, piston_1, piston_2, piston_3, rod_1, rod_2, rod_3"),
+    "motor where none drives": ("two-stroke", TITLE, f"transient = {{ time = '1 s', motor = true }}\n{TITLE}",
+                                "transient.motor", "[motor]"),
+    "friction by a series": ("petrol-four", TITLE,
+                             f"friction.pins.O.moment = '1 N*m'\nmethod.kinematics = 'series:6'\n{TITLE}",
+                             "method.kinematics", "write exact, or leave friction out"),
+    "recovery beside friction": ("petrol-four", "fluctuation = 0.01",
+                                 "fluctuation = 0.01\nrecovery = '1 s'\n[friction.pins.O]\nmoment = '1 N*m'",
+                                 "flywheel.recovery", "constant moment of inertia"),
     "order repeats": ("petrol-four", ORDER, "firing_order = [1, 3, 4, 4]", "engine.firing_order",
                       "names cylinder 4 twice and leaves out cylinder 2"),
     "order too short": ("petrol-four", ORDER, "firing_order = [1, 3, 4]", "engine.firing_order", "leaves out"),

@@ -131,3 +131,23 @@ def test_motor_and_flywheel_of_a_file() -> None:
     assert 0.9 * synchronous < results.summary["steady_speed"] < synchronous
     assert 0 < results.summary["steady_fluctuation"] < 0.04
     assert results.summary["motor_power"] > 0
+
+
+def test_an_engine_with_a_spring_goes_through_every_command(crankwork) -> None:
+    load = "loads = [{ kind = 'spring', slider = 'piston', stiffness = '2 N/mm' }]"
+    Path("gear.toml").write_text(f"{load}\n{template('slider-crank')}", "utf-8")
+    answer = crankwork("check", "gear.toml")
+    assert (answer.code, answer.err) == (0, "")
+    assert "linkage of 3 moving links" in answer.out
+    data = crankwork("run", "gear.toml", "-o", "out", "--no-figures", "--json").results
+    assert data["summary"]["static_torque_max"]["value"] > 0
+    assert max(data["checks"].values()) < 1e-10
+    assert "static_torque [N*m]" in _rows("dynamics")[0]
+    for language in ("en", "ru", "vi"):
+        assert crankwork("report", "gear.toml", "-o", f"note-{language}.html", "--lang", language).code == 0
+    assert crankwork("page", "gear.toml", "-o", "page.html", "--slider", "piston.mass").code == 0
+    assert crankwork("draw", "gear.toml", "-o", "gear.svg").code == 0
+    refused = crankwork("run", "gear.toml", "--method", "textbook")
+    assert (refused.code, refused.mistakes) == (
+        2, ["--method: loads counts in an exact calculation only, not by textbook; write exact, or leave loads out"],
+    )  # fmt: skip

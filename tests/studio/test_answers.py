@@ -14,6 +14,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import told
 from crankwork.page import sliders
 from crankwork.studio import answers
+from crankwork.studio.additions import additions
 from crankwork.studio.answers import Session, StoppedError, opened_share, shared
 from crankwork.study.mapped import map_text, mapped
 from each import for_each
@@ -175,6 +176,7 @@ def test_what_a_machine_has_not_is_refused_in_words():
             "press", ("damper", "point", "slider", "process", "friction", "motor", "transient"), marks=pytest.mark.slow
         ),
         ("slider-crank", ("flywheel", "gas", "engine", "bearings", "balance")),
+        ("compressor", ("motor", "transient", "spring", "friction")),
     ],
 )
 def test_whatever_is_added_makes_a_machine_that_is_computed(name, kinds):
@@ -185,6 +187,26 @@ def test_whatever_is_added_makes_a_machine_that_is_computed(name, kinds):
         assert found["refusals"] == [], key
         assert found["added"], key
         assert found["text"].count("#") == text.count("#")
+
+
+def test_an_engine_with_friction_is_held_by_its_joints_and_states_no_branches():
+    found = answer(f'friction.sliders.piston.force = "20 N"\n{template("slider-crank")}')
+    assert found["refusals"] == []
+    assert found["dyads"] == []
+    assert {(one["key"], one["from"], one["to"]) for one in found["handles"]} == {
+        ("crank.radius", "joint.O", "joint.A"), ("rod.length", "joint.A", "joint.B"),
+    }  # fmt: skip
+    parts = found["data"]["film"]
+    assert {"joint.O", "joint.A", "joint.B"} <= set(re.findall(r"joint\.[OAB]\b", str(parts)))
+
+
+def test_friction_is_added_to_pins_that_several_rods_have_by_the_names_of_their_joints():
+    text = EXAMPLES["v8-diesel"].read_text("utf-8")
+    found = additions(crankwork.Description(text), crankwork.analyse(crankwork.Description(text)))
+    (friction,) = (one for one in found if one.name == "friction")
+    assert set(friction.fields["friction.pins"]) == {"O", *(f"B{number}" for number in range(1, 9))}
+    # an engine that gives power needs no motor
+    assert not any(one.name == "motor" for one in found)
 
 
 def test_values_are_in_the_units_that_the_file_asks_for():

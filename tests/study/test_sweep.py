@@ -6,6 +6,7 @@ import pytest
 import crankwork
 from crankwork.errors import CrankworkError
 from crankwork.kernel import compiled as compiled_kernels
+from each import for_each
 
 FOUR_BAR = crankwork.template("four-bar")
 
@@ -25,6 +26,26 @@ def test_values_are_those_of_single_analyses():
         one = crankwork.analyse(d)
         for key, values in found.values.items():
             assert values[at] == pytest.approx(one.summary[key], rel=1e-12)
+
+
+@for_each(
+    ("key", "stated", "value", "reason"),
+    [
+        ("rod.length", ["180 mm", "200 mm", "220 mm"], "joint_force_max.O", "curved_field"),
+        ("piston.mass", ["0.7 kg", "0.8 kg", "0.9 kg"], "joint_force_max.O", ""),
+        ("friction.sliders.piston.force", ["10 N", "20 N", "30 N"], "mean_friction_power", "solved"),
+    ],
+)
+def test_numbers_of_an_engine_with_friction_change_it_as_in_single_analyses(key, stated, value, reason):
+    text = f'friction.sliders.piston.force = "20 N"\n{crankwork.template("slider-crank")}'
+    d = crankwork.Description(text)
+    found = crankwork.sweep(d, {key: stated}, [value])
+    assert found.reason == reason
+    assert found.one_by_one == (len(stated) if reason else 0)
+    for at, one in enumerate(stated):
+        d[key] = one
+        assert found.values[value][at] == pytest.approx(crankwork.analyse(d).summary[value], rel=1e-12)
+    assert np.ptp(found.values[value]) > 0.01 * found.values[value][0]
 
 
 def test_designs_that_cannot_be_assembled_are_counted_by_reason():

@@ -179,3 +179,29 @@ HEAT_RELEASE = TableSpec("cycle", {
     # not required without combustion
     "cycle_heat": KeySpec(Quantity(("energy",), 0.0, 1e9)),
 })  # fmt: skip
+
+# the keys of an engine that determine those of the linkage that it is, the likeliest first
+OF_LINKAGE = (
+    (r"crank\.(mass|inertia|centre.*)", ("crank.mass",)),
+    (r"crank\.(start|points.*)", ("engine.throws", "engine.firing_order", "engine.layout", "cylinder.inclination")),
+    (r"links\.rod(_\d+)?\.points.*", ("engine.articulated.knuckle_radius",)),
+    (r"links\.rod(_\d+)?\.length", ("rod.length", "rod.ratio", "engine.articulated.rod_length")),
+    (r"links\.rod(_\d+)?\.inertia", ("rod.inertia", "rod.radius_of_gyration", "rod.mass", "rod.small_end_mass")),
+    (r"links\.rod(_\d+)?\.centre.*", ("rod.centre_of_mass", "rod.small_end_share", "rod.small_end_mass")),
+    (r"links\.rod(_\d+)?\.mass", ("rod.mass", "rod.small_end_mass", "rod.big_end_mass")),
+    (r"sliders\.piston(_\d+)?\.mass", ("piston.mass",)),
+    (r"guides\.bore(_\d+)?\..*", ("cylinder.offset", "engine.offsets", "engine.bank_angle", "cylinder.inclination")),
+    (r"chambers\.[^.]+\.(faces\[1\]\.)?bore", ("cylinder.bore",)),
+    (r"chambers\.[^.]+\.(faces\[1\]\.)?rod_diameter", ("cylinder.piston_rod_diameter",)),
+    (
+        r"chambers\.[^.]+\.(compression_ratio|clearance_volume)",
+        ("cylinder.compression_ratio", "cylinder.clearance_volume"),
+    ),
+    (r"chambers\.[^.]+\.period", ("gas.cycle", "cycle.cycle")),
+    (r"chambers\.[^.]+\.delay", ("engine.firing_order", "engine.layout")),
+    (r"chambers\.[^.]+\.ambient", ("gas.ambient", "cycle.ambient_pressure")),
+    (r"chambers\.[^.]+\.pressure_factor", ("engine.pressure_factors",)),
+    (r"chambers\.crank_end(_\d+)?\.pressure", ("gas.back_pressure",)),
+    (r"chambers\.[^.]+\.cycle(\..*)?", (r"cycle\1", "cycle")),
+    (r"chambers\.[^.]+\.(.*)", (r"gas.\1", "gas", "cycle")),
+)

@@ -8,10 +8,11 @@ from typing import Any
 
 from crankwork.description.document import Description, load
 from crankwork.description.kinds import Reader
+from crankwork.description.load_keys import LOADING
 from crankwork.description.locate import TomlPositions
 from crankwork.description.machine_file import file_keys, input_error, read, settings_of
 from crankwork.description.schema import TableSpec, Values
-from crankwork.description.shorthand import linkage_tables
+from crankwork.description.shorthand import linkage_tables, linkage_values
 from crankwork.description.written import key_text, toml, with_value
 from crankwork.locale import Language, Refusal, say
 from crankwork.machine import Machine
@@ -29,13 +30,27 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
     description = load(path)
     for setting in settings_of(overrides):
         description[setting.key] = setting.value
-    if machine.linkage is None and machine.turning is None:
+    values = description.values
+    if machine.turning is None and "chambers" not in file_keys(values).keys:
         reader = Reader()
         _check_expressible(machine, reader)
         if reader.problems:
             raise input_error(description.dump(), description.name, reader)
-        description = Description(_linkage_text(description.values, machine, language), description.name)
+        description = Description(_linkage_text(values, engine_of(description), language), description.name)
     return _with_defaults(description, say("check.by_default", language))
+
+
+def linkage_of(description: Description) -> dict[str, Any]:
+    """Return the values of the linkage that a crank mechanism or an engine is."""
+    return linkage_values(description.values, engine_of(description))
+
+
+def engine_of(description: Description) -> Machine:
+    """Return the engine of a file, without loads, friction and motor."""
+    # with these it may have sections of another note
+    left_out = {*LOADING, "document"}
+    alone = {key: value for key, value in description.values.items() if key not in left_out}
+    return Description(alone, description.name, folder=description.folder).machine()
 
 
 def _check_expressible(machine: Machine, reader: Reader) -> None:

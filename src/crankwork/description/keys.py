@@ -10,6 +10,7 @@ import math
 from crankwork.description import document_keys
 from crankwork.description.engine_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
+from crankwork.description.load_keys import LOADING, SHEET
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
 from crankwork.method import STANDARD_GRAVITY
 
@@ -68,7 +69,6 @@ PIECE = TableSpec("piece", {
     "reference": KeySpec(Text(60)),
 })  # fmt: skip
 
-SHEET = KeySpec(Text(), only={"file": ()})
 _PEG = TableSpec("peg", {
     "angle": KeySpec(_ANGLE, required=True, instead_of=("exponent",)),
     "pressure": KeySpec(_PRESSURE, required=True, only={"angle": ()}),
@@ -176,6 +176,7 @@ MACHINE_FILE = TableSpec("file", {
     "engine": KeySpec(ENGINE),
     "bearings": KeySpec(BEARINGS),
     "balance": KeySpec(BALANCE),
+    **LOADING,
     "flywheel": KeySpec(FLYWHEEL),
     "method": KeySpec(METHOD),
     "table": KeySpec(TABLE),
@@ -193,3 +194,11 @@ SIZED_FILE = MACHINE_FILE._replace(keys={
     "crank": KeySpec(_optional(_CRANK, "radius"), required=True),
     "cylinder": KeySpec(_optional(_CYLINDER, "bore")),
 })  # fmt: skip
+
+
+def with_loading(keys: TableSpec) -> TableSpec:
+    """Return the keys of a file of an engine with loads or friction, whose note is that of a linkage."""
+    return keys._replace(keys={**keys.keys, "document": document_keys.LINKAGE})
+
+
+LOADED_FILE, LOADED_SIZED_FILE = map(with_loading, (MACHINE_FILE, SIZED_FILE))

@@ -15,37 +15,41 @@ from crankwork.description.keys import (
     NO_ACCELERATION,
     PIPED_VALVES,
     PRESSURES,
-    SHEET,
     TABLE,
     TITLE,
 )
-from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
-from crankwork.description.schema import KeySpec, ListOf, MapOf, NameOr, Nested, NumberOr, TableSpec
+from crankwork.description.kinds import Choice, Number, Quantity, Text
+from crankwork.description.load_keys import (
+    COORDINATE,
+    EFFICIENCY,
+    INERTIA,
+    LENGTH,
+    LOADING,
+    NAME,
+    NO_ANGLE,
+    SHEET,
+    SPEED,
+    TIME,
+    TORQUE,
+)
+from crankwork.description.schema import KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
 from crankwork.mechanism.driver import LawKind
 
-_LENGTH = Quantity(("length",), 1e-6, 100.0)
-_COORDINATE = Quantity(("length",), -1e3, 1e3)
-_PLACE = ListOf(_COORDINATE, fewest=2, most=2)
+_PLACE = ListOf(COORDINATE, fewest=2, most=2)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
-_SPEED = Quantity(("speed",), 1e-6, 3e4)
-_TORQUE = Quantity(("torque",), -1e9, 1e9)
-_FORCE = Quantity(("force",), -1e9, 1e9)
-_NAME = Text(60)
-_NO_ANGLE = KeySpec(_ANGLE, default="0 deg")
-_INERTIA = KeySpec(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2")
 # bodies that turn about a pivot: all inertia counts, also that of the mass at its distance
-_TURNING = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "inertia": _INERTIA._replace(default=None),
+_TURNING = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "inertia": INERTIA._replace(default=None),
             "centre": KeySpec(NameOr(_PLACE))}  # fmt: skip
-_MASS = {**_TURNING, "inertia": _INERTIA._replace(only={"mass": ()})}
+_MASS = {**_TURNING, "inertia": INERTIA._replace(only={"mass": ()})}
 
 _CRANK = TableSpec("driving", {
-    "pivot": KeySpec(_NAME, required=True),
-    "pin": KeySpec(_NAME, required=True),
-    "radius": KeySpec(_LENGTH, required=True),
-    "speed": KeySpec(_SPEED, required=True),
+    "pivot": KeySpec(NAME, required=True),
+    "pin": KeySpec(NAME, required=True),
+    "radius": KeySpec(LENGTH, required=True),
+    "speed": KeySpec(SPEED, required=True),
     "angular_acceleration": NO_ACCELERATION,
-    "start": _NO_ANGLE,
+    "start": NO_ANGLE,
     "direction": KeySpec(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
     "points": KeySpec(MapOf(_PLACE)),
     **_TURNING,
@@ -54,13 +58,12 @@ _CRANK = TableSpec("driving", {
 })  # fmt: skip
 
 _COORDINATE_OF_DRIVER = Quantity(("length", "angle"), -1e3, 1e3)
-_TIME = Quantity(("time",), 1e-6, 1e6)
 
 _BY_TABLE, _MOVES = {"kind": ("table",)}, {"kind": tuple(kind for kind in get_args(LawKind) if kind != "dwell")}
 _SEGMENT = TableSpec("segment", {
     "kind": KeySpec(Choice(get_args(LawKind)), required=True),
     "to": KeySpec(_COORDINATE_OF_DRIVER, only=_MOVES),
-    "over": KeySpec(NumberOr(_TIME, Number(0.0, 1.0, above=True)), required=True, instead_of=("speed",)),
+    "over": KeySpec(NumberOr(TIME, Number(0.0, 1.0, above=True)), required=True, instead_of=("speed",)),
     "speed": KeySpec(Quantity(("velocity", "speed"), 0.0, 3e4, above=True), instead_of=("over",),
                  only={"kind": ("constant",)}),
     "ramp": KeySpec(Number(0.0, 0.5, above=True), default=1 / 3, only={"kind": ("trapezoidal",)}),
@@ -70,138 +73,59 @@ _SEGMENT = TableSpec("segment", {
 
 _HALF = TableSpec("half", {
     "mass": KeySpec(Quantity(("mass",), 1e-9, 1e6), required=True),
-    "inertia": _INERTIA,
+    "inertia": INERTIA,
     "centre": KeySpec(_PLACE, required=True),
 })  # fmt: skip
 
 _DRIVER = TableSpec("driver", {
-    "slider": KeySpec(_NAME),
-    "cylinder": KeySpec(ListOf(_NAME, fewest=2, most=2)),
+    "slider": KeySpec(NAME),
+    "cylinder": KeySpec(ListOf(NAME, fewest=2, most=2)),
     "barrel": KeySpec(_HALF),
     "rod": KeySpec(_HALF),
-    "between": KeySpec(ListOf(_NAME, fewest=2, most=2)),
+    "between": KeySpec(ListOf(NAME, fewest=2, most=2)),
     "start": KeySpec(_COORDINATE_OF_DRIVER),
     "law": KeySpec(ListOf(_SEGMENT, fewest=1, most=100), required=True),
-    "period": KeySpec(_TIME),
+    "period": KeySpec(TIME),
 })  # fmt: skip
 
 _GEARED = TableSpec("geared", {
-    "pivot": KeySpec(_NAME, required=True),
+    "pivot": KeySpec(NAME, required=True),
     "ratio": KeySpec(Number(-1e3, 1e3), required=True),
-    "start": _NO_ANGLE,
+    "start": NO_ANGLE,
     "points": KeySpec(MapOf(_PLACE), required=True),
     "pressure_angle": KeySpec(Quantity(("angle",), 0.0, math.radians(45))),
     **_TURNING,
 })  # fmt: skip
 
 _LINK = TableSpec("link", {
-    "joins": KeySpec(ListOf(_NAME, fewest=2), required=True),
-    "length": KeySpec(_LENGTH),
+    "joins": KeySpec(ListOf(NAME, fewest=2), required=True),
+    "length": KeySpec(LENGTH),
     "points": KeySpec(MapOf(_PLACE)),
     "share": KeySpec(Number(-1e3, 1e3)),
-    "of": KeySpec(_NAME),
+    "of": KeySpec(NAME),
     **_MASS,
 })  # fmt: skip
 
 _SLIDER = TableSpec("slider", {
-    "guide": KeySpec(_NAME, required=True),
-    "pin": KeySpec(_NAME),
+    "guide": KeySpec(NAME, required=True),
+    "pin": KeySpec(NAME),
     "points": KeySpec(MapOf(_PLACE)),
     **_MASS,
 })  # fmt: skip
 
 _GUIDE = TableSpec("guide", {
     "through": KeySpec(NameOr(_PLACE), default=["0 mm", "0 mm"]),
-    "angle": _NO_ANGLE,
-    "link": KeySpec(_NAME),
-})  # fmt: skip
-
-_PROCESS, _PUSH, _TURNS, _SPRING, _DAMPER = (
-    {"kind": (kind,)} for kind in ("process", "force", "torque", "spring", "damper")
-)
-_BY_COLUMN, _BETWEEN = {"kind": ("process", "torque")}, {"kind": ("spring", "damper")}
-_LOAD = TableSpec("load", {
-    "kind": KeySpec(Choice(("process", "force", "torque", "spring", "damper")), required=True),
-    "slider": KeySpec(_NAME, required=("process",), only={"kind": ("process", "spring", "damper")}),
-    "point": KeySpec(_NAME, required=True, only=_PUSH),
-    "link": KeySpec(_NAME, required=("torque",), only={"kind": ("force", "torque")}),
-    "between": KeySpec(ListOf(_NAME, fewest=2, most=2), only=_BETWEEN),
-    "links": KeySpec(ListOf(_NAME, fewest=2, most=2), only={"between": ()}),
-    "x": KeySpec(_FORCE, default="0 N", only=_PUSH),
-    "y": KeySpec(_FORCE, default="0 N", only=_PUSH),
-    "against": KeySpec(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
-    "file": KeySpec(Text(1000), only=_BY_COLUMN),
-    "sheet": SHEET,
-    "at": KeySpec(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, from_file=True), only=_BY_COLUMN),
-    "force": KeySpec(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
-    "torque": KeySpec(ListOf(_TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
-    "curve": KeySpec(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
-    "stroke": KeySpec(Choice(("growing", "falling")), default="growing", only=_PROCESS),
-    "start": KeySpec(_COORDINATE, only=_PROCESS),
-    "acts": KeySpec(Choice(("forward", "both")), default="forward", only=_PROCESS),
-    "stiffness": KeySpec(Quantity(("stiffness",), 0.0, 1e12), required=True, only=_SPRING),
-    "free_length": KeySpec(Quantity(("length",), 0.0, 1e3), default="0 mm", only=_SPRING),
-    "preload": KeySpec(_FORCE, default="0 N", only=_SPRING),
-    "damping": KeySpec(Quantity(("damping",), 0.0, 1e12), required=True, only=_DAMPER),
-})  # fmt: skip
-
-_COEFFICIENT = KeySpec(Number(0.0, 1.0, message_kind="coefficient"), default=0.0)
-_PIN_FRICTION = TableSpec("rubbing", {
-    "coefficient": _COEFFICIENT,
-    "radius": KeySpec(Quantity(("length",), 0.0, 10.0), required=True, only={"coefficient": ()}),
-    "moment": KeySpec(Quantity(("torque",), 0.0, 1e9), default="0 N*m"),
-    "damping": KeySpec(Quantity(("angular_damping",), 0.0, 1e9), default="0 N*m*s/rad"),
-})  # fmt: skip
-_SLIDER_FRICTION = TableSpec("rubbing_slider", {
-    "coefficient": _COEFFICIENT,
-    "length": KeySpec(_LENGTH, only={"coefficient": ()}),
-    "force": KeySpec(Quantity(("force",), 0.0, 1e9), default="0 N"),
-    "damping": KeySpec(Quantity(("damping",), 0.0, 1e12), default="0 N*s/m"),
-})  # fmt: skip
-_FRICTION = TableSpec("friction", {
-    "circle": KeySpec(Choice(("tangent", "sine")), default="tangent"),
-    "pins": KeySpec(MapOf(_PIN_FRICTION, most=500)),
-    "sliders": KeySpec(MapOf(_SLIDER_FRICTION, most=300)),
-})  # fmt: skip
-
-EFFICIENCY = TableSpec("efficiency", {
-    "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True),
-    "decimals": KeySpec(Number(1, 6, whole=True)),
-    "losses": KeySpec(Choice(("drive", "machine"))),
-})  # fmt: skip
-
-_MOTOR = TableSpec("motor", {
-    "rated_power": KeySpec(Quantity(("power",), 1e-3, 1e9), required=True),
-    "rated_speed": KeySpec(_SPEED, required=True),
-    "overload": KeySpec(Number(1.01, 10.0), required=True),
-    "pole_pairs": KeySpec(Number(1, 24, whole=True), required=True),
-    "frequency": KeySpec(_SPEED, default="50 Hz"),
-    "ratio": KeySpec(Number(1e-4, 1e4), default=1.0),
-    "inertia": _INERTIA,
-})  # fmt: skip
-
-_ANY_SPEED = Quantity(("speed",), -3e4, 3e4)
-_ANY_ANGLE = Quantity(("angle",), -1e4, 1e4)
-_TRANSIENT = TableSpec("transient", {
-    "time": KeySpec(_TIME, required=True),
-    "torque": KeySpec(_TORQUE),
-    "motor": KeySpec(Flag()),
-    "start": _NO_ANGLE,
-    "speed": KeySpec(_ANY_SPEED, default="0 rpm"),
-    "until": KeySpec(Choice(("time", "rest", "steady")), default="time"),
-    "step": KeySpec(_TIME),
-    "speeds": KeySpec(ListOf(_ANY_SPEED, most=20)),
-    "stops": KeySpec(ListOf(_ANY_ANGLE, fewest=2, most=2)),
-    "restitution": KeySpec(Number(0.0, 1.0), default=0.0, only={"stops": ()}),
+    "angle": NO_ANGLE,
+    "link": KeySpec(NAME),
 })  # fmt: skip
 
 _PRESSURE = Quantity(("pressure",), -1e8, 1e10)
 _ABSOLUTE = Quantity(("pressure",), 1.0, 1e10)
 _TEMPERATURE = KeySpec(Quantity(("temperature",), 1.0, 1e4))
 _FACE = {
-    "slider": KeySpec(_NAME),
-    "bore": KeySpec(_LENGTH, instead_of=("area",)),
-    "rod_diameter": KeySpec(_LENGTH),
+    "slider": KeySpec(NAME),
+    "bore": KeySpec(LENGTH, instead_of=("area",)),
+    "rod_diameter": KeySpec(LENGTH),
     "area": KeySpec(Quantity(("area",), 1e-12, 1e4), instead_of=("bore",)),
     "sense": KeySpec(Choice((1, -1)), default=1),
 }
@@ -231,7 +155,7 @@ _DEAD_VOLUME = TableSpec("dead_volume", {
 })  # fmt: skip
 
 _CHARGE = TableSpec("charge", {
-    "chambers": KeySpec(ListOf(_NAME, fewest=1, most=20), required=True),
+    "chambers": KeySpec(ListOf(NAME, fewest=1, most=20), required=True),
     "dead_volumes": KeySpec(ListOf(_DEAD_VOLUME, most=50)),
     "gas_constant": KeySpec(Quantity(("specific_heat",), 1.0, 1e5)),
     "exponent": KeySpec(Number(0.0, 5.0)),
@@ -243,15 +167,15 @@ _CHARGE = TableSpec("charge", {
 
 _ALONG = Quantity(("length",), -100.0, 100.0)
 _SHAFT = TableSpec("shaft", {
-    "cylinders": KeySpec(ListOf(_NAME, fewest=1, most=MOST_CYLINDERS)),
+    "cylinders": KeySpec(ListOf(NAME, fewest=1, most=MOST_CYLINDERS)),
     "positions": KeySpec(MapOf(_ALONG, most=MOST_CYLINDERS)),
     "journals": KeySpec(ListOf(_ALONG, fewest=2, most=MOST_CYLINDERS + 1)),
-    "throws": KeySpec(ListOf(ListOf(_NAME, fewest=1, most=MOST_CYLINDERS), fewest=1, most=MOST_CYLINDERS)),
+    "throws": KeySpec(ListOf(ListOf(NAME, fewest=1, most=MOST_CYLINDERS), fewest=1, most=MOST_CYLINDERS)),
     "firing": KeySpec(MapOf(_TURN, most=MOST_CYLINDERS)),
     "period": KeySpec(Choice(("360 deg", "720 deg"))),
     "reference": KeySpec(_ANGLE),
-    "misfire": KeySpec(ListOf(_NAME, fewest=1, most=MOST_CYLINDERS)),
-    "bore": KeySpec(_LENGTH),
+    "misfire": KeySpec(ListOf(NAME, fewest=1, most=MOST_CYLINDERS)),
+    "bore": KeySpec(LENGTH),
 })  # fmt: skip
 
 LINKAGE_FILE = TableSpec("file", {
@@ -265,17 +189,13 @@ LINKAGE_FILE = TableSpec("file", {
     "sliders": KeySpec(MapOf(_SLIDER, most=300)),
     "branch": KeySpec(MapOf(Choice((1, -1)))),
     "positions": KeySpec(MapOf(_PLACE)),
-    "loads": KeySpec(ListOf(_LOAD)),
-    "friction": KeySpec(_FRICTION),
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
     "shaft": KeySpec(_SHAFT),
     "bearings": KeySpec(BEARINGS),
     "balance": KeySpec(BALANCE),
-    "efficiency": KeySpec(EFFICIENCY),
-    "motor": KeySpec(_MOTOR),
+    **LOADING,
     "flywheel": KeySpec(FLYWHEEL),
-    "transient": KeySpec(_TRANSIENT),
     "method": KeySpec(METHOD),
     "table": KeySpec(TABLE),
 })  # fmt: skip
@@ -289,16 +209,16 @@ DRIVEN_FILE = LINKAGE_FILE._replace(keys={
     })),
     "charges": KeySpec(MapOf(_CHARGE._replace(keys={**_CHARGE.keys, "angle": KeySpec(_TURN)}), most=20)),
     "driver": KeySpec(_DRIVER, required=True),
-    "table": KeySpec(TableSpec("table", {"step": KeySpec(_TIME)})),
+    "table": KeySpec(TableSpec("table", {"step": KeySpec(TIME)})),
 })  # fmt: skip
 
 _BODY = TableSpec("body", {
     "mass": KeySpec(Quantity(("mass",), 0.0, 1e6), default="0 kg"),
-    "inertia": _INERTIA,
-    "velocity": KeySpec(ListOf(_COORDINATE, fewest=2, from_file=True)),
+    "inertia": INERTIA,
+    "velocity": KeySpec(ListOf(COORDINATE, fewest=2, from_file=True)),
     "rotation": KeySpec(ListOf(Number(-1e3, 1e3), fewest=2, from_file=True)),
 })  # fmt: skip
-_TORQUES = ListOf(_TORQUE, fewest=2, from_file=True)
+_TORQUES = ListOf(TORQUE, fewest=2, from_file=True)
 _TRANSFER = TableSpec("transfer", {
     "file": KeySpec(Text(1000)),
     "sheet": SHEET,
@@ -315,7 +235,7 @@ _TRANSFER = TableSpec("transfer", {
 TRANSFER_FILE = TableSpec("file", {
     **TITLE,
     "document": document_keys.TRANSFER,
-    "crank": KeySpec(TableSpec("driving", {"speed": KeySpec(_SPEED, required=True)}), required=True),
+    "crank": KeySpec(TableSpec("driving", {"speed": KeySpec(SPEED, required=True)}), required=True),
     "transfer": KeySpec(_TRANSFER, required=True),
     "efficiency": KeySpec(EFFICIENCY),
     "method": KeySpec(METHOD),

@@ -19,9 +19,10 @@ from crankwork.analysis import solve
 from crankwork.description.build import build_machine
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
-from crankwork.description.keys import FORMATS, MACHINE_FILE, SIZED_FILE
+from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, SIZED_FILE
 from crankwork.description.kinds import Reader, is_one_line
 from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.load_keys import LOADING
 from crankwork.description.locate import locate
 from crankwork.description.measured_build import read_measured
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
@@ -36,7 +37,8 @@ if TYPE_CHECKING:
     from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
-FILES = (MACHINE_FILE, SIZED_FILE, LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE, TURNING_FILE, PRESS_FILE)
+_LOADED, _LINKAGES = (LOADED_FILE, LOADED_SIZED_FILE), (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)
+FILES = (MACHINE_FILE, SIZED_FILE, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -111,11 +113,33 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         reader.complain("format", Refusal("format_unknown", newest=str(FORMATS[-1])))
         return None
     keys = file_keys(values)
-    if keys in (MACHINE_FILE, SIZED_FILE) and values.pop("friction", None) is not None:
-        reader.complain("friction", Refusal("friction_of_engine"))
     read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader, folder)
+    if machine is not None and not reader.problems and keys in _LOADED:
+        machine = _loaded(machine, values, reader, folder)
     return None if machine is None else replace(machine, document=stated_document(read_values))
+
+
+def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
+    """Return an engine with loads or friction as the linkage that it is; report mistakes at the keys of its file."""
+    # other files do not load it
+    from crankwork.description.shorthand import key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
+
+    if not machine.method.is_exact:
+        stated = next(key for key in LOADING if key in values)
+        reader.complain("method.kinematics", Refusal("loaded_exact", method=machine.method.name, key=stated))
+        return None
+    own = Reader(decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
+    linkage = _build(linkage_values(values, machine), own, folder)
+    for problem in own.problems:
+        reader.complain(key_of_engine(problem.key, values), problem.message)
+    if linkage is None:
+        return None
+    notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
+    notices += machine.engine.notices if machine.engine is not None else ()
+    notices += [("loaded_cycle", {})] if "cycle" in values else []
+    notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance") if name in values]
+    return replace(linkage, stated=machine.stated, notices=tuple(notices))
 
 
 def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path) -> Machine | None:
@@ -129,7 +153,7 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path)
         from crankwork.description.turning_build import build_turning  # noqa: PLC0415 - loaded where it is needed
 
         return build_turning(read_values, reader)
-    if keys in (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE):
+    if keys in _LINKAGES:
         # an engine starts faster without these modules
         from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
             build_linkage,
@@ -173,8 +197,10 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return TURNING_FILE if "torque" in values else PRESS_FILE
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else LINKAGE_FILE
-    cycle = values.get("cycle")
-    return SIZED_FILE if isinstance(cycle, dict) and "power" in cycle else MACHINE_FILE
+    cycle, is_loaded = values.get("cycle"), not LOADING.keys().isdisjoint(values)
+    if isinstance(cycle, dict) and "power" in cycle:
+        return LOADED_SIZED_FILE if is_loaded else SIZED_FILE
+    return LOADED_FILE if is_loaded else MACHINE_FILE
 
 
 def parse(source: str, name: str) -> dict[str, Any]:

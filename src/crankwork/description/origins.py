@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from crankwork import files
+from crankwork.description.engine_keys import OF_LINKAGE
 from crankwork.description.kinds import Reader
 from crankwork.description.locate import locate
 from crankwork.description.machine_file import Setting, apply_override, file_keys, parse, settings_of
@@ -29,6 +30,7 @@ _FOLLOWS = (
     (r"(links\..*\.length|branch\..*|(links|sliders)\..*\.(points|centre).*)", ("positions",)),
     (r"crank\.(radius|stroke)|cylinder\.bore", ("cycle.power",)),
     (r"cylinder\.compression_ratio", ("cycle.timing",)),
+    *OF_LINKAGE,
 )
 
 

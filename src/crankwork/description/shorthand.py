@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -12,7 +13,8 @@ from crankwork.analysis.cylinders import whole_engine
 from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
-from crankwork.description.engine_keys import HEAT_RELEASE
+from crankwork.description.engine_keys import HEAT_RELEASE, OF_LINKAGE
+from crankwork.description.load_keys import LOADING
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.loads.indicator import DiagramPoint
 from crankwork.machine import Engine, Gas, Machine
@@ -103,11 +105,13 @@ def _rounded(degrees: float) -> float:
 
 def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tuple[str, Any]]:
     """Yield the keys of a linkage and their values, as a file states them."""
-    yield "format", 2
+    loading = {key: values[key] for key in LOADING if key in values}
+    # what is copied means what it means in its own format
+    yield "format", values.get("format", 1) if loading else 2
     yield from ((key, values[key]) for key in ("title", "decimal_mark", "units") if key in values)
     if "document" in values:
         # the note of a linkage has other sections
-        yield "document", {key: value for key, value in values["document"].items() if key != "sections"}
+        yield "document", {key: value for key, value in values["document"].items() if loading or key != "sections"}
     gears = crank_mechanisms(machine)
     yield "fixed_points", {"O": _place(0)}
     yield "crank", _crank(values["crank"], machine, gears)
@@ -123,17 +127,47 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     yield "positions", {name: _place(position) for name, position in _positions(gears)}
     for mechanism in gears:
         yield from _chambers(values, mechanism)
-    shaft = _shaft(machine, machine.engine, gears) if machine.engine is not None else {}
-    if machine.cylinder is not None and machine.gas is None:
-        shaft["bore"] = _unit(machine.cylinder.bore, "mm")
-    yield from ((key, table) for key, table in {"shaft": shaft}.items() if table)
-    yield from ((key, values[key]) for key in ("bearings", "balance", "flywheel") if key in values)
+    yield from loading.items()
+    if not loading:
+        # with loads of its own it is no engine whose bearings are known
+        yield from _of_shaft(values, machine, gears)
+    if "flywheel" in values:
+        yield "flywheel", values["flywheel"]
     method = {
         key: value
         for key, value in values.get("method", {}).items()
         if key in ("kinematics", "pi", "gravity", "weights")
     }
     yield from ((key, table) for key, table in (("method", method), ("table", values.get("table"))) if table)
+
+
+def _of_shaft(
+    values: Mapping[str, Any], machine: Machine, gears: list[CrankMechanism]
+) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield the tables of crankshaft, bearings and balance."""
+    shaft = _shaft(machine, machine.engine, gears) if machine.engine is not None else {}
+    if machine.cylinder is not None and machine.gas is None:
+        shaft["bore"] = _unit(machine.cylinder.bore, "mm")
+    yield from ((key, table) for key, table in {"shaft": shaft}.items() if table)
+    yield from ((key, values[key]) for key in ("bearings", "balance") if key in values)
+
+
+def linkage_values(values: Mapping[str, Any], machine: Machine) -> dict[str, Any]:
+    """Return the values of the linkage that an engine is, nested as in a file."""
+    nested: dict[str, Any] = {}
+    for key, value in linkage_tables(values, machine):
+        *tables, name = key.split(".")
+        functools.reduce(lambda table, inner: table.setdefault(inner, {}), tables, nested)[name] = value
+    return nested
+
+
+def key_of_engine(key: str, values: Mapping[str, Any]) -> str:
+    """Return the key of the file of an engine that a key of its linkage follows from, itself if it is copied."""
+    for pattern, keys in OF_LINKAGE:
+        if match := re.fullmatch(pattern, key):
+            candidates = [match.expand(stated) for stated in keys]
+            return next((stated for stated in candidates if stated.partition(".")[0] in values), candidates[0])
+    return key
 
 
 def _crank(stated: Mapping[str, Any], machine: Machine, gears: list[CrankMechanism]) -> dict[str, Any]:

@@ -7,9 +7,9 @@ from typing import get_args
 
 from crankwork.description import document_keys
 from crankwork.description.engine_keys import FLYWHEEL
-from crankwork.description.keys import METHOD, SHEET, TABLE, TITLE
+from crankwork.description.keys import METHOD, TABLE, TITLE
 from crankwork.description.kinds import Choice, Number, Quantity, Text
-from crankwork.description.linkage_keys import EFFICIENCY
+from crankwork.description.load_keys import EFFICIENCY, SHEET
 from crankwork.description.schema import KeySpec, ListOf, NumberOr, TableSpec
 from crankwork.shaft.torque_diagram import Shape
 

@@ -11,7 +11,9 @@ import numpy as np
 
 from crankwork.analysis import Results
 from crankwork.description.document import Description
+from crankwork.description.expand import linkage_of
 from crankwork.description.kinds import MeasuredValue, Quantity, Reader
+from crankwork.description.load_keys import LOADING
 from crankwork.description.machine_file import file_keys, parse, template, template_names
 from crankwork.description.schema import TableSpec
 from crankwork.description.written import with_table_entry
@@ -54,9 +56,19 @@ def additions(description: Description, results: Results | None) -> list[Additio
     if results is None and not description.is_readable:
         return []
     values = description.values
-    is_linkage = "chambers" in file_keys(values).keys
-    added = [*(_of_linkage(values, results) if is_linkage else ()), *_sections(values, results)]
+    keys = file_keys(values).keys
+    added = list(_sections(values, results))
+    if "chambers" in keys:
+        added = [*_of_linkage(values, results), *added]
+    elif "rod" in keys and results is not None and results.method.is_exact:
+        parts = _of_linkage(linkage_of(description), results)
+        added += (addition for addition in parts if all(_is_of_engine(key) for key in addition.fields))
     return [addition for addition in added if addition.fields]
+
+
+def _is_of_engine(key: str) -> bool:
+    """Return whether the file of an engine has a key of a linkage."""
+    return key.partition(".")[0].removesuffix("[]") in LOADING
 
 
 def with_addition(description: Description, addition: Addition) -> Description:
@@ -199,6 +211,8 @@ def _sections(values: Mapping[str, Any], results: Results | None) -> Iterator[Ad
         entry = keys.keys.get(name)
         if entry is None or name in values or any(key in values for key in entry.instead_of):
             continue
+        if name in LOADING and results is not None and not results.method.is_exact:
+            continue
         table = made[name] if name in made else _of_template(keys, name) or _required(entry.kind)
         yield Addition(name, "", {name: table} if table else {})
 
@@ -209,7 +223,8 @@ def _templates() -> list[Mapping[str, Any]]:
 
 
 def _of_template(keys: TableSpec, name: str) -> Mapping[str, Any]:
-    return next((values[name] for values in _templates() if file_keys(values) is keys and name in values), {})
+    machines = (values for values in _templates() if file_keys(values).keys.get(name) is keys.keys[name])
+    return next((values[name] for values in machines if name in values), {})
 
 
 def _required(kind: object) -> dict[str, Any]:
@@ -222,7 +237,7 @@ def _motor(values: Mapping[str, Any], results: Results | None) -> dict[str, Any]
     """Return a motor rated for the greatest torque of the crank, and a gear between them."""
     speed = _si(values.get("crank", {}).get("speed"), "speed")
     power = 1e-3 * speed * (_torque(results) or 0.0)
-    if not speed:
+    if not speed or _mean_torque(results) > 0:
         return {}
     return {
         "rated_power": f"{next((rating for rating in _POWERS if rating >= power), 1000):g} kW",
@@ -232,29 +247,48 @@ def _motor(values: Mapping[str, Any], results: Results | None) -> dict[str, Any]
 
 
 def _transient(values: Mapping[str, Any], results: Results | None) -> dict[str, Any]:
-    """Return a start of the machine from rest over some turns."""
+    """Return a start of the machine from rest, or an engine at its speed, over some turns."""
     speed = _si(values.get("crank", {}).get("speed"), "speed")
     parts = [values.get("crank", {}), *values.get("links", {}).values(), *values.get("sliders", {}).values()]
+    parts += [values.get(part, {}) for part in ("rod", "piston")]
     if not speed or not any("mass" in part for part in parts):
         return {}
     settings: dict[str, Any] = {"time": f"{_round(10 * math.tau / speed, 2):g} s"}
+    if "rod" in values:
+        # an engine goes on at its speed, against what it gives or with what it takes
+        settings["speed"] = values["crank"]["speed"]
+        torque = _mean_torque(results)
+        return settings | ({"torque": f"{_round(-torque, 3):g} N*m"} if torque and "motor" not in values else {})
     if "motor" not in values:
         settings["torque"] = f"{_round(_torque(results) or _FORCE, 2):g} N*m"
     return settings
 
 
 def _torque(results: Results | None) -> float | None:
-    """Return the largest driving torque by magnitude. [N·m]"""
+    """Return the largest torque of the crank by magnitude. [N·m]"""
     summary = {} if results is None else results.summary
-    ends = [abs(summary[key]) for key in ("driving_torque_max", "driving_torque_min") if key in summary]
-    return max(ends, default=None)
+    for torque in ("driving_torque", "total_torque", "crank_torque"):
+        if f"{torque}_max" in summary:
+            return max(abs(summary[f"{torque}_{end}"]) for end in ("max", "min"))
+    return None
+
+
+def _mean_torque(results: Results | None) -> float:
+    """Return the mean torque that an engine gives, negative where it is driven; 0 for other machines. [N·m]"""
+    if results is None or results.machine.lengths is None:
+        return 0.0
+    summary = results.summary
+    return float(summary.get("mean_total_torque", summary.get("mean_torque", 0.0)))
 
 
 def _free(results: Results | None, pivot: str, point: str, values: Mapping[str, Any], size: float) -> float:
     """Return the initial distance of a point from a pivot, the free length of a spring between them. [m]"""
-    if results is None or f"point_x.{point}" not in results.columns:
+    if results is not None and f"point_x.{point}" in results.columns:
+        position = [float(np.asarray(results.column(f"point_{axis}.{point}"))[0]) for axis in "xy"]
+    elif point in values.get("positions", {}):
+        position = [_si(coordinate) for coordinate in values["positions"][point]]
+    else:
         return size
-    position = [float(np.asarray(results.column(f"point_{axis}.{point}"))[0]) for axis in "xy"]
     ground = values.get("fixed_points", {}).get(pivot, ("0 m", "0 m"))
     return math.dist(position, map(_si, ground))
 
@@ -275,9 +309,8 @@ def _points(link: Mapping[str, Any]) -> list[str]:
 def _is_joint(values: Mapping[str, Any], name: str) -> bool:
     """Return whether there is exactly one revolute joint at a point: two links meet there, or one and the ground."""
     crank = values.get("crank", {})
-    held = [link["joins"] for link in values.get("links", {}).values()]
-    held += [[crank.get("pivot"), crank.get("pin")], list(values.get("fixed_points", {}))]
-    held += [[slider.get("pin")] for slider in values.get("sliders", {}).values()]
+    bodies = [part for table in ("links", "sliders", "geared") for part in values.get(table, {}).values()]
+    held = [[crank.get("pivot"), *_points(crank)], list(values.get("fixed_points", {})), *map(_points, bodies)]
     return sum(name in names for names in held) == 2
 
 

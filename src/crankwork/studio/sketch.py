@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from crankwork.description.document import Description
 from crankwork.description.kinds import Reader
+from crankwork.description.load_keys import LOADING
 from crankwork.description.written import document
 from crankwork.errors import CrankworkError, InputError
 from crankwork.locale import Language, Refusal, say, told
@@ -324,6 +325,10 @@ def handles(values: Mapping[str, Any], groups: Iterable[Mapping[str, Any]]) -> l
 
 def _of_crank_mechanism(values: Mapping[str, Any]) -> Iterator[Handle]:
     crank, rod, piston = (f"side.{part}.1" for part in ("crank", "rod", "piston"))
+    if not LOADING.keys().isdisjoint(values):
+        # drawn as a linkage
+        number = "" if values.get("engine", {}).get("cylinders", 1) == 1 else "1"
+        crank, rod, piston = "joint.O", f"joint.A{number}", f"joint.B{number}"
     yield Handle("crank.radius", crank, rod)
     yield Handle("crank.stroke", crank, rod)
     yield Handle("rod.length", rod, piston)
@@ -347,6 +352,9 @@ def dyads(machine: Machine) -> list[dict[str, Any]]:
     `at`: the joint where links come into line; `ends`: the joints at its ends; `others`: points that turn with a lever.
     """
     mechanism, drawn, listed = machine.mechanism, machine.drawn, list[dict[str, Any]]()
+    if not {"rod.length", "rod.ratio"}.isdisjoint(machine.stated):
+        # the file of an engine states no branches
+        return []
     for index, dyad in enumerate(mechanism.dyads):
         parts: dict[str, Any]
         match dyad:
