@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -77,9 +78,22 @@ def analyse(
     asked = method or machine.method
     if not asked.is_exact and machine.lengths is None:
         raise MethodError(f"method {asked.name} exists for a slider-crank only; use exact")
-    found = _analysed(machine, grid, method, progress)
-    told = tuple(Notice(*one) for one in machine.notices)
-    return replace(found, notices=(*told, *found.notices)) if told else found
+    results = _analysed(machine, grid, method, progress)
+    stated = tuple(Notice(*notice) for notice in machine.notices)
+    form = partial(_in_other_form, machine, results.grid, asked)
+    return replace(results, notices=(*stated, *results.notices), in_other_form=form)
+
+
+def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results | None:
+    """Return the results of an engine as the linkage that it is, or of a linkage as an engine; None if it is none."""
+    form = None
+    if machine.linkage is not None:
+        from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+
+        form = engine_form(machine)
+    elif machine.linkage_form is not None and machine.turning is None and machine.transfer is None:
+        form = machine.linkage_form(replace(machine, method=method))
+    return None if form is None else _analysed(form, grid, None, None)
 
 
 def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import difflib
 import math
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Language, Refusal
 from crankwork.method import Method
-from crankwork.quantities import QUANTITIES
+from crankwork.quantities import QUANTITIES, is_quantity
 from crankwork.quantities.renamed import MOVED, RENAMED
 from crankwork.units import coherent_unit
 
@@ -81,6 +82,9 @@ class Results(Mapping[str, Array | float]):
         How every column, every single value and what lies between them came about.
     compared : Comparison, optional
         Results that stand beside these, by `crankwork.compare`.
+    in_other_form : callable, optional
+        Returns the results of the same machine as a linkage of an engine, or as an engine of a linkage; None if it is
+        none.
     """
 
     solved: Any
@@ -94,6 +98,7 @@ class Results(Mapping[str, Array | float]):
     allowed: Mapping[str, float] = field(default_factory=dict)
     memory: Mapping[str, Known] = field(default_factory=dict)
     compared: Comparison | None = None
+    in_other_form: Callable[[], Results | None] | None = field(default=None, compare=False)
     # old keys that have been asked for
     _noticed: set[str] = field(default_factory=set, compare=False)
 
@@ -130,6 +135,43 @@ class Results(Mapping[str, Array | float]):
         first = "time" if "time" in self.columns else "crank_angle"
         present = {name: (first, *(key for key in keys if key in self.columns)) for name, keys in self.groups.items()}
         return {name: keys for name, keys in present.items() if len(keys) > 1}
+
+    @cached_property
+    def other(self) -> Results | None:
+        """The results of the same machine in its other form: an engine as a linkage, or a linkage as an engine.
+
+        They are computed when they are first asked for; None if there is no other form.
+        """
+        return None if self.in_other_form is None else self.in_other_form()
+
+    @cached_property
+    def complete(self) -> Results:
+        """These results together with those of the other form."""
+        other = self.other
+        if other is None:
+            return self
+        groups = {
+            name: tuple(dict.fromkeys((*keys, *other.groups.get(name, ()))))
+            for name, keys in {**other.groups, **self.groups}.items()
+        }
+        return replace(
+            self,
+            columns={**other.columns, **self.columns},
+            summary={**other.summary, **self.summary},
+            checks={**other.checks, **self.checks},
+            allowed={**other.allowed, **self.allowed},
+            notices=(*self.notices, *(notice for notice in other.notices if notice not in self.notices)),
+            groups=groups,
+            listings={**other.listings, **self.listings},
+            memory={**other.memory, **self.memory},
+            in_other_form=None,
+        )
+
+    def holding(self, key: str) -> Results:
+        """Return the results, of this form of the machine or of the other one, that have a key; these if none has."""
+        if self._has(key) or not is_quantity(key) or self.other is None:
+            return self
+        return self.other if self.other._has(key) else self  # noqa: SLF001 - of its own class
 
     def current(self, key: str) -> str:
         """Return the key that a result has today; warn where it had another one, or was the value of something else."""
@@ -195,6 +237,8 @@ class Results(Mapping[str, Array | float]):
             return self.columns[key]
         if key in self.summary:
             return self.summary[key]
+        if (holding := self.holding(key)) is not self:
+            return holding[key]
         known = self.memory.get(key)
         return known.value if known is not None and not known.varies else self.column(key)
 
@@ -207,6 +251,8 @@ class Results(Mapping[str, Array | float]):
             If there is no such key.
         """
         key = self.current(key)
+        if (holding := self.holding(key)) is not self:
+            return holding.column(key)
         if key in self.columns:
             return self.columns[key]
         if key not in self.memory:
@@ -224,7 +270,7 @@ class Results(Mapping[str, Array | float]):
         return len({*self.columns, *self.summary, *self.memory})
 
     def __contains__(self, key: object) -> bool:
-        return isinstance(key, str) and self._has(RENAMED.get(key, key))
+        return isinstance(key, str) and self.holding(key)._has(RENAMED.get(key, key))  # noqa: SLF001 - of its own class
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self)
@@ -336,6 +382,8 @@ class Results(Mapping[str, Array | float]):
         (0.09, 376.47)
         """
         key = self.current(key)
+        if (holding := self.holding(key)) is not self:
+            return holding.value(key, at)
         known = self.memory.get(key)
         if key in self.summary or (known is not None and not known.varies):
             return float(self.summary[key]) if known is None else known.value
@@ -368,7 +416,8 @@ class Results(Mapping[str, Array | float]):
         # words stand above the analysis, and this is a door to them
         from crankwork.note.explain import explanation  # noqa: PLC0415
 
-        return explanation(self, self.current(key), at, language)
+        key = self.current(key)
+        return explanation(self.holding(key), key, at, language)
 
     def _column_at(self, key: str, known: Known | None, at: float) -> float:
         row = int(np.argmin(np.abs(self.grid.degrees - at)))

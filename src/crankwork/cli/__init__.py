@@ -349,6 +349,7 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
         click.echo("\n".join(key_lines(results, options.language)))
         return
     key = results.current(key)
+    results = results.holding(key)
     click.echo(explanation(results, key, angle_or_time, options.language, options.origin()), nl=False)
 
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
+_ENGINES = (MACHINE_FILE, SIZED_FILE)
 _LOADED, _LINKAGES = (LOADED_FILE, LOADED_SIZED_FILE), (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)
 FILES = (MACHINE_FILE, SIZED_FILE, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
@@ -117,7 +118,30 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     machine = _of_kind(keys, read_values, reader, folder)
     if machine is not None and not reader.problems and keys in _LOADED:
         machine = _loaded(machine, values, reader, folder)
+    elif machine is not None and keys in _ENGINES:
+        form = functools.partial(_linkage_form, machine, values, decimal_comma=reader.decimal_comma, folder=folder)
+        machine = replace(machine, linkage_form=form)
     return None if machine is None else replace(machine, document=stated_document(read_values))
+
+
+# what a linkage form is made of
+_OF_FORM = ("mechanism", "speed", "angular_acceleration", "cylinder", "masses", "gas", "engine", "drive", "has_gravity")
+
+
+def _linkage_form(
+    stated: Machine, values: dict[str, Any], machine: Machine, *, decimal_comma: bool, folder: Path
+) -> Machine | None:
+    """Return the linkage that an engine is; None if it is no longer the stated one, or by an approximate method."""
+    from crankwork.description.shorthand import linkage_values  # noqa: PLC0415 - loaded where it is needed
+
+    if any(getattr(machine, name) is not getattr(stated, name) for name in _OF_FORM) or not machine.method.is_exact:
+        return None
+    method = {key: value for key, value in values.get("method", {}).items() if key != "kinematics"}
+    reader = Reader(decimal_comma=decimal_comma, metric_hp=values.get("format", 1) == 1)
+    linkage = _build(linkage_values({**values, "method": method}, machine), reader, folder)
+    if linkage is None or reader.problems:
+        return None
+    return replace(linkage, units=machine.units, document=machine.document)
 
 
 def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:

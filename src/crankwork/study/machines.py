@@ -97,7 +97,7 @@ class MachineVariants:
             # limit positions move with the design
             raise NotCompiledError("partial", "crank_range")
         cycle = samples[0].machine.cycle
-        traces = [sample.memory for sample in samples]
+        traces = [holding_all(sample, self.keys).memory for sample in samples]
         return Kernel(traces, np.array(rows), self.keys, CrankGrid.from_degrees, cycle=cycle, steps=steps, **more)
 
     def _near(self, middle: Array, index: int, end: float) -> tuple[Array, Results]:
@@ -109,7 +109,7 @@ class MachineVariants:
                 results = self.results(row)
             except CrankworkError:
                 continue
-            if all(key in results.memory for key in self.keys):
+            if all(key in holding_all(results, self.keys).memory for key in self.keys):
                 return row, results
         raise NotCompiledError("absent", list(self._numbers)[index])
 
@@ -169,12 +169,19 @@ class MachineVariants:
 
 def single(results: Results, key: str) -> float:
     """Return a single value, also an intermediate one; NaN if there is none."""
+    results = results.holding(key)
     known = results.memory.get(key)
     return results.summary.get(key, math.nan) if known is None or known.varies else known.value
 
 
+def holding_all(results: Results, keys: Sequence[str]) -> Results:
+    """Return results that have every key: with those of the other form of the machine where a key is one of these."""
+    return results if all(key in results.memory for key in keys) else results.complete
+
+
 def check_single(results: Results, key: str) -> None:
     """Raise UnknownKeyError if a key is not a single value of results."""
+    results = results.holding(key)
     known = results.memory.get(key)
     if key not in results.summary and (key in results.columns if known is None else known.varies):
         raise UnknownKeyError(Refusal("sweep_single", key=key[:60]))

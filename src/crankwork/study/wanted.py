@@ -52,6 +52,7 @@ def parse_target(parts: TargetText, results: Results) -> Target:
     if key not in results:
         # raises an error with the nearest keys
         results.value(key)
+    results = results.holding(key)
     known = results.memory.get(key)
     varies = known.varies if known is not None else key in results.columns
     if place and not varies:
@@ -112,6 +113,7 @@ def value_function(target: Target, machine: Machine, results: Results) -> Callab
 
 def is_rounding(target: Target, results: Results) -> bool:
     """Return whether a value is only the rounding error of larger ones."""
+    results = results.holding(target.key)
     known: Known | None = results.memory.get(target.key)
     if known is None or results.has_positions:
         return False
