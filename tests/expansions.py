@@ -189,10 +189,12 @@ def _scales(results: Results) -> dict[str, float]:
 
 
 def _without_noise(key: str, values: Mapping[str, Any], limit: float, scales: Mapping[str, float]) -> Any:
-    """Return a value; the direction of nothing but rounding is none, and directions repeat after half a turn."""
+    """Return a value, zero where it is the direction or the ratio of nothing; directions repeat after half a turn."""
     value = np.asarray(values[key], dtype=float)
-    size = {"free_force_direction": "free_force", "harmonic_phase": "harmonic_amplitude"}.get(key)
-    size = key.replace("_angle", "") if size is None and key.replace("_angle", "") in values else size
-    if size in values and size != key:
-        value = np.where(np.abs(values[size]) <= 1e3 * limit * scales[_unit(size)], 0.0, np.cos(2 * value))
-    return value
+    of_extreme = key.replace("_angle", "") if "_angle" in key else ""
+    size = {
+        "free_force_direction": "free_force", "harmonic_phase": "harmonic_amplitude",
+        "bearing_load_ratio": "bearing_load_max",
+    }.get(key, of_extreme)  # fmt: skip
+    value = np.cos(2 * value) if size in values and key != "bearing_load_ratio" else value
+    return np.where(np.abs(values[size]) <= 1e3 * limit * scales[_unit(size)], 0.0, value) if size in values else value

@@ -75,9 +75,9 @@ def _of_gas(chambers: CellChambers) -> dict[str, str]:
     return paths
 
 
-def relocate(knowns: Iterable[Known], paths: Mapping[str, str]) -> None:
+def relocate(traced: Iterable[Known], paths: Mapping[str, str]) -> None:
     """Give inputs of an engine form the paths of its linkage; what this does not state itself has none."""
-    for known in in_order(knowns):
+    for known in in_order(traced):
         node = known.node
         if isinstance(node, Given) and _OF_ENGINES.match(node.path):
             table = node.path.partition(".valves.")
