@@ -88,9 +88,15 @@ def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results
     """Return the results of an engine as the linkage that it is, or of a linkage as an engine; None if it is none."""
     form = None
     if machine.linkage is not None:
+        # few linkages are engines
         from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
 
         form = engine_form(machine)
+        if form is not None:
+            results = _analysed(form, grid, None, None)
+            relocate(results.memory.values(), linkage_paths(machine))
+            return results
     elif machine.linkage_form is not None and machine.turning is None and machine.transfer is None:
         form = machine.linkage_form(replace(machine, method=method))
     return None if form is None else _analysed(form, grid, None, None)

@@ -154,13 +154,14 @@ class Results(Mapping[str, Array | float]):
             name: tuple(dict.fromkeys((*keys, *other.groups.get(name, ()))))
             for name, keys in {**other.groups, **self.groups}.items()
         }
+        codes = {notice.code for notice in self.notices}
         return replace(
             self,
             columns={**other.columns, **self.columns},
             summary={**other.summary, **self.summary},
             checks={**other.checks, **self.checks},
             allowed={**other.allowed, **self.allowed},
-            notices=(*self.notices, *(notice for notice in other.notices if notice not in self.notices)),
+            notices=(*self.notices, *(notice for notice in other.notices if notice.code not in codes)),
             groups=groups,
             listings={**other.listings, **self.listings},
             memory={**other.memory, **self.memory},
