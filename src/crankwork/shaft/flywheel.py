@@ -64,18 +64,11 @@ class Flywheel(NamedTuple):
     excess: float  # Excess work in the sense of this way, which over delta w^2 gives the inertia [J]
 
 
-def flywheel(
-    inertia: Curve,
-    torque: Curve,
-    mean_speed: float,
-    fluctuation: float,
-    way: Way = "exact",
-    excess_of: ExcessWork | None = None,
-) -> Flywheel:
+def flywheel(inertia: Curve, torque: Curve, mean_speed: float, fluctuation: float, way: Way = "exact") -> Flywheel:
     """Return the flywheel for a wanted fluctuation of the speed, where all torques depend on the angle alone.
 
     The inertia given is that of the machine without the flywheel, the torque that of engine or load (negative), which a
-    constant torque balances, `excess_of` its excess work where that is known; the mean speed is that of the extremes.
+    constant torque balances; the mean speed is that of the extremes.
     The ways are: constant inertia; Mertsalov's, energy of the second group of bodies at mean speed, the first having
     the least inertia; tangents without the square of the fluctuation; tangents with it, which is Gutyar's exact
     condition (artobolevsky_1988, ch. 16; wittenbauer_1923).
@@ -87,22 +80,20 @@ def flywheel(
     delta for Mertsalov and with its square for Wittenbauer.
     """
     check_fluctuation(fluctuation, mean_speed)
-    excess = excess_of or excess_work(torque)
+    excess = excess_work(torque)
     if way == "energy":
         found, less = excess.work, inertia.mean
-    elif way == "mertsalov":
-        found, less = work_at_constant_speed(inertia, excess, mean_speed), inertia.extremes().least
     else:
-        largest, least = _slopes(way, mean_speed, fluctuation)
-        above, below = (excess.curve - inertia * slope for slope in (largest, least))
-        found, less = above.extremes().largest - below.extremes().least, 0.0
+        found = work_of_tangents(inertia, excess, *_slopes(way, mean_speed, fluctuation))
+        less = inertia.extremes().least if way == "mertsalov" else 0.0
     return Flywheel(way, float(inertia_for_fluctuation(found, fluctuation, mean_speed)) - less, found)
 
 
-def work_at_constant_speed(inertia: Curve, excess: ExcessWork, mean_speed: float) -> float:
-    """Return the excess work of the torque at constant speed, that of inertia in it, as Mertsalov takes it. [J]"""
-    ends = (excess.curve - inertia * float(slope_of_mean_speed(mean_speed))).extremes()
-    return ends.largest - ends.least
+def work_of_tangents(inertia: Curve, excess: ExcessWork, largest: float, least: float) -> float:
+    """Return what two tangents of the mass-energy curve cut out of the axis of energy, by their slopes. [J]"""
+    above = (excess.curve - inertia * largest).extremes()
+    below = above if least == largest else (excess.curve - inertia * least).extremes()
+    return above.largest - below.least
 
 
 def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
@@ -115,7 +106,9 @@ def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
 
 
 def _slopes(way: Way, w: float, delta: float) -> tuple[float, float]:
-    """Return half the squares of greatest and least speed as a way takes them that tells them apart."""
+    """Return half the squares of greatest and least speed as a way takes them."""
+    if way == "mertsalov":
+        return 2 * (float(slope_of_mean_speed(w)),)
     if way == "wittenbauer":
         return float(wittenbauer_slope_largest(w, delta)), float(wittenbauer_slope_least(w, delta))
     return float(slope_largest(w, delta)), float(slope_least(w, delta))
