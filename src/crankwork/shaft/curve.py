@@ -163,18 +163,19 @@ class Curve:
     @property
     def integral(self) -> Self:
         """Integral over the angle, zero at the start of the cycle."""
-        k, n = self.coefficients.shape
-        h = np.diff(self.angle)
-        powers = np.arange(1, k + 1)
-        integrated = np.concatenate([np.zeros((1, n)), self.coefficients / powers[:, None]])
-        ends = np.concatenate([[0.0], np.cumsum(np.sum(integrated * _ascending(h, k + 1), axis=0))])
-        integrated[0] = ends[:-1]
-        return type(self)(self.angle, integrated, float(ends[-1]))
+        powers = np.arange(1, len(self.coefficients) + 1)[:, None]
+        ends = np.append(0.0, np.cumsum(self._parts_of_integral))
+        return type(self)(self.angle, np.concatenate([[ends[:-1]], self.coefficients / powers]), float(ends[-1]))
+
+    @property
+    def _parts_of_integral(self) -> Array:
+        """The integral over each interval."""
+        return np.asarray(np.diff(self.angle) * (1 / np.arange(1, len(self.coefficients) + 1) @ self._of_parts))
 
     @property
     def mean(self) -> float:
         """Mean over the cycle."""
-        return self.integral.growth / self.cycle
+        return float(self._parts_of_integral.sum()) / self.cycle
 
     def __add__(self, other: Curve | float) -> Self:
         if not isinstance(other, Curve):

@@ -141,8 +141,8 @@ def true_speed(
     """
     found = excess_of or excess_work(torque)
     excess, reach, balanced = found.curve, found.extremes, torque - found.mean_torque
-    inertia_1 = inertia.derivative
-    if not inertia.mean > 0:
+    inertia_1, even = inertia.derivative, inertia.mean
+    if not even > 0:
         raise MethodError(Refusal("masses_missing"))
     floor = -reach.least
     slope_0 = balanced * inertia - excess * inertia_1 if np.any(inertia_1.coefficients) else None
@@ -150,12 +150,12 @@ def true_speed(
     def extremes_at(energy: float) -> Extremes:
         if slope_0 is not None:
             return _speed_extremes(inertia, excess + energy, slope_0 - inertia_1 * energy)
-        low, high = (float(speed_of_energy(energy + one, inertia.mean)) for one in (reach.least, reach.largest))
+        low, high = (float(speed_of_energy(energy + one, even)) for one in (reach.least, reach.largest))
         return Extremes(low, reach.at_least, high, reach.at_largest)
 
     # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
-    greatest = mean_speed + (reach.largest - reach.least) / (2 * inertia.mean * mean_speed)
-    energy = max(float(kinetic_energy(inertia.mean, greatest)) - reach.largest, floor * (1 + 1e-6))
+    greatest = mean_speed + (reach.largest - reach.least) / (2 * even * mean_speed)
+    energy = max(float(kinetic_energy(even, greatest)) - reach.largest, floor * (1 + 1e-6))
     of_time = None
     if mean == "time":
         energy = _energy_of_time(inertia, excess, energy, floor, mean_speed)
