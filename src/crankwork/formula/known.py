@@ -454,34 +454,28 @@ def distinct(values: Array) -> Array:
     return np.asarray(ordered[np.append(True, np.diff(ordered) > 0)]) if ordered.size else ordered
 
 
-def _breaks(knowns: tuple[Known, ...], memo: dict[int, frozenset[float]]) -> frozenset[float]:
-    for known in in_order(knowns, into=_varying):
-        node = known.node
-        # operands mostly share their breaks: a set as it is, joined only to what is not in it
-        found: frozenset[float] = frozenset()
-        for one in node.operands:
-            others = memo.get(id(one.node), found)
-            found = others if not found else found if others <= found else found | others
-        if isinstance(node, Pieces | Table | Root):
-            found |= frozenset(node.knots)
-        elif isinstance(node, Delayed):
-            found = frozenset((one + node.by) % node.cycle for one in found)
-        if found and known.varies:
-            memo[id(node)] = found
-    return frozenset().union(*(memo.get(id(one.node), ()) for one in knowns))
+def _breaks(knowns: tuple[Known, ...], memo: dict[frozenset[Node], set[float]]) -> set[float]:
+    late = dict[tuple[float, float], dict[Node, Known]]()
 
+    def beside(node: Node) -> list[Known]:
+        if isinstance(node, Delayed):
+            late.setdefault((node.by, node.cycle), {})[node.of.node] = node.of
+            return []
+        return [one for one in node.operands if one.node.value is None]
 
-def _varying(node: Node) -> tuple[Known, ...]:
-    return tuple(one for one in node.operands if one.varies)
+    nodes = [known.node for known in in_order((one for one in knowns if one.varies), into=beside)]
+    found = {one for node in nodes if isinstance(node, Pieces | Table | Root) for one in node.knots}
+    for (by, cycle), earlier in late.items():
+        # most cylinders have the same columns
+        key = frozenset(earlier)
+        if key not in memo:
+            memo[key] = _breaks(tuple(earlier.values()), memo)
+        found |= {(one + by) % cycle for one in memo[key]}
+    return found
 
 
 def _value(function: Callable[..., Any], inputs: Sequence[Known | float]) -> tuple[float | None, tuple[Known, ...]]:
     """Return the value of what does not vary with the crank angle, at once, and the knowns among what it is made of."""
-    numbers, knowns = list[float | None](), list[Known]()
-    for one in inputs:
-        if isinstance(one, Known):
-            knowns.append(one)
-            numbers.append(one.node.value)
-        else:
-            numbers.append(one)
-    return None if None in numbers else float(function(*numbers)), tuple(knowns)
+    numbers = [one.node.value if type(one) is Known else one for one in inputs]
+    value = None if None in numbers else float(function(*numbers))
+    return value, tuple([one for one in inputs if type(one) is Known])
