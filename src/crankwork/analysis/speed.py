@@ -42,7 +42,7 @@ from crankwork.shaft.flywheel import (
     wittenbauer_slope_largest,
     wittenbauer_slope_least,
     work_of_mean_torque,
-    work_of_tangents,
+    works_of_tangents,
 )
 from crankwork.shaft.motor import GearedMotor
 from crankwork.shaft.motor_choice import first_angle_beyond, needed_power
@@ -134,15 +134,16 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
         Table(AtDegrees(balance.excess.curve), "integral", np.degrees(balance.excess.curve.angle), (balance.torque,)),
         "kinetic_energy_change",
     )
-    columns, excess = {"kinetic_energy_change": change}, excess_of(balance)
-    of_all = {"excess_work.mertsalov": _at_constant_speed(balance, w)} if balance.inertia.varies else {}
+    columns, wanted, excess = {"kinetic_energy_change": change}, wanted_fluctuation(machine, w), excess_of(balance)
+    works = _works(balance, w, wanted) if balance.inertia.varies else {}
+    of_all = {one.key: one for way, one in works.items() if way == "mertsalov"}
     if not (has_flywheel(machine.drive) or machine.drive.inertia):
         return Turn(columns, of_all, {}, (), {})
     try:
-        wheels = wheels_of(machine, w, excess, balance.inertia, partial(_every_way, balance, w, *of_all.values()))
+        every_way = partial(_every_way, balance, works, w)
+        summary, between, wheel, inertia = wheels_of(machine, w, wanted, excess, balance.inertia, every_way)
     except MethodError as error:
         return Turn(columns, {}, {}, (Notice("no_flywheel", {"message": error.args[0]}),), {})
-    wanted, summary, between, wheel, inertia = wheels
     summary |= of_all
     if not (inertia.varies or inertia.value > 0):
         told = () if wanted is None else (Notice("no_flywheel", {"message": Refusal("masses_missing")}),)
@@ -174,15 +175,21 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
     return Turn(columns, summary, checks, notices, between, speed, wheel.value)
 
 
-def _at_constant_speed(balance: Balance, w: Known) -> Known:
-    """Return the excess work of the torque at the mean speed, that of inertia in it, as Mertsalov takes it."""
-    return _of_tangents(balance, "mertsalov", 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),))
+def _works(balance: Balance, w: Known, wanted: Known | None) -> dict[str, Known]:
+    """Return the excess work in the sense of every way that takes tangents, by their slopes.
 
-
-def _of_tangents(balance: Balance, way: str, slopes: tuple[Known, ...]) -> Known:
-    """Return the excess work in the sense of one way, by the slopes of its tangents."""
-    found = work_of_tangents(balance.inertia_curve, balance.excess, *(one.value for one in slopes))
-    return Known(Found(found, "tangents", (balance.torque, balance.inertia, *slopes)), f"excess_work.{way}")
+    Mertsalov's is that of the torque at the mean speed, that of inertia in it.
+    """
+    slopes: dict[str, tuple[Known, Known]] = {}
+    slopes["mertsalov"] = 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),)
+    for way, (largest, least) in _SLOPES.items() if wanted is not None else ():
+        ends = {"largest": largest(w, wanted), "least": least(w, wanted)}
+        slopes[way] = tuple(one.named(f"wittenbauer_slope.{way}.{end}") for end, one in ends.items())
+    found = works_of_tangents(balance.inertia_curve, balance.excess, [(a.value, b.value) for a, b in slopes.values()])
+    return {
+        way: Known(Found(work, "tangents", (balance.torque, balance.inertia, *ends)), f"excess_work.{way}")
+        for (way, ends), work in zip(slopes.items(), found, strict=True)
+    }
 
 
 def _extremes(speed: TrueSpeed, column: Known, of: tuple[Known, ...], found: SpeedOfPolynomials) -> dict[str, Known]:
@@ -198,9 +205,8 @@ def _extremes(speed: TrueSpeed, column: Known, of: tuple[Known, ...], found: Spe
 
 
 class Wheels(NamedTuple):
-    """What fluctuation is wanted, the flywheel for it with its sizes, or those of one that is given."""
+    """The flywheel for a wanted fluctuation with its sizes, or those of one that is given."""
 
-    wanted: Known | None
     summary: dict[str, Known]
     between: dict[str, Known]
     wheel: Known  # Moment of inertia of one that was found; zero if none is needed
@@ -208,15 +214,19 @@ class Wheels(NamedTuple):
 
 
 def wheels_of(
-    machine: Machine, w: Known, excess: Known, own: Known, every_way: Callable[[Known], dict[str, Known]] | None = None
+    machine: Machine,
+    w: Known,
+    wanted: Known | None,
+    excess: Known,
+    own: Known,
+    every_way: Callable[[Known], dict[str, Known]] | None = None,
 ) -> Wheels:
     """Return the flywheel of a machine from its excess work and the moment of inertia without it.
 
     `every_way`: the flywheels for a wanted fluctuation by every way, where that inertia varies.
     """
-    wanted, none = wanted_fluctuation(machine, w), absent("flywheel_inertia")
     if wanted is None:
-        return Wheels(None, sizes_of_given(machine, w), {}, none, own)
+        return Wheels(sizes_of_given(machine, w), {}, absent("flywheel_inertia"), own)
     check_fluctuation(wanted.value, w.value)
     ways, between = dict[str, Known](), dict[str, Known]()
     if own.varies and every_way is not None:
@@ -231,18 +241,14 @@ def wheels_of(
         wheel = _needed(wheel)
         between = {whole.key: whole} if wheel.value else {}
     summary = {"flywheel_inertia": wheel, **ways, **(sizes_of(machine, wheel, w) if wheel.value else {})}
-    return Wheels(wanted, summary, between, wheel, whole if wheel.value else own)
+    return Wheels(summary, between, wheel, whole if wheel.value else own)
 
 
-def _every_way(balance: Balance, w: Known, at_constant_speed: Known, wanted: Known) -> dict[str, Known]:
+def _every_way(balance: Balance, works: Mapping[str, Known], w: Known, wanted: Known) -> dict[str, Known]:
     """Return the flywheel for a wanted fluctuation by every way, each of its excess work."""
-    works = {"energy": Known(Found(balance.excess.work, "range", (balance.torque, balance.inertia)), "excess_work")}
-    works["mertsalov"] = at_constant_speed
-    for way, slopes in _SLOPES.items():
-        ends = zip(("largest", "least"), slopes, strict=True)
-        named = tuple(slope(w, wanted).named(f"wittenbauer_slope.{way}.{end}") for end, slope in ends)
-        works[way] = _of_tangents(balance, way, named)
-    return {f"flywheel_inertia.{way}": _wheel(way, work, balance, w, wanted) for way, work in works.items()}
+    energy = Known(Found(balance.excess.work, "range", (balance.torque, balance.inertia)), "excess_work")
+    ways = {"energy": energy, **works}
+    return {f"flywheel_inertia.{way}": _wheel(way, work, balance, w, wanted) for way, work in ways.items()}
 
 
 def _wheel(way: str, work: Known, balance: Balance, w: Known, wanted: Known) -> Known:

@@ -13,6 +13,7 @@ from crankwork.analysis.flywheel import (
     extreme_speeds,
     recovery,
     turning_inertia,
+    wanted_fluctuation,
 )
 from crankwork.analysis.linkage_memory import efficiency_of
 from crankwork.analysis.results import Listing, Results
@@ -359,7 +360,7 @@ def _of_energies(machine: Machine, turning: Turning, w: Known) -> _Turned:
         excess = summary["excess_work"].named("excess_work")
     notices, inertia = tuple[Notice, ...](), turning_inertia(machine, "whole_inertia")
     try:
-        wheels = wheels_of(machine, w, excess, inertia)
+        wheels = wheels_of(machine, w, wanted_fluctuation(machine, w), excess, inertia)
     except MethodError as error:
         notices = (Notice("no_flywheel", {"message": error.args[0]}),)
     else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
@@ -138,10 +138,10 @@ class Curve:
 
     def within(self, parts: Array) -> Array:
         """Return the quantity at the same parts of all intervals, from 0 to 1, shape (parts, intervals)."""
-        return np.asarray(np.vander(parts, len(self.coefficients), increasing=True) @ self._of_parts)
+        return np.asarray(np.vander(parts, len(self.coefficients), increasing=True) @ self.of_parts)
 
     @property
-    def _of_parts(self) -> Array:
+    def of_parts(self) -> Array:
         """Coefficients of ascending powers of the part of each interval, from 0 to 1. [unit of the quantity]"""
         return self.coefficients * _ascending(np.diff(self.angle), len(self.coefficients))
 
@@ -170,7 +170,7 @@ class Curve:
     @property
     def _parts_of_integral(self) -> Array:
         """The integral over each interval."""
-        return np.asarray(np.diff(self.angle) * (1 / np.arange(1, len(self.coefficients) + 1) @ self._of_parts))
+        return np.asarray(np.diff(self.angle) * (1 / np.arange(1, len(self.coefficients) + 1) @ self.of_parts))
 
     @property
     def mean(self) -> float:
@@ -255,19 +255,29 @@ class Curve:
 
     def at_zeros(self, *others: Curve) -> tuple[Array, ...]:
         """Return the angles where the quantity changes its sign, and others on the same intervals there. [rad]"""
-        interval, parts = _sign_changes(self._of_parts)
+        interval, parts = _sign_changes(self.of_parts)
         u = np.diff(self.angle)[interval] * parts
         return self.angle[interval] + u, *(_horner(one.coefficients[:, interval], u) for one in others)
 
     def extremes(self) -> Extremes:
         """Return the least and the largest value, over all corners, jumps and points of zero slope."""
-        angles, values = self.derivative.at_zeros(self)
-        ends = _horner(self.coefficients, np.diff(self.angle))
-        return Extremes.among(
-            np.concatenate([self.angle[:-1], angles, self.angle[1:]]),
-            np.concatenate([self.coefficients[0], values, ends]),
-            _PLATEAU,
-        )
+        (found,) = extremes_of([self])
+        return found
+
+
+def extremes_of(curves: Sequence[Curve]) -> list[Extremes]:
+    """Return the extremes of curves on the same intervals, with coefficients of the same powers, found at once."""
+    angle, count = curves[0].angle, len(curves[0].angle) - 1
+    coefficients = np.concatenate([one.of_parts for one in curves], axis=1)
+    place, parts = _sign_changes(coefficients[1:] * np.arange(1, len(coefficients))[:, None])
+    (which, interval), values = np.divmod(place, count), _horner(coefficients[:, place], parts)
+    angles = angle[interval] + np.diff(angle)[interval] * parts
+    starts, ends = (one.reshape(-1, count) for one in (coefficients[0], coefficients.sum(axis=0)))
+    result = []
+    for number, (start, end) in enumerate(zip(starts, ends, strict=True)):
+        places = np.concatenate([angle[:-1], angles[which == number], angle[1:]])
+        result.append(Extremes.among(places, np.concatenate([start, values[which == number], end]), _PLATEAU))
+    return result
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.locale import Refusal
-from crankwork.shaft.curve import Curve
+from crankwork.shaft.curve import Curve, extremes_of
 from crankwork.shaft.fluctuation import ExcessWork, excess_work
 
 Way = Literal["energy", "mertsalov", "wittenbauer", "exact"]
@@ -84,16 +85,15 @@ def flywheel(inertia: Curve, torque: Curve, mean_speed: float, fluctuation: floa
     if way == "energy":
         found, less = excess.work, inertia.mean
     else:
-        found = work_of_tangents(inertia, excess, *_slopes(way, mean_speed, fluctuation))
+        (found,) = works_of_tangents(inertia, excess, [_slopes(way, mean_speed, fluctuation)])
         less = inertia.extremes().least if way == "mertsalov" else 0.0
     return Flywheel(way, float(inertia_for_fluctuation(found, fluctuation, mean_speed)) - less, found)
 
 
-def work_of_tangents(inertia: Curve, excess: ExcessWork, largest: float, least: float) -> float:
-    """Return what two tangents of the mass-energy curve cut out of the axis of energy, by their slopes. [J]"""
-    above = (excess.curve - inertia * largest).extremes()
-    below = above if least == largest else (excess.curve - inertia * least).extremes()
-    return above.largest - below.least
+def works_of_tangents(inertia: Curve, excess: ExcessWork, slopes: Sequence[tuple[float, float]]) -> list[float]:
+    """Return what pairs of tangents of the mass-energy curve cut out of the axis of energy, by their slopes. [J]"""
+    ends = extremes_of([excess.curve - inertia * slope for pair in slopes for slope in pair])
+    return [above.largest - below.least for above, below in zip(ends[::2], ends[1::2], strict=True)]
 
 
 def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
