@@ -46,12 +46,12 @@ class Extremes(NamedTuple):
     def among(cls, angles: Array, values: Array, equal: float) -> Self:
         """Return those of values at angles; of values that only a part of the largest tells apart the first counts."""
         near = equal * float(np.max(np.abs(values)))
-        found = list[float]()
+        extremes = list[float]()
         for is_extreme in (values <= np.min(values) + near, values >= np.max(values) - near):
-            some = np.flatnonzero(is_extreme)
-            first = some[np.argmin(angles[some])]
-            found += [float(values[first]), float(angles[first])]
-        return cls(*found)
+            equals = np.flatnonzero(is_extreme)
+            first = equals[np.argmin(angles[equals])]
+            extremes += [float(values[first]), float(angles[first])]
+        return cls(*extremes)
 
 
 @dataclass(frozen=True)
@@ -253,30 +253,30 @@ class Curve:
         angles, _ = self.at_zeros(self)
         return np.unique(angles)
 
-    def at_zeros(self, *others: Curve) -> tuple[Array, ...]:
-        """Return the angles where the quantity changes its sign, and others on the same intervals there. [rad]"""
+    def at_zeros(self, *curves: Curve) -> tuple[Array, ...]:
+        """Return the angles where the quantity changes its sign, and curves on the same intervals there. [rad]"""
         interval, parts = _sign_changes(self.of_parts)
         u = np.diff(self.angle)[interval] * parts
-        return self.angle[interval] + u, *(_horner(one.coefficients[:, interval], u) for one in others)
+        return self.angle[interval] + u, *(_horner(curve.coefficients[:, interval], u) for curve in curves)
 
     def extremes(self) -> Extremes:
         """Return the least and the largest value, over all corners, jumps and points of zero slope."""
-        (found,) = extremes_of([self])
-        return found
+        (extremes,) = extremes_of([self])
+        return extremes
 
 
 def extremes_of(curves: Sequence[Curve]) -> list[Extremes]:
     """Return the extremes of curves on the same intervals, with coefficients of the same powers, found at once."""
     angle, count = curves[0].angle, len(curves[0].angle) - 1
-    coefficients = np.concatenate([one.of_parts for one in curves], axis=1)
+    coefficients = np.concatenate([curve.of_parts for curve in curves], axis=1)
     place, parts = _sign_changes(coefficients[1:] * np.arange(1, len(coefficients))[:, None])
-    (which, interval), values = np.divmod(place, count), _horner(coefficients[:, place], parts)
+    (which, interval), peaks = np.divmod(place, count), _horner(coefficients[:, place], parts)
     angles = angle[interval] + np.diff(angle)[interval] * parts
-    starts, ends = (one.reshape(-1, count) for one in (coefficients[0], coefficients.sum(axis=0)))
+    starts, ends = (values.reshape(-1, count) for values in (coefficients[0], coefficients.sum(axis=0)))
     result = []
     for number, (start, end) in enumerate(zip(starts, ends, strict=True)):
         places = np.concatenate([angle[:-1], angles[which == number], angle[1:]])
-        result.append(Extremes.among(places, np.concatenate([start, values[which == number], end]), _PLATEAU))
+        result.append(Extremes.among(places, np.concatenate([start, peaks[which == number], end]), _PLATEAU))
     return result
 
 

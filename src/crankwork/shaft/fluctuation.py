@@ -25,8 +25,7 @@ _STEPS = 60
 # how far the energy may be from that of half the panels, and how often they are halved
 _RESOLVED = 1e-14
 _HALVINGS = 8
-# of parts of intervals, from 0 to 1
-_GAUSS, _WEIGHTS = (np.polynomial.legendre.leggauss(8)[at] / 2 + (0.5, 0.0)[at] for at in (0, 1))
+_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 @formula("speed", "artobolevsky_1988, ch. 16")
@@ -184,8 +183,8 @@ def _energy_of_time(inertia: Curve, excess: Curve, energy: float, floor: float, 
     (inertia, excess), before = inertia.on_common_intervals(excess), energy
     for halving in range(_HALVINGS):
         count = 2**halving
-        parts = (np.arange(count)[:, None] + _GAUSS).ravel() / count
-        weights = np.outer(np.tile(_WEIGHTS, count) / count, np.diff(inertia.angle) / inertia.cycle).ravel()
+        parts = (np.arange(count)[:, None] + (_GAUSS + 1) / 2).ravel() / count
+        weights = np.outer(np.tile(_WEIGHTS / 2, count) / count, np.diff(inertia.angle) / inertia.cycle).ravel()
         J, A = inertia.within(parts).ravel(), excess.within(parts).ravel()
         for _ in range(_STEPS):
             slowness = 1 / speed_of_energy(energy + A, J)
