@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from crankwork.errors import MethodError
-from crankwork.shaft.curve import Curve
+from crankwork.shaft.curve import Curve, extremes_of
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere
@@ -62,6 +62,21 @@ def test_extremes_between_the_points():
     least, at_least, largest, at_largest = curve.extremes()
     assert (least, largest) == pytest.approx((-1, 1), abs=1e-8)
     assert (at_least, at_largest) == pytest.approx((1.5 * math.pi, 0.5 * math.pi), abs=1e-6)
+
+
+def test_the_extremes_of_several_curves_are_those_of_each():
+    """Of c + a sin(x - b): c - a and c + a, a quarter of a turn before and after b."""
+    waves = [(1.0, 2.0, 0.3), (-3.0, 0.5, 2.0), (0.0, 40.0, 4.0)]
+    curves = [Curve.fitted(lambda x, c=c, a=a, b=b: c + a * np.sin(x - b), [0, 2 * math.pi]) for c, a, b in waves]
+    for (c, a, b), (least, at_least, largest, at_largest) in zip(waves, extremes_of(curves), strict=True):
+        assert (least, largest) == pytest.approx((c - a, c + a), abs=1e-11 * a)
+        places = (b - math.pi / 2) % (2 * math.pi), (b + math.pi / 2) % (2 * math.pi)
+        assert (at_least, at_largest) == pytest.approx(places, abs=1e-6)
+
+
+def test_a_curve_within_its_intervals_is_the_curve_there():
+    parts, steps = np.array([0.0, 0.25, 0.9]), np.diff(TRIANGLES.angle)
+    assert TRIANGLES.within(parts) == pytest.approx(TRIANGLES(TRIANGLES.angle[:-1] + np.outer(parts, steps)))
 
 
 def test_every_crossing_is_found():

@@ -85,7 +85,7 @@ class WholeEngine:
         """The masses of every cylinder by number: piston and rod, and the throw with the first on it."""
         return tuple(one.machine.masses or CrankGearMasses() for one in self.cylinders)
 
-    @property
+    @cached_property
     def on_pin(self) -> dict[int, tuple[CylinderPlace, ...]]:
         """The cylinders of each crankpin."""
         pins = sorted({place.crankpin for place in self.layout.places})

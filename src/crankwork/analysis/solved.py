@@ -59,7 +59,8 @@ class WorkingSpace(NamedTuple):
     @property
     def theoretical(self) -> IndicatorDiagram | None:
         """The diagram of a calculated cycle before its corners were rounded."""
-        return self.calculated.theoretical if self.calculated is not None else None
+        found = self.calculated.theoretical if self.calculated is not None else None
+        return None if found is None else found()
 
     def gauge(self, pressure: Array) -> Array:
         """Return the gauge pressure on the piston where that of the diagram is known. [Pa]"""

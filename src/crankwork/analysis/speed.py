@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -31,10 +32,7 @@ from crankwork.shaft.fluctuation import (
     true_speed,
 )
 from crankwork.shaft.flywheel import (
-    WAYS,
-    Flywheel,
     check_fluctuation,
-    flywheel,
     flywheel_beside_machine,
     inertia_for_fluctuation,
     inertia_on_other_shaft,
@@ -43,8 +41,8 @@ from crankwork.shaft.flywheel import (
     slope_of_mean_speed,
     wittenbauer_slope_largest,
     wittenbauer_slope_least,
-    work_at_constant_speed,
     work_of_mean_torque,
+    works_of_tangents,
 )
 from crankwork.shaft.motor import GearedMotor
 from crankwork.shaft.motor_choice import first_angle_beyond, needed_power
@@ -142,16 +140,16 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
         "kinetic_energy_change",
     )
     columns, wanted, excess = {"kinetic_energy_change": change}, wanted_fluctuation(machine, w), excess_of(balance)
-    of_all = {"excess_work.mertsalov": _at_constant_speed(balance, w)} if balance.inertia.varies else {}
+    works = _works(balance, w, wanted) if balance.inertia.varies else {}
+    of_all = {one.key: one for way, one in works.items() if way == "mertsalov"}
     if not (has_flywheel(machine.drive) or machine.drive.inertia):
         return Turn(columns, of_all, {}, (), {})
     try:
-        summary, between, wheel = _wheels(balance, excess, wanted, w)
+        every_way = partial(_every_way, balance, works, w)
+        summary, between, wheel, inertia = wheels_of(machine, w, wanted, excess, balance.inertia, every_way)
     except MethodError as error:
         return Turn(columns, {}, {}, (Notice("no_flywheel", {"message": error.args[0]}),), {})
-    summary |= sizes_of_given(machine, w) if wanted is None else sizes_of(machine, wheel, w) if wheel.value else {}
     summary |= of_all
-    inertia = _whole(balance, between, wheel)
     if not (inertia.varies or inertia.value > 0):
         told = () if wanted is None else (Notice("no_flywheel", {"message": Refusal("masses_missing")}),)
         return Turn(columns, summary, {}, told, between)
@@ -182,20 +180,21 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
     return Turn(columns, summary, checks, notices, between, speed, wheel.value)
 
 
-def _at_constant_speed(balance: Balance, w: Known) -> Known:
-    """Return the excess work of the torque at the mean speed, that of inertia in it, as Mertsalov takes it."""
-    work = work_at_constant_speed(balance.inertia_curve, balance.excess, w.value)
-    slopes = 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),)
-    return _excess(Flywheel("mertsalov", 0.0, work), slopes, (balance.torque, balance.inertia))
+def _works(balance: Balance, w: Known, wanted: Known | None) -> dict[str, Known]:
+    """Return the excess work in the sense of every way that takes tangents, by their slopes.
 
-
-def _whole(balance: Balance, between: Mapping[str, Known], wheel: Known) -> Known:
-    """Return the moment of inertia with the flywheel that was found; of a constant one it is that which is needed."""
-    if not wheel.value:
-        return balance.inertia
-    if balance.inertia.varies:
-        return (balance.inertia + wheel).named("whole_inertia")
-    return next(one for key, one in between.items() if key in ("whole_inertia", "flywheel_inertia"))
+    Mertsalov's is that of the torque at the mean speed, that of inertia in it.
+    """
+    slopes: dict[str, tuple[Known, Known]] = {}
+    slopes["mertsalov"] = 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),)
+    for way, (largest, least) in _SLOPES.items() if wanted is not None else ():
+        ends = {"largest": largest(w, wanted), "least": least(w, wanted)}
+        slopes[way] = tuple(one.named(f"wittenbauer_slope.{way}.{end}") for end, one in ends.items())
+    found = works_of_tangents(balance.inertia_curve, balance.excess, [(a.value, b.value) for a, b in slopes.values()])
+    return {
+        way: Known(Found(work, "tangents", (balance.torque, balance.inertia, *ends)), f"excess_work.{way}")
+        for (way, ends), work in zip(slopes.items(), found, strict=True)
+    }
 
 
 def _extremes(speed: TrueSpeed, column: Known, of: tuple[Known, ...], found: SpeedOfPolynomials) -> dict[str, Known]:
@@ -210,32 +209,67 @@ def _extremes(speed: TrueSpeed, column: Known, of: tuple[Known, ...], found: Spe
     return result
 
 
-def _wheels(
-    balance: Balance, excess: Known, wanted: Known | None, w: Known
-) -> tuple[dict[str, Known], dict[str, Known], Known]:
-    """Return the flywheel by every way that differs, what lies between, and the flywheel; zero if none is needed."""
+class Wheels(NamedTuple):
+    """The flywheel for a wanted fluctuation with its sizes, or those of one that is given."""
+
+    summary: dict[str, Known]
+    between: dict[str, Known]
+    wheel: Known  # Moment of inertia of one that was found; zero if none is needed
+    inertia: Known  # Of all that turns with the crank, this flywheel too
+
+
+def wheels_of(
+    machine: Machine,
+    w: Known,
+    wanted: Known | None,
+    excess: Known,
+    own: Known,
+    every_way: Callable[[Known], dict[str, Known]] | None = None,
+) -> Wheels:
+    """Return the flywheel of a machine from its excess work and the moment of inertia without it.
+
+    `every_way`: the flywheels for a wanted fluctuation by every way, where that inertia varies.
+    """
     if wanted is None:
-        return {}, {}, absent("flywheel_inertia")
+        return Wheels(sizes_of_given(machine, w), {}, absent("flywheel_inertia"), own)
     check_fluctuation(wanted.value, w.value)
-    if not balance.inertia.varies:
-        wheel, needed = constant_wheel(excess, wanted, w, balance.inertia)
-        return {"flywheel_inertia": wheel}, {needed.key: needed} if wheel.value else {}, wheel
-    inertia, load = balance.inertia_curve, balance.curve
-    found = [flywheel(inertia, load, w.value, wanted.value, way, balance.excess) for way in WAYS]
-    of = balance.torque, balance.inertia
-    ways = {f"flywheel_inertia.{one.method}": _wheel(one, inertia, w, wanted, of) for one in found}
-    wheel = ways["flywheel_inertia.exact"]
-    return {"flywheel_inertia": wheel, **ways}, {}, wheel
+    ways, between = dict[str, Known](), dict[str, Known]()
+    if own.varies and every_way is not None:
+        ways = every_way(wanted)
+        wheel = ways["flywheel_inertia.exact"]
+        whole = (own + wheel).named("whole_inertia")
+    else:
+        wheel = whole = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
+        if not own.is_absent:
+            whole = whole.named("whole_inertia")
+            wheel = flywheel_beside_machine(whole, own)
+        wheel = _needed(wheel)
+        between = {whole.key: whole} if wheel.value else {}
+    summary = {"flywheel_inertia": wheel, **ways, **(sizes_of(machine, wheel, w) if wheel.value else {})}
+    return Wheels(summary, between, wheel, whole if wheel.value else own)
 
 
-def constant_wheel(excess: Known, wanted: Known, w: Known, own: Known) -> tuple[Known, Known]:
-    """Return the flywheel beside a constant inertia that turns already, zero where that is enough, and both."""
-    needed: Known = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
-    wheel = needed
-    if not own.is_absent:
-        needed = needed.named("whole_inertia")
-        wheel = flywheel_beside_machine(needed, own)
-    return (wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))), needed
+def _every_way(balance: Balance, works: Mapping[str, Known], w: Known, wanted: Known) -> dict[str, Known]:
+    """Return the flywheel for a wanted fluctuation by every way, each of its excess work."""
+    energy = Known(Found(balance.excess.work, "range", (balance.torque, balance.inertia)), "excess_work")
+    ways = {"energy": energy, **works}
+    return {f"flywheel_inertia.{way}": _wheel(way, work, balance, w, wanted) for way, work in ways.items()}
+
+
+def _wheel(way: str, work: Known, balance: Balance, w: Known, wanted: Known) -> Known:
+    """Return the flywheel of one way, of its excess work."""
+    wheel: Known = inertia_for_fluctuation(work, wanted, w)
+    if way in ("energy", "mertsalov"):
+        own = balance.inertia_curve
+        word, value = ("mean", own.mean) if way == "energy" else ("min", own.extremes().least)
+        less = Known(Found(value, word, (balance.inertia,)), f"reduced_inertia.{word}")
+        wheel = flywheel_beside_machine(wheel.named(f"whole_inertia.{way}"), less)
+    return _needed(wheel).named(f"flywheel_inertia.{way}")
+
+
+def _needed(wheel: Known) -> Known:
+    """Return a flywheel, zero where the machine turns evenly enough without one."""
+    return wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))
 
 
 def _rotor(motor: GearedMotor) -> dict[str, Known]:
@@ -245,28 +279,6 @@ def _rotor(motor: GearedMotor) -> dict[str, Known]:
     inertia = given("flywheel_inertia.motor", motor.inertia, "motor.inertia")
     ratio = given("gear_ratio", motor.ratio, "motor.ratio")
     return {"inertia_on_crank": inertia_on_other_shaft(inertia, ratio)}
-
-
-def _excess(one: Flywheel, slopes: tuple[Known, ...], of: tuple[Known, ...]) -> Known:
-    """Return the excess work in the sense of one way, by the slopes of its tangents if it has any."""
-    if one.method == "energy":
-        return Known(Found(one.excess, "range", of), "excess_work")
-    return Known(Found(one.excess, "tangents", (*of, *slopes)), f"excess_work.{one.method}")
-
-
-def _wheel(one: Flywheel, inertia: Curve, w: Known, wanted: Known, of: tuple[Known, ...]) -> Known:
-    """Return the flywheel of one way; zero where the machine needs none."""
-    key, way = f"flywheel_inertia.{one.method}", one.method
-    slopes = tuple(
-        slope(w, wanted).named(f"wittenbauer_slope.{way}.{word}")
-        for word, slope in zip(("largest", "least"), _SLOPES.get(way, ()), strict=False)
-    ) or 2 * (slope_of_mean_speed(w).named(f"wittenbauer_slope.{way}"),)
-    whole: Known = inertia_for_fluctuation(_excess(one, slopes, of), wanted, w)
-    if way in ("energy", "mertsalov"):
-        word, value = ("mean", inertia.mean) if way == "energy" else ("min", inertia.extremes().least)
-        less = Known(Found(value, word, of[1:]), f"reduced_inertia.{word}")
-        whole = flywheel_beside_machine(whole.named(f"whole_inertia.{way}"), less)
-    return Known(Found(0.0, "none", (whole,)), key) if one.inertia <= 0 else whole.named(key)
 
 
 def driven_by_motor(

@@ -12,15 +12,13 @@ from crankwork.analysis import origins
 from crankwork.analysis.flywheel import (
     extreme_speeds,
     recovery,
-    sizes_of,
-    sizes_of_given,
     turning_inertia,
     wanted_fluctuation,
 )
 from crankwork.analysis.linkage_memory import efficiency_of
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice, Solved
-from crankwork.analysis.speed import Balance, constant_wheel, excess_of, turn_of
+from crankwork.analysis.speed import Balance, excess_of, turn_of, wheels_of
 from crankwork.analysis.turning_memory import torque_memory, work_scale, works_at_once
 from crankwork.errors import MethodError
 from crankwork.formula.known import Found, Known, OfAngle, absent, breaks_of, given, in_order
@@ -37,7 +35,7 @@ from crankwork.shaft.fluctuation import (
     fluctuation_of_inertia,
     share_of_work,
 )
-from crankwork.shaft.flywheel import check_fluctuation, work_of_mean_torque
+from crankwork.shaft.flywheel import work_of_mean_torque
 from crankwork.shaft.motor_choice import needed_power
 from crankwork.shaft.torque_diagram import TorqueDiagram, Turning
 
@@ -360,23 +358,13 @@ def _of_energies(machine: Machine, turning: Turning, w: Known) -> _Turned:
     else:
         summary |= _of_excess(machine, diagram, table, mean)
         excess = summary["excess_work"].named("excess_work")
-    notices, inertia, wanted = (
-        tuple[Notice, ...](),
-        turning_inertia(machine, "whole_inertia"),
-        wanted_fluctuation(machine, w),
-    )
-    if wanted is None:
-        summary |= sizes_of_given(machine, w)
+    notices, inertia = tuple[Notice, ...](), turning_inertia(machine, "whole_inertia")
+    try:
+        wheels = wheels_of(machine, w, wanted_fluctuation(machine, w), excess, inertia)
+    except MethodError as error:
+        notices = (Notice("no_flywheel", {"message": error.args[0]}),)
     else:
-        try:
-            check_fluctuation(wanted.value, w.value)
-        except MethodError as error:
-            notices = (Notice("no_flywheel", {"message": error.args[0]}),)
-        else:
-            summary["flywheel_inertia"], needed = constant_wheel(excess, wanted, w, inertia)
-            if summary["flywheel_inertia"].value:
-                inertia = between[needed.key] = needed
-                summary |= sizes_of(machine, summary["flywheel_inertia"], w)
+        inertia, between, summary = wheels.inertia, between | wheels.between, summary | wheels.summary
     if inertia.value > 0:
         delta: Known = fluctuation_of_inertia(excess, inertia, w)
         summary["speed_fluctuation"] = delta = delta.named("speed_fluctuation")

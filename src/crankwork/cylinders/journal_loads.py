@@ -6,11 +6,10 @@ The shaft is taken as throws simply supported at two main journals each, so that
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
-
-import numpy as np
 
 from crankwork.cylinders.articulated import sine_and_cosine
 from crankwork.cylinders.counterweights import Unbalance
@@ -122,7 +121,7 @@ def _sum(loads: Sequence[BearingLoad], owner: str) -> BearingLoad:
 
 def _span(position: float, journals: Sequence[float]) -> int:
     """Return the throw at a position, the first or the last one for overhanging positions."""
-    return int(np.clip(np.searchsorted(journals, position, side="right") - 1, 0, len(journals) - 2))
+    return min(max(bisect_right(journals, position) - 1, 0), len(journals) - 2)
 
 
 def _of_mass(unbalance: Unbalance, speed: Value) -> BearingLoad:

@@ -460,34 +460,28 @@ def distinct(values: Array) -> Array:
     return np.asarray(ordered[np.append(True, np.diff(ordered) > 0)]) if ordered.size else ordered
 
 
-def _breaks(columns: tuple[Known, ...], memo: dict[int, frozenset[float]]) -> frozenset[float]:
-    for known in in_order(columns, into=_varying):
-        node = known.node
-        # operands mostly share their breaks: a set as it is, joined only to what is not in it
-        breaks: frozenset[float] = frozenset()
-        for operand in node.operands:
-            operand_breaks = memo.get(id(operand.node), breaks)
-            breaks = operand_breaks if not breaks else breaks if operand_breaks <= breaks else breaks | operand_breaks
-        if isinstance(node, Pieces | Table | Root):
-            breaks |= frozenset(node.knots)
-        elif isinstance(node, Delayed):
-            breaks = frozenset((angle + node.by) % node.cycle for angle in breaks)
-        if breaks and known.varies:
-            memo[id(node)] = breaks
-    return frozenset().union(*(memo.get(id(column.node), ()) for column in columns))
+def _breaks(knowns: tuple[Known, ...], memo: dict[frozenset[Node], set[float]]) -> set[float]:
+    late = dict[tuple[float, float], dict[Node, Known]]()
 
+    def undelayed(node: Node) -> list[Known]:
+        if isinstance(node, Delayed):
+            late.setdefault((node.by, node.cycle), {})[node.of.node] = node.of
+            return []
+        return [operand for operand in node.operands if operand.node.value is None]
 
-def _varying(node: Node) -> tuple[Known, ...]:
-    return tuple(operand for operand in node.operands if operand.varies)
+    nodes = [known.node for known in in_order((known for known in knowns if known.varies), into=undelayed)]
+    breaks = {angle for node in nodes if isinstance(node, Pieces | Table | Root) for angle in node.knots}
+    for (by, cycle), earlier in late.items():
+        # most cylinders have the same columns
+        key = frozenset(earlier)
+        if key not in memo:
+            memo[key] = _breaks(tuple(earlier.values()), memo)
+        breaks |= {(angle + by) % cycle for angle in memo[key]}
+    return breaks
 
 
 def _value(function: Callable[..., Any], inputs: Sequence[Known | float]) -> tuple[float | None, tuple[Known, ...]]:
     """Return the value of a constant expression, or None if it varies with the crank angle, and its traced operands."""
-    numbers, operands = list[float | None](), list[Known]()
-    for value in inputs:
-        if isinstance(value, Known):
-            operands.append(value)
-            numbers.append(value.node.value)
-        else:
-            numbers.append(value)
-    return None if None in numbers else float(function(*numbers)), tuple(operands)
+    numbers = [item.node.value if type(item) is Known else item for item in inputs]
+    value = None if None in numbers else float(function(*numbers))
+    return value, tuple([item for item in inputs if type(item) is Known])

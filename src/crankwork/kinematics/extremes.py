@@ -24,7 +24,8 @@ def bracketed_roots(
         difference = at_high - at_low
         root = high - at_high * (high - low) / np.where(difference == 0, 1.0, difference)
         value = function(root)
-        if np.all((np.abs(high - low) <= 4 * np.spacing(np.abs(high))) | (value == 0)):
+        # where a step leads nowhere, or the interval is none, nothing is left to find
+        if np.all((np.minimum(np.abs(high - low), np.abs(root - high)) <= 4 * np.spacing(np.abs(high))) | (value == 0)):
             break
         crossed = np.sign(value) != np.sign(at_high)
         # Illinois method: the value at the retained end is halved, so that both ends converge

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
@@ -16,6 +16,8 @@ from crankwork.kinematics.crank_grid import Array
 # Where a polynomial is looked at for changes of sign, inside each of its intervals.
 _PARTS = 8
 _BISECTIONS = 100
+# of an interval: Newton's next step would be the square of this
+_SETTLED = 1e-9
 _PLATEAU = 1e-14
 _NODES = (np.polynomial.legendre.leggauss(8)[0] + 1) / 2
 
@@ -39,6 +41,17 @@ class Extremes(NamedTuple):
     at_least: float
     largest: float
     at_largest: float
+
+    @classmethod
+    def among(cls, angles: Array, values: Array, equal: float) -> Self:
+        """Return those of values at angles; of values that only a part of the largest tells apart the first counts."""
+        near = equal * float(np.max(np.abs(values)))
+        extremes = list[float]()
+        for is_extreme in (values <= np.min(values) + near, values >= np.max(values) - near):
+            equals = np.flatnonzero(is_extreme)
+            first = equals[np.argmin(angles[equals])]
+            extremes += [float(values[first]), float(angles[first])]
+        return cls(*extremes)
 
 
 @dataclass(frozen=True)
@@ -90,7 +103,7 @@ class Curve:
         steps = np.diff(angle)
         values = function((angle[:-1, None] + steps[:, None] * _NODES).ravel()).reshape(steps.size, _NODES.size)
         scaled = np.linalg.solve(np.vander(_NODES, increasing=True), values.T)
-        return cls(angle, scaled / steps ** np.arange(_NODES.size)[:, None])
+        return cls(angle, scaled / _ascending(steps, _NODES.size))
 
     @classmethod
     def legendre(cls, angle: ArrayLike, coefficients: ArrayLike) -> Self:
@@ -106,7 +119,7 @@ class Curve:
         """
         angle, coefficients = np.asarray(angle, dtype=float), np.asarray(coefficients, dtype=float)
         k = coefficients.shape[1]
-        return cls(angle, (coefficients @ _POWERS[:k, :k]).T / np.diff(angle) ** np.arange(k)[:, None])
+        return cls(angle, (coefficients @ _POWERS[:k, :k]).T / _ascending(np.diff(angle), k))
 
     @classmethod
     def constant(cls, value: float, cycle: float = 2 * np.pi) -> Self:
@@ -121,10 +134,16 @@ class Curve:
     def __call__(self, angle: ArrayLike) -> Array:
         """Return the quantity at any angles, from the right at a jump."""
         turns, interval, u = self._place(angle)
-        value = self.coefficients[-1][interval]
-        for power in self.coefficients[-2::-1]:
-            value = value * u + power[interval]
-        return np.asarray(value + turns * self.growth)
+        return np.asarray(_horner(self.coefficients[:, interval], u) + turns * self.growth)
+
+    def within(self, parts: Array) -> Array:
+        """Return the quantity at the same parts of all intervals, from 0 to 1, shape (parts, intervals)."""
+        return np.asarray(np.vander(parts, len(self.coefficients), increasing=True) @ self.of_parts)
+
+    @property
+    def of_parts(self) -> Array:
+        """Coefficients of ascending powers of the part of each interval, from 0 to 1. [unit of the quantity]"""
+        return self.coefficients * _ascending(np.diff(self.angle), len(self.coefficients))
 
     def _place(self, angle: ArrayLike) -> tuple[Array, NDArray[np.intp], Array]:
         """Return whole cycles, interval and angle from the start of the interval."""
@@ -144,25 +163,26 @@ class Curve:
     @property
     def integral(self) -> Self:
         """Integral over the angle, zero at the start of the cycle."""
-        k, n = self.coefficients.shape
-        h = np.diff(self.angle)
-        powers = np.arange(1, k + 1)
-        integrated = np.concatenate([np.zeros((1, n)), self.coefficients / powers[:, None]])
-        ends = np.concatenate([[0.0], np.cumsum(np.sum(integrated[1:] * h ** powers[:, None], axis=0))])
-        integrated[0] = ends[:-1]
-        return type(self)(self.angle, integrated, float(ends[-1]))
+        powers = np.arange(1, len(self.coefficients) + 1)[:, None]
+        ends = np.append(0.0, np.cumsum(self._parts_of_integral))
+        return type(self)(self.angle, np.concatenate([[ends[:-1]], self.coefficients / powers]), float(ends[-1]))
+
+    @property
+    def _parts_of_integral(self) -> Array:
+        """The integral over each interval."""
+        return np.asarray(np.diff(self.angle) * (1 / np.arange(1, len(self.coefficients) + 1) @ self.of_parts))
 
     @property
     def mean(self) -> float:
         """Mean over the cycle."""
-        return self.integral.growth / self.cycle
+        return float(self._parts_of_integral.sum()) / self.cycle
 
     def __add__(self, other: Curve | float) -> Self:
         if not isinstance(other, Curve):
             shifted = self.coefficients.copy()
             shifted[0] += other
             return type(self)(self.angle, shifted, self.growth)
-        first, second = self._on_common_intervals(other)
+        first, second = self.on_common_intervals(other)
         k = max(len(first.coefficients), len(second.coefficients))
         total = np.zeros((k, first.coefficients.shape[1]))
         for curve in (first, second):
@@ -174,7 +194,7 @@ class Curve:
             return type(self)(self.angle, other * self.coefficients, other * self.growth)
         if self.growth or other.growth:
             raise MethodError("a quantity that grows from cycle to cycle cannot be multiplied")
-        first, second = self._on_common_intervals(other)
+        first, second = self.on_common_intervals(other)
         p, q = first.coefficients, second.coefficients
         product = np.zeros((len(p) + len(q) - 1, p.shape[1]))
         for i, coefficient in enumerate(p):
@@ -202,7 +222,8 @@ class Curve:
         angle[-1] = last
         return type(self)(angle, rolled)
 
-    def _on_common_intervals(self, other: Curve) -> tuple[Curve, Curve]:
+    def on_common_intervals(self, other: Curve) -> tuple[Curve, Curve]:
+        """Return this curve and another, both on the intervals of both."""
         if np.array_equal(self.angle, other.angle):
             return self, other
         reach = 1e-9 * self.cycle
@@ -229,29 +250,34 @@ class Curve:
 
     def zeros(self) -> Array:
         """Return every angle of the cycle where the quantity changes its sign inside an interval. [rad]"""
-        if len(self.coefficients) == 1:
-            return np.empty(0)
-        h = np.diff(self.angle)
-        parts = _PARTS if len(self.coefficients) > 2 else 1
-        u = h * np.linspace(0.0, 1.0, parts + 1)[:, None]
-        value = _horner(self.coefficients, u)
-        part, interval = np.nonzero((value[:-1] < 0) != (value[1:] < 0))
-        if not interval.size:
-            return np.empty(0)
-        low, high = u[part, interval], u[part + 1, interval]
-        return np.unique(self.angle[interval] + _root(self.coefficients[:, interval], low, high))
+        angles, _ = self.at_zeros(self)
+        return np.unique(angles)
+
+    def at_zeros(self, *curves: Curve) -> tuple[Array, ...]:
+        """Return the angles where the quantity changes its sign, and curves on the same intervals there. [rad]"""
+        interval, parts = _sign_changes(self.of_parts)
+        u = np.diff(self.angle)[interval] * parts
+        return self.angle[interval] + u, *(_horner(curve.coefficients[:, interval], u) for curve in curves)
 
     def extremes(self) -> Extremes:
         """Return the least and the largest value, over all corners, jumps and points of zero slope."""
-        angles = np.concatenate([self.angle, self.derivative.zeros()])
-        before = _horner(self.coefficients, np.diff(self.angle))
-        angles, values = np.concatenate([angles, self.angle[1:]]), np.concatenate([self(angles), before])
-        order = np.argsort(angles, kind="stable")
-        angles, values = angles[order], values[order]
-        # of values that only rounding tells apart the first counts
-        near = _PLATEAU * float(np.max(np.abs(values)))
-        low, high = int(np.argmax(values <= np.min(values) + near)), int(np.argmax(values >= np.max(values) - near))
-        return Extremes(float(values[low]), float(angles[low]), float(values[high]), float(angles[high]))
+        (extremes,) = extremes_of([self])
+        return extremes
+
+
+def extremes_of(curves: Sequence[Curve]) -> list[Extremes]:
+    """Return the extremes of curves on the same intervals, with coefficients of the same powers, found at once."""
+    angle, count = curves[0].angle, len(curves[0].angle) - 1
+    coefficients = np.concatenate([curve.of_parts for curve in curves], axis=1)
+    place, parts = _sign_changes(coefficients[1:] * np.arange(1, len(coefficients))[:, None])
+    (which, interval), peaks = np.divmod(place, count), _horner(coefficients[:, place], parts)
+    angles = angle[interval] + np.diff(angle)[interval] * parts
+    starts, ends = (values.reshape(-1, count) for values in (coefficients[0], coefficients.sum(axis=0)))
+    result = []
+    for number, (start, end) in enumerate(zip(starts, ends, strict=True)):
+        places = np.concatenate([angle[:-1], angles[which == number], angle[1:]])
+        result.append(Extremes.among(places, np.concatenate([start, peaks[which == number], end]), _PLATEAU))
+    return result
 
 
 @dataclass(frozen=True)
@@ -274,26 +300,38 @@ def _checked(angle: ArrayLike, value: ArrayLike) -> tuple[Array, Array]:
     return angle, value
 
 
+def _ascending(steps: Array, count: int) -> Array:
+    """Return so many ascending powers of steps, shape (count, n)."""
+    return np.asarray(np.vander(steps, count, increasing=True).T)
+
+
 def _horner(coefficients: Array, u: Array) -> Array:
-    value = np.broadcast_to(coefficients[-1], u.shape)
+    value: Array = coefficients[-1] + np.zeros_like(u)
     for power in coefficients[-2::-1]:
-        value = value * u + power
+        value *= u
+        value += power
     return value
 
 
-def _root(coefficients: Array, low: Array, high: Array) -> Array:
-    """Return a root between `low` and `high`, by Newton's method where it stays between them, else by halving."""
-    derived = coefficients[1:] * np.arange(1, len(coefficients))[:, None]
-    below = _horner(coefficients, low) < 0
-    u = (low + high) / 2
-    for _ in range(_BISECTIONS):
-        value, slope = _horner(coefficients, u), _horner(derived, u)
-        left = (value < 0) == below
-        low, high = np.where(left, u, low), np.where(left, high, u)
-        step = np.divide(value, slope, out=np.full_like(u, np.inf), where=slope != 0)
-        moved = u - step
-        following = np.where((moved >= low) & (moved <= high), moved, (low + high) / 2)
-        if np.all(np.abs(following - u) <= 4e-16 * (np.abs(u) + high)):
-            return following
-        u = following
-    return u
+def _sign_changes(coefficients: Array) -> tuple[NDArray[np.intp], Array]:
+    """Return which polynomials change their sign between 0 and 1, and where, each as often as it does."""
+    count = len(coefficients)
+    looks = np.linspace(0.0, 1.0, (_PARTS if count > 2 else 1) + 1)
+    value = np.vander(looks, count, increasing=True) @ coefficients
+    part, interval = np.nonzero((value[:-1] < 0) != (value[1:] < 0))
+    low, high, below, above = looks[part], looks[part + 1], value[part, interval], value[part + 1, interval]
+    both = np.zeros((2, count, interval.size))
+    both[0] = coefficients[:, interval]
+    both[1, :-1] = both[0, 1:] * np.arange(1, count)[:, None]
+    # a root between two places, by Newton's method where it stays between them, else by halving
+    u = (low * above - high * below) / (above - below)
+    for _ in range(_BISECTIONS if u.size else 0):
+        value, slope = np.einsum("skm,mk->sm", both, np.vander(u, count, increasing=True))
+        is_left = (value < 0) == (below < 0)
+        low, high = np.where(is_left, u, low), np.where(is_left, high, u)
+        moved = u - np.divide(value, slope, out=np.full_like(u, np.inf), where=slope != 0)
+        moved = np.where((moved >= low) & (moved <= high), moved, (low + high) / 2)
+        change, u = np.max(np.abs(moved - u)), moved
+        if change < _SETTLED:
+            break
+    return interval, u

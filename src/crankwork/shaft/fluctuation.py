@@ -140,20 +140,21 @@ def true_speed(
     """
     work = excess_of or excess_work(torque)
     excess, reach, balanced = work.curve, work.extremes, torque - work.mean_torque
-    inertia_1 = inertia.derivative
-    if not inertia.mean > 0:
+    inertia_1, mean_inertia = inertia.derivative, inertia.mean
+    if not mean_inertia > 0:
         raise MethodError(Refusal("masses_missing"))
     floor = -reach.least
+    slope_0 = balanced * inertia - excess * inertia_1 if np.any(inertia_1.coefficients) else None
 
     def extremes_at(energy: float) -> Extremes:
-        if np.any(inertia_1.coefficients):
-            return _speed_extremes(inertia, inertia_1, excess, balanced, energy)
-        low, high = (float(speed_of_energy(energy + change, inertia.mean)) for change in (reach.least, reach.largest))
+        if slope_0 is not None:
+            return _speed_extremes(inertia, excess + energy, slope_0 - inertia_1 * energy)
+        low, high = (float(speed_of_energy(energy + change, mean_inertia)) for change in (reach.least, reach.largest))
         return Extremes(low, reach.at_least, high, reach.at_largest)
 
     # what it is with a constant moment of inertia, where the extremes of speed are those of the excess work
-    greatest = mean_speed + (reach.largest - reach.least) / (2 * inertia.mean * mean_speed)
-    energy = max(float(kinetic_energy(inertia.mean, greatest)) - reach.largest, floor * (1 + 1e-6))
+    greatest = mean_speed + (reach.largest - reach.least) / (2 * mean_inertia * mean_speed)
+    energy = max(float(kinetic_energy(mean_inertia, greatest)) - reach.largest, floor * (1 + 1e-6))
     of_time = None
     if mean == "time":
         energy = _energy_of_time(inertia, excess, energy, floor, mean_speed)
@@ -179,36 +180,35 @@ def true_speed(
 
 def _energy_of_time(inertia: Curve, excess: Curve, energy: float, floor: float, mean_speed: float) -> float:
     """Return the energy with which a cycle takes the time of its mean speed; the search begins at an energy. [J]"""
-    edges, before = np.union1d(inertia.angle, excess.angle), energy
-    for _ in range(_HALVINGS):
-        steps = np.diff(edges)
-        angles = (edges[:-1, None] + steps[:, None] * (_GAUSS + 1) / 2).ravel()
-        weights = (steps[:, None] * _WEIGHTS / 2).ravel() / inertia.cycle
-        J, A = inertia(angles), excess(angles)
+    (inertia, excess), before = inertia.on_common_intervals(excess), energy
+    for halving in range(_HALVINGS):
+        count = 2**halving
+        parts = (np.arange(count)[:, None] + (_GAUSS + 1) / 2).ravel() / count
+        weights = np.outer(np.tile(_WEIGHTS / 2, count) / count, np.diff(inertia.angle) / inertia.cycle).ravel()
+        J, A = inertia.within(parts).ravel(), excess.within(parts).ravel()
         for _ in range(_STEPS):
-            w = speed_of_energy(energy + A, J)
-            miss = float(weights @ (1 / w)) - 1 / mean_speed
+            slowness = 1 / speed_of_energy(energy + A, J)
+            miss, slope = weights @ slowness - 1 / mean_speed, weights @ (slowness / (energy + A)) / 2
             # the time falls ever slower with the energy, so that steps from below never go too far
-            following = max(energy + miss / float(weights @ (1 / (J * w**3))), floor + (energy - floor) / 16)
+            following = max(energy + float(miss / slope), floor + (energy - floor) / 16)
             is_settled = abs(following - energy) <= 4e-16 * energy
             energy = following
             if is_settled:
                 break
         if abs(energy - before) <= _RESOLVED * energy:
             break
-        before, edges = energy, np.union1d(edges, (edges[1:] + edges[:-1]) / 2)
+        before = energy
     return energy
 
 
-def _speed_extremes(inertia: Curve, inertia_1: Curve, excess: Curve, torque: Curve, energy: float) -> Extremes:
-    """Return the extremes of w^2 = 2 (T_0 + A) / J as those of w; its slope has the sign of M J - (T_0 + A) J'."""
-    total = excess + energy
-    angles = np.sort(np.concatenate([inertia.angle, torque.angle, (torque * inertia - total * inertia_1).zeros()]))
-    w = np.sqrt(np.maximum(2 * total(angles) / inertia(angles), 0.0))
-    # of speeds that only rounding tells apart the first counts
-    near = _EQUAL * float(np.max(w))
-    low, high = int(np.argmax(w <= np.min(w) + near)), int(np.argmax(w >= np.max(w) - near))
-    return Extremes(float(w[low]), float(angles[low]), float(w[high]), float(angles[high]))
+def _speed_extremes(inertia: Curve, total: Curve, slope: Curve) -> Extremes:
+    """Return the extremes of w^2 = 2 (T_0 + A) / J as those of w; `slope` has its sign: M J - (T_0 + A) J'."""
+    (slope, inertia), (_, total) = slope.on_common_intervals(inertia), slope.on_common_intervals(total)
+    angles, *zeros = slope.at_zeros(total, inertia)
+    starts = total.coefficients[0], inertia.coefficients[0]
+    energy, J = (np.concatenate(ends) for ends in zip(starts, zeros, strict=True))
+    w = speed_of_energy(np.maximum(energy, 0.0), J)
+    return Extremes.among(np.concatenate([slope.angle[:-1], angles]), np.asarray(w), _EQUAL)
 
 
 @dataclass(frozen=True)

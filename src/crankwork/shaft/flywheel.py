@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.locale import Refusal
-from crankwork.shaft.curve import Curve
+from crankwork.shaft.curve import Curve, extremes_of
 from crankwork.shaft.fluctuation import ExcessWork, excess_work
 
 FlywheelMethod = Literal["energy", "mertsalov", "wittenbauer", "exact"]
@@ -65,17 +66,12 @@ class Flywheel(NamedTuple):
 
 
 def flywheel(
-    inertia: Curve,
-    torque: Curve,
-    mean_speed: float,
-    fluctuation: float,
-    method: FlywheelMethod = "exact",
-    excess_of: ExcessWork | None = None,
+    inertia: Curve, torque: Curve, mean_speed: float, fluctuation: float, method: FlywheelMethod = "exact"
 ) -> Flywheel:
-    """Return the flywheel for a required fluctuation of the speed, where all torques depend on the angle alone.
+    """Return the flywheel for a wanted fluctuation of the speed, where all torques depend on the angle alone.
 
     The inertia given is that of the machine without the flywheel, the torque that of engine or load (negative), which a
-    constant torque balances, `excess_of` its excess work where that is known; the mean speed is that of the extremes.
+    constant torque balances; the mean speed is that of the extremes.
     The ways are: constant inertia; Mertsalov's, energy of the second group of bodies at mean speed, the first having
     the least inertia; tangents without the square of the fluctuation; tangents with it, which is Gutyar's exact
     condition (artobolevsky_1988, ch. 16; wittenbauer_1923).
@@ -87,22 +83,19 @@ def flywheel(
     delta for Mertsalov and with its square for Wittenbauer.
     """
     check_fluctuation(fluctuation, mean_speed)
-    excess = excess_of or excess_work(torque)
+    excess = excess_work(torque)
     if method == "energy":
         work, less = excess.work, inertia.mean
-    elif method == "mertsalov":
-        work, less = work_at_constant_speed(inertia, excess, mean_speed), inertia.extremes().least
     else:
-        largest, least = _slopes(method, mean_speed, fluctuation)
-        above, below = (excess.curve - inertia * slope for slope in (largest, least))
-        work, less = above.extremes().largest - below.extremes().least, 0.0
+        (work,) = works_of_tangents(inertia, excess, [_slopes(method, mean_speed, fluctuation)])
+        less = inertia.extremes().least if method == "mertsalov" else 0.0
     return Flywheel(method, float(inertia_for_fluctuation(work, fluctuation, mean_speed)) - less, work)
 
 
-def work_at_constant_speed(inertia: Curve, excess: ExcessWork, mean_speed: float) -> float:
-    """Return the excess work of the torque at constant speed, that of inertia in it, as Mertsalov takes it. [J]"""
-    ends = (excess.curve - inertia * float(slope_of_mean_speed(mean_speed))).extremes()
-    return ends.largest - ends.least
+def works_of_tangents(inertia: Curve, excess: ExcessWork, slopes: Sequence[tuple[float, float]]) -> list[float]:
+    """Return what pairs of tangents of the mass-energy curve cut out of the axis of energy, by their slopes. [J]"""
+    ends = extremes_of([excess.curve - inertia * slope for pair in slopes for slope in pair])
+    return [above.largest - below.least for above, below in zip(ends[::2], ends[1::2], strict=True)]
 
 
 def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
@@ -115,7 +108,9 @@ def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
 
 
 def _slopes(method: FlywheelMethod, w: float, delta: float) -> tuple[float, float]:
-    """Return half the squares of greatest and least speed, as the tangent methods take them."""
+    """Return half the squares of greatest and least speed as a method takes them."""
+    if method == "mertsalov":
+        return 2 * (float(slope_of_mean_speed(w)),)
     if method == "wittenbauer":
         return float(wittenbauer_slope_largest(w, delta)), float(wittenbauer_slope_least(w, delta))
     return float(slope_largest(w, delta)), float(slope_least(w, delta))

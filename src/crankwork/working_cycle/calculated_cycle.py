@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, Protocol
 
@@ -64,7 +64,7 @@ class Calculated(NamedTuple):
     # Single values by key of the table of quantities, in the order of calculation
     memory: Mapping[str, Known]
     notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # Codes and values
-    theoretical: IndicatorDiagram | None = None  # The diagram before its corners were rounded
+    theoretical: Callable[[], IndicatorDiagram] | None = None  # Gives the diagram before its corners were rounded
     # Points and pieces that define the diagram; empty unless it has corners
     drawn: DiagramDefinition = ({}, ())
     peak: Mapping[str, Known] = {}  # Values at the greatest pressure of a heat release, by key

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -87,12 +88,12 @@ class CornerPressure:
         """Return the diagram in a cylinder."""
         del volume_rate_at
         cycle = self.cycle
-        points, pieces = theoretical_diagram(cycle.corners, cycle.angle, volume_at, dead_centres)
-        sharp = solve_diagram(points, pieces, cycle.angle, volume_at, dead_centres=dead_centres)
-        sharp = _with_traced_segments(sharp, cycle.corners)
+        drawn = theoretical_diagram(cycle.corners, cycle.angle, volume_at, dead_centres)
+        # if corners are rounded, the sharp one is only looked at
+        sharp = partial(_sharp_diagram, drawn, cycle, volume_at, dead_centres)
         notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
-            return Calculated(sharp, cycle.memory, notices, sharp, (points, pieces))
+            return Calculated(sharp(), cycle.memory, notices, sharp, drawn)
         result = rounded_diagram(_numbers(cycle.corners), self.timing, self.rounding, volume_at, dead_centres)
         key = "filling_factor.diagram"
         memory = {**cycle.memory, key: Known(Found(result.filling_factor, "integral", cycle.corners), key)}
@@ -121,6 +122,15 @@ class CornerPressure:
             drawn = theoretical_diagram(corners, self.cycle.angle, volume_at, dead_centres)
             diagram = solve_diagram(*drawn, self.cycle.angle, volume_at, dead_centres=dead_centres)
         return Calculated(_with_traced_segments(diagram, corners), {}, (), drawn=drawn)
+
+
+def _sharp_diagram(
+    drawn: DiagramDefinition, cycle: CalculatedCycle, volume_at: VolumeAt, dead_centres: tuple[float, float]
+) -> IndicatorDiagram:
+    """Return the diagram of a calculated cycle in a cylinder, from its points and pieces."""
+    points, pieces = drawn
+    diagram = solve_diagram(points, pieces, cycle.angle, volume_at, dead_centres=dead_centres)
+    return _with_traced_segments(diagram, cycle.corners)
 
 
 def _theory(corners: Corners) -> dict[str, Known]:
