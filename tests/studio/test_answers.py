@@ -219,7 +219,7 @@ def test_values_are_in_the_units_that_the_file_asks_for():
 
 def test_a_pin_that_is_moved_changes_what_meets_there_and_nothing_else():
     first = drawn()["text"].replace('"60 rpm"', '"90 rpm"').replace('"30 mm"', '"31 mm"')
-    moved = drawn(angle_or_time={"B": (140, 50)}, before=sketch(), text=first)
+    moved = drawn(at={"B": (140, 50)}, before=sketch(), text=first)
     rows = {key: row["value"] for key, row in rows_of(moved).items()}
     assert rows["links.2.length"] == "89.4 mm"
     assert rows["links.3.length"] == "70.7 mm"

@@ -153,7 +153,7 @@ def test_lengths_that_no_single_change_makes_turn_fully_offer_none():
 
 @pytest.mark.slow
 def test_a_dyad_is_put_together_the_other_way_in_the_text_and_back():
-    first = drawn(angle_or_time={"A": (60, 95), "B": (120, 95), "C": (120, 120)})
+    first = drawn(at={"A": (60, 95), "B": (120, 95), "C": (120, 120)})
     assert first["dyads"][0]["changes"] == [90.0, 270.0]
     crossed = answer(first["text"], "swap", key="B")
     assert "[branch]\nB = -1\n" in crossed["text"]
@@ -165,12 +165,12 @@ def test_a_dyad_is_put_together_the_other_way_in_the_text_and_back():
 
 
 def test_a_slider_crank_that_is_drawn_in_its_change_point_has_the_branch_that_is_usual():
-    found = drawn({"1": "OA", "2": "AB"}, angle_or_time={"B": (60, 120)}, slides="B")
+    found = drawn({"1": "OA", "2": "AB"}, at={"B": (60, 120)}, slides="B")
     assert [(one["kind"], one["branch"]) for one in found["dyads"]] == [("RRP", 1)]
 
 
 def test_a_force_begins_along_the_way_of_its_point():
-    text = drawn({"1": "OA", "2": "AB"}, angle_or_time={"A": (60, 95), "B": (140, 120)}, slides="B")["text"]
+    text = drawn({"1": "OA", "2": "AB"}, at={"A": (60, 95), "B": (140, 120)}, slides="B")["text"]
     added = (crankwork.Description(answer(text, "add", key=f"force:{point}")["text"])["loads[1]"] for point in "AB")
     assert [(one["x"], one["y"]) for one in added] == [("0 N", "-100 N"), ("-100 N", "0 N")]
 
