@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         InputError,
         MethodError,
         MissingExtraError,
+        RenamedKeyWarning,
         UnknownKeyError,
     )
     from crankwork.kinematics.crank_grid import CrankGrid
@@ -86,6 +87,7 @@ _HOMES = {
     "Solution": "study.solve",
     "Spreads": "study.spread",
     "Swept": "study.sweep",
+    "RenamedKeyWarning": "errors",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
     "compare": "analysis.compare",
@@ -137,6 +139,7 @@ __all__ = [
     "Optimum",
     "Picture",
     "QUANTITIES",
+    "RenamedKeyWarning",
     "Results",
     "Segment",
     "Solution",

@@ -62,6 +62,7 @@ def test_results_are_shown_in_fifteen_lines(engine: crankwork.Results, linkage: 
         assert (len(page) < 100_000, "<img" in page) == (True, True)
 
 
+@pytest.mark.filterwarnings("ignore::crankwork.errors.RenamedKeyWarning")
 def test_results_are_a_mapping_of_what_they_know(engine: crankwork.Results) -> None:
     assert set(engine.columns) | set(engine.summary) <= set(engine) == set(engine.keys())
     assert len(engine) == len(set(engine))

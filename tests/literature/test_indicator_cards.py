@@ -39,7 +39,7 @@ def test_nag_3_4() -> None:
     text = ENGINE.format(stroke=1.2, speed=150, bore=0.8, cylinders=12, strokes=2, cycle=360, mean=mean, order=order)
     found = analysed(text)
     assert found["indicated_mean_pressure"] == pytest.approx(1.3475e6, rel=1e-12)
-    assert found["indicated_power"] == pytest.approx(24383785.5401, rel=1e-11)
+    assert found.summary["indicated_power"] == pytest.approx(24383785.5401, rel=1e-11)
 
 
 def test_gupta_16_5() -> None:

@@ -242,6 +242,7 @@ def test_a_measured_pressure_names_its_samples(tmp_path):
     assert "φ_j = 6.49262 rad = 372°   p.csv, line 188" in lines
 
 
+@pytest.mark.filterwarnings("ignore::crankwork.errors.RenamedKeyWarning")
 def test_what_is_found_of_a_column_is_followed_to_its_numbers():
     lines = explained("v8-diesel", "mean_torque")
     start = next(at for at, one in enumerate(lines) if one.startswith("M_Σ, N·m – 0°: 438.39; "))

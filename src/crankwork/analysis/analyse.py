@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.engine import analyse_engine
+from crankwork.analysis.engine import analyse_engine, own_key
 from crankwork.analysis.results import Results
 from crankwork.analysis.solved import Notice, solve
 from crankwork.errors import CrankworkError, MethodError
@@ -148,7 +148,7 @@ def columns_only(machine: Machine) -> Results:
     grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     # in the joints of an engine there are the forces of other cylinders too
     whole = _IN_JOINTS if machine.engine is not None else ()
-    memory = {key: one for key, one in solved.memory.items() if not key.startswith(whole)}
+    memory = {own_key(machine, key): known for key, known in solved.memory.items() if not key.startswith(whole)}
     return Results(solved, grid, {}, {}, {}, (), {}, memory=memory)
 
 

@@ -108,7 +108,7 @@ def delivery_memory(whole: WholeEngine, firing: Mapping[str, Known], works: Mapp
     """
     gases = {number: one.machine.gas for number, one in enumerate(whole.cylinders, start=1)}
     valved = {number: gas.valves for number, gas in gases.items() if gas is not None and gas.valves is not None}
-    if not valved or "indicated_power" not in works:
+    if not valved or "indicated_power" not in works or len(whole.cylinders) < 2:
         return {}
     cycle, speed, flows = origins.cycle_angle(whole.machine), whole.master.memory["speed"], dict[int, Known]()
     for number, valves in valved.items():

@@ -209,6 +209,8 @@ class Results(Mapping[str, Array | float]):
         if keys is not None and not RENAMED.keys().isdisjoint(keys := list(keys)):
             renamed = self.columns_at(grid, [self.current(key) for key in keys])
             return {key: renamed[RENAMED.get(key, key)] for key in keys if RENAMED.get(key, key) in renamed}
+        if keys is not None and any(self.holding(key) is not self for key in keys):
+            return self.complete.columns_at(grid, keys)
         wanted = [key for key in (self.columns if keys is None else keys) if key in self.memory]
         if not any(key.startswith("instant_centre_") for key in wanted):
             return Program({key: self.memory[key] for key in wanted})(grid)

@@ -161,7 +161,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
     notices += machine.engine.notices if machine.engine is not None else ()
-    notices += [("loaded_cycle", {})] if "cycle" in values else []
+    notices += [("loaded_cycle", {"name": "cycle"})] if "cycle" in values else []
     notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance") if name in values]
     return replace(linkage, stated=machine.stated, notices=tuple(notices))
 

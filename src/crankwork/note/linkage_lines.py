@@ -114,15 +114,17 @@ class _LineFilter:
     def __init__(self, results: Results, degrees: float) -> None:
         self._memory, self.degrees = results.memory, degrees
         self._moment = results.moment(degrees)
-        self._shown: set[tuple[str, float]] = set()
+        self._shown: set[tuple[str, str]] = set()
 
     def of(self, values: Iterable[Known]) -> tuple[Line, ...]:
         """Return the lines of values that were not shown before; of plain numbers only those asked for."""
         lines, present = [], [traced for traced in values if not traced.is_absent]
         keys = {value.key for value in present}
         for step in self._moment.steps(present):
-            if (step.key, step.value) not in self._shown and (step.key in keys or not isinstance(step, ValueLine)):
-                self._shown.add((step.key, step.value))
+            # what is found again is the same but for rounding
+            mark = step.key, f"{step.value:.12g}"
+            if mark not in self._shown and (step.key in keys or not isinstance(step, ValueLine)):
+                self._shown.add(mark)
                 lines.append(step)
         return tuple(lines)
 
