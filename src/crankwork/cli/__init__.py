@@ -346,7 +346,7 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
     )
     results = options.results()
     if key is None or with_keys:
-        click.echo("\n".join(key_lines(results, options.language)))
+        click.echo("\n".join(key_lines(results.complete, options.language)))
         return
     key = results.current(key)
     results = results.holding(key)
