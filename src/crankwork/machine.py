@@ -393,8 +393,8 @@ class Machine:
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
     # Crank range, if the description determined it
     way: Travel | None = field(default=None, compare=False, repr=False)
-    # The linkage that an engine is, of a description that says so
-    linkage_form: Callable[[Machine], Machine | None] | None = field(default=None, compare=False, repr=False)
+    # The linkage that an engine is, or the engine that a linkage with friction was written as
+    other_form: Callable[[Machine], Machine | None] | None = field(default=None, compare=False, repr=False)
     # The numbers of the description by path, `crank.stroke`; empty without a description
     stated: Mapping[str, InputNumber] = field(default_factory=dict, compare=False, repr=False)
 

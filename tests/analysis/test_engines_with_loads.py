@@ -261,3 +261,13 @@ def test_what_the_gas_of_four_cylinders_gives_goes_to_brake_and_pins() -> None:
     brake = summary["mean_torque"] * summary["speed"]
     assert brake + summary["mean_friction_power"] == pytest.approx(4 * work * 25, rel=1e-9)
     assert summary["mean_friction_power"] > 0.02 * brake
+
+
+def test_an_engine_with_friction_has_the_forces_that_its_cylinder_has_without():
+    plain, friction = crankwork.template("engine"), '\n[friction.sliders.piston]\nforce = "80 N"\n'
+    alone, rubbed = (crankwork.analyse(crankwork.Description(text)) for text in (plain, plain + friction))
+    for key in ("piston_force", "side_force", "tangential_force"):
+        assert rubbed[key] == pytest.approx(alone[key], rel=1e-13), key
+    assert rubbed["mean_torque"] < alone["mean_torque"]
+    pushed = crankwork.analyse(crankwork.Description(plain + '\n[[loads]]\nkind = "force"\npoint = "B"\ny = "5 N"\n'))
+    assert "piston_force" not in pushed

@@ -86,8 +86,8 @@ def analyse(
 
 def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results | None:
     """Return the results of an engine as the linkage that it is, or of a linkage as an engine; None if it is none."""
-    form = None
-    if machine.linkage is not None:
+    form = None if machine.other_form is None else machine.other_form(replace(machine, method=method))
+    if form is None and machine.linkage is not None:
         # few linkages are engines
         from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
         from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
@@ -97,8 +97,6 @@ def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results
             results = _analysed(form, grid, None, None)
             relocate(results.memory.values(), linkage_paths(machine))
             return results
-    elif machine.linkage_form is not None and machine.turning is None and machine.transfer is None:
-        form = machine.linkage_form(replace(machine, method=method))
     return None if form is None else _analysed(form, grid, None, None)
 
 

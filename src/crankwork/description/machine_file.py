@@ -120,12 +120,15 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         machine = _loaded(machine, values, reader, folder)
     elif machine is not None and keys in _ENGINES:
         form = functools.partial(_linkage_form, machine, values, decimal_comma=reader.decimal_comma, folder=folder)
-        machine = replace(machine, linkage_form=form)
+        machine = replace(machine, other_form=form)
     return None if machine is None else replace(machine, document=stated_document(read_values))
 
 
 # what a linkage form is made of
-_OF_FORM = ("mechanism", "speed", "angular_acceleration", "cylinder", "masses", "gas", "engine", "drive", "has_gravity")
+_OF_FORM = (
+    "mechanism", "speed", "angular_acceleration", "cylinder", "masses", "gas", "engine", "drive", "has_gravity",
+    "chambers", "loads", "friction",
+)  # fmt: skip
 
 
 def _linkage_form(
@@ -134,7 +137,7 @@ def _linkage_form(
     """Return the linkage that an engine is; None if it is no longer the stated one, or by an approximate method."""
     from crankwork.description.shorthand import linkage_values  # noqa: PLC0415 - loaded where it is needed
 
-    if any(getattr(machine, name) is not getattr(stated, name) for name in _OF_FORM) or not machine.method.is_exact:
+    if not _is_unchanged(machine, stated) or not machine.method.is_exact:
         return None
     method = {key: value for key, value in values.get("method", {}).items() if key != "kinematics"}
     reader = Reader(decimal_comma=decimal_comma, metric_hp=values.get("format", 1) == 1)
@@ -142,6 +145,16 @@ def _linkage_form(
     if linkage is None or reader.problems:
         return None
     return replace(linkage, units=machine.units, document=machine.document)
+
+
+def _is_unchanged(machine: Machine, stated: Machine) -> bool:
+    """Return whether a machine has the parts that its description states."""
+    return all(getattr(machine, name) is getattr(stated, name) for name in _OF_FORM)
+
+
+def _engine_form(stated: Machine, engine: Machine, machine: Machine) -> Machine | None:
+    """Return an engine without its friction and its motor; None if its linkage is no longer the stated one."""
+    return engine if _is_unchanged(machine, stated) else None
 
 
 def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
@@ -163,7 +176,11 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
     notices += machine.engine.notices if machine.engine is not None else ()
     notices += [("loaded_cycle", {"name": "cycle"})] if "cycle" in values else []
     notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance") if name in values]
-    return replace(linkage, stated=machine.stated, notices=tuple(notices))
+    linkage = replace(linkage, stated=machine.stated, notices=tuple(notices))
+    if "loads" in values:
+        # the forces of the engine alone would be other ones
+        return linkage
+    return replace(linkage, other_form=functools.partial(_engine_form, linkage, machine))
 
 
 def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path) -> Machine | None:
