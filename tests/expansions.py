@@ -5,7 +5,8 @@ from __future__ import annotations
 import cmath
 import math
 import random
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -34,13 +35,20 @@ def written(values: Mapping[str, Any]) -> str:
     return "\n".join([*lines, *tables, ""])
 
 
-def renamed(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a linkage whose links, joints, guides and chambers have other names."""
-    kinds = ("fixed_points", "links", "guides", "sliders", "positions", "chambers")
-    names = [name for kind in kinds for name in values.get(kind, {})]
+_NAMED = ("fixed_points", "links", "guides", "sliders", "positions", "chambers")
+
+
+def new_names(values: Mapping[str, Any]) -> dict[str, str]:
+    """Return another name for each link, joint, guide and chamber of a linkage."""
+    names = [name for kind in _NAMED for name in values.get(kind, {})]
     names += [values["crank"]["pin"], *values["crank"].get("points", {})]
     names += [point for link in values["links"].values() for point in link.get("points", {})]
-    new = {name: f"q{(37 * number) % 101}.{number}".replace(".", "") for number, name in enumerate(names)}
+    return {name: f"q{(37 * number) % 101}.{number}".replace(".", "") for number, name in enumerate(names)}
+
+
+def renamed(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a linkage whose links, joints, guides and chambers have other names."""
+    new = new_names(values)
 
     def other(value: Any) -> Any:
         if isinstance(value, Mapping):
@@ -50,7 +58,7 @@ def renamed(values: Mapping[str, Any]) -> dict[str, Any]:
         return new.get(value, value) if isinstance(value, str) else value
 
     result = dict(values)
-    for kind in kinds:
+    for kind in _NAMED:
         if kind in values:
             result[kind] = {new[name]: _with_other(item, other) for name, item in values[kind].items()}
     for kind in ("crank", "shaft"):
@@ -142,37 +150,149 @@ def _moved(values: Mapping[str, Any], place: Any, angle: Any) -> dict[str, Any]:
     return result
 
 
+def drawn_again(
+    results: Results, names: Mapping[str, str], degrees: float = 0.0, reversed_links: Iterable[str] = ()
+) -> Results:
+    """Return the results of a linkage as those of another drawing of it.
+
+    `names`: names in that drawing by those in this; `degrees`: by how much this is rotated against it;
+    `reversed_links`: links that are drawn from the other end, by the names of that drawing.
+    """
+
+    def key_of(key: str) -> str:
+        return ".".join("_".join(names.get(word, word) for word in part.split("_")) for part in key.split("."))
+
+    def of(table: Mapping[str, Any]) -> dict[str, Any]:
+        own = {key_of(key): value for key, value in table.items()}
+        for key in [key for key in own if base_key(key).endswith("_x")]:
+            across = key.replace("_x", "_y", 1)
+            back = (own[key] + 1j * own[across]) * cmath.exp(-1j * math.radians(degrees))
+            own[key], own[across] = back.real, back.imag
+        for key in [key for key in own if base_key(key) == "link_angle"]:
+            half = math.pi if key.partition(".")[2] in reversed_links else 0.0
+            own[key] = own[key] - math.radians(degrees) + half
+        return own
+
+    groups = {name: tuple(map(key_of, keys)) for name, keys in results.groups.items()}
+    listings = {
+        name: Listing(of(listing.columns), tuple(map(key_of, listing.names)))
+        for name, listing in results.listings.items()
+    }
+    tables = {name: of(getattr(results, name)) for name in ("columns", "summary", "checks", "allowed")}
+    return replace(results, groups=groups, listings=listings, **tables)
+
+
 def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str]:
-    """Return where the results of an engine and of its form differ, without those of a calculated cycle."""
+    """Return where the results of an engine and of its form differ; those of a calculated cycle may be wanting."""
     lost, scales = of_cycle(engine), _scales(engine)
-    pairs = [("summary", engine.summary, form.summary), ("column", engine.columns, form.columns)]
+    # of a cycle with ports the file of the engine states the ratio of the closed cylinder
+    geometric = engine.memory.get("geometric_compression_ratio")
+    ratio = {} if geometric is None else {"compression_ratio": geometric.value}
+    pairs = [("summary", {**engine.summary, **ratio}, form.summary), ("column", engine.columns, form.columns)]
     empty = Listing({})
     pairs += [
         (f"listing {name}", listing.columns, form.listings.get(name, empty).columns)
         for name, listing in engine.listings.items()
     ]
     found = [f"listing {name}" for name in engine.listings.keys() ^ form.listings.keys()]
+    found += [
+        f"listing {name}: rows {listing.names}"
+        for name, listing in engine.listings.items()
+        if listing.names != form.listings.get(name, empty).names
+    ]
+    found += [
+        f"table {name}: {sorted(set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ())))}"
+        for name in engine.tables.keys() | form.tables.keys()
+        if (set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ()))) - lost
+    ]
     for kind, own, other in pairs:
-        found += [f"{kind} {key}" for key in (own.keys() ^ other.keys()) - lost]
-        for key in own.keys() & other.keys() - lost:
+        # a key of the cycle may be wanting, not wrong
+        found += [f"{kind} {key}" for key in (own.keys() - other.keys() - lost) | (other.keys() - own.keys())]
+        for key in own.keys() & other.keys():
             first, second = (_without_noise(key, values, limit, scales) for values in (own, other))
-            scale = limit * scales.get(_unit(key), 1.0)
-            same = first.shape == second.shape and np.allclose(first, second, rtol=0, atol=scale, equal_nan=True)
-            found += [] if same else [f"{kind} {key}: {own[key]} is {other[key]}"]
+            if first.shape != second.shape or np.any(np.isnan(first) != np.isnan(second)):
+                found.append(f"{kind} {key}: {first} is {second}")
+                continue
+            apart = _apart(key, first, second, engine)
+            room = _ANGLES if _unit(key) in _OF_ANGLES else limit * (_largest(own, key) + _SMALL * scales[_unit(key)])
+            far = apart > room
+            if kind == "summary" and far.any() and _is_another_peak(key, float(second), engine, room):
+                continue
+            found += [f"{kind} {key}: {own[key]} is {other[key]}"] if far.any() else []
     found += [f"check {key}" for key in (engine.checks.keys() ^ form.checks.keys()) - lost]
+    found += [f"notice {code}" for code in (_codes(engine) ^ _codes(form)) - _codes_of_cycle(engine) - _OF_SHORTHAND]
     return found + [
         f"check {key}: {value}" for key, value in form.checks.items() if value > form.allowed.get(key, limit)
     ]
 
 
+# angles may be apart by [rad]; what rounding leaves of the largest value of a unit, over the limit
+_ANGLES, _SMALL = 1e-7, 1e-3
+_OF_ANGLES = ("deg", "rad")
+# directions repeat after a turn, those of lines after half of one
+_DIRECTIONS = {
+    **dict.fromkeys(("link_angle", "counterweight_angle", "harmonic_phase"), math.tau),
+    "free_force_direction": math.pi,
+}
+# of what the file of an engine leaves open, and a drawing shows
+_OF_SHORTHAND = {"upright", "uneven_intervals"}
+
+
+def _apart(key: str, first: Any, second: Any, engine: Results) -> Any:
+    """Return how far values are from one another, angles over the end of the cycle."""
+    if _unit(key) not in _OF_ANGLES:
+        return np.abs(first - second)
+    period = _DIRECTIONS.get(base_key(key), math.radians(engine.machine.cycle))
+    return np.abs((first - second + period / 2) % period - period / 2)
+
+
+def _largest(values: Mapping[str, Any], key: str) -> float:
+    """Return the size of a value: of a component that of the vector, of an extreme that of both."""
+    keys = [key]
+    for word, others in (("_x", ("_y",)), ("_y", ("_x",)), ("_max", ("_min",)), ("_min", ("_max",))):
+        keys += [key.replace(word, other, 1) for other in others if word in key]
+    sizes = [np.append(np.abs(np.asarray(values[one], dtype=float)), 0.0) for one in keys if one in values]
+    return max(float(np.nanmax(size)) for size in sizes)
+
+
+def _is_another_peak(key: str, angle: float, engine: Results, room: float) -> bool:
+    """Return whether an angle is that of an extreme as large as the stated one."""
+    word, dot, name = key.partition(".")
+    extreme, column = word.removesuffix("_angle"), word.removesuffix("_angle").rpartition("_")[0]
+    if not word.endswith(("_max_angle", "_min_angle")) or f"{column}{dot}{name}" not in engine:
+        return False
+    there = engine.value(f"{column}{dot}{name}", math.degrees(angle))
+    stated = engine.summary[f"{extreme}{dot}{name}"]
+    return abs(there - stated) <= room * abs(stated)
+
+
 def of_cycle(results: Results) -> set[str]:
-    """Return the keys that a calculated cycle adds to the results of its engine."""
+    """Return the keys that a calculated cycle adds to the results of its engine.
+
+    What both a cycle and an engine have stands in the summary as that of the cycle.
+    """
     space = results.solved.space
-    found = set() if space is None or space.calculated is None else set(space.calculated.values)
-    return (found | {key for key in results.summary if key.endswith(".cycle")}) - {"indicated_mean_pressure"}
+    values = set() if space is None or space.calculated is None else set(space.calculated.values)
+    also = {f"{key}.cycle" for key in values} & set(results.summary)
+    return (values - {"indicated_mean_pressure"}) | also
+
+
+def _codes(results: Results) -> set[str]:
+    return {notice.code for notice in results.notices}
+
+
+def _codes_of_cycle(results: Results) -> set[str]:
+    """Return the codes of what a calculated cycle says, and of what is said of it beside the torque of the engine."""
+    space = results.solved.space
+    calculated = None if space is None else space.calculated
+    beside = {"torque_of_cycle", "cycle_in_every"}
+    return set() if calculated is None else {code for code, _ in calculated.notices} | beside
 
 
 def _unit(key: str) -> str:
+    word = key.partition(".")[0]
+    if word not in QUANTITIES and word.endswith("_angle"):
+        return "deg"
     quantity = QUANTITIES.get(base_key(key))
     return "" if quantity is None else quantity.unit
 
@@ -189,12 +309,11 @@ def _scales(results: Results) -> dict[str, float]:
 
 
 def _without_noise(key: str, values: Mapping[str, Any], limit: float, scales: Mapping[str, float]) -> Any:
-    """Return a value, zero where it is the direction or the ratio of nothing; directions repeat after half a turn."""
+    """Return a value, zero where it is the direction or the ratio of nothing."""
     value = np.asarray(values[key], dtype=float)
     of_extreme = key.replace("_angle", "") if "_angle" in key else ""
     size = {
         "free_force_direction": "free_force", "harmonic_phase": "harmonic_amplitude",
         "bearing_load_ratio": "bearing_load_max",
     }.get(key, of_extreme)  # fmt: skip
-    value = np.cos(2 * value) if size in values and key != "bearing_load_ratio" else value
     return np.where(np.abs(values[size]) <= 1e3 * limit * scales[_unit(size)], 0.0, value) if size in values else value

@@ -1,5 +1,6 @@
 """Shaking forces are what the joints put on the ground, and counterweights take what turns with the crank."""
 
+import cmath
 import math
 
 import numpy as np
@@ -66,3 +67,39 @@ positions.C = ["300 mm", "150 mm"]
         assert results.summary[f"free_force.{order:g}"] == pytest.approx(size, rel=1e-9)
     assert results.summary["free_force.0.5"] == pytest.approx(2.41701, rel=1e-5)
     assert results.summary["free_force.2"] == pytest.approx(0.0, abs=1e-9)
+
+
+THREE = """
+fixed_points.O = ["0 mm", "0 mm"]
+guides.line = { through = "O", angle = "90 deg" }
+[crank]
+pivot = "O"
+pin = "A0"
+radius = "57.3 mm"
+speed = "3000 rpm"
+start = "90 deg"
+"""
+ROD = """
+[links.rod_{n}]
+joins = ["A{n}", "B{n}"]
+length = "190 mm"
+mass = "0.7 kg"
+centre = ["61 mm", "0 mm"]
+[sliders.piston_{n}]
+guide = "line"
+pin = "B{n}"
+mass = "0.9 kg"
+"""
+
+
+def test_of_forces_that_cancel_rounding_leaves_nothing():
+    """Three equal throws at 120 degrees with rods to one line: no order that 3 does not divide, and no direction."""
+    turns = [cmath.rect(57.3, math.radians(120 * n)) for n in range(3)]
+    text = THREE + "".join(f'points.A{n} = ["{turns[n].real} mm", "{turns[n].imag} mm"]\n' for n in (1, 2))
+    text += "[positions]\n" + "".join(
+        f'B{n} = ["0 mm", "{turn.real + math.sqrt(190**2 - turn.imag**2)} mm"]\n' for n, turn in enumerate(turns)
+    )
+    summary = analyse(read_machine(text + "".join(ROD.format(n=n) for n in range(3)))).summary
+    assert [summary[f"free_force.{order}"] for order in (1, 2, 4)] == [0.0, 0.0, 0.0]
+    assert summary["counterweight_moment"] == 0.0
+    assert "counterweight_angle" not in summary

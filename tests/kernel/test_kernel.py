@@ -8,6 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from crankwork import Description, sweep, template
 from crankwork.formula.known import Found, Known, OfAngle, Pieces, given
 from crankwork.formula.replay import Program
 from crankwork.kernel import compiled as compiled_kernels
@@ -338,3 +339,22 @@ def test_where_nothing_can_be_kept_a_kernel_is_compiled_for_the_run(monkeypatch,
     study = Varied(*MACHINES["four-bar"])
     found = study.kernel(["joint_force_max.B"], steps=36)(study.middle[:, None])
     assert found.values[0, 0] > 0
+
+
+@pytest.mark.elsewhere
+def test_no_law_ends_where_nothing_is_calculated_yet(monkeypatch):
+    """Valves open where the gas has a pressure, and the volume of a linkage follows from the stroke, an extreme."""
+
+    def stores(kernel, lanes):
+        shapes = (
+            (len(kernel.source.rows.of), lanes),
+            (len(kernel.source.columns.of), kernel.plan.grid.degrees.size, lanes),
+        )
+        return tuple(np.full(shape, np.nan) for shape in shapes)
+
+    monkeypatch.setattr(Kernel, "_stores", stores)
+    bores = np.array([0.097, 0.1, 0.101, 0.103])
+    swept = sweep(Description(template("compressor")), {"cylinder.bore": bores}, ["gas_force_max.cylinder"])
+    # 5 bar in the cylinder, 1 bar behind the piston
+    assert swept.values["gas_force_max.cylinder"] == pytest.approx(4e5 * math.pi / 4 * bores**2, rel=1e-12)
+    assert (swept.reason, swept.one_by_one) == ("ends", 4)

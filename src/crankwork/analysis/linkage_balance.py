@@ -11,13 +11,13 @@ import numpy as np
 from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
 from crankwork.dynamics.reaction import shaking_force
 from crankwork.dynamics.running import Running
-from crankwork.formula.known import Found, Known, total
+from crankwork.formula.known import Found, Known, Total, total
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.mechanism.mechanism import Crank
 
 _ORDERS = (1, 2, 3, 4)
-# share of the largest force that rounding leaves of nothing
+# share of the forces that are added which rounding leaves of nothing
 _NOTHING = 1e-13
 _SAMPLES = 1440
 
@@ -44,10 +44,12 @@ def counterweight_balance(driver: Crank, memory: Mapping[str, Known], period: fl
     """
     of = memory["shaking_force_x"], memory["shaking_force_y"]
     grid, turns = CrankGrid.from_degrees(np.arange(_SAMPLES) * period / _SAMPLES), round(period / 360.0)
-    columns = Program(dict(zip("xy", of, strict=True)))(grid)
+    terms = [term for one in of for term in (one.node.operands if isinstance(one.node, Total) else (one,))]
+    columns = Program({**dict(zip("xy", of, strict=True)), **{str(n): one for n, one in enumerate(terms)}})(grid)
     force = columns["x"] + 1j * columns["y"]
+    size = np.max(np.sum([np.abs(columns[str(n)] + np.zeros(_SAMPLES)) for n in range(len(terms))], axis=0))
     coefficients = np.fft.fft(force) / _SAMPLES
-    coefficients[np.abs(coefficients) <= _NOTHING * np.max(np.abs(force))] = 0.0
+    coefficients[np.abs(coefficients) <= _NOTHING * size] = 0.0
     # of a cycle of two turns there are half orders too
     for count in range(1, _ORDERS[-1] * turns + 1):
         both = abs(coefficients[count]) + abs(coefficients[-count])

@@ -177,15 +177,15 @@ class Results(Mapping[str, Array | float]):
     def current(self, key: str) -> str:
         """Return the key that a result has today; warn where it had another one, or was the value of something else."""
         renamed, engine = RENAMED.get(key, key), self.machine.engine
-        notice = None
-        if renamed != key and self._has(renamed):
+        notice, is_renamed = None, renamed != key and renamed in self
+        if is_renamed:
             notice = Refusal("key_renamed", old=key, new=renamed)
         elif key in MOVED and engine is not None and len(engine.layout.places) > 1:
             notice = Refusal("key_moved", key=key, new=MOVED[key])
         if notice is not None and key not in self._noticed:
             self._noticed.update((key, renamed))
             warnings.warn(RenamedKeyWarning(notice), stacklevel=3)
-        return renamed if self._has(renamed) else key
+        return renamed if is_renamed else key
 
     def _has(self, key: str) -> bool:
         return key in self.columns or key in self.summary or key in self.memory
@@ -273,7 +273,7 @@ class Results(Mapping[str, Array | float]):
         return len({*self.columns, *self.summary, *self.memory})
 
     def __contains__(self, key: object) -> bool:
-        return isinstance(key, str) and self.holding(key)._has(RENAMED.get(key, key))  # noqa: SLF001 - of its own class
+        return isinstance(key, str) and self.holding(key := RENAMED.get(key, key))._has(key)  # noqa: SLF001 - own class
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self)

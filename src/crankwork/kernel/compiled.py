@@ -101,7 +101,9 @@ class Kernel:
             if lowering.moving and steps:
                 grid = uniform_grid(lowering.zones(breaks[0]), steps)
             elif lowering.moving and edges is not None:
-                edges = edges.following(lowering.moving)
+                # panels are laid before any value is reduced, and an end may follow from an extreme
+                is_reduced = any(end.level > 0 for end, _ in lowering.moving)
+                edges = None if is_reduced else edges.following(lowering.moving)
                 if edges is None:
                     raise NotCompiledError("ends", keys[0])
                 grid = grid._replace(moves=edges.moves)

@@ -1,0 +1,174 @@
+"""An engine file and the file of the linkage that it is give the same results under the same keys."""
+
+from __future__ import annotations
+
+import functools
+import tempfile
+import tomllib
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crankwork import Description, analyse, read_machine, template, template_names
+from crankwork.analysis.results import Results
+from crankwork.description.expand import expanded
+from crankwork.errors import RenamedKeyWarning
+from crankwork.quantities.renamed import RENAMED
+from crankwork.study.machines import MachineVariants
+from crankwork.study.sought import numeric_field
+from each import for_each
+from expansions import differences, drawn_again, new_names, of_cycle, renamed, shuffled, turned, written
+from shown import in_parts
+
+ROOT = Path(__file__).parents[2]
+FILES = {
+    **{name: template(name) for name in template_names()},
+    **{path.stem: path.read_text("utf-8") for path in sorted((ROOT / "examples").glob("*.toml"))},
+}
+ENGINES = [name for name, text in FILES.items() if "rod" in tomllib.loads(text)]
+LIGHT = ["compressor", "slider-crank"]
+EXACT = "method.kinematics=exact"
+WAYS = {
+    "again": (dict, 0.0),
+    "renamed": (renamed, 0.0),
+    "shuffled": (lambda values: shuffled(values, 1), 0.0),
+    "turned": (lambda values: turned(values, 37.0), 37.0),
+}
+
+
+@functools.cache
+def linkage_text(name: str) -> str:
+    """Return the file of the linkage that an engine is, its motion by the exact method."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "machine.toml"
+        path.write_text(FILES[name], "utf-8")
+        return expanded(path, [EXACT])
+
+
+@functools.cache
+def both(name: str) -> tuple[Results, Results]:
+    """Return the results of an engine and of its linkage."""
+    engine = analyse(read_machine(FILES[name], overrides=[EXACT], folder=ROOT))
+    return engine, analyse(read_machine(linkage_text(name), folder=ROOT))
+
+
+@in_parts("name", LIGHT, [name for name in ENGINES if name not in LIGHT])
+def test_an_engine_and_its_linkage_have_the_same_results(name):
+    engine, values = both(name)[0].complete, tomllib.loads(linkage_text(name))
+    for way, (change, degrees) in WAYS.items():
+        # weights point down, whichever way the machine is turned
+        if degrees and engine.machine.has_gravity:
+            continue
+        drawn = change(values)
+        results = analyse(read_machine(written(drawn), folder=ROOT)).complete
+        names = {new: old for old, new in new_names(values).items()} if way == "renamed" else {}
+        links = values["links"]
+        if way == "shuffled":
+            reversed_links = [link for link in links if drawn["links"][link]["joins"] != links[link]["joins"]]
+        else:
+            reversed_links = []
+        assert differences(engine, drawn_again(results, names, degrees, reversed_links)) == [], way
+
+
+REACHED = ["compressor", "engine"]
+_ROW = 5
+
+
+@in_parts("name", REACHED, [name for name in ENGINES if name not in REACHED])
+def test_every_key_of_one_form_is_reached_from_the_other(name):
+    engine, linkage = both(name)
+    lost = of_cycle(engine)
+    for results, other, wanting in ((engine, linkage, ()), (linkage, engine, lost)):
+        keys = ({*other.complete.summary, *other.complete.columns} - {*wanting}) | set(results.other)
+        assert keys - set(other) - lost, "each form has keys that the other has not"
+        for key in keys:
+            with warnings.catch_warnings():
+                # what an engine calls otherwise today
+                warnings.simplefilter("ignore", RenamedKeyWarning)
+                assert key in results, key
+                wanted = results.complete[key]
+                largest = np.nanmax(np.abs(wanted)) if np.any(np.isfinite(wanted)) else 0.0
+                assert results[key] == pytest.approx(wanted, rel=0, abs=1e-9 * largest, nan_ok=True), key
+                if np.ndim(wanted):
+                    at = float(results.grid.degrees[_ROW])
+                    if np.isfinite(wanted[_ROW]):
+                        assert results.value(key, at) == pytest.approx(wanted[_ROW], rel=0, abs=1e-9 * largest), key
+                else:
+                    assert results.value(key) == pytest.approx(wanted, rel=1e-12), key
+
+
+@for_each(("key", "at"), [("joint_force.B", 30.0), ("kinetic_energy", 30.0), ("crank_torque", 30.0), ("stroke", None)])
+def test_a_value_of_the_other_form_is_explained(key, at):
+    engine, linkage = both("compressor")
+    first, second = (results.explain(key, at) for results in (engine, linkage))
+    # the value stands in front of how it came about
+    assert first.splitlines()[0] == second.splitlines()[0]
+    assert len(first.splitlines()) > 2
+
+
+# a number of each file, and values of the other form: of lengths alone, of masses, of gas
+_SWEPT = {
+    "engine": {
+        "crank.speed": ["kinetic_energy_max", "shaking_force_max", "joint_force_max.B"],
+        "piston.mass": ["shaking_force_max", "joint_force_max.O"],
+        "rod.length": ["slider_velocity_max.piston", "joint_force_max.A"],
+        "cylinder.bore": ["gas_force_max.cylinder", "joint_force_max.B"],
+    },
+    "linkage": {
+        "crank.speed": ["piston_acceleration_max", "inertia_force_max"],
+        "sliders.piston.mass": ["inertia_force_max", "crank_torque_max"],
+        "links.rod.length": ["piston_velocity_max", "stroke"],
+        "chambers.cylinder.bore": ["side_force_max", "indicated_power"],
+    },
+}
+
+
+@in_parts(
+    ("form", "number"),
+    [("engine", "piston.mass"), ("linkage", "sliders.piston.mass")],
+    [(form, number) for form, numbers in _SWEPT.items() for number in numbers],
+)
+def test_a_sweep_of_one_form_gives_values_of_the_other(form, number):
+    text = template("compressor") if form == "engine" else linkage_text("compressor")
+    description, keys = Description(text, "machine.toml"), [*_SWEPT[form][number]]
+    keys = [key for key in keys if key in both("compressor")[0]]
+    assert keys, number
+    field = numeric_field(description.values, number)
+    designs = field.now * np.array([[0.97, 1.0, 1.01, 1.03]])
+    spans = np.array([[designs.min(), field.now, designs.max()]])
+    variants = MachineVariants(description, {number: field}, spans, keys)
+    variants.compile(None, designs[:, [0, 3]])
+    found = variants.values(designs)
+    assert not found.refused
+    for design, column in zip(designs.T, found.values.T, strict=True):
+        results = variants.results(design)
+        assert column == pytest.approx([results.value(key) for key in keys], rel=1e-9), design
+        # and the other file gives them too, with the same number written there
+        other = {"engine": "linkage", "linkage": "engine"}[form]
+        path = dict(zip(_SWEPT[form], _SWEPT[other], strict=True))[number]
+        text = template("compressor") if other == "engine" else linkage_text("compressor")
+        machine = read_machine(text, overrides=[f"{path}={field.written(float(design[0]))}"])
+        # the inertia of a rod by its two masses is that of its length
+        if number != "rod.length" or "joint_force_max.A" not in keys:
+            assert column == pytest.approx([analyse(machine).value(key) for key in keys], rel=1e-9), (path, design)
+
+
+@for_each("number", [0, 1])
+def test_old_keys_tell_once_what_they_are_called_now(number):
+    results = replace(both("petrol-four")[number], _noticed=set())
+    for old, new in RENAMED.items():
+        if new not in results:
+            continue
+        assert old in results
+        with pytest.warns(RenamedKeyWarning, match=f"^{old} is called {new} now") as told:
+            value = results[old]
+        assert np.array_equal(value, results[new])
+        assert len(told) == 1
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert np.array_equal(results[old], results[new])
+            assert results.unit(old) == results.unit(new)
+    assert {"mean_torque", "reduced_inertia"} <= {new for new in RENAMED.values() if new in results}
