@@ -57,13 +57,13 @@ def _groups(mechanism: Mechanism, system: Equilibrium) -> Iterator[_Group]:
     yield _group(system, left_links, left_joints, range(2 * len(system.joints), unknowns))
 
 
-def _group(system: Equilibrium, links: Sequence[int], held: Sequence[int], beside: Sequence[int]) -> _Group:
+def _group(system: Equilibrium, links: Sequence[int], held: Sequence[int], further: Sequence[int]) -> _Group:
     names = {system.links[number] for number in links}
     outer = [number for number, joint in enumerate(system.joints) if joint.other in names and number not in held]
     rows = np.array([3 * number + part for number in links for part in range(3)], dtype=np.intp)
     columns, outer_columns = (np.array([2 * number + part for number in numbers for part in range(2)], dtype=np.intp)
                               for numbers in (held, outer))  # fmt: skip
-    return _Group(rows, np.append(columns, np.array(beside, dtype=np.intp)), outer_columns)
+    return _Group(rows, np.append(columns, np.array(further, dtype=np.intp)), outer_columns)
 
 
 class FrictionEquations:
