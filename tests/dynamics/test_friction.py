@@ -3,15 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from crankwork.dynamics import friction as module
-from crankwork.dynamics.friction import (
-    CONVERGED,
-    NOT_CONVERGED,
-    SELF_LOCKING,
-    GuideFriction,
-    PinFriction,
-    friction_forces,
-)
+from crankwork.dynamics import friction_equations as module
+from crankwork.dynamics.friction import GuideFriction, PinFriction, friction_forces
+from crankwork.dynamics.friction_equations import CONVERGED, NOT_CONVERGED, SELF_LOCKING
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
@@ -108,6 +102,29 @@ def test_friction_of_pins_tilts_the_force_along_the_friction_circles():
     at_crank, at_piston = (-np.sign(one) for one in (rod.angle_1 - 1, -rod.angle_1))
     assert found.friction[of_pin] == pytest.approx(at_crank * rho * pin.resultant)
     assert across == pytest.approx((at_crank - at_piston) * rho / 0.3, abs=1e-12)
+
+
+def test_friction_in_one_cylinder_does_not_change_the_forces_in_another():
+    """The torque of both is the sum, but for the bearing of the crank, which rubs by the sum of what presses."""
+    rods = [
+        RRP("crank_pin", f"B{number}", f"rod{number}", 0.3, guide_angle=angle, block=f"piston{number}")
+        for number, angle in enumerate((0.0, 1.2), start=1)
+    ]
+    loads = [ForceOnPoint(f"B{number}", -1000.0, 300.0 * number, f"piston{number}") for number in (1, 2)]
+    machines = [running_of(Mechanism(Crank(0.1), (rod,)), load) for rod, load in zip(rods, loads, strict=True)]
+    both = running_of(Mechanism(Crank(0.1), tuple(rods)), *loads)
+    alone = [friction_forces(running, everywhere(running.mechanism, 0.12)) for running in machines]
+    found = friction_forces(both, everywhere(both.mechanism, 0.12))
+    assert (found.status == CONVERGED).all()
+    pins, lost = found.joint_forces.pins, [0.0, 0.0]
+    for number, forces in enumerate(alone, start=1):
+        assert pins[f"B{number}"].resultant == pytest.approx(forces.joint_forces.pins[f"B{number}"].resultant)
+        at_pin = forces.joint_forces.pins["crank_pin"]
+        assert pins[f"crank_pin_rod{number}"].x == pytest.approx(at_pin.x)
+        lost[number - 1] = 0.12 * 0.01 * forces.joint_forces.pins["crank_pivot"].resultant
+    x, y = (sum(getattr(forces.joint_forces.pins["crank_pivot"], axis) for forces in alone) for axis in "xy")
+    without_bearing = sum(forces.joint_forces.balancing_torque for forces in alone) - sum(lost)
+    assert found.joint_forces.balancing_torque == pytest.approx(without_bearing + 0.12 * 0.01 * np.hypot(x, y))
 
 
 def test_a_tilted_piece_presses_with_both_ends():

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crankwork.dynamics.force_system import system_joint_forces
-from crankwork.dynamics.friction import CONVERGED, NOT_CONVERGED, GuideFriction, PinFriction, friction_forces
+from crankwork.dynamics.friction import GuideFriction, PinFriction, friction_forces
+from crankwork.dynamics.friction_equations import CONVERGED, NOT_CONVERGED
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.reduction import crank_torque

@@ -12,7 +12,6 @@ from crankwork.analysis.friction_course import Balance, Course, Steps
 from crankwork.analysis.solved import Notice, SolvedLinkage, apart
 from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import (
-    CONVERGED,
     Friction,
     GuideFriction,
     PinFriction,
@@ -28,6 +27,7 @@ from crankwork.dynamics.friction import (
     relative_rate,
     tilting_force,
 )
+from crankwork.dynamics.friction_equations import CONVERGED
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.routes import torque_by_energy

@@ -10,17 +10,14 @@ import numpy as np
 from crankwork.analysis.running import running_at
 from crankwork.analysis.solved import Notice, SolvedLinkage
 from crankwork.dynamics.friction import (
-    CONVERGED,
-    NO_POSITION,
-    SELF_LOCKING,
     Friction,
     FrictionForces,
     GuideFriction,
     PinFriction,
-    Truth,
     friction_joints,
     solve_with_friction,
 )
+from crankwork.dynamics.friction_equations import CONVERGED, NO_POSITION, SELF_LOCKING, Truth
 from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.loops import ChainPath

@@ -7,14 +7,17 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from crankwork.dynamics.force_system import (
     Equilibrium,
     all_links_and_joints,
     cylinder_force,
     full_equilibrium,
-    solve_positions,
+)
+from crankwork.dynamics.friction_equations import (
+    FrictionEquations,
+    Status,
+    Truth,
 )
 from crankwork.dynamics.link_loads import Wrenches, arm, cross, link_wrenches
 from crankwork.dynamics.reaction import JointForces, collect_reactions
@@ -29,26 +32,11 @@ from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
 from crankwork.mechanism.linkage import GROUND
 
 Circle = Literal["tangent", "sine"]
-Status = NDArray[np.int8]
-Truth = NDArray[np.bool_]
-Rows = NDArray[np.intp] | slice
-
-CONVERGED, NOT_CONVERGED, SELF_LOCKING, NO_POSITION = 0, 1, 2, 3
-_TOLERANCE = 1e-13
-_ITERATIONS = 30
-# iterations after which no other solution is expected
-_MAX_TRIAL_STEPS = 12
 # a force below which no direction is known [N]
 _TINY = 1e-290
-# friction is increased to its full value in steps, starting from the solution without it
-_STEPS = (0.25, 0.5, 0.75, 1.0)
 # share of the largest relative speed below which two links count as at rest
 _REST = 1e-12
-# relative difference by which another solution is told from the first
-_MIN_DIFFERENCE = 1e-6
 _ZERO_TOLERANCE = 1e-12
-# residuals of small forces are relative to this share of the largest force
-_SMALL = 1e-2
 
 
 @dataclass(frozen=True)
@@ -235,8 +223,8 @@ def solve_with_friction(running: Running, joints: Sequence[FrictionJoint], *, th
     """Return the joint forces with friction for given relative motions in the joints."""
     system, wrenches = full_equilibrium(running), link_wrenches(running)
     right = system.right_side(wrenches)
-    equations = _Equations(running, system, right, joints)
-    ideal = solve_positions(system.matrix, right)
+    equations = FrictionEquations(running, system, right, joints)
+    ideal = equations.without_friction(right)
     unknowns, residual, status = equations.solve(ideal)
     pressing = equations.pressing(unknowns)
     values = {joint.law: joint.friction(pressing[joint.law]) for joint in joints}
@@ -252,7 +240,7 @@ def solve_with_friction(running: Running, joints: Sequence[FrictionJoint], *, th
         residual,
         status,
         equations.margin(unknowns),
-        equations.has_another(unknowns, ideal) if thorough else np.zeros_like(status, dtype=bool),
+        equations.has_another(unknowns) if thorough else np.zeros_like(status, dtype=bool),
     )
 
 
@@ -262,106 +250,6 @@ def _driven(running: Running, system: Equilibrium, unknowns: Array, wrenches: Wr
     if not isinstance(mechanism.driver, Cylinder) or mechanism.halves:
         return np.asarray(unknowns[..., -1])
     return np.asarray(cylinder_force(mechanism, running.motion, system.reactions(unknowns), wrenches))
-
-
-class _Equations:
-    """The equilibrium equations with friction, which depends on their unknown forces."""
-
-    def __init__(self, running: Running, system: Equilibrium, right: Array, joints: Sequence[FrictionJoint]) -> None:
-        self.matrix, self.right = system.matrix, right.copy()
-        # of each joint: the column of its first unknown, and the effect of its pressing force on the links
-        self._parts: list[tuple[FrictionJoint, int, Array]] = []
-        for joint in joints:
-            unit = joint.unit_effect(running.motion, system)
-            by_force = np.asarray(joint.sense * joint.factor)
-            self.right -= unit * joint.friction(np.zeros_like(by_force))[:, None]
-            self._parts.append((joint, 2 * system.joints.index(joint.joint), unit * by_force[:, None]))
-        self._sign = _orientation(self.matrix)
-
-    def pressing(self, unknowns: Array) -> dict[Friction, Array]:
-        """Return the pressing forces. [N]"""
-        return {joint.law: joint.pressing(*unknowns[:, column : column + 2].T)[0] for joint, column, _ in self._parts}
-
-    def solve(self, start: Array) -> tuple[Array, Array, Status]:
-        """Return unknowns, residual and status, from a solution without friction."""
-        unknowns, all_rows = start.copy(), np.arange(len(start))
-        status = np.where(np.isfinite(start).all(axis=1), CONVERGED, NO_POSITION).astype(np.int8)
-        turned, residual = np.zeros(len(start), dtype=bool), np.full(len(start), np.nan)
-        for share in _STEPS:
-            rows, turns = all_rows[status == CONVERGED], turned.copy()
-            for step in range(_ITERATIONS + 1):
-                missing, residual[rows], derivative = self._miss(unknowns[rows], share, rows)
-                turned[rows] = _orientation(derivative) != self._sign[rows]
-                turns |= turned
-                going = ~(residual[rows] < _TOLERANCE) & np.isfinite(residual[rows])
-                rows = rows[going]
-                if not rows.size or step == _ITERATIONS:
-                    break
-                unknowns[rows] -= solve_positions(derivative[going], missing[going])
-            open_yet, settled = status == CONVERGED, residual < _TOLERANCE
-            lost = np.where(settled, turned, turns)
-            status[open_yet & lost] = SELF_LOCKING
-            status[open_yet & ~lost & ~settled] = NOT_CONVERGED
-        # after one more step only rounding is left
-        rows = all_rows[status == CONVERGED]
-        missing, _, derivative = self._miss(unknowns[rows], 1.0, rows)
-        unknowns[rows] -= solve_positions(derivative, missing)
-        unknowns[status != CONVERGED] = np.nan
-        return unknowns, residual, status
-
-    def margin(self, unknowns: Array) -> Array:
-        """Return the determinant of the equations at a solution over that without friction. [-]"""
-        sign, size = np.linalg.slogdet(np.nan_to_num(self._miss(unknowns, 1.0, slice(None))[2]))
-        ideal_sign, ideal_size = np.linalg.slogdet(np.nan_to_num(self.matrix))
-        ratio = sign * ideal_sign * np.exp(size - np.where(np.isfinite(ideal_size), ideal_size, 0.0))
-        return np.where(np.isfinite(unknowns).all(axis=1), ratio, np.nan)
-
-    def has_another(self, unknowns: Array, ideal: Array) -> Truth:
-        """Return where another solution is found, from the opposite of all forces or of those in one joint."""
-        result = np.zeros(len(ideal), dtype=bool)
-        for columns in (slice(None), *(slice(column, column + 2) for _, column, _ in self._parts)):
-            start = ideal.copy()
-            start[:, columns] *= -1
-            other = self._settled(start)
-            difference = np.max(np.abs(other - unknowns), axis=1, initial=0.0)
-            result |= difference > _MIN_DIFFERENCE * np.max(np.abs(unknowns), axis=1, initial=0.0)
-        return result
-
-    def _settled(self, start: Array) -> Array:
-        """Return the result of Newton's method with full friction, NaN without convergence."""
-        unknowns, rows, ratio = start, np.arange(len(start)), np.full(len(start), np.nan)
-        for _ in range(_MAX_TRIAL_STEPS):
-            missing, ratio[rows], derivative = self._miss(unknowns[rows], 1.0, rows)
-            going = ~(ratio[rows] < _TOLERANCE) & np.isfinite(ratio[rows])
-            rows = rows[going]
-            if not rows.size:
-                break
-            unknowns[rows] -= solve_positions(derivative[going], missing[going])
-        unknowns[~(ratio < _TOLERANCE)] = np.nan
-        return unknowns
-
-    def _miss(self, unknowns: Array, share: float, rows: Rows) -> tuple[Array, Array, Array]:
-        """Return the residual of the equilibrium at some positions, the same over the forces, and its derivative."""
-        matrix, right = self.matrix[rows], self.right[rows]
-        missing = (matrix @ unknowns[..., None])[..., 0] - right
-        size = (np.abs(matrix) @ np.abs(unknowns)[..., None])[..., 0] + np.abs(right)
-        derivative = matrix.copy()
-        for joint, column, effects in self._parts:
-            effect = effects[rows]
-            pressing, by_first, by_second = joint.pressing(unknowns[:, column], unknowns[:, column + 1])
-            missing += share * effect * pressing[:, None]
-            size += np.abs(effect) * pressing[:, None]
-            derivative[:, :, column] += share * effect * by_first[:, None]
-            derivative[:, :, column + 1] += share * effect * by_second[:, None]
-        # links that carry nothing have rounding errors only
-        size += _SMALL * np.abs(matrix).sum(axis=-1) * np.max(np.abs(unknowns), axis=1)[:, None]
-        ratio = np.divide(np.abs(missing), size, out=np.zeros_like(size), where=size != 0)
-        return missing, ratio.max(axis=1), derivative
-
-
-def _orientation(matrix: Array) -> Array:
-    """Return the sign of the determinant of each system, 0 where it is not known."""
-    return np.asarray(np.linalg.slogdet(np.nan_to_num(matrix))[0])
 
 
 def _efficiency(ideal: Array, actual: Array) -> Array:
