@@ -59,7 +59,7 @@ def analyse(
     CrankworkError
         If the mechanism cannot be assembled or cannot turn, or the diagram does not hang together.
     MethodError
-        If a method is asked for that the machine does not have.
+        If a method is used for that the machine does not have.
 
     Examples
     --------
@@ -75,12 +75,12 @@ def analyse(
     machine = machine if isinstance(machine, Machine) else machine.machine()
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method
-    asked = method or machine.method
-    if not asked.is_exact and machine.lengths is None:
-        raise MethodError(f"method {asked.name} exists for a slider-crank only; use exact")
+    used = method or machine.method
+    if not used.is_exact and machine.lengths is None:
+        raise MethodError(f"method {used.name} exists for a slider-crank only; use exact")
     results = _analysed(machine, grid, method, progress)
     stated = tuple(Notice(*notice) for notice in machine.notices)
-    form = partial(_in_other_form, machine, results.grid, asked)
+    form = partial(_in_other_form, machine, results.grid, used)
     return replace(results, notices=(*stated, *results.notices), in_other_form=form)
 
 
@@ -145,8 +145,8 @@ def columns_only(machine: Machine) -> Results:
     solved = solve(machine, machine.method)
     grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     # in the joints of an engine there are the forces of other cylinders too
-    whole = _IN_JOINTS if machine.engine is not None else ()
-    memory = {own_key(machine, key): known for key, known in solved.memory.items() if not key.startswith(whole)}
+    of_all = _IN_JOINTS if machine.engine is not None else ()
+    memory = {own_key(machine, key): known for key, known in solved.memory.items() if not key.startswith(of_all)}
     return Results(solved, grid, {}, {}, {}, (), {}, memory=memory)
 
 

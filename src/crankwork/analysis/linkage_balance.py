@@ -18,7 +18,7 @@ from crankwork.mechanism.mechanism import Crank
 
 _ORDERS = (1, 2, 3, 4)
 # share of the forces that are added which rounding leaves of nothing
-_NOTHING = 1e-13
+_ROUNDING = 1e-13
 _SAMPLES = 1440
 
 
@@ -49,7 +49,7 @@ def counterweight_balance(driver: Crank, memory: Mapping[str, Known], period: fl
     force = columns["x"] + 1j * columns["y"]
     size = np.max(np.sum([np.abs(columns[str(n)] + np.zeros(_SAMPLES)) for n in range(len(terms))], axis=0))
     coefficients = np.fft.fft(force) / _SAMPLES
-    coefficients[np.abs(coefficients) <= _NOTHING * size] = 0.0
+    coefficients[np.abs(coefficients) <= _ROUNDING * size] = 0.0
     # of a cycle of two turns there are half orders too
     for count in range(1, _ORDERS[-1] * turns + 1):
         both = abs(coefficients[count]) + abs(coefficients[-count])
