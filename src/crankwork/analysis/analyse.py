@@ -59,7 +59,7 @@ def analyse(
     CrankworkError
         If the mechanism cannot be assembled or cannot turn, or the diagram does not hang together.
     MethodError
-        If a method is used for that the machine does not have.
+        If a method is asked for that the machine does not have.
 
     Examples
     --------
