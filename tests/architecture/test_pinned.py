@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "9c940da83c5f",
     "quantities": "6afc290ef2c5",
-    "defaults": "ce0c6fab4a4e",
+    "defaults": "7951cd01bc67",
 }
 
 
