@@ -275,10 +275,10 @@ def _torque(results: Results | None) -> float | None:
 
 def _mean_torque(results: Results | None) -> float:
     """Return the mean torque that an engine gives, negative where it is driven; 0 for other machines. [N·m]"""
-    if results is None or results.machine.lengths is None:
+    if results is None or results.machine.lengths is None or "mean_torque" not in results.memory:
         return 0.0
-    summary = results.summary
-    return float(summary.get("mean_total_torque", summary.get("mean_torque", 0.0)))
+    mean = results.memory["mean_torque"]
+    return -mean.value if mean.key == "mean_driving_torque" else mean.value
 
 
 def _free(results: Results | None, pivot: str, point: str, values: Mapping[str, Any], size: float) -> float:
