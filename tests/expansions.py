@@ -261,7 +261,7 @@ def _is_another_peak(key: str, angle: float, engine: Results, room: float) -> bo
     extreme, column = word.removesuffix("_angle"), word.removesuffix("_angle").rpartition("_")[0]
     if not word.endswith(("_max_angle", "_min_angle")) or f"{column}{dot}{name}" not in engine:
         return False
-    there = engine.value(f"{column}{dot}{name}", math.degrees(angle))
+    there = float(engine.columns_at([math.degrees(angle)], [f"{column}{dot}{name}"])[f"{column}{dot}{name}"][0])
     stated = engine.summary[f"{extreme}{dot}{name}"]
     return abs(there - stated) <= room * abs(stated)
 

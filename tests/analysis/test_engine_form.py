@@ -27,7 +27,7 @@ from expansions import differences, mirrored, renamed, shuffled, turned, written
 from shown import in_parts
 
 ROOT = Path(__file__).parents[2]
-random_engine = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible_engines.py"))["random_engine"]
+smooth_engine = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible_engines.py"))["smooth_engine"]
 FILES = {
     **{name: template(name) for name in template_names()},
     **{path.stem: path.read_text("utf-8") for path in sorted((ROOT / "examples").glob("*.toml"))},
@@ -129,31 +129,11 @@ def test_measured_pressure_comes_back(tmp_path):
     assert differences(analyse(crankwork.read(path)), analyse(form)) == []
 
 
-def random_text(number: int) -> str:
-    """Return an engine by chance, of which no pressure jumps: a row where it does is of either side."""
-    draw = random.Random(f"engine form {number}")  # noqa: S311 - no secret
-    values = random_engine(draw)
-    if values.get("cycle", {}).get("kind") in ("otto", "ideal-diesel", "dual"):
-        values.pop("cycle")
-    count = values.get("engine", {}).get("cylinders", 1)
-    values["method"] = {"weights": draw.random() < 0.3}
-    if draw.random() < 0.3:
-        values["crank"]["angular_acceleration"] = "300 rad/s2"
-    if "articulated" in values.get("engine", {}):
-        values["engine"]["articulated"] |= {"mass": "0.9 kg", "small_end_share": 0.35, "inertia": "0.02 kg*m2"}
-    elif count > 1 and draw.random() < 0.4:
-        values["cylinder"].pop("offset", None)
-        values["engine"]["offsets"] = [draw.choice(("4 mm", "-4 mm", "0 mm")) for _ in range(count)]
-    if "cycle" in values and count > 1 and draw.random() < 0.3:
-        values["engine"]["misfire"] = [draw.randint(1, count)]
-    return written(values)
-
-
 @in_parts("seed", [1], [2, 3, 4, 5])
 def test_engines_by_chance_come_back(tmp_path, seed):
     seen = 0
     for number in range(5 if seed == 1 else 12):
-        text = random_text(100 * seed + number)
+        text = written(smooth_engine(random.Random(f"engine form {100 * seed + number}")))  # noqa: S311 - no secret
         try:
             linkage_of(tmp_path, text)
         except CrankworkError:
@@ -263,6 +243,15 @@ def test_another_machine_is_no_engine_and_says_why(old):
 @for_each("name", ["four-bar", "scotch-yoke", "opposed-pistons", "atkinson", "andrews-squeezer"])
 def test_linkages_of_other_groups_are_no_engines(name):
     assert engine_form(read_machine(FILES[name])) is None
+
+
+@for_each("degrees", [30, 120, 210])
+def test_banks_lean_as_before_whichever_way_the_engine_is_turned(tmp_path, degrees):
+    """Of a boxer engine one bank stands at -90 degrees from the reference and one at 90."""
+    boxer = V_TWO.replace('layout = "V"', 'layout = "boxer"').replace('bank_angle = "90 deg"\n', "")
+    values = turned(tomllib.loads(linkage_of(tmp_path, boxer)), degrees)
+    form = form_of(written(values))
+    assert [place.axis for place in form.engine.layout.places] == pytest.approx([-90.0, 90.0])
 
 
 def test_unequal_rods_are_no_engine(tmp_path):

@@ -53,6 +53,25 @@ def random_engine(draw: random.Random) -> Values:  # noqa: C901 - chance after c
     return values
 
 
+def smooth_engine(draw: random.Random) -> Values:
+    """Return an engine with more of its parts, of which no pressure jumps: a row where it does is of either side."""
+    values = random_engine(draw)
+    if values.get("cycle", {}).get("kind") in ("otto", "ideal-diesel", "dual"):
+        values.pop("cycle")
+    count = values.get("engine", {}).get("cylinders", 1)
+    values["method"] = {"weights": draw.random() < 0.3}
+    if draw.random() < 0.3:
+        values["crank"]["angular_acceleration"] = "300 rad/s2"
+    if "articulated" in values.get("engine", {}):
+        values["engine"]["articulated"] |= {"mass": "0.9 kg", "small_end_share": 0.35, "inertia": "0.02 kg*m2"}
+    elif count > 1 and draw.random() < 0.4:
+        values["cylinder"].pop("offset", None)
+        values["engine"]["offsets"] = [draw.choice(("4 mm", "-4 mm", "0 mm")) for _ in range(count)]
+    if "cycle" in values and count > 1 and draw.random() < 0.3:
+        values["engine"]["misfire"] = [draw.randint(1, count)]
+    return values
+
+
 def _cycle(draw: random.Random, kind: str) -> Values:
     cycle: Values = {"kind": kind}
     if kind in ("petrol", "diesel"):

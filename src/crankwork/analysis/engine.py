@@ -167,9 +167,11 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
     if "rotating_inertia_force" in memory:
         found["rotating_inertia_force"] = memory["rotating_inertia_force"]
     mean = over.mean("crank_torque", "mean_torque")
-    found["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
     if solved.space is not None:
         work = found["indicated_work"] = work_of_gas(solved, solved.space)
+        if solved.machine.angular_acceleration:
+            # what speeds up the parts is none of a cycle that repeats
+            mean = gas_formulas.mean_torque(work, cycle).named("mean_torque")
         found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, memory["swept_volume"])
         power = found["indicated_power"] = gas_formulas.indicated_power(work, memory["speed"], cycle)
         valves = solved.machine.gas.valves if solved.machine.gas is not None else None
@@ -180,6 +182,7 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
             if engine is None or len(engine.layout.places) == 1:
                 # of several cylinders all together deliver
                 found |= stated.passed(inlet_flow(found["induced_volume"], memory["speed"], cycle), power)
+    found["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
     return found
 
 

@@ -238,7 +238,9 @@ class _Form:
             # there is no cylinder that says how it leans
             reference = -self._inclination()
         axes = [_clean(self._direction(cell.head) - reference) for cell in self._cells]
-        axes = _unified([axis - _TURN if axis > _TURN / 2 + _SAME_ANGLE else axis for axis in axes], _SAME_ANGLE)
+        # of half a turn each sign stands for the same
+        axes = [axis - _TURN * round(axis / _TURN) if abs(axis) > _TURN / 2 + _SAME_ANGLE else axis for axis in axes]
+        axes = _unified(axes, _SAME_ANGLE)
         around = [axis % _TURN for axis in axes]
         is_row = len(axes) > 2 and len({throw for _, throw in pins.values()}) == 1
         steps = {round(after - before, 6) for before, after in pairwise([*sorted(around), min(around) + _TURN])}

@@ -38,6 +38,8 @@ from crankwork.shaft.fluctuation import TrueSpeed, excess_work
 _ORDERS = 12
 _SAMPLES = 1440
 _ROUNDING = 1e-16
+# what rounding leaves of a mean of nothing, of the largest torque
+_NOTHING = 1e-13
 
 
 class EngineTorque(NamedTuple):
@@ -104,10 +106,16 @@ def engine_torque(
     first = whole.of(1, "crank_torque").key
     one, all_ = (_curve(over, key) for key in (first, "total_torque"))
     w = whole.master.memory["speed"]
-    mean = delivered_or_needed(over.mean("total_torque", "mean_total_torque"))
+    balance = _balance(whole, memory, over, all_)
+    mean = over.mean("total_torque", "mean_total_torque")
+    if whole.machine.angular_acceleration and balance.torque.key == "static_torque":
+        # what speeds up the parts is none of a cycle that repeats; of weights alone rounding is left
+        value, largest = balance.curve.mean, max(abs(extremes[f"total_torque_{one}"].value) for one in ("max", "min"))
+        value = value if abs(value) > _NOTHING * largest else 0.0
+        mean = (-Known(Found(-value, "mean", (balance.torque,)), "mean_driving_torque")).named("mean_total_torque")
+    mean = delivered_or_needed(mean)
     summary = {"mean_torque": mean}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
-    balance = _balance(whole, memory, over, all_)
     excess = summary["excess_work"] = excess_of(balance)
     between = work_of(excess, mean, origins.cycle_angle(whole.machine))
     # textbooks draw the extremes as far above the mean as below it

@@ -82,7 +82,7 @@ ROWS = (
     Quantity("rotating_inertia_force", "N",
              "Along the crank arm, positive towards the crankshaft, so never positive itself.", "MPa"),
     Quantity("crank_torque", "N*m", "Torque of one cylinder on the crankshaft, positive with the rotation."),
-    Quantity("mean_torque", "N*m", "Mean of the crank torque over the cycle."),
+    Quantity("mean_torque", "N*m", "Mean of the crank torque over the cycle, without what speeds up the parts."),
     Quantity("rotating_torque", "N*m",
              "Weight of the rotating mass and its resistance to angular acceleration, about the crankshaft."),
     Quantity("overturning_moment", "N*m", "Moment of piston force and side force on the frame about the crankshaft."),
