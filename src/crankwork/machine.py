@@ -152,6 +152,14 @@ class Gas:
     path: str = "gas"
 
 
+class PinBearing(NamedTuple):
+    """Known data of the bearing in a revolute joint of a linkage."""
+
+    diameter: float | None = None  # [m]
+    length: float | None = None  # That carries load [m]
+    link: str = ""  # One of the two links, along whose axis reversal counts; by default that of the rod
+
+
 @dataclass(frozen=True)
 class Bearings:
     """Known sizes of the bearings, and the rays of their wear diagrams.
@@ -162,6 +170,8 @@ class Bearings:
         Diameters and working lengths of crankpin, main journals and piston pin. [m]
     rays : int
         Rays of the wear diagram, 12 or 24.
+    pins : mapping of str to PinBearing
+        Bearings of a linkage, by the name of the joint.
     """
 
     crankpin_diameter: float | None = None
@@ -171,6 +181,7 @@ class Bearings:
     pin_diameter: float | None = None
     pin_length: float | None = None
     rays: int = 12
+    pins: Mapping[str, PinBearing] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -356,6 +367,8 @@ class Machine:
         Redundant links that fit, with their shares of the load; not in `linkage`.
     friction : tuple of Friction
         Friction in pins and guides of a linkage.
+    bearings : Bearings
+        Sizes of the bearings of a linkage; those of an engine are among its data.
     chambers, charges : mapping of str to Chamber and to Charge
         The gas between sliding pieces of a linkage, and the gas sealed in several chambers, by name.
     drive : Drive
@@ -392,6 +405,7 @@ class Machine:
     loads: tuple[Load, ...] = ()
     redundant: tuple[RedundantLink, ...] = ()
     friction: tuple[Friction, ...] = ()
+    bearings: Bearings = Bearings()
     chambers: Mapping[str, Chamber] = field(default_factory=dict)
     charges: Mapping[str, Charge] = field(default_factory=dict)
     drive: Drive = Drive()

@@ -10,6 +10,7 @@ from typing import Any
 
 from crankwork.analysis.chambers import solve_linkage
 from crankwork.analysis.reach import reachable
+from crankwork.description.bearings_build import build_bearings
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
 from crankwork.description.drive_build import read_drive
@@ -83,6 +84,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if reader.problems:
         return None
     friction = build_friction(values, linkage, mechanism, reader)
+    bearings = build_bearings(values, mechanism, reader, turns=crank_range is None or crank_range.is_whole)
     notices += tuple(_on_pins(loads, linkage, mechanism))
     loads = with_starts(loads, values, mechanism, crank_range)
     if values["method"]["weights"]:
@@ -97,6 +99,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         loads=loads,
         redundant=redundant,
         friction=friction,
+        bearings=bearings,
         way=crank_range,
         notices=notices,
         chambers=chambers,

@@ -6,7 +6,7 @@ import math
 from typing import get_args
 
 from crankwork.description import document_keys
-from crankwork.description.engine_keys import FLYWHEEL, HEAT_RELEASE
+from crankwork.description.engine_keys import BEARINGS, FLYWHEEL, HEAT_RELEASE
 from crankwork.description.keys import (
     AMBIENT,
     DIAGRAM,
@@ -163,6 +163,16 @@ _FRICTION = TableSpec("friction", {
     "sliders": KeySpec(MapOf(_SLIDER_FRICTION, most=300)),
 })  # fmt: skip
 
+_BEARING_SIZE = KeySpec(Quantity(("length",), 1e-6, 10.0))
+_BEARINGS = TableSpec("bearings", {
+    "pins": KeySpec(MapOf(TableSpec("pin_bearing", {
+        "diameter": _BEARING_SIZE,
+        "length": _BEARING_SIZE,
+        "link": KeySpec(_NAME),
+    }), most=500)),
+    "rays": BEARINGS.keys["rays"],
+})  # fmt: skip
+
 EFFICIENCY = TableSpec("efficiency", {
     "chain": KeySpec(Nested(Number(0.001, 1.0)), required=True),
     "decimals": KeySpec(Number(1, 6, whole=True)),
@@ -253,6 +263,7 @@ LINKAGE_FILE = TableSpec("file", {
     "positions": KeySpec(MapOf(_PLACE)),
     "loads": KeySpec(ListOf(_LOAD)),
     "friction": KeySpec(_FRICTION),
+    "bearings": KeySpec(_BEARINGS),
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
     "efficiency": KeySpec(EFFICIENCY),
@@ -265,7 +276,7 @@ LINKAGE_FILE = TableSpec("file", {
 
 # a crank with a law has no speed, and other drivers have no crank
 DRIVEN_FILE = LINKAGE_FILE._replace(keys={
-    **LINKAGE_FILE.keys,
+    **{name: key for name, key in LINKAGE_FILE.keys.items() if name != "bearings"},
     "crank": KeySpec(_CRANK._replace(keys={
         **{name: key._replace(required=False) for name, key in _CRANK.keys.items()},
         "angular_acceleration": NO_ACCELERATION._replace(default=None),
