@@ -38,6 +38,7 @@ _SAME = {
     "captions.inertia": "quantities.inertia_force",
     "captions.instant_centres": "headings.instant_centres",
     "captions.more": "headings.more",
+    "captions.linkage_orders": "figures.balance_orders",
     "captions.motion": "figures.kinematics",
     "captions.pairs": "columns.joints",
     "captions.polytropes": "tables.polytropes",
