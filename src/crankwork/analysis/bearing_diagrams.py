@@ -64,7 +64,7 @@ def wear_rings(results: Results, listing: str) -> tuple[Array, dict[str, WearRin
     """Return the angles of the rays of wear diagrams [deg], and the rings by the name of the journal."""
     columns = dict(results.listings[listing].columns)
     angles = np.degrees(columns.pop("wear_ray_angle"))
-    return angles, {key.partition(".")[2]: WearRing(one, oil_hole(one)) for key, one in columns.items()}
+    return angles, {key.partition(".")[2]: WearRing(sums, oil_hole(sums)) for key, sums in columns.items()}
 
 
 def load_extremes(memory: Mapping[str, Known]) -> list[float]:
@@ -83,8 +83,8 @@ class JointDiagrams:
     results: Results  # Of a linkage with loads of bearings
 
     def _names(self, listing: str) -> tuple[str, ...]:
-        found = self.results.listings.get(listing)
-        columns = () if found is None else tuple(found.columns)
+        table = self.results.listings.get(listing)
+        columns = () if table is None else tuple(table.columns)
         return tuple(key.partition(".")[2] for key in columns if key.startswith("wear_sum."))
 
     @property
@@ -98,12 +98,12 @@ class JointDiagrams:
         results, memory, cycle = self.results, self.results.memory, self.results.machine.cycle
         keys = {name: tuple(f"{kind}.{name}" for kind in FORCES[:2]) for name in self.pins}
         keys |= {name: (f"bearing_force_x.{name}", f"bearing_force_y.{name}") for name in self._names("main_wear")}
-        every = [key for pair in keys.values() for key in pair]
-        corners = breaks_of([memory[key] for key in every], cycle)
+        components = [key for pair in keys.values() for key in pair]
+        corners = breaks_of([memory[key] for key in components], cycle)
         angles = [np.arange(0.0, cycle), corners, corners[:-1] + AFTER, np.mod(load_extremes(memory), cycle)]
         degrees = np.unique(np.concatenate(angles))
         degrees = degrees[degrees < cycle]
-        columns = results.columns_at(degrees, every)
+        columns = results.columns_at(degrees, components)
         loads = {
             name: BearingLoad(-columns[x] if name in self.pins else columns[x], columns[y])
             for name, (x, y) in keys.items()

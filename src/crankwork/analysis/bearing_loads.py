@@ -35,18 +35,19 @@ def load_values(
     """
     kind, _, owner = key.partition(".")
     mean = over.mean(key, f"mean_bearing_load.{name}")
-    found = {mean.key: mean}
+    values = {mean.key: mean}
     for word in ("max", "max_angle", "min", "min_angle"):
         extreme = extremes[f"{kind}_{word}" + (f".{owner}" if owner else "")]
-        found[f"bearing_load_{word}.{name}"] = extreme.named(f"bearing_load_{word}.{name}")
-    largest = found[f"bearing_load_max.{name}"]
+        values[f"bearing_load_{word}.{name}"] = extreme.named(f"bearing_load_{word}.{name}")
+    largest = values[f"bearing_load_max.{name}"]
     none = Known(Found(1.0, "none", (mean,)))
     ratio = formulas.bearing_load_ratio(largest, mean) if mean.value else none
-    found[f"bearing_load_ratio.{name}"] = ratio.named(f"bearing_load_ratio.{name}")
-    for word, load in (("", mean), ("_max", largest)) if size is not None else ():
-        pressure = formulas.bearing_pressure(load, *size)
-        found[f"bearing_pressure{word}.{name}"] = pressure.named(f"bearing_pressure{word}.{name}")
-    return found
+    values[f"bearing_load_ratio.{name}"] = ratio.named(f"bearing_load_ratio.{name}")
+    if size is not None:
+        for word, load in (("", mean), ("_max", largest)):
+            pressure = formulas.bearing_pressure(load, *size)
+            values[f"bearing_pressure{word}.{name}"] = pressure.named(f"bearing_pressure{word}.{name}")
+    return values
 
 
 def reversal_values(key: str, over: OverCycle, extremes: Mapping[str, Known], owner: str = "") -> dict[str, Known]:
@@ -56,13 +57,13 @@ def reversal_values(key: str, over: OverCycle, extremes: Mapping[str, Known], ow
     """
     kind, dot, name = key.partition(".")
     peaks = extremes[f"{kind}_max{dot}{name}"].value, extremes[f"{kind}_min{dot}{name}"].value
-    turned, of = reversal(*over.stretches(key), peaks), (over.knowns[key],)
-    values = (math.radians(turned.duration), turned.ratio)
-    found = (
-        Known(Procedure(value, "reversal", of, reversal_of_polynomials, part), f"{kind}.{owner}" if owner else kind)
-        for part, (kind, value) in enumerate(zip(_REVERSAL, values, strict=True))
+    turned, column = reversal(*over.stretches(key), peaks), (over.knowns[key],)
+    numbers = (math.radians(turned.duration), turned.ratio)
+    values = (
+        Known(Procedure(value, "reversal", column, reversal_of_polynomials, part), f"{kind}.{owner}" if owner else kind)
+        for part, (kind, value) in enumerate(zip(_REVERSAL, numbers, strict=True))
     )
-    return {known.key: known for known in found}
+    return {known.key: known for known in values}
 
 
 @dataclass(frozen=True)
@@ -76,31 +77,31 @@ class OnRays:
         return np.asarray(self.sums[np.rint(degrees * self.sums.size / 360).astype(int) % self.sums.size])
 
 
-def wear_table(key: str, load: BearingLoad, of: Iterable[Known], rays: int) -> Known:
+def wear_table(key: str, load: BearingLoad, traced: Iterable[Known], rays: int) -> Known:
     """Return the sums of loads on the rays of a journal.
 
-    `load`: on the journal in its own frame every `WEAR_STEP` degrees [N]; `of`: the same, traced.
+    `load`: on the journal in its own frame every `WEAR_STEP` degrees [N]; `traced`: the same, traced.
     """
-    return Known(Table(OnRays(wear_sums(load, rays=rays)), "wear", of=of), key)
+    return Known(Table(OnRays(wear_sums(load, rays=rays)), "wear", of=traced), key)
 
 
-def hole_of(key: str, table: Known, of: Iterable[Known], rays: int) -> Known:
+def hole_of(key: str, table: Known, forces: Iterable[Known], rays: int) -> Known:
     """Return the angle of the oil hole of a crankpin from the sums on its rays.
 
-    `of`: radial and tangential force of the rods, traced.
+    `forces`: radial and tangential force of the rods, traced.
     """
     if not (isinstance(table.node, Table) and isinstance(table.node.function, OnRays)):
         raise TypeError(f"{table!r} is not a table of wear")
     angle = math.radians(oil_hole(table.node.function.sums).angle)
-    by = Known(Procedure(angle, "oil_hole", of, OilHoleOfPolynomials(WEAR_STEP, rays), 0))
-    return Known(Found(angle, "oil_hole", (table,), by=by), key)
+    procedure = Known(Procedure(angle, "oil_hole", forces, OilHoleOfPolynomials(WEAR_STEP, rays), 0))
+    return Known(Found(angle, "oil_hole", (table,), by=procedure), key)
 
 
-def loads_listing(found: Mapping[str, Known], *, with_reversal: bool = False) -> Listing:
+def loads_listing(values: Mapping[str, Known], *, with_reversal: bool = False) -> Listing:
     """Return what the loads of all bearings come to over the cycle, a row for each."""
-    names = tuple(key.partition(".")[2] for key in found if key.startswith("mean_bearing_load."))
+    names = tuple(key.partition(".")[2] for key in values if key.startswith("mean_bearing_load."))
     columns = {
-        key: np.array([found[f"{key}.{name}"].value if f"{key}.{name}" in found else np.nan for name in names])
+        key: np.array([values[f"{key}.{name}"].value if f"{key}.{name}" in values else np.nan for name in names])
         for key in (*_LISTED, *(_REVERSAL if with_reversal else ()))
     }
     return Listing({key: values for key, values in columns.items() if not np.all(np.isnan(values))}, names)

@@ -87,18 +87,18 @@ class JointBearings:
     @property
     def of_journals(self) -> dict[str, Known]:
         """Components of the loads of crankpins and main journals, each in the frame of its crank."""
-        every = {**self.columns, **self.between}
-        return {key: every[key] for name in (*self.crankpins, *self.journals) for key in _keys(self, name)}
+        components = {**self.columns, **self.between}
+        return {key: components[key] for name in (*self.crankpins, *self.journals) for key in _keys(self, name)}
 
     def followed(self, kept: Mapping[str, Known]) -> dict[str, Known]:
         """Return further columns that single values are taken from, of the bearings whose joint forces are kept."""
-        sound = [
+        usable = [
             name
             for name in self.loads
             if all(f"joint_force.{joint}" in kept for joint in self.crankpins.get(name, (name,)))
         ]
-        found = {key: self.columns[key] for name in sound if (key := self.loads[name]) not in kept}
-        return found | {f"{_X}.{name}": self.between[f"{_X}.{name}"] for name in sound if name in self.reversing}
+        values = {key: self.columns[key] for name in usable if (key := self.loads[name]) not in kept}
+        return values | {f"{_X}.{name}": self.between[f"{_X}.{name}"] for name in usable if name in self.reversing}
 
 
 def bearings_of(machine: Machine, motion: Motion, memory: Mapping[str, Known]) -> JointBearings:
@@ -116,7 +116,7 @@ def bearings_of(machine: Machine, motion: Motion, memory: Mapping[str, Known]) -
     shown, held = names_of_pivots(mechanism), joints(mechanism)
     pins = {shown.get(joint.name, joint.name): joint for joint in held if isinstance(joint, Pin)}
     # seen from a crank, with its rotation
-    sides = {crank.link: crank.direction}
+    sides: dict[str, int] = {crank.link: crank.direction}
     sides |= {geared.link: crank.direction * (1 if geared.ratio > 0 else -1) for geared in crank.geared}
     forces = {name: (memory[f"joint_force_x.{name}"], memory[f"joint_force_y.{name}"]) for name in pins}
     columns, between, journals = dict[str, Known](), dict[str, Known](), list[str]()
@@ -150,12 +150,14 @@ def bearings_of(machine: Machine, motion: Motion, memory: Mapping[str, Known]) -
 
 def _crankpins(machine: Machine, pins: Mapping[str, Pin], cranks: Mapping[str, int]) -> dict[str, tuple[str, ...]]:
     """Return the joints of the rods on each pin of a crank; what links too many put on one is not known there."""
-    extra = {point for one in machine.redundant for point in one.member.points}
-    found: dict[str, tuple[str, ...]] = {}
+    extra = {point for link in machine.redundant for point in link.member.points}
+    # on the axis of the crank there is no arm
+    extra |= {point.name for point in machine.mechanism.points if point.along == point.across == 0}
+    crankpins: dict[str, tuple[str, ...]] = {}
     for name, joint in pins.items():
         if joint.other in cranks and joint.point not in extra:
-            found[joint.point] = (*found.get(joint.point, ()), name)
-    return found
+            crankpins[joint.point] = (*crankpins.get(joint.point, ()), name)
+    return crankpins
 
 
 def _arm(motion: Motion, link: str, point: str, crank: Crank) -> _Frame:
@@ -197,27 +199,25 @@ def _components(name: str, frame: _Frame, x: Known, y: Known) -> dict[str, Known
     return {known.key: known for known in load}
 
 
-def _rod(joint: Pin, others: set[str]) -> str:
+def _rod(joint: Pin, excluded: set[str]) -> str:
     """Return the link of a joint along whose axis its load reverses, of two rods the one that drives; none if none."""
-    return next((link for link in (joint.other, joint.link) if link not in others), "")
+    return next((link for link in (joint.other, joint.link) if link not in excluded), "")
 
 
-def bearing_values(
-    machine: Machine, bearings: JointBearings, over: OverCycle, table: CrankGrid, columns: Mapping[str, Array]
-) -> dict[str, Known]:
+def bearing_values(machine: Machine, bearings: JointBearings, over: OverCycle, program: Program) -> dict[str, Known]:
     """Return what the loads come to over the cycle: mean, extremes, pressures, reversal, wear and oil holes.
 
-    `columns`: those of `JointBearings.of_journals` at the crank angles of the table [N].
+    `program`: replays, among others, the components of `JointBearings.of_journals`.
     """
     loads = {name: key for name, key in bearings.loads.items() if key in over.knowns and not over.is_nothing(key)}
     reversing = {name: f"{_X}.{name}" for name in bearings.reversing if name in loads}
     extremes = over.extremes(*loads.values(), *reversing.values())
-    found = dict[str, Known]()
+    values = dict[str, Known]()
     for name, key in loads.items():
-        found |= load_values(name, key, over, extremes, _size(machine, name))
+        values |= load_values(name, key, over, extremes, _size(machine, name))
     for name, key in reversing.items():
-        found |= reversal_values(key, over, extremes, name)
-    return found | _wear(machine, bearings, loads, _at_steps(machine, bearings, table, columns))
+        values |= reversal_values(key, over, extremes, name)
+    return values | _wear(machine, bearings, loads, program)
 
 
 def _size(machine: Machine, name: str) -> tuple[Known, Known] | None:
@@ -247,52 +247,44 @@ def _keys(bearings: JointBearings, name: str) -> tuple[str, str]:
     return f"{kinds[0]}.{name}", f"{kinds[1]}.{name}"
 
 
-def _at_steps(
-    machine: Machine, bearings: JointBearings, table: CrankGrid, columns: Mapping[str, Array]
-) -> Mapping[str, Array]:
-    """Return the components of loads at the steps of wear diagrams, which a table may have already."""
-    degrees = np.arange(0.0, machine.cycle, WEAR_STEP)
-    rows = np.searchsorted(table.degrees, degrees)
-    if rows[-1] < len(table) and np.array_equal(table.degrees[rows], degrees):
-        return {key: columns[key][rows] for key in bearings.of_journals}
-    return Program(bearings.of_journals)(CrankGrid.from_degrees(degrees))
-
-
-def _wear(
-    machine: Machine, bearings: JointBearings, loaded: Mapping[str, str], columns: Mapping[str, Array]
-) -> dict[str, Known]:
+def _wear(machine: Machine, bearings: JointBearings, loaded: Mapping[str, str], program: Program) -> dict[str, Known]:
     """Return the wear of the loaded crankpins and main journals, and the oil holes of the crankpins."""
-    rays, every, found = machine.bearings.rays, bearings.of_journals, dict[str, Known]()
+    rays, components, values = machine.bearings.rays, bearings.of_journals, dict[str, Known]()
+    if not components:
+        return values
+    steps = CrankGrid.from_degrees(np.arange(0.0, machine.cycle, WEAR_STEP))
+    columns = dict(zip(components, program.rows(steps, components), strict=True))
     for name, load in journal_loads(bearings, columns).items():
         if name not in loaded:
             continue
-        of = tuple(every[key] for key in _keys(bearings, name))
-        table = found[f"wear_sum.{name}"] = wear_table(f"wear_sum.{name}", load, of, rays)
+        pair = tuple(components[key] for key in _keys(bearings, name))
+        table = values[f"wear_sum.{name}"] = wear_table(f"wear_sum.{name}", load, pair, rays)
         if name in bearings.crankpins:
-            hole = hole_of(f"oil_hole_angle.{name}", table, of, rays)
-            found[hole.key] = hole
-    return found
+            hole = hole_of(f"oil_hole_angle.{name}", table, pair, rays)
+            values[hole.key] = hole
+    return values
 
 
-def bearing_summary(bearings: JointBearings, found: Mapping[str, Known]) -> dict[str, Known]:
+def bearing_summary(bearings: JointBearings, values: Mapping[str, Known]) -> dict[str, Known]:
     """Return mean and largest load of each crankpin, and where its oil hole should be."""
     result = dict[str, Known]()
     for name in bearings.crankpins:
-        if f"oil_hole_angle.{name}" in found:
+        if f"oil_hole_angle.{name}" in values:
             result |= {
-                f"{key}.{name}": found[f"{of}.{name}"].named(f"{key}.{name}") for key, of in _OF_CRANKPIN.items()
+                f"{key}.{name}": values[f"{statistic}.{name}"].named(f"{key}.{name}")
+                for key, statistic in _OF_CRANKPIN.items()
             }
-            result[f"oil_hole_angle.{name}"] = found[f"oil_hole_angle.{name}"]
+            result[f"oil_hole_angle.{name}"] = values[f"oil_hole_angle.{name}"]
     return result
 
 
-def bearing_listings(machine: Machine, bearings: JointBearings, found: Mapping[str, Known]) -> dict[str, Listing]:
+def bearing_listings(machine: Machine, bearings: JointBearings, values: Mapping[str, Known]) -> dict[str, Listing]:
     """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
-    if not found:
+    if not values:
         return {}
-    result = {"bearing_loads": loads_listing(found, with_reversal=True)}
+    result = {"bearing_loads": loads_listing(values, with_reversal=True)}
     for listing, names in (("crankpin_wear", bearings.crankpins), ("main_wear", bearings.journals)):
-        tables = {name: found[f"wear_sum.{name}"] for name in names if f"wear_sum.{name}" in found}
+        tables = {name: values[f"wear_sum.{name}"] for name in names if f"wear_sum.{name}" in values}
         if tables:
             result[listing] = wear_listing(tables, machine.bearings.rays)
     return result

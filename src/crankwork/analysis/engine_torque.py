@@ -11,7 +11,7 @@ from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.engine_bearings import rotating_mass_of
 from crankwork.analysis.flywheel import turning_inertia
-from crankwork.analysis.harmonics import curve_of, order_count, remembered_harmonics
+from crankwork.analysis.harmonics import curve_of, order_count, traced_harmonics
 from crankwork.analysis.reduction import MOVING
 from crankwork.analysis.solved import Notice
 from crankwork.analysis.speed import Balance, excess_of, turn_of, work_of
@@ -147,7 +147,7 @@ def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[s
     count = order_count(layout.cycle)
     one = curve_harmonics(torque.one, count)
     all_ = None if whole.is_uniform else curve_harmonics(torque.total, count)
-    found = {known.key: known for known in remembered_harmonics(one, of)}
+    found = {known.key: known for known in traced_harmonics(one, of)}
     stars = phase_sums(layout, one.orders.tolist())
     for at, order in enumerate(one.orders.tolist()):
         star = Known(Found(abs(stars[at]), "phase_star"), f"phase_sum.{order:g}")

@@ -30,19 +30,19 @@ def curve_of(over: OverCycle, key: str) -> Curve:
     return Curve.legendre(np.radians(over.edges), series[:, : last + 1])
 
 
-def remembered_harmonics(found: TorqueHarmonics, of: Known, kind: str = "harmonic") -> Iterator[Known]:
+def traced_harmonics(harmonics: TorqueHarmonics, torque: Known, kind: str = "harmonic") -> Iterator[Known]:
     """Yield coefficients, amplitude and phase of every harmonic of a torque.
 
-    `of`: the torque; `kind`: with which the keys begin, `total_harmonic` of the whole machine.
+    `torque`: that they are of; `kind`: with which the keys begin, `total_harmonic` of the whole machine.
     """
-    for at, order in enumerate(found.orders.tolist()):
+    for index, order in enumerate(harmonics.orders.tolist()):
         cosine, sine = (
-            Known(Harmonic(float(getattr(found, part)[at]), of, part, order), f"{kind}_{part}.{order:g}")
+            Known(Harmonic(float(getattr(harmonics, part)[index]), torque, part, order), f"{kind}_{part}.{order:g}")
             for part in ("cosine", "sine")
         )
         amplitude = amplitude_of_harmonic(cosine, sine).named(f"{kind}_amplitude.{order:g}")
         yield from (cosine, sine, amplitude)
-        yield Known(Found(float(found.phase[at]), "fourier", (cosine, sine)), f"{kind}_phase.{order:g}")
+        yield Known(Found(float(harmonics.phase[index]), "fourier", (cosine, sine)), f"{kind}_phase.{order:g}")
 
 
 def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
@@ -64,12 +64,12 @@ def delivered_harmonics(over: OverCycle, cycle: float) -> dict[str, Known]:
     if "balancing_torque" not in over.knowns or over.is_nothing("balancing_torque"):
         return {}
     torque = (-over.knowns["balancing_torque"]).named("total_torque")
-    found = curve_harmonics(-curve_of(over, "balancing_torque"), order_count(cycle))
-    harmonics = remembered_harmonics(found, torque, "total_harmonic")
+    coefficients = curve_harmonics(-curve_of(over, "balancing_torque"), order_count(cycle))
+    harmonics = traced_harmonics(coefficients, torque, "total_harmonic")
     return {torque.key: torque} | {known.key: known for known in harmonics}
 
 
-def listed_harmonics(found: Mapping[str, Known]) -> dict[str, Listing]:
+def listed_harmonics(values: Mapping[str, Known]) -> dict[str, Listing]:
     """Return the table of the harmonics of a linkage, if there are any."""
-    harmonics = {key: known for key, known in found.items() if key.startswith("total_harmonic")}
+    harmonics = {key: known for key, known in values.items() if key.startswith("total_harmonic")}
     return {"torque_harmonics": harmonics_listing(harmonics)} if harmonics else {}

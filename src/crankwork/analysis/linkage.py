@@ -113,7 +113,7 @@ def analyse_linkage(
     moved = _moved(machine, grid)
     machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
     memory, rubbing, table, found = moved.memory, moved.rubbing, moved.table, reached.travel
-    over, summary, told, unusual = _singles(moved, memory)
+    over, summary, told, unusual, program = _singles(moved, memory)
     notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
     notices += rubbing.notices + told
     checks = (
@@ -130,27 +130,23 @@ def analyse_linkage(
             between |= turn.between
             notices += turn.notices
     summary |= _power_of_valves(machine, memory | summary)
-    driver = machine.mechanism.driver
-    if moved.has_steady_crank and "shaking_force" in memory and isinstance(driver, Crank):
-        summary |= {
-            key: one.named(key)
-            for key, one in counterweight_balance(driver, memory | summary, machine.mechanism.period)
-        }
+    mechanism = machine.mechanism
+    if moved.has_steady_crank and "shaking_force" in memory:
+        balance = counterweight_balance(mechanism.crank, memory | summary, mechanism.period)
+        summary |= {key: known.named(key) for key, known in balance}
     listings = dict[str, Listing]()
-    replayed = Program({**moved.bearings.of_journals, **memory})(table)
     if found is None:
-        loads = bearing_values(machine, moved.bearings, over, table, replayed)
+        loads = bearing_values(machine, moved.bearings, over, program)
         harmonics = delivered_harmonics(over, machine.cycle) if moved.has_steady_crank else {}
         summary |= bearing_summary(moved.bearings, loads)
         between |= {**moved.bearings.between, **loads, **harmonics}
         listings = bearing_listings(machine, moved.bearings, loads) | listed_harmonics(harmonics)
     ran = let_go(solved, motion, found, summary, progress)
-    summary, checks, notices = summary | ran.summary, checks | ran.checks, notices + ran.notices
-    listings |= ran.listings
-    notices += tuple(_of_machine(machine))
+    summary, checks, listings = summary | ran.summary, checks | ran.checks, listings | ran.listings
+    notices += ran.notices + tuple(_of_machine(machine))
     # where links pass through a line, that is told already
     notices += () if machine.mechanism.passages else unusual
-    columns = absent_where_still({key: replayed[key] for key in memory})
+    columns = absent_where_still(Program(memory)(table))
     # of a link that never turns
     none = {key for key, one in columns.items() if key.startswith("instant_centre_") and np.isnan(one).all()}
     columns = {key: one for key, one in columns.items() if key not in none}
@@ -215,6 +211,7 @@ class _Singles(NamedTuple):
     summary: dict[str, Known]
     told: tuple[Notice, ...]
     unusual: tuple[Notice, ...]
+    program: Program  # Of the columns over the cycle, and of the loads of crankpins and main journals
 
 
 def _singles(moved: _Moved, memory: Mapping[str, Known], name: str | None = None) -> _Singles:
@@ -235,12 +232,13 @@ def _singles(moved: _Moved, memory: Mapping[str, Known], name: str | None = None
         told.append(Notice("working_range", {"from": start, "to": end}))
     if name is None:
         followed |= moved.bearings.followed(followed)
-    over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
+    program = Program({**followed, **moved.bearings.of_journals})
+    over = OverCycle(followed, CrankGrid.from_degrees, end - start, start, program=program)
     extremes, unusual = quality_of(over)
     summary = _summary(moved.solved, over, extremes, is_whole=found is None)
     if found is not None:
         summary |= limits_of(found, memory)
-    return _Singles(over, summary, tuple(told), unusual)
+    return _Singles(over, summary, tuple(told), unusual, program)
 
 
 class _Moved(NamedTuple):
@@ -354,8 +352,8 @@ def _summary(
 ) -> dict[str, Known]:
     machine, law = solved.machine, solved.machine.mechanism.driver.law
     result = {**_given_values(machine), **quality}
-    apart = (*FOLLOWED, *BEARING_COLUMNS)
-    keys = [key for key in over.knowns if key.partition(".")[0] not in apart and not over.is_nothing(key)]
+    elsewhere = (*FOLLOWED, *BEARING_COLUMNS)
+    keys = [key for key in over.knowns if key.partition(".")[0] not in elsewhere and not over.is_nothing(key)]
     extremes, pivoted = over.extremes(*keys), pivoted_links(machine.mechanism)
     for key in keys:
         kind, dot, name = key.partition(".")

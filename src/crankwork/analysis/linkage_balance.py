@@ -68,9 +68,9 @@ def counterweight_balance(driver: Crank, memory: Mapping[str, Known], period: fl
 
 def _coefficients(samples: NDArray[Any]) -> NDArray[np.complex128]:
     """Return the Fourier coefficients of evenly spaced samples of a cycle, without those that are rounding."""
-    found: NDArray[np.complex128] = np.fft.fft(samples) / samples.size
-    found[np.abs(found) <= _NOTHING * np.max(np.abs(samples))] = 0.0
-    return found
+    coefficients: NDArray[np.complex128] = np.fft.fft(samples) / samples.size
+    coefficients[np.abs(coefficients) <= _NOTHING * np.max(np.abs(samples))] = 0.0
+    return coefficients
 
 
 def _moment_orders(

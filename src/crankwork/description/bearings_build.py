@@ -22,10 +22,11 @@ def build_bearings(values: Values, mechanism: Mechanism, reader: Reader, *, turn
         reader.complain("bearings", Refusal("bearings_partial"))
     table, pins = values["bearings"], pins_by_name(mechanism)
     names = {joint: name for name, joint in pins.items()}
-    found = {}
+    bearings = {}
     for joint, stated in known_joints(table["pins"], pins, "bearings.pins", reader):
         name, link, held = names[joint], stated["link"] or "", [joint.link, joint.other]
-        found[name] = PinBearing(stated.si("diameter"), stated.si("length"), link)
+        bearings[name] = PinBearing(stated.si("diameter"), stated.si("length"), link)
         if link and (link == GROUND or link not in held):
             reader.complain(f"bearings.pins.{name}.link", Refusal("bearing_link", pin=name, known=", ".join(held)))
-    return table.made(Bearings, pins=found)
+    made: Bearings = table.made(Bearings, pins=bearings)
+    return made

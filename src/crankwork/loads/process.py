@@ -93,14 +93,15 @@ def _remembered(load: ProcessForce, travel: _Travel, motion: Motion, name: str, 
     """Return the force as a curve over travel or crank angle, piecewise if it acts on the working stroke only."""
     key, interpolator = f"process_force.{name}", interpolant_of(motion.grid)
     travel = travel._replace(position=named(travel.position, f"working_stroke.{name}"))
+    columns = {"travel": travel.position} if load.against == "stroke" else {}
+    over = interpolator(columns if load.acts == "both" else {**columns, "rate": travel.position_1})
     if load.against == "stroke":
-        force = curve_over_column(load.force, travel.position, interpolator, key, f"{path}.force")
+        force = curve_over_column(load.force, over, "travel", key, f"{path}.force")
     else:
         force = curve_over_angle(load.force, angle_of(motion.grid), key, f"{path}.force")
     if load.acts == "both":
         return force
-    over = interpolator({"": travel.position_1})
-    (*ends, last), is_back = over.stretches("")
+    (*ends, last), is_back = over.stretches("rate")
     # the force acts at rest: an interval of the return stroke does not own its end
     ends = [_rounded(end, over.breaks, back=back) for end, back in zip(ends, is_back, strict=False)]
     if is_back[-1] and not is_back[0]:

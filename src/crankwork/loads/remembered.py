@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,8 +16,6 @@ from crankwork.loads.table import Curve
 from crankwork.loads.table import Table as LoadTable
 
 _MARGIN = 1e-12
-
-Interpolator = Callable[[Mapping[str, Known]], OverCycle]
 
 
 @dataclass(frozen=True)
@@ -70,20 +67,23 @@ def curve_over_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Kn
     return Known(Table(function, "given", corners, by=angle), key)
 
 
-def curve_over_column(curve: Curve, column: Known, interpolator: Interpolator, key: str, path: str = "") -> Known:
-    """Return a curve over a column, with its corners at the crank angles where the column passes them."""
+def curve_over_column(curve: Curve, over: OverCycle, column: str, key: str, path: str = "") -> Known:
+    """Return a curve over a column, with its corners at the crank angles where the column passes them.
+
+    `column`: its key among the columns over the cycle.
+    """
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], f"{path}[1]")
-    over, corners = interpolator({"": column}), _corners(curve)
-    passed = [angle for corner in corners for angle in over.crossings("", corner).tolist()]
+    known, corners = over.knowns[column], _corners(curve)
+    passed = [angle for corner in corners for angle in over.crossings(column, corner).tolist()]
     if not isinstance(curve, LoadTable):
-        return Known(Table(curve, "given", passed, by=column), key)
+        return Known(Table(curve, "given", passed, by=known), key)
     low, high = curve.at[0], curve.at[-1]
-    law = Known(Table(StatedTable(curve, key, path), "given", passed, by=column), key)
+    law = Known(Table(StatedTable(curve, key, path), "given", passed, by=known), key)
     margin = _MARGIN * max(abs(low), abs(high))
-    ends = sorted([*over.crossings("", low - margin).tolist(), *over.crossings("", high + margin).tolist()])
+    ends = sorted([*over.crossings(column, low - margin).tolist(), *over.crossings(column, high + margin).tolist()])
     ends = [*ends, float(over.edges[-1])]
-    values = over.at("", (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
+    values = over.at(column, (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
     is_inside = (values > low - margin) & (values < high + margin)
     if is_inside.all():
         return law

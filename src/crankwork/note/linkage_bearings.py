@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.note.document import Block, Citation
+from crankwork.note.document import Block, Citation, Runs
 from crankwork.note.linkage_material import Material
 from crankwork.note.words import in_display_unit, named
 
@@ -49,15 +49,16 @@ def harmonics(material: Material) -> Iterator[Block]:
 def _listing(material: Material, name: str, caption: str) -> Block:
     """Return a listing as a table: a row for each bearing, ray or order."""
     words, listing = material.words, material.results.listings[name]
-    headings, columns = [], []
+    headings: list[str | Runs] = []
+    columns: list[list[str]] = []
     if listing.names:
-        headings.append((words.column("row"),))
-        columns.append([one.replace("_", " ") for one in listing.names])
+        headings.append("row")
+        columns.append([name.replace("_", " ") for name in listing.names])
     for number, (key, values) in enumerate(listing.columns.items()):
         shown = in_display_unit(key, values.tolist())
         is_first = number == 0 and not listing.names
         headings.append(words.titled(key))
-        columns.append([words.number(one) for one in shown] if is_first else words.column_texts(shown))
+        columns.append([words.number(value) for value in shown] if is_first else words.column_texts(shown))
     rows = list(zip(*columns, strict=True))
     align = ("l" if listing.names else "c") + "r" * (len(columns) - 1)
     return words.table(caption, headings, rows, align, name)

@@ -93,7 +93,7 @@ def balance(material: Material) -> Iterator[Block]:
         for kind in kinds
     ]
     rows = list(zip((key.partition(".")[2] for key in orders), *sizes, strict=True))
-    titles = ("order_of_turn", *(words.titled(kind) for kind in kinds))
+    titles: list[str | Runs] = ["order_of_turn", *(words.titled(kind) for kind in kinds)]
     yield words.table("linkage_orders", titles, rows, "c" + "r" * len(kinds), "orders")
     yield words.paragraph("counterweight")
     yield from material.equations("counterweight")

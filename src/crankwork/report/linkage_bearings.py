@@ -48,14 +48,14 @@ def bearing_pictures(results: Results, language: Language) -> dict[str, Callable
     """Return what draws each figure of the bearings of a linkage; none where their loads are not known."""
     drawn = JointsDrawn(results, language, None)
     pins = drawn.bearings.pins
-    found: dict[str, Callable[[], Drawing]] = {}
+    pictures: dict[str, Callable[[], Drawing]] = {}
     for number, pin in enumerate(pins, start=1):
         name = f"crankpin_polar_{number}" if number > 1 else "crankpin_polar"
-        found[name] = partial(_pin_picture, drawn, pin)
+        pictures[name] = partial(_pin_picture, drawn, pin)
     for name, (draw, listing) in _LISTED.items():
         if listing in results.listings:
-            found[name] = partial(_picture, drawn, name, draw)
-    return found
+            pictures[name] = partial(_picture, drawn, name, draw)
+    return pictures
 
 
 def _pin_picture(drawn: JointsDrawn, pin: str) -> Drawing:
