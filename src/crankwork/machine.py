@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from crankwork.cylinders.crankshaft import Bearings, Shaft
+from crankwork.cylinders.crankshaft import Bearings, PinBearing, Shaft
 from crankwork.cylinders.layout import Layout
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.errors import CrankworkError
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 __all__ = [
-    "Bearings", "Cylinder", "Document", "Drive", "Engine", "Gas", "InputNumber", "Machine", "Shaft", "TransferTable",
-    "Transient",
+    "Bearings", "Cylinder", "Document", "Drive", "Engine", "Gas", "InputNumber", "Machine", "PinBearing", "Shaft",
+    "TransferTable", "Transient",
 ]  # fmt: skip
 _TURN = 360.0
 
@@ -342,6 +342,8 @@ class Machine:
         Redundant links that fit, with their shares of the load; not in `linkage`.
     friction : tuple of Friction
         Friction in pins and guides of a linkage.
+    bearings : Bearings
+        Sizes of the bearings of a linkage, by its pins or by their kinds; those of an engine are among its data.
     chambers, charges : mapping of str to Chamber and to Charge
         The gas between sliding pieces of a linkage, and the gas sealed in several chambers, by name.
     shaft : Shaft or None
@@ -380,6 +382,7 @@ class Machine:
     loads: tuple[Load, ...] = ()
     redundant: tuple[RedundantLink, ...] = ()
     friction: tuple[Friction, ...] = ()
+    bearings: Bearings = field(default_factory=Bearings)
     chambers: Mapping[str, Chamber] = field(default_factory=dict)
     charges: Mapping[str, Charge] = field(default_factory=dict)
     shaft: Shaft | None = None

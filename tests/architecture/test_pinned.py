@@ -27,9 +27,9 @@ PINNED = {
         "linkage": "587b6d3c978c",
         "machine": "93e6fd34e1f6",
     },
-    "formulas": "9c940da83c5f",
-    "quantities": "6afc290ef2c5",
-    "defaults": "7951cd01bc67",
+    "formulas": "274ffc63bbc6",
+    "quantities": "eb8dc364166d",
+    "defaults": "ce0c6fab4a4e",
 }
 
 

@@ -2,33 +2,37 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import origins
+from crankwork.analysis.bearing_loads import (
+    WEAR_STEP,
+    hole_of,
+    load_values,
+    loads_listing,
+    reversal_values,
+    wear_listing,
+    wear_table,
+)
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.results import Listing
 from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
 from crankwork.cylinders.layout import CylinderPlace, Layout
-from crankwork.cylinders.load_statistics import reversal, reversal_of_polynomials
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.cylinders.wear import OilHoleOfPolynomials, oil_hole, ray_angles, wear_sums
 from crankwork.dynamics.piston_forces import transverse_weight, weight_force
-from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, Table, Use, absent, given, in_order, total
+from crankwork.formula.known import Delayed, Known, Node, Use, absent, given, in_order, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Samples
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import RodSwing
 
-# between the loads that wear diagrams add up [deg]
-_WEAR_STEP = 10.0
 _X, _Y = "bearing_force_x", "bearing_force_y"
 _ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_", "journal_share", "bearing_force_")
 _OF_ROD = ("crankpin_radial_force", "crankpin_tangential_force", "tangential_force")
@@ -310,60 +314,27 @@ def load_columns(memory: Mapping[str, Known]) -> dict[str, str]:
     return {key.replace("_load", "", 1): key for key in sizes}
 
 
-def load_values(
+def bearing_values(
     whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, extremes: Mapping[str, Known]
 ) -> dict[str, Known]:
     """Return what the loads come to over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
-    names, found = load_columns(memory), dict[str, Known]()
-    for name, key in names.items():
-        kind, _, owner = key.partition(".")
-        mean = over.mean(key, f"mean_bearing_load.{name}")
-        found[mean.key] = mean
-        for word in ("max", "max_angle", "min", "min_angle"):
-            one = extremes[f"{kind}_{word}" + (f".{owner}" if owner else "")]
-            found[f"bearing_load_{word}.{name}"] = one.named(f"bearing_load_{word}.{name}")
-        largest = found[f"bearing_load_max.{name}"]
-        none = Known(Found(1.0, "none", (mean,)))
-        ratio = formulas.bearing_load_ratio(largest, mean) if mean.value else none
-        found[f"bearing_load_ratio.{name}"] = ratio.named(f"bearing_load_ratio.{name}")
+    found = dict[str, Known]()
+    for name, key in load_columns(memory).items():
         of = name.partition(".")[0]
         part = _SIZES.get(of, "crankpin")
         diameter, length = (getattr(whole.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
+        size = None
         if diameter is not None and length is not None:
-            area = (
+            size = (
                 given(f"bearing_diameter.{of}", diameter, f"bearings.{part}_diameter"),
                 given(f"bearing_length.{of}", length, f"bearings.{part}_length"),
             )
-            for word, load in (("", mean), ("_max", largest)):
-                pressure = formulas.bearing_pressure(load, *area)
-                found[f"bearing_pressure{word}.{name}"] = pressure.named(f"bearing_pressure{word}.{name}")
-    return found | _reversal(over, extremes)
-
-
-def _reversal(over: OverCycle, extremes: Mapping[str, Known]) -> dict[str, Known]:
-    key = "bearing_force_x.small_end"
-    peaks = extremes["bearing_force_x_max.small_end"].value, extremes["bearing_force_x_min.small_end"].value
-    turned, of = reversal(*over.stretches(key), peaks), (over.columns[key],)
-    found = {"reversal_duration": math.radians(turned.duration), "reversal_ratio": turned.ratio}
-    return {
-        name: Known(Procedure(value, "reversal", of, reversal_of_polynomials, part), name)
-        for part, (name, value) in enumerate(found.items())
-    }
+        found |= load_values(name, key, over, extremes, size)
+    return found | reversal_values("bearing_force_x.small_end", over, extremes)
 
 
 # what its sizes are called in a description; of the others those of the crankpin
 _SIZES = {"small_end": "pin", "main_journal": "main"}
-
-
-@dataclass(frozen=True)
-class OnRays:
-    """Sums of loads by the direction of a ray. [deg] -> [N]"""
-
-    sums: Array
-
-    def __call__(self, degrees: Array) -> Array:
-        """Return the sum on the ray at each direction."""
-        return np.asarray(self.sums[np.rint(degrees * self.sums.size / 360).astype(int) % self.sums.size])
 
 
 def wear_memory(whole: WholeEngine, memory: Mapping[str, Known], samples: Samples) -> dict[str, Known]:
@@ -372,48 +343,26 @@ def wear_memory(whole: WholeEngine, memory: Mapping[str, Known], samples: Sample
     `samples`: the components of the loads.
     """
     rays, found = whole.engine.bearings.rays, dict[str, Known]()
-    loads = bearing_loads(whole, samples(CrankGrid.from_degrees(np.arange(0.0, whole.layout.cycle, _WEAR_STEP))))
+    loads = bearing_loads(whole, samples(CrankGrid.from_degrees(np.arange(0.0, whole.layout.cycle, WEAR_STEP))))
     for pin, load in loads.crankpins.items():
         of = memory[f"crankpin_radial_force.{pin}"], memory[f"crankpin_tangential_force.{pin}"]
-        sums = wear_sums(load, rays=rays)
-        table = Known(Table(OnRays(sums), "wear", operands=of), f"wear_sum.crankpin.{pin}")
+        table = wear_table(f"wear_sum.crankpin.{pin}", load, of, rays)
         name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
-        angle = math.radians(oil_hole(sums).angle)
-        by = Known(Procedure(angle, "oil_hole", of, OilHoleOfPolynomials(_WEAR_STEP, rays), 0))
-        hole = Found(angle, "oil_hole", (table,), argument=by)
-        found |= {table.key: table, name: Known(hole, name)}
+        found |= {table.key: table, name: hole_of(name, table, of, rays)}
     for at, load in enumerate(loads.mains, start=1):
         of = memory[f"{_X}.main_journal.{at}"], memory[f"{_Y}.main_journal.{at}"]
         key = f"wear_sum.main_journal.{at}"
-        found[key] = Known(Table(OnRays(wear_sums(load, rays=rays)), "wear", operands=of), key)
+        found[key] = wear_table(key, load, of, rays)
     return found
 
 
 def bearing_listings(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Listing]:
     """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
-    names = tuple(key.partition(".")[2] for key in found if key.startswith("mean_bearing_load."))
-    columns = {
-        key: np.array([found[f"{key}.{name}"].value if f"{key}.{name}" in found else np.nan for name in names])
-        for key in _LOAD_LISTED
-    }
-    kept = {key: one for key, one in columns.items() if not np.all(np.isnan(one))}
-    result = {"bearing_loads": Listing(kept, names)}
-    degrees = ray_angles(whole.engine.bearings.rays)
+    result = {"bearing_loads": loads_listing(found)}
     for listing, owner in (("crankpin_wear", "crankpin"), ("main_wear", "main_journal")):
-        tables = {key: one.node for key, one in found.items() if key.startswith(f"wear_sum.{owner}.")}
-        sums = {
-            f"wear_sum.{key.rpartition('.')[2]}": node.function(degrees)
-            for key, node in tables.items()
-            if isinstance(node, Table)
-        }
-        result[listing] = Listing({"wear_ray_angle": np.radians(degrees), **sums})
+        tables = {key.rpartition(".")[2]: one for key, one in found.items() if key.startswith(f"wear_sum.{owner}.")}
+        result[listing] = wear_listing(tables, whole.engine.bearings.rays)
     return result
-
-
-_LOAD_LISTED = (
-    "mean_bearing_load", "bearing_load_max", "bearing_load_max_angle", "bearing_load_min", "bearing_load_min_angle",
-    "bearing_load_ratio", "bearing_pressure", "bearing_pressure_max",
-)  # fmt: skip
 
 
 def bearing_summary(whole: WholeEngine, found: Mapping[str, Known]) -> dict[str, Known]:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.bearing_diagrams import AFTER, CrankpinLoad, load_extremes
 from crankwork.analysis.cylinders import WholeEngine, whole_engine
 from crankwork.analysis.engine_balance import EngineBalance, engine_balance
 from crankwork.analysis.engine_bearings import BearingLoads, bearing_components, bearing_loads
@@ -21,29 +22,15 @@ from crankwork.cylinders.load_statistics import PolarDiagram, polar_diagram
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
-from crankwork.cylinders.wear import OilHole, oil_hole
-from crankwork.formula.known import Found, breaks_of
+from crankwork.formula.known import breaks_of
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.fluctuation import ExcessWork, excess_work
 
-__all__ = ["CrankpinLoad", "EngineDiagrams", "Locus", "PolarDiagram", "WearRing", "crankpin_of_one", "wear_rings"]
-
-# Behind a corner of the pressure, where there may be a jump. [deg]
-_AFTER = 1e-6
 _ROUNDING = 1e-9
 _STAR_ORDERS = 6
 # Loci are of the orders up to this one; higher ones are small.
 _LOCI = 2
-
-
-class CrankpinLoad(NamedTuple):
-    """Load of the rods on a crankpin."""
-
-    size: Array  # Of the whole load, shape (n,) [N]
-    polar: PolarDiagram  # Tangential to the right, radial downward
-    inertia: float  # Inertia force of all rod masses at the crankpin, never positive [N]
-    rods: int  # How many turn on it
 
 
 class Locus(NamedTuple):
@@ -52,13 +39,6 @@ class Locus(NamedTuple):
     largest: float
     across: Array
     up: Array
-
-
-class WearRing(NamedTuple):
-    """Sums of loads on the rays of a journal [N], shape (rays,), and where its oil hole should be."""
-
-    sums: Array
-    hole: OilHole
 
 
 def crankpin_of_one(results: Results, degrees: Array, columns: Mapping[str, Array]) -> CrankpinLoad:
@@ -73,13 +53,6 @@ def _rod_inertia(results: Results) -> float:
     solved = results.solved
     mass = solved.machine.masses.rod_big_end if solved.machine.masses is not None else 0.0
     return float(big_end_inertia_force(mass, solved.lengths.crank_radius, solved.speed))
-
-
-def wear_rings(results: Results, listing: str) -> tuple[Array, dict[str, WearRing]]:
-    """Return the angles of the rays of wear diagrams [deg], and the rings by number of the journal."""
-    columns = dict(results.listings[listing].columns)
-    angles = np.degrees(columns.pop("wear_ray_angle"))
-    return angles, {key.partition(".")[2]: WearRing(one, oil_hole(one)) for key, one in columns.items()}
 
 
 @dataclass(frozen=True)
@@ -128,7 +101,7 @@ class EngineDiagrams:
     def degrees(self) -> Array:
         """Crank angles of the torques, on both sides of every corner of the pressure. [deg]"""
         corners = breaks_of([self.results.memory["total_torque"]], self.cycle)
-        angles = np.concatenate([np.arange(0.0, self.cycle + 0.5), corners, corners[:-1] + _AFTER])
+        angles = np.concatenate([np.arange(0.0, self.cycle + 0.5), corners, corners[:-1] + AFTER])
         return np.unique(angles)
 
     @cached_property
@@ -144,12 +117,7 @@ class EngineDiagrams:
     @cached_property
     def loads(self) -> tuple[Array, BearingLoads]:
         """Crank angles of the loads, those of the extremes and of corners among them [deg], and the loads there. [N]"""
-        memory = self.results.memory
-        extremes = [
-            one.node.at
-            for key, one in memory.items()
-            if key.startswith("bearing_load_m") and isinstance(one.node, Found) and one.node.at is not None
-        ]
+        extremes = load_extremes(self.results.memory)
         degrees = np.unique(np.concatenate([self.degrees[:-1], np.mod(extremes, self.cycle)]))
         return degrees, self._loads_at(degrees)
 
@@ -167,14 +135,20 @@ class EngineDiagrams:
         found = Program({str(at): self.whole.cylinders[at].memory["gas_pressure"] for at in firsts})
         return {int(at) + 1: one for at, one in found(CrankGrid.from_degrees(degrees)).items()}
 
-    def crankpin(self, pin: int, degrees: Array | None = None) -> CrankpinLoad:
+    @property
+    def pin_sizes(self) -> tuple[Array, Mapping[str, Array]]:
+        """Crank angles over the cycle without its end [deg], and the size of the load on every unlike crankpin. [N]"""
+        degrees, loads = self.loads
+        return degrees, {str(pin): load.resultant for pin, load in loads.crankpins.items()}
+
+    def crankpin(self, pin: str | int, degrees: Array | None = None) -> CrankpinLoad:
         """Return the load of all rods on a crankpin.
 
         `pin`: its number, one of those in `loads`; `degrees`: crank angles over the cycle; those of `loads` otherwise
         [deg].
         """
         degrees, loads = self.loads if degrees is None else (degrees, self._loads_at(degrees))
-        load, rods = loads.crankpins[pin], len(self.whole.on_pin[pin - 1])
+        load, rods = loads.crankpins[int(pin)], len(self.whole.on_pin[int(pin) - 1])
         inertia = rods * _rod_inertia(self.results)
         return CrankpinLoad(load.resultant, polar_diagram(load, degrees, self.cycle, inertia), inertia, rods)
 
@@ -186,10 +160,11 @@ class EngineDiagrams:
         return {key: polar_diagram(load, degrees, self.cycle) for key, load in ends.items()}
 
     @property
-    def mains(self) -> tuple[PolarDiagram, ...]:
+    def journals(self) -> Mapping[str, PolarDiagram]:
         """Polar diagrams of all main journals, in the frame of the shaft. [N]"""
         degrees, loads = self.loads
-        return tuple(polar_diagram(one, degrees, self.cycle, 0.0, 90.0) for one in loads.mains)
+        diagrams = (polar_diagram(load, degrees, self.cycle, 0.0, 90.0) for load in loads.mains)
+        return {str(number): diagram for number, diagram in enumerate(diagrams, start=1)}
 
     @cached_property
     def balance(self) -> EngineBalance:

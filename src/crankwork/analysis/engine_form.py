@@ -21,7 +21,7 @@ from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads.chamber import Chamber
 from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
-from crankwork.machine import Cylinder, Engine, Gas, Machine, Shaft
+from crankwork.machine import Bearings, Cylinder, Engine, Gas, Machine, Shaft
 from crankwork.mechanism.cells import Cell, CrankCells, NoCellsError, Part, crank_cells
 from crankwork.mechanism.mechanism import slider_crank
 
@@ -109,7 +109,7 @@ class _Form:
             offsets=offsets if len(set(offsets)) > 1 else (),
             gases=() if len({id(gas) for gas in gases}) < 2 else gases,
             misfires=tuple(sorted(self._number_of("shaft.misfire", name) for name in self._shaft.misfires)),
-            bearings=self._shaft.bearings,
+            bearings=replace(machine.bearings, pins={}),
             counterweight=self._shaft.counterweight,
             rotating_share=self._shaft.rotating_share,
             reciprocating_share=self._shaft.reciprocating_share,
@@ -118,6 +118,7 @@ class _Form:
         drive = replace(machine.drive, inertia=machine.drive.inertia + inertia)
         has_wheel = drive.wheel is not None or drive.fluctuation is not None or drive.inertia
         has_shaft = machine.shaft is not None and machine.shaft != Shaft(bore=machine.shaft.bore)
+        has_shaft = has_shaft or engine.bearings != Bearings()
         is_engine = len(self._cells) > 1 or has_shaft or has_wheel or layout.places[0].axis
         return replace(
             machine,
@@ -129,6 +130,7 @@ class _Form:
             has_gravity=bool(machine.loads),
             loads=(),
             chambers={},
+            bearings=Bearings(),
             shaft=None,
             drive=drive,
             notices=(),

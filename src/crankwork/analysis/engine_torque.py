@@ -11,8 +11,8 @@ from crankwork.analysis import origins
 from crankwork.analysis.cylinders import WholeEngine
 from crankwork.analysis.engine_bearings import rotating_mass_of
 from crankwork.analysis.flywheel import turning_inertia
+from crankwork.analysis.harmonics import curve_of, order_count, traced_harmonics
 from crankwork.analysis.reduction import MOVING, REDUCTION
-from crankwork.analysis.results import Listing
 from crankwork.analysis.solved import Notice
 from crankwork.analysis.speed import Balance, delivered_or_needed, excess_of, turn_of, work_of
 from crankwork.cylinders.layout import Layout
@@ -35,11 +35,9 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import TrueSpeed, excess_work
 
-_ORDERS = 12
 _SAMPLES = 1440
-_ROUNDING = 1e-16
 # what rounding leaves of a mean of nothing, of the largest torque
-_NOTHING = 1e-13
+_CANCELLED = 1e-13
 
 
 class EngineTorque(NamedTuple):
@@ -104,14 +102,14 @@ def engine_torque(
 ) -> EngineTorque:
     """Return the torque of the engine with the flywheel it needs, and why there is none."""
     first = whole.of(1, "crank_torque").key
-    one, all_ = (_curve(over, key) for key in (first, "total_torque"))
+    one, all_ = (curve_of(over, key) for key in (first, "total_torque"))
     w = whole.master.memory["speed"]
     balance = _balance(whole, memory, over, all_)
     mean = over.mean("total_torque", "mean_total_torque")
     if whole.machine.angular_acceleration and balance.torque.key == "static_torque":
         # what speeds up the parts is none of a cycle that repeats; of weights alone rounding is left
-        value, largest = balance.curve.mean, max(abs(extremes[f"total_torque_{one}"].value) for one in ("max", "min"))
-        value = value if abs(value) > _NOTHING * largest else 0.0
+        value, largest = balance.curve.mean, max(abs(extremes[f"total_torque_{end}"].value) for end in ("max", "min"))
+        value = value if abs(value) > _CANCELLED * largest else 0.0
         mean = (-Known(Found(-value, "mean", (balance.torque,)), "mean_driving_torque")).named("mean_total_torque")
     mean = delivered_or_needed(mean)
     summary = {"mean_torque": mean}
@@ -124,14 +122,6 @@ def engine_torque(
     named = {key: known if known is mean else known.named(key) for key, known in summary.items()}
     between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
     return EngineTorque(one, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
-
-
-def _curve(over: OverCycle, key: str) -> Curve:
-    """Return a column as polynomials, without degrees that are nothing but rounding."""
-    series = over.polynomials(key)
-    sizes = np.max(np.abs(series), axis=0)
-    last = int(np.max(np.flatnonzero(sizes > _ROUNDING * sizes.max()), initial=0))
-    return Curve.legendre(np.radians(over.edges), series[:, : last + 1])
 
 
 def _balance(whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, total_torque: Curve) -> Balance:
@@ -148,7 +138,7 @@ def _balance(whole: WholeEngine, memory: Mapping[str, Known], over: OverCycle, t
     own = inertia if drive.is_absent else (inertia - drive).named("reduced_inertia.cylinders")
     dynamic = dynamic_torque(w, inertia_1, own, eps).named("dynamic_torque")
     static = static_torque_of_balancing((-total_).named("balancing_torque"), dynamic).named("static_torque")
-    J, J_1 = (_curve(over, key) for key in ("reduced_inertia", "reduced_inertia_1"))
+    J, J_1 = (curve_of(over, key) for key in ("reduced_inertia", "reduced_inertia_1"))
     torque = total_torque + J_1 * (w.value**2 / 2)
     if not eps.is_absent:
         torque = torque + (J + -drive.value) * eps.value
@@ -162,39 +152,23 @@ def has_own_inertia(whole: WholeEngine) -> bool:
 
 def harmonics_memory(whole: WholeEngine, torque: EngineTorque, memory: Mapping[str, Known]) -> dict[str, Known]:
     """Return the harmonics of the torque of one cylinder and of all, each under its order: `harmonic_amplitude.2.5`."""
-    layout, found = whole.layout, dict[str, Known]()
-    count, of = round(_ORDERS * layout.cycle / 360), (whole.of(1, "crank_torque"),)
+    layout, of = whole.layout, whole.of(1, "crank_torque")
+    count = order_count(layout.cycle)
     one = curve_harmonics(torque.one, count)
     all_ = None if whole.is_uniform else curve_harmonics(torque.total, count)
+    found = {known.key: known for known in traced_harmonics(one, of)}
     stars = phase_sums(layout, one.orders.tolist())
     for at, order in enumerate(one.orders.tolist()):
-        cosine, sine = (
-            Known(Harmonic(float(getattr(one, part)[at]), *of, part, order), f"harmonic_{part}.{order:g}")
-            for part in ("cosine", "sine")
-        )
-        phase = Known(Found(float(one.phase[at]), "fourier", (cosine, sine)), f"harmonic_phase.{order:g}")
-        amplitude = amplitude_of_harmonic(cosine, sine).named(f"harmonic_amplitude.{order:g}")
         star = Known(Found(abs(stars[at]), "phase_star"), f"phase_sum.{order:g}")
         if all_ is None:
-            of_all = amplitude_of_total(amplitude, star)
+            of_all = amplitude_of_total(found[f"harmonic_amplitude.{order:g}"], star)
         else:
             total = memory["total_torque"]
             parts = (Known(Harmonic(float(getattr(all_, part)[at]), total, part, order)) for part in ("cosine", "sine"))
             of_all = Known(Found(float(all_.amplitude[at]), "fourier", (total,), None, amplitude_of_harmonic(*parts)))
         of_all = of_all.named(f"total_harmonic_amplitude.{order:g}")
-        found |= {known.key: known for known in (cosine, sine, amplitude, phase, star, of_all)}
+        found |= {known.key: known for known in (star, of_all)}
     return found
-
-
-def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
-    """Return the harmonics of the torque by their order."""
-    columns: dict[str, list[float]] = {"harmonic_order": []}
-    for key, known in harmonics.items():
-        kind, _, order = key.partition(".")
-        columns.setdefault(kind, []).append(known.value)
-        if kind == "harmonic_cosine":
-            columns["harmonic_order"].append(float(order))
-    return Listing({key: np.array(values) for key, values in columns.items()})
 
 
 def torque_checks(whole: WholeEngine, torque: EngineTorque, samples: Samples, moved: float) -> dict[str, float]:
@@ -211,7 +185,7 @@ def torque_checks(whole: WholeEngine, torque: EngineTorque, samples: Samples, mo
     if whole.is_uniform and len(whole.cylinders) > 1 and count:
         degrees: Array = np.arange(float(count)) * (whole.layout.cycle / count)
         each = whole.each_of("crank_torque", samples(CrankGrid.from_degrees(degrees)))
-        count = round(_ORDERS * whole.layout.cycle / 360)
+        count = order_count(whole.layout.cycle)
         one = torque_harmonics(each[0], whole.layout.cycle, count)
         stars, direct = (
             total_harmonics(one, whole.layout),

@@ -11,10 +11,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis import origins
+from crankwork.analysis.bearings import FOLLOWED as BEARING_COLUMNS
+from crankwork.analysis.bearings import FORCES as ON_CRANKPINS
+from crankwork.analysis.bearings import (
+    JointBearings,
+    bearing_listings,
+    bearing_summary,
+    bearing_values,
+    bearings_of,
+)
 from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
 from crankwork.analysis.friction import COLUMNS as FRICTION
 from crankwork.analysis.friction import FOLLOWED as FOLLOWED_FRICTION
 from crankwork.analysis.friction import Rubbed, friction_of, mean_values
+from crankwork.analysis.harmonics import delivered_harmonics, listed_harmonics
 from crankwork.analysis.linkage_balance import counterweight_balance
 from crankwork.analysis.linkage_memory import efficiency_of, linkage_memory, remembered_running, speed_of
 from crankwork.analysis.quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
@@ -28,7 +38,7 @@ from crankwork.analysis.reach import (
     reachable,
     rows_inside,
 )
-from crankwork.analysis.results import Results
+from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.running import running_at
 from crankwork.analysis.solved import Notice, SolvedLinkage
 from crankwork.analysis.speed import (
@@ -103,7 +113,7 @@ def analyse_linkage(
     moved = _moved(machine, grid)
     machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
     memory, rubbing, table, found = moved.memory, moved.rubbing, moved.table, reached.travel
-    over, summary, told, unusual = _singles(moved, memory)
+    over, summary, told, unusual, program = _singles(moved, memory)
     notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
     notices += rubbing.notices + told
     checks = (
@@ -120,15 +130,20 @@ def analyse_linkage(
             between |= turn.between
             notices += turn.notices
     summary |= _power_of_valves(machine, memory | summary)
-    driver = machine.mechanism.driver
-    if found is None and "shaking_force" in memory and isinstance(driver, Crank) and driver.law is None:
-        summary |= {
-            key: one.named(key)
-            for key, one in counterweight_balance(driver, memory | summary, machine.mechanism.period)
-        }
+    mechanism = machine.mechanism
+    if moved.has_steady_crank and "shaking_force" in memory:
+        balance = counterweight_balance(mechanism.crank, memory | summary, mechanism.period)
+        summary |= {key: known.named(key) for key, known in balance}
+    listings = dict[str, Listing]()
+    if found is None:
+        loads = bearing_values(machine, moved.bearings, over, program)
+        harmonics = delivered_harmonics(over, machine.cycle) if moved.has_steady_crank else {}
+        summary |= bearing_summary(moved.bearings, loads)
+        between |= {**moved.bearings.between, **loads, **harmonics}
+        listings = bearing_listings(machine, moved.bearings, loads) | listed_harmonics(harmonics)
     ran = let_go(solved, motion, found, summary, progress)
-    summary, checks, notices = summary | ran.summary, checks | ran.checks, notices + ran.notices
-    notices += tuple(_of_machine(machine))
+    summary, checks, listings = summary | ran.summary, checks | ran.checks, listings | ran.listings
+    notices += ran.notices + tuple(_of_machine(machine))
     # where links pass through a line, that is told already
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(memory)(table))
@@ -138,7 +153,7 @@ def analyse_linkage(
     memory = {key: one for key, one in memory.items() if key not in none}
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
-    return Results(solved, table, columns, values, checks, notices, _groups(columns), ran.listings, ran.allowed, memory)
+    return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, memory)
 
 
 def _turns(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> Iterator[Turn]:
@@ -196,6 +211,7 @@ class _Singles(NamedTuple):
     summary: dict[str, Known]
     told: tuple[Notice, ...]
     unusual: tuple[Notice, ...]
+    program: Program  # Of the columns over the cycle, and of the loads of crankpins and main journals
 
 
 def _singles(moved: _Moved, memory: Mapping[str, Known], name: str | None = None) -> _Singles:
@@ -214,12 +230,15 @@ def _singles(moved: _Moved, memory: Mapping[str, Known], name: str | None = None
         followed = {key: one for key, one in followed.items() if not any(key in some for some in without)}
     else:
         told.append(Notice("working_range", {"from": start, "to": end}))
-    over = OverCycle(followed, CrankGrid.from_degrees, end - start, start)
+    if name is None:
+        followed |= moved.bearings.followed(followed)
+    program = Program({**followed, **moved.bearings.of_journals})
+    over = OverCycle(followed, CrankGrid.from_degrees, end - start, start, program=program)
     extremes, unusual = quality_of(over)
     summary = _summary(moved.solved, over, extremes, is_whole=found is None)
     if found is not None:
         summary |= limits_of(found, memory)
-    return _Singles(over, summary, tuple(told), unusual)
+    return _Singles(over, summary, tuple(told), unusual, program)
 
 
 class _Moved(NamedTuple):
@@ -232,6 +251,13 @@ class _Moved(NamedTuple):
     memory: dict[str, Known]
     rubbing: Rubbed
     table: CrankGrid
+    bearings: JointBearings
+
+    @property
+    def has_steady_crank(self) -> bool:
+        """Whether a crank turns fully at the speed that is stated."""
+        driver = self.machine.mechanism.driver
+        return self.reached.travel is None and isinstance(driver, Crank) and driver.law is None
 
 
 def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
@@ -244,7 +270,9 @@ def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
     running = remembered_running(solved, motion)
     memory = linkage_memory(solved, running)
     rubbing = friction_of(solved, running, memory)
-    return _Moved(machine, reached, motion, solved, memory | rubbing.columns, rubbing, table)
+    bearings = bearings_of(machine, running.motion, memory) if reached.travel is None else JointBearings()
+    memory |= {**rubbing.columns, **bearings.columns}
+    return _Moved(machine, reached, motion, solved, memory, rubbing, table, bearings)
 
 
 def _of_machine(machine: Machine) -> Iterator[Notice]:
@@ -324,7 +352,8 @@ def _summary(
 ) -> dict[str, Known]:
     machine, law = solved.machine, solved.machine.mechanism.driver.law
     result = {**_given_values(machine), **quality}
-    keys = [key for key in over.columns if key.partition(".")[0] not in FOLLOWED and not over.is_zero(key)]
+    elsewhere = (*FOLLOWED, *BEARING_COLUMNS)
+    keys = [key for key in over.columns if key.partition(".")[0] not in elsewhere and not over.is_zero(key)]
     extremes, pivoted = over.extremes(*keys), pivoted_links(machine.mechanism)
     for key in keys:
         kind, dot, name = key.partition(".")
@@ -462,6 +491,8 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
                          "axial_force", "normal_force",
                          "normal_moment"),
+        "bearings": ON_CRANKPINS,
+        "main_journals": ("main_journal_load",),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}
     return {"driver": _OF_DRIVER, "dynamics": DYNAMICS, **groups}

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
 from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
 from crankwork.dynamics.reaction import shaking_force
 from crankwork.dynamics.running import Running
-from crankwork.formula.known import Found, Known, Total, total
+from crankwork.formula.known import Found, Harmonic, Known, Total, absent, total
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.mechanism.mechanism import Crank
@@ -38,20 +41,27 @@ def shaking(running: Running) -> Iterator[tuple[str, Known]]:
 
 
 def counterweight_balance(driver: Crank, memory: Mapping[str, Known], period: float) -> Iterator[tuple[str, Known]]:
-    """Yield the largest force of each order, and the counterweight on the crank that takes the part that turns with it.
+    """Yield the largest force and moment of each order, and the best counterweight on the crank.
 
-    That counterweight makes the mean square of the shaking force least. `period`: crank angle of a cycle [deg].
+    It takes the part of the force that turns with the crank, which makes the mean square of the rest least.
+    `period`: crank angle of a cycle [deg].
     """
     of = memory["shaking_force_x"], memory["shaking_force_y"]
+    moment_of_all = memory.get("shaking_moment", absent("shaking_moment"))
     grid, turns = CrankGrid.from_degrees(np.arange(_SAMPLES) * period / _SAMPLES), round(period / 360.0)
-    terms = [term for one in of for term in (one.node.operands if isinstance(one.node, Total) else (one,))]
-    columns = Program({**dict(zip("xy", of, strict=True)), **{str(n): one for n, one in enumerate(terms)}})(grid)
-    force = columns["x"] + 1j * columns["y"]
+    terms = [term for force in of for term in (force.node.operands if isinstance(force.node, Total) else (force,))]
+    columns = Program(
+        {**dict(zip("xyz", (*of, moment_of_all), strict=True)), **{str(n): term for n, term in enumerate(terms)}}
+    )(grid)
+    x, y, moments = (columns[axis] + np.zeros(_SAMPLES) for axis in "xyz")
+    # what cancels leaves rounding of the size of its terms
     size = np.max(np.sum([np.abs(columns[str(n)] + np.zeros(_SAMPLES)) for n in range(len(terms))], axis=0))
-    coefficients = np.fft.fft(force) / _SAMPLES
-    coefficients[np.abs(coefficients) <= _ROUNDING * size] = 0.0
+    coefficients = _coefficients(x + 1j * y, size)
     # of a cycle of two turns there are half orders too
-    for count in range(1, _ORDERS[-1] * turns + 1):
+    counts = range(1, _ORDERS[-1] * turns + 1)
+    if moment_of_all.varies:
+        yield from _moment_orders(moment_of_all, _coefficients(moments), counts, turns)
+    for count in counts:
         both = abs(coefficients[count]) + abs(coefficients[-count])
         yield f"free_force.{count / turns:g}", Known(Found(float(both), "harmonic", of))
     forward = complex(coefficients[driver.direction * turns])
@@ -60,3 +70,23 @@ def counterweight_balance(driver: Crank, memory: Mapping[str, Known], period: fl
     if forward:
         angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
         yield "counterweight_angle", Known(Found(angle, "fourier", of))
+
+
+def _coefficients(samples: NDArray[Any], size: float | None = None) -> NDArray[np.complex128]:
+    """Return the Fourier coefficients of evenly spaced samples of a cycle, without those that are rounding.
+
+    `size`: largest sum of the terms of the samples by magnitude; by default the largest sample.
+    """
+    coefficients: NDArray[np.complex128] = np.fft.fft(samples) / samples.size
+    coefficients[np.abs(coefficients) <= _ROUNDING * (np.max(np.abs(samples)) if size is None else size)] = 0.0
+    return coefficients
+
+
+def _moment_orders(
+    moment: Known, coefficients: NDArray[np.complex128], counts: Iterable[int], turns: int
+) -> Iterator[tuple[str, Known]]:
+    """Yield the amplitude of each order of the shaking moment."""
+    for count in counts:
+        order, both = count / turns, 2 * complex(coefficients[count])
+        parts = Known(Harmonic(both.real, moment, "cosine", order)), Known(Harmonic(-both.imag, moment, "sine", order))
+        yield f"shaking_moment_amplitude.{order:g}", amplitude_of_harmonic(*parts)

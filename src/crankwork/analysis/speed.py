@@ -85,14 +85,14 @@ def balance_of(
         torque = (torque + (memory["torque_with_friction"] - memory["balancing_torque"])).named("load_torque")
     elif counts_efficiency and drive.efficiency != 1 and drive.losses != "drive" and torque.varies:
         torque = (torque + (memory["driving_torque"] - memory["balancing_torque"])).named("load_torque")
-    edges = np.radians(over.edges)
+    edges, inertia = np.radians(over.edges), memory["reduced_inertia"]
+    program = Program({"torque": torque, "inertia": inertia})
 
-    def followed(known: Known) -> Curve:
-        program = Program({"": known})
-        return Curve.fitted(lambda angle: program(CrankGrid.from_radians(angle))[""], edges)
+    def followed(key: str) -> Curve:
+        return Curve.fitted(lambda angle: program.rows(CrankGrid.from_radians(angle), (key,))[0], edges)
 
-    load = -followed(torque)
-    return Balance(torque, load, memory["reduced_inertia"], followed(memory["reduced_inertia"]), excess_work(load))
+    load = -followed("torque")
+    return Balance(torque, load, inertia, followed("inertia"), excess_work(load))
 
 
 def delivered_or_needed(delivered: Known) -> Known:

@@ -23,20 +23,20 @@ from crankwork.analysis.engine_bearings import (
     bearing_listings,
     bearing_memory,
     bearing_summary,
+    bearing_values,
     load_columns,
-    load_values,
     wear_memory,
 )
 from crankwork.analysis.engine_firing import delivery_memory, firing_listing, firing_memory, work_memory
 from crankwork.analysis.engine_torque import (
     engine_reduction,
     engine_torque,
-    harmonics_listing,
     harmonics_memory,
     has_own_inertia,
     torque_checks,
     torque_memory,
 )
+from crankwork.analysis.harmonics import harmonics_listing
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.solved import Notice, SolvedCylinder
@@ -122,7 +122,7 @@ def with_whole_engine(results: Results, found: WholeMemory | None) -> Results:
         return replace(results, notices=(*results.notices, *notices), memory={**results.memory, **firing})
     _, memory, over, extremes, samples = found
     torque = engine_torque(whole, memory, over, extremes)
-    loads = load_values(whole, memory, over, extremes) | wear_memory(whole, memory, samples)
+    loads = bearing_values(whole, memory, over, extremes) | wear_memory(whole, memory, samples)
     works, harmonics = work_memory(whole, firing), harmonics_memory(whole, torque, memory)
     delivered = delivery_memory(whole, firing, works)
     sampled = samples(results.grid)

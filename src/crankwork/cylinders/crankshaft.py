@@ -4,6 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
+
+
+class PinBearing(NamedTuple):
+    """Known data of the bearing in a revolute joint of a linkage."""
+
+    diameter: float | None = None  # [m]
+    length: float | None = None  # That carries load [m]
+    link: str = ""  # One of the two links, along whose axis reversal counts; by default that of the rod
 
 
 @dataclass(frozen=True)
@@ -18,6 +27,7 @@ class Bearings:
     pin_diameter: float | None = None
     pin_length: float | None = None
     rays: int = 12  # Rays of the wear diagram, 12 or 24
+    pins: Mapping[str, PinBearing] = field(default_factory=dict)  # Of a linkage, by the name of the joint
 
 
 @dataclass(frozen=True)
@@ -41,7 +51,6 @@ class Shaft:
     misfires: tuple[str, ...] = ()  # Cylinders without combustion
     bore: float | None = None  # Of the cylinders, if no chamber states it [m]
     # As those of an `Engine`
-    bearings: Bearings = field(default_factory=Bearings)
     counterweight: float = 0.0
     rotating_share: float = 0.0
     reciprocating_share: float = 0.0

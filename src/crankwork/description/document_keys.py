@@ -19,7 +19,8 @@ _ENGINE = (
 )  # fmt: skip
 _LINKAGE = (
     "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques", "friction",
-    "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion", "sources", "appendix",
+    "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion",
+    "sources", "appendix",
 )  # fmt: skip
 _TRANSFER = ("task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "sources")
 _TURNING = (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TypeVar
 
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
@@ -16,23 +17,31 @@ from crankwork.mechanism.joints import Pin, names_of_pivots
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 
+J = TypeVar("J")
+
 
 def build_friction(values: Values, linkage: Linkage, mechanism: Mechanism, reader: Reader) -> tuple[Friction, ...]:
     """Return the friction of pins and guides; report unknown joints."""
     table = values.get("friction")
     if table is None:
         return ()
-    held, shown = all_links_and_joints(mechanism)[1], names_of_pivots(mechanism)
-    pins = {shown.get(joint.name, joint.name): joint.name for joint in held if isinstance(joint, Pin)}
+    held = all_links_and_joints(mechanism)[1]
     guides = {joint.name: joint.name for joint in held if not isinstance(joint, Pin)}
     circle: Circle = table["circle"] or "tangent"
     pin_friction = tuple(
-        PinFriction(joint, pin.si("radius") or 0.0, pin["coefficient"], pin.si("moment"), pin.si("damping"), circle)
-        for joint, pin in _known(table["pins"], pins, "pins", reader)
+        PinFriction(
+            joint.name,
+            stated.si("radius") or 0.0,
+            stated["coefficient"],
+            stated.si("moment"),
+            stated.si("damping"),
+            circle,
+        )
+        for joint, stated in known_joints(table["pins"], pins_by_name(mechanism), "friction.pins", reader)
     )
     guide_friction = tuple(
         _guide(name, stated, _middle(name, linkage, mechanism))
-        for name, stated in _known(table["sliders"], guides, "sliders", reader)
+        for name, stated in known_joints(table["sliders"], guides, "friction.sliders", reader)
     )
     return (*pin_friction, *guide_friction)
 
@@ -54,14 +63,22 @@ def _middle(name: str, linkage: Linkage, mechanism: Mechanism) -> Point:
     return x - u, y - v
 
 
-def _known(
-    tables: Mapping[str, Values | None], known: Mapping[str, str], kind: str, reader: Reader
-) -> Iterator[tuple[str, Values]]:
+def pins_by_name(mechanism: Mechanism) -> dict[str, Pin]:
+    """Return the revolute joints by the names that files have for them; a pivot has that of its fixed point."""
+    shown = names_of_pivots(mechanism)
+    held = all_links_and_joints(mechanism)[1]
+    return {shown.get(joint.name, joint.name): joint for joint in held if isinstance(joint, Pin)}
+
+
+def known_joints(
+    tables: Mapping[str, Values | None], known: Mapping[str, J], path: str, reader: Reader
+) -> Iterator[tuple[J, Values]]:
     """Yield known joints with their tables; report unknown joints."""
     for name, table in tables.items():
         if name not in known:
+            kind = "sliders" if path.endswith("sliders") else "pins"
             message = Refusal(f"absent_rubbing_{kind}", name=name, known=", ".join(known) or "–")
-            reader.complain(f"friction.{kind}.{name}", message)
+            reader.complain(f"{path}.{name}", message)
         elif table is not None:
             yield known[name], table
 

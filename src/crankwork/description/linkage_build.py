@@ -21,7 +21,7 @@ from crankwork.description.linkage_reach import checked_motion, explain_redundan
 from crankwork.description.positions_build import branches_from_positions, position_notices
 from crankwork.description.redundant_build import fitting, geometry_of, without_redundant, without_unshared
 from crankwork.description.schema import Values
-from crankwork.description.shaft_build import build_shaft, check_shaft
+from crankwork.description.shaft_build import build_bearings, build_shaft, check_shaft
 from crankwork.description.stated import stated_numbers
 from crankwork.description.wheel_build import read_flywheel
 from crankwork.dynamics.tabulated import TabulatedBody
@@ -84,6 +84,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if reader.problems:
         return None
     friction = build_friction(values, linkage, mechanism, reader)
+    bearings = build_bearings(values, mechanism, reader, turns=crank_range is None or crank_range.is_whole)
     notices += tuple(_on_pins(loads, linkage, mechanism))
     loads = with_starts(loads, values, mechanism, crank_range)
     if values["method"]["weights"]:
@@ -98,6 +99,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         loads=loads,
         redundant=redundant,
         friction=friction,
+        bearings=bearings,
         way=crank_range,
         notices=notices,
         chambers=chambers,

@@ -178,6 +178,14 @@ _SHAFT = TableSpec("shaft", {
     "bore": KeySpec(LENGTH),
 })  # fmt: skip
 
+_BEARING_SIZE = KeySpec(Quantity(("length",), 1e-6, 10.0))
+_PIN_BEARING = TableSpec("pin_bearing", {
+    "diameter": _BEARING_SIZE,
+    "length": _BEARING_SIZE,
+    "link": KeySpec(NAME),
+})  # fmt: skip
+_BEARINGS = BEARINGS._replace(keys={**BEARINGS.keys, "pins": KeySpec(MapOf(_PIN_BEARING, most=500))})
+
 LINKAGE_FILE = TableSpec("file", {
     **TITLE,
     "document": document_keys.LINKAGE,
@@ -192,7 +200,7 @@ LINKAGE_FILE = TableSpec("file", {
     "chambers": KeySpec(MapOf(_CHAMBER, most=50)),
     "charges": KeySpec(MapOf(_CHARGE, most=20)),
     "shaft": KeySpec(_SHAFT),
-    "bearings": KeySpec(BEARINGS),
+    "bearings": KeySpec(_BEARINGS),
     "balance": KeySpec(BALANCE),
     **LOADING,
     "flywheel": KeySpec(FLYWHEEL),
@@ -200,9 +208,10 @@ LINKAGE_FILE = TableSpec("file", {
     "table": KeySpec(TABLE),
 })  # fmt: skip
 
-# a crank with a law has no speed, and other drivers have no crank
+# a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
+_OF_CRANKSHAFT = ("shaft", "bearings", "balance")
 DRIVEN_FILE = LINKAGE_FILE._replace(keys={
-    **LINKAGE_FILE.keys,
+    **{name: key for name, key in LINKAGE_FILE.keys.items() if name not in _OF_CRANKSHAFT},
     "crank": KeySpec(_CRANK._replace(keys={
         **{name: key._replace(required=False) for name, key in _CRANK.keys.items()},
         "angular_acceleration": NO_ACCELERATION._replace(default=None),

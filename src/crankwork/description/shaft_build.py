@@ -1,20 +1,47 @@
-"""From the values of a machine file to the crankshaft of a linkage of crank, rods and pistons."""
+"""From the values of a machine file to the bearings of a linkage, and the crankshaft of one of rods and pistons."""
 
 from __future__ import annotations
 
 import math
 
+from crankwork.description.friction_build import known_joints, pins_by_name
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
 from crankwork.locale import Refusal
-from crankwork.machine import Bearings, Machine, Shaft
+from crankwork.machine import Bearings, Machine, PinBearing, Shaft
+from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.mechanism import Mechanism
 
 _TABLES = ("shaft", "bearings", "balance")
+# of bearings, what any linkage has whose crank turns fully
+_OF_LINKAGE = {"pins", "rays"}
+
+
+def build_bearings(values: Values, mechanism: Mechanism, reader: Reader, *, turns: bool) -> Bearings:
+    """Return the bearings of a linkage; report unknown joints, and links that a joint does not hold.
+
+    `turns`: whether the crank turns fully.
+    """
+    if "bearings" not in values:
+        return Bearings()
+    table = values["bearings"]
+    if not turns and not _of_crankshaft(values):
+        reader.complain("bearings", Refusal("bearings_partial"))
+    pins = pins_by_name(mechanism)
+    names = {joint: name for name, joint in pins.items()}
+    bearings = {}
+    for joint, stated in known_joints(table["pins"], pins, "bearings.pins", reader):
+        name, link, held = names[joint], stated["link"] or "", [joint.link, joint.other]
+        bearings[name] = PinBearing(stated.si("diameter"), stated.si("length"), link)
+        if link and (link == GROUND or link not in held):
+            reader.complain(f"bearings.pins.{name}.link", Refusal("bearing_link", pin=name, known=", ".join(held)))
+    made: Bearings = table.made(Bearings, pins=bearings)
+    return made
 
 
 def build_shaft(values: Values, reader: Reader) -> Shaft | None:
     """Return the crankshaft that a file describes, None if it says nothing of it."""
-    if set(_TABLES).isdisjoint(values):
+    if not _of_crankshaft(values):
         return None
     shaft, sizes, balance = (values[name] for name in _TABLES)
     check_counterweights(sizes, balance, reader)
@@ -29,11 +56,17 @@ def build_shaft(values: Values, reader: Reader) -> Shaft | None:
         reference=shaft.si("reference"),
         misfires=_names(shaft["misfire"]),
         bore=shaft.si("bore"),
-        bearings=sizes.made(Bearings),
         counterweight=sizes.si("counterweight"),
         rotating_share=balance["rotating_share"],
         reciprocating_share=balance["reciprocating_share"],
         balance_shafts=tuple(dict.fromkeys(balance["shafts"])),
+    )
+
+
+def _of_crankshaft(values: Values) -> tuple[str, ...]:
+    """Return the tables of a file that say something of the crankshaft of rods and pistons."""
+    return tuple(
+        name for name in _TABLES if name in values and not (name == "bearings" and set(values[name]) <= _OF_LINKAGE)
     )
 
 
@@ -56,7 +89,7 @@ def check_shaft(machine: Machine, values: Values, reader: Reader) -> bool:
     if form.key:
         reader.complain(form.key, form.message)
     else:
-        for table in set(_TABLES).intersection(values):
+        for table in _of_crankshaft(values):
             reader.complain(table, Refusal("shaft_of_engine", reason=form.message))
     return False
 

@@ -32,9 +32,15 @@ _AT_LOOK = legendre.legvander(_LOOK, _NODES.size - 1)
 # derivatives of the Legendre polynomials: at both ends, and as sums of them
 _SLOPE_AT_ENDS = np.stack([(-1.0) ** (_DEGREES + 1), np.ones(_NODES.size)]) * _DEGREES * (_DEGREES + 1) / 2
 _DERIVATIVE = np.pad(legendre.legder(np.eye(_NODES.size)), ((0, 1), (0, 0)))
+_PARTS = 3
+_AT_ALL = np.concatenate([_AT_NODES, _AT_LOOK])
+# coefficients of a polynomial on each of as many equal parts of its interval, from those on the whole
+_ON_PARTS = [
+    legendre.legvander((2 * part + 1 + _NODES) / _PARTS - 1, _NODES.size - 1).T @ _FROM_VALUES.T
+    for part in range(_PARTS)
+]
 _WIDTH = 30.0
 _CONVERGED = 1e-12
-_PARTS = 3
 _CUTS = 9
 _NO_BETTER = 0.03
 _MAX_STALLS = 1
@@ -419,9 +425,9 @@ def integrals_of_roots(coefficients: Array, limits: Array, slopes: Array | None 
     rounding = _EVALUATED * np.abs(coefficients).sum(axis=1)
     row = np.arange(len(coefficients))
     low, high = np.full(row.size, -1.0), np.ones(row.size)
-    squares = coefficients @ np.concatenate([_AT_NODES, _AT_LOOK]).T
+    own = coefficients
     for cut in range(_CUTS + 1):
-        roots = np.sqrt(np.maximum(squares, 0.0))
+        roots = np.sqrt(np.maximum(own @ _AT_ALL.T, 0.0))
         fitted = roots[:, : _NODES.size] @ _FROM_VALUES.T
         # a corner beyond the outermost node shows between the nodes only
         missed = np.max(np.abs(roots[:, _NODES.size :] - fitted @ _AT_LOOK.T), axis=1, initial=0.0)
@@ -440,6 +446,5 @@ def integrals_of_roots(coefficients: Array, limits: Array, slopes: Array | None 
         low, high = between[:-1].ravel(), between[1:].ravel()
         if not row.size:
             break
-        u = (low + high) / 2 + (high - low) / 2 * np.concatenate([_NODES, _LOOK])[:, None]
-        squares = legendre.legval(u, coefficients[row].T, tensor=False).T
+        own = np.concatenate([own[is_coarse] @ part for part in _ON_PARTS])
     return result

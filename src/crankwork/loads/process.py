@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -28,7 +27,6 @@ _REST = 1e-12
 _AT_REST = 1e-11
 _DECIMALS = 9
 _MARGIN = 1e-12
-Interpolator = Callable[[Mapping[str, Known]], OverCycle]
 
 
 @dataclass(frozen=True)
@@ -99,14 +97,15 @@ def _remembered(load: ProcessForce, travel: _Travel, motion: Motion, name: str, 
     """Return the force as a curve over travel or crank angle, piecewise if it acts on the working stroke only."""
     key, interpolator = f"process_force.{name}", interpolant_of(motion.grid)
     travel = travel._replace(position=named(travel.position, f"working_stroke.{name}"))
+    columns = {"travel": travel.position} if load.against == "stroke" else {}
+    over = interpolator(columns if load.acts == "both" else {**columns, "rate": travel.position_1})
     if load.against == "stroke":
-        force = curve_over_column(load.force, travel.position, interpolator, key, f"{path}.force")
+        force = curve_over_column(load.force, over, "travel", key, f"{path}.force")
     else:
         force = curve_over_angle(load.force, angle_of(motion.grid), key, f"{path}.force")
     if load.acts == "both":
         return force
-    over = interpolator({"": travel.position_1})
-    (*ends, last), is_back = over.stretches("")
+    (*ends, last), is_back = over.stretches("rate")
     # the force acts at rest: an interval of the return stroke does not own its end
     ends = [_rounded(end, over.breaks, back=back) for end, back in zip(ends, is_back, strict=False)]
     if is_back[-1] and not is_back[0]:
@@ -196,20 +195,23 @@ def curve_over_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Kn
     return Known(Table(function, "given", corners, argument=angle), key)
 
 
-def curve_over_column(curve: Curve, column: Known, interpolator: Interpolator, key: str, path: str = "") -> Known:
-    """Return a curve over a column, with its corners at the crank angles where the column passes them."""
+def curve_over_column(curve: Curve, over: OverCycle, column: str, key: str, path: str = "") -> Known:
+    """Return a curve over a column, with its corners at the crank angles where the column passes them.
+
+    `column`: its key among the columns over the cycle.
+    """
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], f"{path}[1]")
-    over, corners = interpolator({"": column}), _corners(curve)
-    passed = [angle for corner in corners for angle in over.crossings("", corner).tolist()]
+    known, corners = over.columns[column], _corners(curve)
+    passed = [angle for corner in corners for angle in over.crossings(column, corner).tolist()]
     if not isinstance(curve, LoadTable):
-        return Known(Table(curve, "given", passed, argument=column), key)
+        return Known(Table(curve, "given", passed, argument=known), key)
     low, high = curve.at[0], curve.at[-1]
-    law = Known(Table(StatedTable(curve, key, path), "given", passed, argument=column), key)
+    law = Known(Table(StatedTable(curve, key, path), "given", passed, argument=known), key)
     margin = _MARGIN * max(abs(low), abs(high))
-    ends = sorted([*over.crossings("", low - margin).tolist(), *over.crossings("", high + margin).tolist()])
+    ends = sorted([*over.crossings(column, low - margin).tolist(), *over.crossings(column, high + margin).tolist()])
     ends = [*ends, float(over.edges[-1])]
-    values = over.at("", (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
+    values = over.at(column, (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
     is_inside = (values > low - margin) & (values < high + margin)
     if is_inside.all():
         return law

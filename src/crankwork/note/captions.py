@@ -9,6 +9,8 @@ from crankwork.locale import Language, capital, say
 
 # what is called as something else is called already
 _SAME = {
+    "headings.bearings": "subjects.bearings",
+    "headings.torque_harmonics": "tables.torque_harmonics",
     "headings.chambers": "tables.chambers",
     "headings.comparison": "tables.comparison",
     "headings.driving": "quantities.driving_torque",
@@ -25,6 +27,7 @@ _SAME = {
     "captions.accumulated": "tables.accumulated_torque",
     "captions.acceleration": "quantities.piston_acceleration",
     "captions.balance": "figures.balance_orders",
+    "captions.bearings": "tables.bearings",
     "captions.chambers": "tables.chambers",
     "captions.comparison": "tables.comparison",
     "captions.displacement": "quantities.piston_displacement",
@@ -35,6 +38,7 @@ _SAME = {
     "captions.inertia": "quantities.inertia_force",
     "captions.instant_centres": "headings.instant_centres",
     "captions.more": "headings.more",
+    "captions.linkage_orders": "figures.balance_orders",
     "captions.motion": "figures.kinematics",
     "captions.pairs": "columns.joints",
     "captions.polytropes": "tables.polytropes",

@@ -47,14 +47,15 @@ LINE_WIDTH = 33.0
 _MANY = 8
 _SHORT_NAME = 3
 _OF_HARMONICS = (
-    "harmonic_cosine", "harmonic_sine", "harmonic_amplitude", "harmonic_phase", "phase_sum", "total_harmonic_amplitude",
+    "harmonic_cosine", "harmonic_sine", "harmonic_amplitude", "harmonic_phase", "phase_sum", "total_harmonic_cosine",
+    "total_harmonic_sine", "total_harmonic_amplitude", "total_harmonic_phase",
 )  # fmt: skip
 _AT_POINTS = ("cylinder_volume", "diagram_pressure")
 # parts of quantities of links that are no links or points
 _NO_LINKS = (
     "exact", "start", "drive", "all", "mean", "min", "of_cylinder", "of_piston", "of_rod", "rotating", "knuckle_pins",
 )  # fmt: skip
-_OF_ORDERS = ("free_force", "free_moment")
+_OF_ORDERS = ("free_force", "free_moment", "shaking_moment_amplitude")
 _WITHOUT_ORDER = ("rotating", "counterweights")
 _TIGHT_UNITS = ("°", "%")
 

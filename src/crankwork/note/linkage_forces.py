@@ -87,9 +87,14 @@ def balance(material: Material) -> Iterator[Block]:
     if not orders:
         return
     yield words.paragraph("free_forces", table=Reference("orders"))
-    sizes = words.column_texts(in_display_unit("free_force", [summary[key] for key in orders]), digits=6)
-    rows = [(key.partition(".")[2], size) for key, size in zip(orders, sizes, strict=True)]
-    yield words.table("linkage_orders", ("order_of_turn", words.titled("free_force")), rows, "cr", "orders")
+    kinds = [kind for kind in ("free_force", "shaking_moment_amplitude") if named(summary, kind)]
+    sizes = [
+        words.column_texts(in_display_unit(kind, [summary[key] for key in named(summary, kind)]), digits=6)
+        for kind in kinds
+    ]
+    rows = list(zip((key.partition(".")[2] for key in orders), *sizes, strict=True))
+    titles: list[str | Runs] = ["order_of_turn", *(words.titled(kind) for kind in kinds)]
+    yield words.table("linkage_orders", titles, rows, "c" + "r" * len(kinds), "orders")
     yield words.paragraph("counterweight")
     yield from material.equations("counterweight")
 

@@ -35,6 +35,8 @@ _JOINTS = (
 )  # fmt: skip
 _REDUCTION = ("reduced_inertia", "kinetic_energy", "reduced_inertia_1", "reduced_torque")
 _CENTRES = ("instant_centre_x", "instant_centre_y")
+_BEARINGS = ("crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "main_journal_load")
+_BEARING_SIZES = ("bearing_pressure", "bearing_pressure_max")
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
 _COUNTERWEIGHT = ("counterweight_moment", "counterweight_angle")
 _FRICTION = ("friction_torque", "friction_force", "friction_power")
@@ -82,6 +84,9 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         new.group("torques", _TORQUES),
         Group("efficiency", tuple(_efficiency(results))),
         _friction(results, new),
+        new.group("bearings", _BEARINGS),
+        Group("bearing_sizes", new.lines(_BEARING_SIZES)),
+        Group("torque_harmonics", new.of(_first_harmonic(results))),
         Group("flywheel", tuple(_flywheel(results, new))),
         Group("motor", new.lines(["motor_power", "inertia_on_crank"])),
     ]
@@ -184,6 +189,13 @@ def _transmission(results: Results) -> Iterator[Line]:
         if extreme is not None:
             yield moment.step(extreme.known)
             yield moment.step(results.memory[key])
+
+
+def _first_harmonic(results: Results) -> Iterator[Known]:
+    """Yield the amplitude of the first harmonic of the torque, for which the harmonics are worked."""
+    key = next((key for key in results.memory if key.startswith("total_harmonic_amplitude.")), None)
+    if results.machine.linkage is not None and key is not None:
+        yield results.memory[key]
 
 
 def _inertia(results: Results) -> Iterator[Known]:

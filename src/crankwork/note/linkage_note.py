@@ -18,6 +18,7 @@ from crankwork.machine import TransferTable
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.mechanism import Driver
 from crankwork.note.document import Block, Citation, Equation, ItemList, Math, Note, Paragraph, Reference, Runs, Table
+from crankwork.note.linkage_bearings import bearings, harmonics
 from crankwork.note.linkage_data import chambers, given_parts, method, structural_analysis, task
 from crankwork.note.linkage_forces import balance, efficiency, forces, friction, reduction, torques
 from crankwork.note.linkage_lines import WORST_ANGLES, extreme_of, worst_angles
@@ -497,13 +498,15 @@ Section = Callable[[Material], Iterator[Block]]
 _SECTIONS: dict[str, Section] = {
     "task": task, "structure": structural_analysis, "kinematics": kinematics, "quality": quality,
     "chambers": chambers, "forces": forces, "balance": balance, "reduction": reduction, "torques": torques,
-    "friction": friction, "motor": motor, "flywheel": flywheel, "law_of_motion": law_of_motion,
-    "transient": transient, "comparison": comparison, "checks": checks, "conclusion": conclusion, "sources": sources,
-    "appendix": appendix,
+    "friction": friction, "bearings": bearings, "harmonics": harmonics, "motor": motor, "flywheel": flywheel,
+    "law_of_motion": law_of_motion, "transient": transient, "comparison": comparison, "checks": checks,
+    "conclusion": conclusion, "sources": sources, "appendix": appendix,
 }  # fmt: skip
 # a driver with a law of its own needs a torque or force at every moment, and no flywheel
 _DRIVEN = {"task": driven_task, "kinematics": driven_motion, "forces": driven_forces}
-_NOT_DRIVEN = ("balance", "reduction", "torques", "motor", "flywheel", "law_of_motion", "transient")
+_NOT_DRIVEN = (
+    "balance", "reduction", "torques", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient",
+)  # fmt: skip
 # the tables keep the numbers that courses of machines give them
 _OF_TABLE: dict[str, Section] = {
     "task": table_task, "static": static, "dynamic": dynamic, "driving": driving, "comparison": comparison,

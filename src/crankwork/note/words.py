@@ -184,6 +184,9 @@ class Words(NoteWords):
         """Return a figure with caption and description."""
         number = name.removeprefix(kind_of(name)).removeprefix("_")
         caption = note_text(f"figures.{kind_of(name)}", self.language) + (f", {number}" if number else "")
+        if kind_of(name) == "crankpin_polar":
+            # the crankpin has a name
+            caption = capital(drawing.title)
         seen = say(f"seen.{kind_of(name)}", self.language)
         return Figure(drawing, caption, seen, label=f"figure:{name}")
 

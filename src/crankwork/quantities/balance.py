@@ -21,6 +21,7 @@ ROWS = (
     Quantity("shaking_force_y", "N", "Sum of the inertia forces of all moving masses along the fixed y axis."),
     Quantity("shaking_moment", "N*m",
              "Moment of the inertia of all moving masses about the pivot of the crank, positive anticlockwise."),
+    Quantity("shaking_moment_amplitude", "N*m", "Amplitude of one order of the shaking moment."),
     # counterweights
     Quantity("counterweight_angle", "deg",
              "Direction of a counterweight from the crank, positive anticlockwise, that takes what turns with the crank"

@@ -15,7 +15,8 @@ ROWS = (
     Quantity("crankpin_cosine", "", "Cosine of the angle of the crankpin."),
     # torque along the shaft
     Quantity("engine_indicated_power", "kW", "Indicated work of all cylinders per unit of time."),
-    Quantity("total_torque", "N*m", "Torque of all cylinders on the crankshaft, positive with the rotation."),
+    Quantity("total_torque", "N*m",
+             "Torque of all cylinders, or of a whole linkage, on the crankshaft, positive with the rotation."),
     Quantity("mean_total_torque", "N*m", "Mean of the torque of all cylinders over the cycle."),
     Quantity("throw_torque", "N*m", "Torque of all cylinders of one throw."),
     Quantity("journal_torque", "N*m",
@@ -29,7 +30,10 @@ ROWS = (
     Quantity("harmonic_amplitude", "N*m", "Amplitude of one order of the torque of one cylinder."),
     Quantity("harmonic_phase", "deg", "Crank angle times the order at which the harmonic is largest."),
     Quantity("phase_sum", "", "Length of the sum of the unit vectors of one order over all cylinders."),
-    Quantity("total_harmonic_amplitude", "N*m", "Amplitude of one order of the torque of all cylinders."),
+    Quantity("total_harmonic_cosine", "N*m", "Coefficient of the cosine of one order of the torque of the machine."),
+    Quantity("total_harmonic_sine", "N*m", "Coefficient of the sine of one order of the torque of the machine."),
+    Quantity("total_harmonic_amplitude", "N*m", "Amplitude of one order of the torque of the machine, all cylinders."),
+    Quantity("total_harmonic_phase", "deg", "Crank angle times the order at which that harmonic is largest."),
     # articulated rods
     Quantity("articulated_rod_length", "mm", "Distance between the axes of the knuckle pin and the piston pin."),
     Quantity("knuckle_radius", "mm", "Distance from the crankpin axis to the knuckle pin axis."),

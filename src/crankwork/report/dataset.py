@@ -28,7 +28,8 @@ _OWNERS = {
     "crankpin_wear": "crankpin", "main_wear": "journal", "journal": "journal", "main_journal": "journal",
     "point_": "point", "link_": "link", "instant_centre": "link", "slider_": "slider", "normal_": "slider",
     "friction_force": "slider", "joint_force": "joint", "friction_torque": "joint", "transmission_angle": "joint",
-    "pressure_angle": "joint", "free_": "order", "flywheel_inertia": "way", "relative_speed": "joint",
+    "pressure_angle": "joint", "free_": "order", "shaking_moment_amplitude": "order",
+    "flywheel_inertia": "way", "relative_speed": "joint",
 }  # fmt: skip
 # what a table runs over whose first column says it
 _FIRST = {"wear_ray_angle": "ray", "harmonic_order": "order", "cylinder_number": "cylinder"}

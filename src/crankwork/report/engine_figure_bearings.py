@@ -9,11 +9,11 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.engine_diagrams import CrankpinLoad, PolarDiagram, WearRing, crankpin_of_one, wear_rings
+from crankwork.analysis.bearing_diagrams import CrankpinLoad, PolarDiagram, WearRing, wear_rings
+from crankwork.analysis.engine_diagrams import crankpin_of_one
 from crankwork.analysis.results import Listing
 from crankwork.locale import say
-from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.report.language import row_name
+from crankwork.report.engine_figure_data import BearingsDrawn, EngineDrawn
 from crankwork.show.chart import (
     ARROW,
     BOTTOM,
@@ -63,12 +63,12 @@ class _OverCycle(NamedTuple):
         return cls(mean, *(value for pair in zip(ends, angles, strict=True) for value in pair))
 
 
-def crankpin_polar(engine: EngineDrawn, pin: int) -> tuple[Canvas, Mapping[str, Graph]]:
+def crankpin_polar(engine: BearingsDrawn, pin: str) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of all rods on a crankpin: tangential to the right, radial downward, seen from its pole."""
-    return _pin_polar(engine, engine.diagrams.crankpin(pin), f"crankpin.{pin}")
+    return _pin_polar(engine, engine.bearings.crankpin(pin), engine.row("crankpin", pin))
 
 
-def _pin_polar(engine: EngineDrawn, load: CrankpinLoad, pin: str = "crankpin") -> tuple[Canvas, Mapping[str, Graph]]:
+def _pin_polar(engine: BearingsDrawn, load: CrankpinLoad, pin: str = "crankpin") -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw the polar diagram of a crankpin with the inertia force of its rods from its pole."""
     rods, inertia = load.rods, load.inertia
     count = f"{rods} " if rods > 1 else ""
@@ -109,7 +109,7 @@ def _rod_polar(engine: EngineDrawn, key: str) -> tuple[Canvas, Mapping[str, Grap
 
 
 def _polar(
-    engine: EngineDrawn,
+    engine: BearingsDrawn,
     key: str,
     diagram: PolarDiagram,
     rows: list[Row],
@@ -170,7 +170,7 @@ def _polar(
     return paper, {key: graph}
 
 
-def _mean(engine: EngineDrawn, name: str) -> float:
+def _mean(engine: BearingsDrawn, name: str) -> float:
     """Return the mean load of a bearing; nothing of one that no listing has. [N]"""
     listing = engine.results.listings.get("bearing_loads")
     if listing is None or name not in listing.names:
@@ -218,22 +218,21 @@ def _equal_scales(box: ChartBox, x: Array, y: Array) -> tuple[ChartBox, tuple[fl
     return box, (middle[0] - half[0], middle[0] + half[0]), (middle[1] + half[1], middle[1] - half[1])
 
 
-def crankpin_load(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def crankpin_load(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the size of the load on every unlike crankpin over the crank angle, mean and extremes of the first."""
-    degrees, loads = engine.diagrams.loads
-    sizes = {pin: engine.shown("crankpin_load", load.resultant) for pin, load in loads.crankpins.items()}
+    degrees, loads = engine.bearings.pin_sizes
+    sizes = {pin: engine.shown("crankpin_load", size) for pin, size in loads.items()}
     first = next(iter(sizes))
-    extremes = _OverCycle.read(engine.results.listings["bearing_loads"], f"crankpin.{first}")
+    extremes = _OverCycle.read(engine.results.listings["bearing_loads"], engine.row("crankpin", first))
     rows = [
         Row(
-            engine.named("crankpin_load")
-            + (f", {row_name(f'crankpin.{pin}', engine.language)}" if len(sizes) > 1 else ""),
+            engine.named("crankpin_load") + (f", {engine.row_text('crankpin', pin)}" if len(sizes) > 1 else ""),
             _LINES[index % len(_LINES)],
         )
         for index, pin in enumerate(sizes)
     ]
     style = (10.0, 3.0) if len(sizes) > 1 else DASHED
-    which = row_name(f"crankpin.{first}", engine.language) if len(sizes) > 1 else ""
+    which = engine.row_text("crankpin", first) if len(sizes) > 1 else ""
     mean = f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}"
     rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', extremes.mean)}", style, 0.8))
     base = engine.symbol("crankpin_load")[:-1]
@@ -265,32 +264,38 @@ def crankpin_load(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     return paper, {"crankpin_load": graph}
 
 
-def main_journal_polar(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def main_journal_polar(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the loads of all main journals in the frame of the shaft, side by side on equal scales."""
-    diagrams = engine.diagrams.mains
-    most = max(float(np.hypot(diagram.across, diagram.down).max()) for diagram in diagrams)
+    diagrams = engine.bearings.journals
+    most = max(float(np.hypot(diagram.across, diagram.down).max()) for diagram in diagrams.values())
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
     columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
     lines = -(-len(diagrams) // columns)
     side, gap = (current_layout().width - _LEFT_MARGIN - current_layout().right + 22) / columns - 22, (22.0, 26.0)
     paper = Canvas(current_layout().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
     graphs = {}
-    for index, diagram in enumerate(diagrams):
+    for index, (name, diagram) in enumerate(diagrams.items()):
         column, line = index % columns, index // columns
         box = ChartBox(_LEFT_MARGIN + column * (side + gap[0]), TOP + 12 + line * (side + gap[1]), side, side)
         has_below = index + columns >= len(diagrams)
-        small_text(paper, box.left + side / 2, box.top - 5, row_name(f"main_journal.{index + 1}", engine.language))
-        graphs[str(index + 1)] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
+        small_text(paper, box.left + side / 2, box.top - 5, engine.row_text("main_journal", name))
+        graphs[name] = _small_polar(engine, paper, box, diagram, reach, labels=(has_below, column == 0))
         title = f"{engine.symbol('main_journal_load')}, {engine.unit('main_journal_load')}"
         if has_below:
-            graphs[str(index + 1)].x_title(title)
+            graphs[name].x_title(title)
         if column == 0:
-            graphs[str(index + 1)].y_title(title, 30.0)
+            graphs[name].y_title(title, 30.0)
     return paper, graphs
 
 
 def _small_polar(
-    engine: EngineDrawn, paper: Canvas, box: ChartBox, diagram: PolarDiagram, reach: float, *, labels: tuple[bool, bool]
+    engine: BearingsDrawn,
+    paper: Canvas,
+    box: ChartBox,
+    diagram: PolarDiagram,
+    reach: float,
+    *,
+    labels: tuple[bool, bool],
 ) -> Graph:
     """Draw one of several polar diagrams, crank 1 upward, marked every 90 degrees."""
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language)
@@ -319,17 +324,17 @@ _HATCH = 4.0
 _LARGEST = 270.0
 
 
-def crankpin_wear(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def crankpin_wear(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the wear rings of all unlike crankpins."""
     return _rings(engine, "crankpin_wear", "crankpin")
 
 
-def main_wear(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def main_wear(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the wear rings of all main journals."""
     return _rings(engine, "main_wear", "main_journal")
 
 
-def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str, Graph]]:
+def _rings(engine: BearingsDrawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw the rings of a listing side by side, depths on one scale."""
     angles, rings = wear_rings(engine.results, listing)
     rings = {name: ring._replace(sums=engine.shown("wear_sum", ring.sums)) for name, ring in rings.items()}
@@ -352,7 +357,7 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Canvas, Mappi
         box = ChartBox(start + (index % across) * (side + _GAP), top, side, side)
         graphs[name] = _ring(engine, paper, box, angles, ring, deepest)
         if len(rings) > 1:
-            small_text(paper, box.left + side / 2, top - 4 - below, row_name(f"{thing}.{name}", engine.language))
+            small_text(paper, box.left + side / 2, top - 4 - below, engine.row_text(thing, name))
         if ring.hole.arc < 360:
             angle = engine.number(ring.hole.angle, 4)
             hole = say("drawing.oil_hole_at", engine.language, angle=angle)
@@ -360,14 +365,14 @@ def _rings(engine: EngineDrawn, listing: str, thing: str) -> tuple[Canvas, Mappi
     unit = engine.unit("wear_sum")
     largest = say("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
     text = f"{engine.symbol('wear_sum')} – {largest}; {say('drawing.worn', engine.language)}"
-    frame = say("drawing.crank_up" if thing == "crankpin" else "drawing.crank_one", engine.language)
+    frame = say(f"drawing.{'crank_up' if thing == 'crankpin' else engine.shaft_frame}", engine.language)
     rows = [row for line_text in (text, frame) for row in fitted_lines(line_text, 8, current_layout().width / WIDER)]
     for index, row in enumerate(rows):
         paper.text(current_layout().width / 2, paper.height - 35 + 12 * index, row, size=8, anchor="middle")
     return paper, graphs
 
 
-def _ring(engine: EngineDrawn, paper: Canvas, box: ChartBox, angles: Array, ring: WearRing, deepest: float) -> Graph:
+def _ring(engine: BearingsDrawn, paper: Canvas, box: ChartBox, angles: Array, ring: WearRing, deepest: float) -> Graph:
     """Draw a journal of radius 1, what is worn off it, its numbered rays and its oil hole."""
     reach = 1 + _ROOM / (box.width / 2 - _ROOM)
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)

@@ -366,7 +366,7 @@ def engine_pictures(engine: EngineDrawn) -> dict[str, Callable[[], Drawing]]:
     def picture(name: str, draw: Draw) -> Drawing:
         kind = kind_of(name)
         # of several crankpins the first has a number too
-        first = next(iter(engine.diagrams.loads[1].crankpins), 1) if f"{name}_" in numbered else 0
+        first = next(iter(engine.diagrams.pin_sizes[1]), "1") if f"{name}_" in numbered else ""
         title = f"{name}_{first}" if first else name
         return engine.finished(title, draw(engine)[0], _remark(engine, kind), forces=kind in _OF_FORCES)
 
@@ -399,10 +399,10 @@ def figure_list(engine: EngineDrawn) -> dict[str, Draw]:
 def _polars(engine: EngineDrawn) -> dict[str, Draw]:
     """Return the polar diagram of every unlike crankpin; the first has no number."""
 
-    def of_pin(pin: int) -> Draw:
+    def of_pin(pin: str) -> Draw:
         return lambda engine_: crankpin_polar(engine_, pin)
 
-    pins = list(engine.diagrams.loads[1].crankpins)
+    pins = list(engine.diagrams.pin_sizes[1])
     return {"crankpin_polar" if index == 0 else f"crankpin_polar_{pin}": of_pin(pin) for index, pin in enumerate(pins)}
 
 

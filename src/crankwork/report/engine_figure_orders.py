@@ -10,7 +10,7 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import Locus
 from crankwork.locale import say
-from crankwork.report.engine_figure_data import EngineDrawn
+from crankwork.report.engine_figure_data import BearingsDrawn, Drawn, EngineDrawn
 from crankwork.report.language import units_of
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, round_ticks, small_text
 from crankwork.show.labels import label_marks
@@ -50,7 +50,7 @@ def _fill(paper: Canvas, corners: tuple[float, float, float, float], kind: int) 
 
 
 def _bar_graph(
-    engine: EngineDrawn,
+    engine: Drawn,
     paper: Canvas,
     box: ChartBox,
     bars: Sequence[_Bars],
@@ -241,18 +241,22 @@ def _locus(
     return graph
 
 
-def torque_harmonics(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the amplitudes of the harmonics of the torque of one cylinder and of all as bars over the orders."""
+def torque_harmonics(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the amplitudes of the harmonics of the torque as bars over the orders, of one cylinder and of all."""
     columns = engine.results.listings["torque_harmonics"].columns
     orders = columns["harmonic_order"].tolist()
     kinds = {"one_cylinder": "harmonic_amplitude", "all_cylinders": "total_harmonic_amplitude"}
-    if engine.diagrams.count == 1:
+    if engine.cylinders == 1:
         kinds.pop("all_cylinders")
+    kinds = {name: key for name, key in kinds.items() if key in columns}
     bars = [
         _Bars(name, dict(zip(orders, engine.shown(key, columns[key]).tolist(), strict=True)))
         for name, key in kinds.items()
     ]
-    texts = [f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" for name, key in kinds.items()]
+    texts = [
+        f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" if engine.cylinders else engine.named(key)
+        for name, key in kinds.items()
+    ]
     height = scaled_height(200.0)
     paper = Canvas(current_layout().width, TOP + 19 + height + BOTTOM)
     _swatches(paper, texts, [0, 4][: len(texts)])

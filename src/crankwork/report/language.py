@@ -23,7 +23,10 @@ P = ParamSpec("P")
 R = TypeVar("R")
 # kinds of rows whose number is an order, and what is free of each
 _BY_ORDER = ("reciprocating", "knuckle_pins", "balance_shafts", "residual")
-_OF_ORDERS = ("free_force", "free_moment")
+_OF_ORDERS = {
+    "free_force": "drawing.free_force", "free_moment": "drawing.free_moment",
+    "shaking_moment_amplitude": "quantities.shaking_moment_amplitude",
+}  # fmt: skip
 # what is found in several ways
 _BY_WAY = ("excess_work", "flywheel_inertia", "whole_inertia")
 # what valves let through per unit of time, of all cylinders or of one
@@ -150,7 +153,7 @@ def label(key: str, language: Language) -> str:
         # half orders where a cycle has two turns
         is_order = name.replace(".", "", 1).isdecimal()
         what = say("report.order", language, order=decimal(name, language)) if is_order else row_name(name, language)
-        return f"{say(f'drawing.{kind}', language)}, {what}"
+        return f"{say(_OF_ORDERS[kind], language)}, {what}"
     return _label(kind, language, _part(kind, name, language) if dot else "")
 
 

@@ -28,6 +28,7 @@ from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.report.figure_data import figure_title
 from crankwork.report.language import label, symbol
+from crankwork.report.linkage_bearings import bearing_pictures
 from crankwork.report.linkage_energy import speed_curve, wittenbauer
 from crankwork.report.linkage_lever import lever_figure
 from crankwork.report.linkage_look import (
@@ -134,6 +135,7 @@ def _of_drawing(results: Results, linkage: Linkage, style: Style) -> Pictures:
     if "joint_forces" in drawn:
         drawn |= force_figure(results, float(degrees[row]), style)
         drawn |= {} if style.period else lever_figure(results, float(degrees[row]), style)
+    drawn |= bearing_pictures(results, style.language)
     drawn |= transient_figures(results, style)
     if is_whole:
         drawn |= _evenness(results, degrees, known, style)

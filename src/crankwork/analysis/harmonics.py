@@ -1,0 +1,75 @@
+"""Harmonics of a torque over the cycle, each under its order: `harmonic_amplitude.2.5`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from crankwork.analysis.results import Listing
+from crankwork.cylinders.torque_harmonics import TorqueHarmonics, amplitude_of_harmonic, curve_harmonics
+from crankwork.formula.known import Found, Harmonic, Known
+from crankwork.formula.over_cycle import OverCycle
+from crankwork.shaft.curve import Curve
+
+# orders per revolution, and what rounding leaves of the highest degrees of polynomials
+_ORDERS = 12
+_ROUNDING = 1e-16
+
+
+def order_count(cycle: float) -> int:
+    """Return how many harmonics of a cycle are told. [deg]"""
+    return round(_ORDERS * cycle / 360)
+
+
+def curve_of(over: OverCycle, key: str) -> Curve:
+    """Return a column as polynomials, without degrees that are nothing but rounding."""
+    series = over.polynomials(key)
+    sizes = np.max(np.abs(series), axis=0)
+    last = int(np.max(np.flatnonzero(sizes > _ROUNDING * sizes.max()), initial=0))
+    return Curve.legendre(np.radians(over.edges), series[:, : last + 1])
+
+
+def traced_harmonics(harmonics: TorqueHarmonics, torque: Known, kind: str = "harmonic") -> Iterator[Known]:
+    """Yield coefficients, amplitude and phase of every harmonic of a torque.
+
+    `torque`: that they are of; `kind`: with which the keys begin, `total_harmonic` of the whole machine.
+    """
+    for index, order in enumerate(harmonics.orders.tolist()):
+        cosine, sine = (
+            Known(Harmonic(float(getattr(harmonics, part)[index]), torque, part, order), f"{kind}_{part}.{order:g}")
+            for part in ("cosine", "sine")
+        )
+        amplitude = amplitude_of_harmonic(cosine, sine).named(f"{kind}_amplitude.{order:g}")
+        yield from (cosine, sine, amplitude)
+        yield Known(Found(float(harmonics.phase[index]), "fourier", (cosine, sine)), f"{kind}_phase.{order:g}")
+
+
+def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
+    """Return the harmonics of the torque by their order."""
+    columns: dict[str, list[float]] = {"harmonic_order": []}
+    for key, known in harmonics.items():
+        kind, _, order = key.partition(".")
+        columns.setdefault(kind, []).append(known.value)
+        if kind.endswith("harmonic_cosine"):
+            columns["harmonic_order"].append(float(order))
+    return Listing({key: np.array(values) for key, values in columns.items()})
+
+
+def delivered_harmonics(over: OverCycle, cycle: float) -> dict[str, Known]:
+    """Return the torque that a linkage gives to its crank, minus the balancing torque, and its harmonics.
+
+    `over`: its columns over a whole cycle [deg].
+    """
+    if "balancing_torque" not in over.columns or over.is_zero("balancing_torque"):
+        return {}
+    torque = (-over.columns["balancing_torque"]).named("total_torque")
+    coefficients = curve_harmonics(-curve_of(over, "balancing_torque"), order_count(cycle))
+    harmonics = traced_harmonics(coefficients, torque, "total_harmonic")
+    return {torque.key: torque} | {known.key: known for known in harmonics}
+
+
+def listed_harmonics(values: Mapping[str, Known]) -> dict[str, Listing]:
+    """Return the table of the harmonics of a linkage, if there are any."""
+    harmonics = {key: known for key, known in values.items() if key.startswith("total_harmonic")}
+    return {"torque_harmonics": harmonics_listing(harmonics)} if harmonics else {}
