@@ -167,7 +167,7 @@ def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str
 
 def of_cycle(results: Results) -> set[str]:
     """Return the keys that a calculated cycle adds to the results of its engine."""
-    space = results.solved.space
+    space = getattr(results.solved, "space", None)
     found = set() if space is None or space.calculated is None else set(space.calculated.values)
     return (found | {key for key in results.summary if key.endswith(".cycle")}) - {"indicated_mean_pressure"}
 

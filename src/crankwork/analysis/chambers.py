@@ -134,10 +134,16 @@ def indicators(results: Results) -> dict[str, Indicator]:
     return found
 
 
-def _against(filling: ChamberGas, name: str, chamber: Chamber, cycle: float) -> float:
-    """Return the work on what is around a chamber, nothing where its volume comes back. [J]"""
-    ends = Program({"": filling.columns[f"cylinder_volume.{name}"]})(CrankGrid.from_degrees([0.0, cycle]))[""]
-    return chamber.factor * chamber.ambient * float(ends[1] - ends[0])
+def _against(filling: ChamberGas, chambers: Mapping[str, Chamber], period: float) -> dict[str, float]:
+    """Return the work on what is around each chamber over its cycle, nothing where its volume comes back. [J]"""
+    cycles = {name: own_cycle(chamber, period) for name, chamber in chambers.items()}
+    degrees = sorted({0.0, *cycles.values()})
+    volumes = Program({name: filling.columns[f"cylinder_volume.{name}"] for name in chambers})
+    columns = volumes(CrankGrid.from_degrees(degrees))
+    return {
+        name: chamber.factor * chamber.ambient * float(columns[name][degrees.index(cycles[name])] - columns[name][0])
+        for name, chamber in chambers.items()
+    }
 
 
 def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
@@ -150,10 +156,10 @@ def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
     if machine.mechanism.driver.law is not None:
         torque = torque * rate_by_angle(motion, machine.mechanism.driver.law)
     over = OverCycle({"": torque}, CrankGrid.from_degrees, machine.cycle)
-    work = 0.0
+    work, against = 0.0, _against(filling, machine.chambers, machine.mechanism.period)
     for name, one in machine.chambers.items():
         cycle = own_cycle(one, machine.mechanism.period)
-        done = filling.singles[f"indicated_work.{name}"].value - _against(filling, name, one, cycle)
+        done = filling.singles[f"indicated_work.{name}"].value - against[name]
         work += done * machine.cycle / cycle
     by_pressures = _work_of_valves(solved)
     largest, least = over.largest_and_least[""]

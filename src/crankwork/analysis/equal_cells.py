@@ -62,7 +62,8 @@ def _with_chambers(machine: Machine, part: EqualPart) -> EqualPart | None:
     delays = {part.delay + turns * _TURN for turns in range(round(machine.cycle / _TURN))}
     for (name, chamber), (own_name, other) in zip(first.items(), own.items(), strict=True):
         faces = tuple(replace(face, slider=part.names[face.slider]) for face in chamber.faces)
-        if not nearly_equal(replace(chamber, faces=faces, delay=0.0), replace(other, delay=0.0)):
+        expected = replace(chamber, faces=faces, delay=other.delay)
+        if expected != other and not nearly_equal(expected, other):
             return None
         names[name] = own_name
         delays = {delay for delay in delays if _is_later(chamber, other, delay)}
