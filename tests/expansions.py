@@ -271,7 +271,7 @@ def of_cycle(results: Results) -> set[str]:
 
     What both a cycle and an engine have stands in the summary as that of the cycle.
     """
-    space = results.solved.space
+    space = getattr(results.solved, "space", None)
     values = set() if space is None or space.calculated is None else set(space.calculated.values)
     also = {f"{key}.cycle" for key in values} & set(results.summary)
     return (values - {"indicated_mean_pressure"}) | also
@@ -283,7 +283,7 @@ def _codes(results: Results) -> set[str]:
 
 def _codes_of_cycle(results: Results) -> set[str]:
     """Return the codes of what a calculated cycle says, and of what is said of it beside the torque of the engine."""
-    space = results.solved.space
+    space = getattr(results.solved, "space", None)
     calculated = None if space is None else space.calculated
     beside = {"torque_of_cycle", "cycle_in_every"}
     return set() if calculated is None else {code for code, _ in calculated.notices} | beside

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.equal_cells import equal_cells
 from crankwork.analysis.linkage_memory import speed_of, turning_of
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.reduction import reduced_torque
@@ -15,10 +16,11 @@ from crankwork.formula.known import Known, absent, breaks_of, given, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.memory import traced_mechanism
+from crankwork.kinematics.memory import remembered_motion, traced_mechanism
 from crankwork.kinematics.motion import Motion
 from crankwork.loads import gas
 from crankwork.loads.chamber import Chamber, own_cycle
+from crankwork.loads.equal_chambers import with_equal_chambers
 from crankwork.loads.filling import ChamberGas, rate_by_angle, solve_chambers, stated_valves
 from crankwork.loads.valves import inlet_flow, isothermal_efficiency
 from crankwork.machine import Machine
@@ -31,6 +33,16 @@ _STEP = 1.0
 _AFTER = 1e-6
 
 
+def traced_linkage(machine: Machine, motion: Motion) -> tuple[Motion, SolvedLinkage]:
+    """Return the traced motion of a linkage and the linkage made ready; equal cells are traced once.
+
+    `motion`: the same in numbers, over its whole range.
+    """
+    cells = equal_cells(machine)
+    traced = remembered_motion(machine.mechanism, motion, machine.linkage, cells)
+    return traced, solve_linkage(machine, traced)
+
+
 def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
     """Return a linkage made ready, with the gas in its chambers over its remembered motion."""
     method = machine.method
@@ -38,7 +50,10 @@ def solve_linkage(machine: Machine, motion: Motion) -> SolvedLinkage:
     law = machine.mechanism.driver.law
     period = machine.mechanism.period
     turning = turning_of(machine, motion)
-    filling = solve_chambers(machine.chambers, machine.charges, motion, method.pi, law, period, turning)
+    left_out = {name for part in motion.equal_parts for name in part.chambers.values()}
+    chambers = {name: chamber for name, chamber in machine.chambers.items() if name not in left_out}
+    filling = solve_chambers(chambers, machine.charges, motion, method.pi, law, period, turning)
+    filling = with_equal_chambers(filling, machine.chambers, motion.equal_parts)
     return SolvedLinkage(machine, method, speed, filling)
 
 
@@ -119,10 +134,16 @@ def indicators(results: Results) -> dict[str, Indicator]:
     return found
 
 
-def _against(filling: ChamberGas, name: str, chamber: Chamber, cycle: float) -> float:
-    """Return the work on what is around a chamber, nothing where its volume comes back. [J]"""
-    ends = Program({"": filling.columns[f"cylinder_volume.{name}"]})(CrankGrid.from_degrees([0.0, cycle]))[""]
-    return chamber.factor * chamber.ambient * float(ends[1] - ends[0])
+def _against(filling: ChamberGas, chambers: Mapping[str, Chamber], period: float) -> dict[str, float]:
+    """Return the work on what is around each chamber over its cycle, nothing where its volume comes back. [J]"""
+    cycles = {name: own_cycle(chamber, period) for name, chamber in chambers.items()}
+    degrees = sorted({0.0, *cycles.values()})
+    volumes = Program({name: filling.columns[f"cylinder_volume.{name}"] for name in chambers})
+    columns = volumes(CrankGrid.from_degrees(degrees))
+    return {
+        name: chamber.factor * chamber.ambient * float(columns[name][degrees.index(cycles[name])] - columns[name][0])
+        for name, chamber in chambers.items()
+    }
 
 
 def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
@@ -135,10 +156,10 @@ def gas_check(solved: SolvedLinkage, motion: Motion) -> dict[str, float]:
     if machine.mechanism.driver.law is not None:
         torque = torque * rate_by_angle(motion, machine.mechanism.driver.law)
     over = OverCycle({"": torque}, CrankGrid.from_degrees, machine.cycle)
-    work = 0.0
+    work, against = 0.0, _against(filling, machine.chambers, machine.mechanism.period)
     for name, one in machine.chambers.items():
         cycle = own_cycle(one, machine.mechanism.period)
-        done = filling.singles[f"indicated_work.{name}"].value - _against(filling, name, one, cycle)
+        done = filling.singles[f"indicated_work.{name}"].value - against[name]
         work += done * machine.cycle / cycle
     by_pressures = _work_of_valves(solved)
     largest, least = over.largest_and_least[""]

@@ -20,7 +20,8 @@ from crankwork.analysis.bearings import (
     bearing_values,
     bearings_of,
 )
-from crankwork.analysis.chambers import gas_check, gas_summary, solve_linkage
+from crankwork.analysis.chambers import gas_check, gas_summary, traced_linkage
+from crankwork.analysis.equal_cells import with_equal_columns
 from crankwork.analysis.friction import COLUMNS as FRICTION
 from crankwork.analysis.friction import FOLLOWED as FOLLOWED_FRICTION
 from crankwork.analysis.friction import Rubbed, friction_of, mean_values
@@ -61,7 +62,6 @@ from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.instant_centres import absent_where_still, pivoted_links
-from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.quality import FourBarType, grashof
 from crankwork.kinematics.travel import Travel, way_through
@@ -218,6 +218,7 @@ def _singles(moved: _Moved, memory: Mapping[str, Known], name: str | None = None
     """Return the single values that follow from remembered columns; `name`: of one thing only."""
     machine, found = moved.machine, moved.reached.travel
     quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
+    quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
     quality = {key: one for key, one in quality.items() if name is None or key.partition(".")[2] == name}
     pivoted = pivoted_links(machine.mechanism)
     followed = _followed(memory, pivoted, has_friction=moved.rubbing.is_free) | quality
@@ -265,10 +266,9 @@ def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
     machine = replace(machine, mechanism=mechanism, way=way or machine.way)
     reached = reachable(machine, _DENSE_STEP)
     table = _table(machine, reached, grid)
-    motion = remembered_motion(machine.mechanism, reached.motion, machine.linkage)
-    solved = solve_linkage(machine, motion)
+    motion, solved = traced_linkage(machine, reached.motion)
     running = remembered_running(solved, motion)
-    memory = linkage_memory(solved, running)
+    memory = with_equal_columns(linkage_memory(solved, running), machine.mechanism, motion.equal_parts)
     rubbing = friction_of(solved, running, memory)
     bearings = bearings_of(machine, running.motion, memory) if reached.travel is None else JointBearings()
     memory |= {**rubbing.columns, **bearings.columns}

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
-from crankwork.analysis.chambers import solve_linkage
+from crankwork.analysis.chambers import traced_linkage
 from crankwork.analysis.reach import reachable
 from crankwork.description.build import build_method, crank_speed
 from crankwork.description.chamber_build import build_chambers
@@ -25,7 +25,6 @@ from crankwork.description.shaft_build import build_bearings, build_shaft, check
 from crankwork.description.stated import stated_numbers
 from crankwork.description.wheel_build import read_flywheel
 from crankwork.dynamics.tabulated import TabulatedBody
-from crankwork.kinematics.memory import remembered_motion
 from crankwork.loads.damper import Damper, SliderDamper
 from crankwork.loads.indicator import DiagramError
 from crankwork.loads.load import Load
@@ -165,9 +164,8 @@ def _fits(machine: Machine, values: Values, reader: Reader) -> bool:
     if reached.travel is not None:
         reader.complain("chambers", Refusal("chambers_partial"))
         return False
-    moved = reached.motion
     try:
-        solve_linkage(machine, remembered_motion(machine.mechanism, moved, machine.linkage))
+        traced_linkage(machine, reached.motion)
     except DiagramError as error:
         mistake = error.args[0]
         if ".measured" in error.key:

@@ -35,12 +35,14 @@ from crankwork.formula.known import Known, Pieces, Table, is_known, named
 from crankwork.formula.replay import Program
 from crankwork.kinematics.bridges import BEYOND
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.equal_motion import Follower
 from crankwork.kinematics.memory import interpolant_of
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
+from crankwork.mechanism.equal_parts import EqualPart
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
@@ -65,9 +67,13 @@ def joint_forces(running: Running) -> JointForces:
     all_joints, wrenches = joints(mechanism), _loaded(running)
     result: dict[Joint, Reaction] = {}
     torque: Value = 0.0
-    for group, links in _held_together(mechanism):
+    parts = {link: part for part in motion.equal_parts for link in part.links}
+    # forces in an equal part follow from those of the earlier one
+    for group, links in sorted(_held_together(mechanism), key=lambda held: held[1][0] in parts):
         held = [joint for joint in all_joints if joint.link in links]
-        if group is not None:
+        if links[0] in parts:
+            reactions = dict(_of_equal_part(parts[links[0]], held, result))
+        elif group is not None:
             reactions = _group_reactions(group, running, held, wrenches)
             passages = [passage for index, passage in mechanism.passages.items() if mechanism.dyads[index] is group]
             if passages:
@@ -89,6 +95,25 @@ def joint_forces(running: Running) -> JointForces:
         torque = _at_driver(running, result, wrenches)
     teeth = {name: (mesh.across, mesh.separating) for name, mesh in meshing.items()}
     return replace(collect_reactions(result, all_joints, torque), teeth=teeth)
+
+
+def _of_equal_part(
+    part: EqualPart, held: Sequence[Joint], found: Mapping[Joint, Reaction]
+) -> Iterator[tuple[Joint, Reaction]]:
+    """Yield the reactions in joints of a part by those of the earlier part that it is equal to."""
+    follower = Follower(part)
+    for joint in held:
+        first = found[part.joint_of_first(joint, found)]
+        name = joint.name
+        if isinstance(first, PinForce) and isinstance(joint, Pin):
+            x, y = follower.vector(first.x, first.y)
+            yield joint, PinForce(joint, named(x, f"joint_force_x.{name}"), named(y, f"joint_force_y.{name}"))
+        elif isinstance(first, GuideForce) and isinstance(joint, SlidingJoint):
+            normal, moment = follower.later(first.normal), follower.later(first.moment)
+            yield (
+                joint,
+                GuideForce(joint, named(normal, f"normal_force.{name}"), named(moment, f"normal_moment.{name}")),
+            )
 
 
 def _loaded(running: Running) -> Wrenches:

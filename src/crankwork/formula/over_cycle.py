@@ -9,7 +9,7 @@ square, which has none.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from crankwork.formula.known import Array, Found, Known, Use, breaks_of, distinct
+from crankwork.formula.known import Array, Delayed, Found, Known, Use, breaks_of, distinct
 from crankwork.formula.replay import Angles, Program
 
 _NODES, _WEIGHTS = legendre.leggauss(16)
@@ -65,6 +65,8 @@ _JUMP = 1e-10
 # how far beyond a jump the law after it is met, also at the angle of another cylinder, where rounding is undone [deg]
 BEYOND = 2e-11
 _AT_EDGE = 0.05
+# of the end of a cycle, which is its start [deg]
+_SAME_PLACE = 1e-7
 _ZERO = 1e-14
 
 
@@ -102,9 +104,12 @@ class OverCycle:
         size_of: Mapping[str, str] = MappingProxyType({}),
         program: Program | None = None,
     ) -> None:
+        self.columns = dict(columns)
+        # columns that are others at another crank angle have what these have
+        self._later = dict(_later(columns, cycle)) if program is None and not start else {}
+        columns = {key: column for key, column in columns.items() if key not in self._later}
         self._program, self._angles_at = program or Program(columns), angles_at
         self._row = {key: row for row, key in enumerate(columns)}
-        self.columns = dict(columns)
         self._is_root = np.array([_is_root(column) for column in columns.values()], dtype=bool)
         self.breaks = breaks_of(columns.values(), cycle, start)
         parts = np.maximum(1, np.ceil(np.diff(self.breaks) / _WIDTH - 1e-9)).astype(int)
@@ -181,7 +186,7 @@ class OverCycle:
 
     def integral(self, key: str) -> float:
         """Return the integral of a column over the crank angle. [its unit, rad]"""
-        row = self._row[key]
+        row = self._row_of(key)
         if self._is_root[row]:
             return float(self._integrals_of_roots[row])
         return float(np.radians(self._high - self._low) @ self._coefficients[row, :, 0])
@@ -198,15 +203,23 @@ class OverCycle:
     def mean(self, key: str, name: str) -> Known:
         """Return the mean of a column under a name; what rounding leaves of nothing is nothing."""
         mean = self.integral(key) / float(np.radians(self._high[-1] - self._low[0]))
-        if abs(mean) <= _PLATEAU * self._plain(self._scale)[self._row[key]]:
+        if abs(mean) <= _PLATEAU * self._plain(self._scale)[self._row_of(key)]:
             mean = 0.0
         return Known(Found(mean, "mean", (self.columns[key],)), name)
 
     def polynomials(self, key: str) -> Array:
-        """Return the Legendre coefficients of a column between `edges`, shape (intervals, degrees)."""
-        if self._is_root[self._row[key]]:
+        """Return the Legendre coefficients of a column between `edges`, shape (intervals, degrees).
+
+        Those of a column that is another one at another crank angle are counted from that angle.
+        """
+        row = self._row_of(key)
+        if self._is_root[row]:
             raise TypeError(f"{key} is a square root, which is followed by its square")
-        return np.asarray(self._coefficients[self._row[key]])
+        return np.asarray(self._coefficients[row])
+
+    def _row_of(self, key: str) -> int:
+        """Return the row of a column, of one that is later than another the row of that."""
+        return self._row[self._later[key][0] if key in self._later else key]
 
     @property
     def edges(self) -> Array:
@@ -215,11 +228,12 @@ class OverCycle:
 
     def is_zero(self, key: str) -> bool:
         """Return whether a column is zero everywhere."""
-        return not np.any(self._coefficients[self._row[key]])
+        return not np.any(self._coefficients[self._row_of(key)])
 
     def at(self, key: str, degrees: Array) -> Array:
         """Return a column at crank angles. [deg]"""
-        return np.asarray(self._program.rows(self._angles_at(degrees), (key,))[0])
+        first, delay = self._later.get(key, (key, 0.0))
+        return np.asarray(self._program.rows(self._angles_at(degrees - delay), (first,))[0])
 
     def crossings(self, key: str, level: float = 0.0) -> Array:
         """Return the crank angles where a column passes a level, ascending; where rounding does, none. [deg]"""
@@ -289,14 +303,34 @@ class OverCycle:
         values = self._program.rows(self._angles_at(ordered), self._row)
         # where one may stand counts for the other too, so that no largest is below its least
         either = _Places(np.concatenate([rows, (rows + count) % (2 * count)]), np.tile(angles, 2), equal)
-        first = self._first_of_equal(either, ordered, np.concatenate([values, -values]))
-        return {
+        both = np.concatenate([values, -values])
+        first = self._first_of_equal(either, ordered, both)
+        result = {
             key: (
                 Extreme(float(column[largest]), float(ordered[largest])),
                 Extreme(float(column[least]), float(ordered[least])),
             )
             for key, column, largest, least in zip(self._row, values, first[:count], first[count:], strict=True)
         }
+        for key, (other, delay) in self._later.items():
+            row = self._row[other]
+            largest, least = (self._first_later(either, ordered, both, side, delay) for side in (row, row + count))
+            result[key] = result[other][0]._replace(at=largest), result[other][1]._replace(at=least)
+        return result
+
+    def _first_later(self, places: _Places, ordered: Array, values: Array, row: int, delay: float) -> float:
+        """Return the first crank angle where a column is largest that is later than that of a row. [deg]"""
+        start, end = float(self._low[0]), float(self._high[-1])
+        angles = places.angles[places.rows == row]
+        seen = values[row, np.searchsorted(ordered, angles)]
+        angles = angles[seen >= np.max(seen, initial=-np.inf) - places.equal[row]]
+        if not angles.size:
+            angles = ordered[[np.argmax(values[row])]]
+        begins = self._low[np.searchsorted(self._low, angles, side="right") - 1] == angles
+        later = start + np.mod(angles + delay - start, end - start)
+        later = np.where(end - later < _SAME_PLACE, start, later)
+        edges = later[begins & (later - np.min(later) < _AT_EDGE)]
+        return float(np.min(edges) if edges.size else np.min(later))
 
     def _may_stand(self) -> _Places:
         """Return where the largest of columns may stand, and then the largest of what is opposite to each."""
@@ -408,6 +442,15 @@ class OverCycle:
             if change < _SETTLED:
                 break
         return u
+
+
+def _later(columns: Mapping[str, Known], cycle: float) -> Iterator[tuple[str, tuple[str, float]]]:
+    """Yield columns that are others of them at another crank angle: their keys, those of these, and by how much."""
+    keys = {id(column.node): key for key, column in columns.items()}
+    for key, column in columns.items():
+        node = column.node
+        if isinstance(node, Delayed) and node.cycle == cycle and column.varies and id(node.of.node) in keys:
+            yield key, (keys[id(node.of.node)], node.by)
 
 
 def _is_root(known: Known) -> bool:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from crankwork.formula.known import HalfTurns, Known, OfAngle, absent, given, named
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.equal_motion import place_equal
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.motion_laws import remembered_law
 from crankwork.kinematics.placement import place_at
@@ -20,8 +21,11 @@ from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Dyad, Guide, Point
+from crankwork.mechanism.equal_parts import EqualPart, without
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Body, Crank, Driver, LinkPoint, Mechanism
+
+_Moving = TypeVar("_Moving")
 
 
 class TracedCrankAngle(NamedTuple):
@@ -50,18 +54,24 @@ class ApproximateDirection:
         return np.asarray(np.interp(degrees, self.degrees, self.angle))
 
 
-def remembered_motion(mechanism: Mechanism, motion: Motion, linkage: Linkage | None = None) -> Motion:
+def remembered_motion(
+    mechanism: Mechanism, motion: Motion, linkage: Linkage | None = None, parts: Sequence[EqualPart] = ()
+) -> Motion:
     """Return the traced motion of a mechanism: how it follows from lengths and crank angle.
 
-    `motion`: the same in numbers, for the full turns of its links; `linkage`: the mechanism as described.
+    `motion`: the same in numbers, for the full turns of its links; `linkage`: the mechanism as described; `parts`:
+    those that do what earlier ones do, so that they are not traced again.
     """
     driver, ends = mechanism.driver, (float(motion.grid.degrees[0]), float(motion.grid.degrees[-1]))
     grid = _untyped(TracedCrankAngle(start=ends[0], end=ends[1]))
     rates = None if driver.law is None else remembered_law(driver.law, turns=driver.turns)
     coordinate = grid if rates is None else _untyped(_coordinate(driver, rates.position))
-    placed = place_at(traced_mechanism(mechanism, linkage), coordinate, plain=mechanism)
+    reduced = without(mechanism, parts)
+    placed = place_at(traced_mechanism(reduced, linkage), coordinate, plain=reduced)
+    for part in parts:
+        place_equal(placed, part, placed.links[driver.link].origin)
     links = {}
-    for name, frame in placed.links.items():
+    for name, frame in _ordered(placed.links, motion.frames).items():
         if name == driver.link and isinstance(driver, Crank):
             links[name] = Transfer(driver.start + driver.direction * coordinate.angle, frame.angle_1, frame.angle_2)
         elif name in motion.links:
@@ -69,7 +79,21 @@ def remembered_motion(mechanism: Mechanism, motion: Motion, linkage: Linkage | N
             turns = Known(HalfTurns(frame.sin, frame.cos, approximate), f"half_turns.{name}")
             angle = direction_of_slope(frame.sin, frame.cos, turns).named(f"link_angle.{name}")
             links[name] = Transfer(angle, frame.angle_1, frame.angle_2)
-    return Motion(grid, placed.points, links, placed.sliders, placed.links, placed.bars, rates)
+    return Motion(
+        grid,
+        _ordered(placed.points, motion.points),
+        links,
+        _ordered(placed.sliders, motion.sliders),
+        _ordered(placed.links, motion.frames),
+        _ordered(placed.bars, motion.bars),
+        rates,
+        tuple(parts),
+    )
+
+
+def _ordered(values: dict[str, _Moving], order: Iterable[str]) -> dict[str, _Moving]:
+    """Return values by name in the order of the mechanism, in which parts equal to earlier ones have their places."""
+    return {name: values[name] for name in dict.fromkeys([*(name for name in order if name in values), *values])}
 
 
 def _coordinate(driver: Driver, angle: Known) -> TracedCrankAngle:

@@ -15,6 +15,7 @@ from crankwork.kinematics.loops import ChainPath
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.placement import assembled
 from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.mechanism.equal_parts import EqualPart
 from crankwork.mechanism.mechanism import Mechanism
 
 Status = NDArray[np.int8]
@@ -35,6 +36,8 @@ class Motion:
     bars: Mapping[str, LinkMotion] = field(default_factory=dict)
     # Coordinate of the driver, its rate and second rate, where a law moves it; columns or knowns
     driver: Transfer | None = None
+    # Parts whose traced motion is that of earlier ones
+    equal_parts: tuple[EqualPart, ...] = ()
 
     def bar(self, link: str) -> LinkMotion:
         """Return the line from the joint of a link of a dyad that was known first to its other one, as a frame."""
