@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "274ffc63bbc6",
     "quantities": "eb8dc364166d",
-    "defaults": "ce0c6fab4a4e",
+    "defaults": "7951cd01bc67",
 }
 
 
