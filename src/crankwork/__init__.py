@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         InputError,
         MethodError,
         MissingExtraError,
+        RenamedKeyWarning,
         UnknownKeyError,
     )
     from crankwork.kinematics.crank_grid import CrankGrid
@@ -81,6 +82,7 @@ _HOMES = {
     "Optimum": "study.optimise",
     "Picture": "report.notebook",
     "QUANTITIES": "quantities",
+    "RenamedKeyWarning": "errors",
     "Results": "analysis",
     "Segment": "mechanism.driver",
     "Solution": "study.solve",
@@ -137,6 +139,7 @@ __all__ = [
     "Optimum",
     "Picture",
     "QUANTITIES",
+    "RenamedKeyWarning",
     "Results",
     "Segment",
     "Solution",

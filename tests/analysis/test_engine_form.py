@@ -297,7 +297,10 @@ def test_a_crankshaft_that_does_not_fit_is_told_on_its_line(tmp_path, place):
     assert told in problem.message
 
 
-@for_each("table", ['[bearings]\ncrankpin_diameter = "48 mm"', "[balance]\nrotating_share = 1.0", '[shaft]\nmisfire = ["ram"]'])
+@for_each(
+    "table",
+    ['[bearings]\ncrankpin_diameter = "48 mm"', "[balance]\nrotating_share = 1.0", '[shaft]\nmisfire = ["ram"]'],
+)
 def test_a_crankshaft_of_another_linkage_is_refused(table):
     with pytest.raises(InputError, match="only for a crank with rods and pistons") as refusal:
         read_machine(f"{FILES['four-bar']}\n{table}\n")
