@@ -144,10 +144,16 @@ def analyse_linkage(
     memory = {key: one for key, one in memory.items() if key not in none}
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
-    harmonics = cache(partial(delivered_harmonics, over, machine.cycle) if moved.has_steady_crank else dict[str, Known])
-    with_loads = Deferred(memory, lambda: cycle.memory() | harmonics())
+    harmonics = cache(partial(_harmonics, moved, over))
+    remembered = Deferred(memory, lambda: cycle.memory() | harmonics())
     listings = Deferred(ran.listings, lambda: cycle.listings() | listed_harmonics(harmonics()))
-    return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, with_loads)
+    return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, remembered)
+
+
+def _harmonics(moved: _Moved, over: OverCycle) -> dict[str, Known]:
+    """Return the harmonics of the torque that a crank at a steady speed is given."""
+    machine = moved.machine
+    return delivered_harmonics(over, machine.cycle, machine.mechanism.crank.radius) if moved.has_steady_crank else {}
 
 
 def _turns(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> Iterator[Turn]:

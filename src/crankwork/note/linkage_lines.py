@@ -84,9 +84,9 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         told.group("torques", _TORQUES),
         Group("efficiency", tuple(_efficiency(results))),
         _friction(results, told),
-        told.group("bearings", _BEARINGS),
+        told.group("joint_bearings", _BEARINGS),
         Group("bearing_sizes", told.lines(_BEARING_SIZES)),
-        Group("torque_harmonics", told.of(_first_harmonic(results))),
+        Group("crank_harmonics", told.of(_first_harmonic(results))),
         Group("flywheel", tuple(_flywheel(results, told))),
         Group("motor", told.lines(["motor_power", "inertia_on_crank"])),
     ]
