@@ -82,6 +82,7 @@ _HOMES = {
     "Optimum": "study.optimise",
     "Picture": "report.notebook",
     "QUANTITIES": "quantities",
+    "RenamedKeyWarning": "errors",
     "Results": "analysis",
     "Segment": "mechanism.driver",
     "Solution": "study.solve",

@@ -38,7 +38,7 @@ NO_FORMULA = {
 SOLVED_KINDS = (
     "joint_force", "normal_force", "normal_moment", "link_angle", "link_swing", "slider_stroke", "slider_displacement",
     "point_x", "point_y", "transmission_angle", "time_ratio", "shaking_force_max", "free_force", "free_moment",
-    "torque_with_friction", "static_torque_with_friction",
+    "torque_with_friction", "static_torque_with_friction", "shaking_moment_amplitude", "mean_crankpin_load",
 )  # fmt: skip
 # extremes over the revolution, where they stand, and the error of a method
 OVER_THE_REVOLUTION = ("_angle", "_time", "_error", "_max", "_min")

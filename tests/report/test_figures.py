@@ -72,6 +72,14 @@ def _of_a_linkage(name, results, drawn):
         named = [key for key in results.columns if key.startswith("point_velocity.") and key.count(".") == 1]
         expected |= _by_fours("points", len(named))
         expected |= _by_fours("links", sum(key.startswith("link_angular_velocity.") for key in results.columns))
+        crankpins = [key for key in results.columns if key.startswith("crankpin_load.")]
+        polars = {
+            f"crankpin_polar_{number}" if number > 1 else "crankpin_polar" for number in range(1, len(crankpins) + 1)
+        }
+        expected |= polars | {"crankpin_load", "crankpin_wear"} if crankpins else set()
+        expected |= {"main_journal_polar", "main_wear"} if "main_journals" in results.tables else set()
+        # of a parallelogram the torque is rounding
+        expected |= {"torque_harmonics"} if crankpins and name != "parallelogram" else set()
         # where a centre is far away for most of the turn there is nothing to see
         expected |= {"centrodes"} & set(drawn)
     return expected

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -204,20 +205,92 @@ def _rod(joint: Pin, excluded: set[str]) -> str:
     return next((link for link in (joint.other, joint.link) if link not in excluded), "")
 
 
-def bearing_values(machine: Machine, bearings: JointBearings, over: OverCycle, program: Program) -> dict[str, Known]:
-    """Return what the loads come to over the cycle: mean, extremes, pressures, reversal, wear and oil holes.
+class BearingCycle:
+    """What the loads of the bearings of a linkage come to over its cycle, computed when it is asked for.
 
     `program`: replays, among others, the components of `JointBearings.of_journals`.
     """
-    loads = {name: key for name, key in bearings.loads.items() if key in over.columns and not over.is_zero(key)}
-    reversing = {name: f"{_X}.{name}" for name in bearings.reversing if name in loads}
-    extremes = over.extremes(*loads.values(), *reversing.values())
-    values = dict[str, Known]()
-    for name, key in loads.items():
-        values |= load_values(name, key, over, extremes, _size(machine, name))
-    for name, key in reversing.items():
-        values |= reversal_values(key, over, extremes, name)
-    return values | _wear(machine, bearings, loads, program)
+
+    def __init__(self, machine: Machine, bearings: JointBearings, over: OverCycle, program: Program) -> None:
+        self._machine, self._bearings, self._over, self._program = machine, bearings, over, program
+        # bearings that are loaded, with the column of the size of the load
+        self._loads = {
+            name: key for name, key in bearings.loads.items() if key in over.columns and not over.is_zero(key)
+        }
+        self._components = bearings.of_journals
+
+    @cached_property
+    def crankpins(self) -> dict[str, Known]:
+        """Mean, extremes, pressures, wear and oil hole of each loaded crankpin."""
+        names = [name for name in self._bearings.crankpins if name in self._loads]
+        values = self._statistics(names)
+        for name in names:
+            table = self._wear(name)
+            values |= {table.key: table}
+            hole = hole_of(f"oil_hole_angle.{name}", table, self._traced(name), self._machine.bearings.rays)
+            values[hole.key] = hole
+        return values
+
+    @cached_property
+    def all_bearings(self) -> dict[str, Known]:
+        """Mean, extremes, pressures and reversal of every loaded bearing, wear of crankpins and main journals."""
+        values = self._statistics(self._loads) | self.crankpins
+        for name in self._bearings.reversing:
+            if name in self._loads:
+                key = f"{_X}.{name}"
+                values |= reversal_values(key, self._over, self._over.extremes(key), name)
+        tables = (self._wear(name) for name in self._bearings.journals if name in self._loads)
+        return values | {table.key: table for table in tables}
+
+    def summary(self) -> dict[str, Known]:
+        """Return mean and largest load of each crankpin, and where its oil hole should be."""
+        result = dict[str, Known]()
+        for name in self._bearings.crankpins:
+            if name in self._loads:
+                result |= {
+                    f"{key}.{name}": self.crankpins[f"{statistic}.{name}"].named(f"{key}.{name}")
+                    for key, statistic in _OF_CRANKPIN.items()
+                }
+                result[f"oil_hole_angle.{name}"] = self.crankpins[f"oil_hole_angle.{name}"]
+        return result
+
+    def memory(self) -> dict[str, Known]:
+        """Return all of it, with the components that loads are made of."""
+        return {**self._bearings.between, **self.all_bearings}
+
+    def listings(self) -> dict[str, Listing]:
+        """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
+        if not self._loads:
+            return {}
+        result = {"bearing_loads": loads_listing(self.all_bearings, with_reversal=True)}
+        owners = {"crankpin_wear": self._bearings.crankpins, "main_wear": self._bearings.journals}
+        for listing, names in owners.items():
+            tables = {name: self.all_bearings[f"wear_sum.{name}"] for name in names if name in self._loads}
+            if tables:
+                result[listing] = wear_listing(tables, self._machine.bearings.rays)
+        return result
+
+    def _statistics(self, names: Iterable[str]) -> dict[str, Known]:
+        keys = {name: self._loads[name] for name in names}
+        extremes, values = self._over.extremes(*keys.values()), dict[str, Known]()
+        for name, key in keys.items():
+            values |= load_values(name, key, self._over, extremes, _size(self._machine, name))
+        return values
+
+    @cached_property
+    def _at_steps(self) -> dict[str, Array]:
+        """The components of loads at the steps of wear diagrams. [N]"""
+        steps = CrankGrid.from_degrees(np.arange(0.0, self._machine.cycle, WEAR_STEP))
+        return dict(zip(self._components, self._program.rows(steps, self._components), strict=True))
+
+    def _traced(self, name: str) -> tuple[Known, Known]:
+        along, across = _keys(self._bearings, name)
+        return self._components[along], self._components[across]
+
+    def _wear(self, name: str) -> Known:
+        along, across = (self._at_steps[key] for key in _keys(self._bearings, name))
+        load = BearingLoad(along if name in self._bearings.journals else -along, across)
+        return wear_table(f"wear_sum.{name}", load, self._traced(name), self._machine.bearings.rays)
 
 
 def _size(machine: Machine, name: str) -> tuple[Known, Known] | None:
@@ -232,59 +305,7 @@ def _size(machine: Machine, name: str) -> tuple[Known, Known] | None:
     )
 
 
-def journal_loads(bearings: JointBearings, columns: Mapping[str, Array]) -> dict[str, BearingLoad]:
-    """Return loads of crankpins and main journals, each in the frame of its crank, from their components. [N]"""
-    loads = {}
-    for name in (*bearings.crankpins, *bearings.journals):
-        along, across = (columns[key] for key in _keys(bearings, name))
-        loads[name] = BearingLoad(along if name in bearings.journals else -along, across)
-    return loads
-
-
 def _keys(bearings: JointBearings, name: str) -> tuple[str, str]:
     """Return the keys of the components of the load of a crankpin or a main journal."""
     kinds = (_X, _Y) if name in bearings.journals else FORCES[:2]
     return f"{kinds[0]}.{name}", f"{kinds[1]}.{name}"
-
-
-def _wear(machine: Machine, bearings: JointBearings, loaded: Mapping[str, str], program: Program) -> dict[str, Known]:
-    """Return the wear of the loaded crankpins and main journals, and the oil holes of the crankpins."""
-    rays, components, values = machine.bearings.rays, bearings.of_journals, dict[str, Known]()
-    if not components:
-        return values
-    steps = CrankGrid.from_degrees(np.arange(0.0, machine.cycle, WEAR_STEP))
-    columns = dict(zip(components, program.rows(steps, components), strict=True))
-    for name, load in journal_loads(bearings, columns).items():
-        if name not in loaded:
-            continue
-        pair = tuple(components[key] for key in _keys(bearings, name))
-        table = values[f"wear_sum.{name}"] = wear_table(f"wear_sum.{name}", load, pair, rays)
-        if name in bearings.crankpins:
-            hole = hole_of(f"oil_hole_angle.{name}", table, pair, rays)
-            values[hole.key] = hole
-    return values
-
-
-def bearing_summary(bearings: JointBearings, values: Mapping[str, Known]) -> dict[str, Known]:
-    """Return mean and largest load of each crankpin, and where its oil hole should be."""
-    result = dict[str, Known]()
-    for name in bearings.crankpins:
-        if f"oil_hole_angle.{name}" in values:
-            result |= {
-                f"{key}.{name}": values[f"{statistic}.{name}"].named(f"{key}.{name}")
-                for key, statistic in _OF_CRANKPIN.items()
-            }
-            result[f"oil_hole_angle.{name}"] = values[f"oil_hole_angle.{name}"]
-    return result
-
-
-def bearing_listings(machine: Machine, bearings: JointBearings, values: Mapping[str, Known]) -> dict[str, Listing]:
-    """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
-    if not values:
-        return {}
-    result = {"bearing_loads": loads_listing(values, with_reversal=True)}
-    for listing, names in (("crankpin_wear", bearings.crankpins), ("main_wear", bearings.journals)):
-        tables = {name: values[f"wear_sum.{name}"] for name in names if f"wear_sum.{name}" in values}
-        if tables:
-            result[listing] = wear_listing(tables, machine.bearings.rays)
-    return result

@@ -15,6 +15,8 @@ from crankwork.shaft.curve import Curve
 # orders per revolution, and what rounding leaves of the highest degrees of polynomials
 _ORDERS = 12
 _ROUNDING = 1e-16
+# share of the torque of the largest joint force that rounding leaves of nothing
+_NOTHING = 1e-12
 
 
 def order_count(cycle: float) -> int:
@@ -56,12 +58,15 @@ def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
     return Listing({key: np.array(values) for key, values in columns.items()})
 
 
-def delivered_harmonics(over: OverCycle, cycle: float) -> dict[str, Known]:
+def delivered_harmonics(over: OverCycle, cycle: float, radius: float) -> dict[str, Known]:
     """Return the torque that a linkage gives to its crank, minus the balancing torque, and its harmonics.
 
-    `over`: its columns over a whole cycle [deg].
+    Nothing where it is no more than what rounding leaves of the forces in joints at the crank radius. `over`: its
+    columns over a whole cycle [deg]; `radius`: of the crank [m].
     """
-    if "balancing_torque" not in over.columns or over.is_zero("balancing_torque"):
+    reach = {key: max(abs(end.value) for end in ends) for key, ends in over.largest_and_least.items()}
+    forces = [size for key, size in reach.items() if key.startswith("joint_force.")]
+    if reach.get("balancing_torque", 0.0) <= _NOTHING * radius * max(forces, default=0.0):
         return {}
     torque = (-over.columns["balancing_torque"]).named("total_torque")
     coefficients = curve_harmonics(-curve_of(over, "balancing_torque"), order_count(cycle))

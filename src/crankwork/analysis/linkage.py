@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
+from functools import cache, partial
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -13,14 +14,9 @@ from numpy.typing import ArrayLike
 from crankwork.analysis import origins
 from crankwork.analysis.bearings import FOLLOWED as BEARING_COLUMNS
 from crankwork.analysis.bearings import FORCES as ON_CRANKPINS
-from crankwork.analysis.bearings import (
-    JointBearings,
-    bearing_listings,
-    bearing_summary,
-    bearing_values,
-    bearings_of,
-)
+from crankwork.analysis.bearings import BearingCycle, JointBearings, bearings_of
 from crankwork.analysis.chambers import gas_check, gas_summary, traced_linkage
+from crankwork.analysis.deferred import Deferred
 from crankwork.analysis.equal_cells import with_equal_columns
 from crankwork.analysis.friction import COLUMNS as FRICTION
 from crankwork.analysis.friction import FOLLOWED as FOLLOWED_FRICTION
@@ -39,7 +35,7 @@ from crankwork.analysis.reach import (
     reachable,
     rows_inside,
 )
-from crankwork.analysis.results import Listing, Results
+from crankwork.analysis.results import Results
 from crankwork.analysis.running import running_at
 from crankwork.analysis.solved import Notice, SolvedLinkage
 from crankwork.analysis.speed import (
@@ -134,15 +130,10 @@ def analyse_linkage(
     if moved.has_steady_crank and "shaking_force" in memory:
         balance = counterweight_balance(mechanism.crank, memory | summary, mechanism.period)
         summary |= {key: known.named(key) for key, known in balance}
-    listings = dict[str, Listing]()
-    if found is None:
-        loads = bearing_values(machine, moved.bearings, over, program)
-        harmonics = delivered_harmonics(over, machine.cycle) if moved.has_steady_crank else {}
-        summary |= bearing_summary(moved.bearings, loads)
-        between |= {**moved.bearings.between, **loads, **harmonics}
-        listings = bearing_listings(machine, moved.bearings, loads) | listed_harmonics(harmonics)
+    cycle = BearingCycle(machine, moved.bearings, over, program)
+    summary |= cycle.summary()
     ran = let_go(solved, motion, found, summary, progress)
-    summary, checks, listings = summary | ran.summary, checks | ran.checks, listings | ran.listings
+    summary, checks = summary | ran.summary, checks | ran.checks
     notices += ran.notices + tuple(_of_machine(machine))
     # where links pass through a line, that is told already
     notices += () if machine.mechanism.passages else unusual
@@ -153,7 +144,16 @@ def analyse_linkage(
     memory = {key: one for key, one in memory.items() if key not in none}
     values = {key: one.value for key, one in summary.items()}
     memory |= {**summary, **between}
-    return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, memory)
+    harmonics = cache(partial(_harmonics, moved, over))
+    deferred = Deferred(memory, lambda: cycle.memory() | harmonics())
+    listings = Deferred(ran.listings, lambda: cycle.listings() | listed_harmonics(harmonics()))
+    return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, deferred)
+
+
+def _harmonics(moved: _Moved, over: OverCycle) -> dict[str, Known]:
+    """Return the harmonics of the torque that a crank at a steady speed is given."""
+    machine = moved.machine
+    return delivered_harmonics(over, machine.cycle, machine.mechanism.crank.radius) if moved.has_steady_crank else {}
 
 
 def _turns(machine: Machine, over: OverCycle, memory: Mapping[str, Known]) -> Iterator[Turn]:

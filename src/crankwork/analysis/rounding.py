@@ -16,7 +16,7 @@ _SPEEDS = ("link_angular_velocity", "driver_speed")
 _ACCELERATIONS = ("link_angular_acceleration", "driver_angular_acceleration")
 _FORCES = (
     "joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force", "tooth_force", "separating_force",
-    "driver_force",
+    "driver_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "main_journal_load",
 )  # fmt: skip
 # what forces leave at their distances
 _TORQUES = (

@@ -19,7 +19,7 @@ def bearings(material: Material) -> Iterator[Block]:
         return
     yield words.heading("bearings")
     yield words.paragraph("joint_bearings", source=Citation(_SOURCE))
-    yield from material.worked("bearings", *_ON_PINS)
+    yield from material.worked("joint_bearings", *_ON_PINS)
     yield from material.table("bearings", material.nonzero(*_ON_PINS), label="bearings")
     yield words.paragraph("joint_loads")
     yield from material.equations("bearing_sizes")
@@ -41,7 +41,7 @@ def harmonics(material: Material) -> Iterator[Block]:
         return
     yield words.heading("torque_harmonics")
     yield words.paragraph("crank_harmonics", source=Citation(_HARMONICS))
-    yield from material.equations("torque_harmonics")
+    yield from material.equations("crank_harmonics")
     yield _listing(material, "torque_harmonics", "harmonics")
     yield from material.figures("torque_harmonics")
 

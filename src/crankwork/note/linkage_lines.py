@@ -84,9 +84,9 @@ def linkage_lines(results: Results, degrees: float | None = None) -> tuple[Group
         new.group("torques", _TORQUES),
         Group("efficiency", tuple(_efficiency(results))),
         _friction(results, new),
-        new.group("bearings", _BEARINGS),
+        new.group("joint_bearings", _BEARINGS),
         Group("bearing_sizes", new.lines(_BEARING_SIZES)),
-        Group("torque_harmonics", new.of(_first_harmonic(results))),
+        Group("crank_harmonics", new.of(_first_harmonic(results))),
         Group("flywheel", tuple(_flywheel(results, new))),
         Group("motor", new.lines(["motor_power", "inertia_on_crank"])),
     ]
