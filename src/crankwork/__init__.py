@@ -88,7 +88,6 @@ _HOMES = {
     "Solution": "study.solve",
     "Spreads": "study.spread",
     "Swept": "study.sweep",
-    "RenamedKeyWarning": "errors",
     "UnknownKeyError": "errors",
     "analyse": "analysis",
     "compare": "analysis.compare",
