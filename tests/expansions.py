@@ -314,6 +314,7 @@ def _without_noise(key: str, values: Mapping[str, Any], limit: float, scales: Ma
     of_extreme = key.replace("_angle", "") if "_angle" in key else ""
     size = {
         "free_force_direction": "free_force", "harmonic_phase": "harmonic_amplitude",
+        "total_harmonic_phase": "total_harmonic_amplitude",
         "bearing_load_ratio": "bearing_load_max",
     }.get(key, of_extreme)  # fmt: skip
     return np.where(np.abs(values[size]) <= 1e3 * limit * scales[_unit(size)], 0.0, value) if size in values else value
