@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from crankwork.cylinders.journal_loads import unbalance_weight
 from crankwork.dynamics import force_parts
 from crankwork.dynamics.tabulated import difference_derivative
 from crankwork.kinematics import slider_crank
@@ -92,3 +93,16 @@ def test_mobility_of_known_chains():
     chains = {(3, 4): 1, (5, 7): 1, (1, 1): 1, (4, 5): 2, (2, 3): 0}
     assert {chain: chain_mobility(*chain, 0) for chain in chains} == chains
     assert {chain: chain_mobility(*chain, 1) + 1 for chain in chains} == chains
+
+
+def test_the_bottom_dead_centre_is_where_the_crank_lies_on_the_rod():
+    # crank and rod in line, the rod 150 mm beyond the shaft and 30 mm beside it
+    angle = slider_crank.bottom_dead_centre_angle(math.pi, 0.03, 0.2, 0.05)
+    assert angle == pytest.approx(math.pi + math.asin(0.2), rel=1e-14)
+
+
+def test_the_weight_of_a_mass_on_the_shaft_is_taken_along_its_arm():
+    crank, lean = 0.3, 0.2
+    turned = math.cos(crank), math.cos(lean), math.sin(crank), math.sin(lean)
+    # half a kilogram
+    assert unbalance_weight(0.02, 0.04, 9.8, *turned) == pytest.approx(-4.9 * math.cos(0.5), rel=1e-14)

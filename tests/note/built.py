@@ -175,9 +175,15 @@ def note(case: str, language: Language = "en") -> Note:
     return note_of(results(case), NoteOptions(language=language, figures=False))
 
 
+def key_of(shown: crankwork.Results, name: str) -> str:
+    """Return the key in results of a value that has a name in lines: of an engine that of cylinder 1 or of all."""
+    keys = [key for key, known in shown.memory.items() if known.key == name and key in {*shown.summary, *shown.columns}]
+    return name if name in keys or not keys else keys[0]
+
+
 def remembered(shown: crankwork.Results) -> Iterator[Known]:
     """Yield everything that results remember under each of its names."""
-    stack, seen = [known.named(key) for key, known in shown.memory.items()], set()
+    stack, seen = [one for key, known in shown.memory.items() for one in (known.named(key), known)], set()
     while stack:
         one = stack.pop()
         if (id(one.node), one.key) not in seen:

@@ -22,6 +22,7 @@ from crankwork.note.web import web
 from crankwork.quantities import LANGUAGES
 from crankwork.sources import source_language
 from each import failing, for_each
+from note.built import key_of
 from notes import blocks, figures, note, printed, shown, tables, value, words, worked
 
 # every kind of machine; in the light part two engines, a linkage and a driven one in each language
@@ -60,7 +61,7 @@ def test_equations_give_the_values_of_the_results(notes):
             if isinstance(step, FormulaLine):
                 found = evaluate(step.expression, step.values)
                 assert math.isclose(found, step.value, rel_tol=1e-12, abs_tol=1e-300), step.key
-            if (wanted := one.results.summary.get(step.key)) is not None:
+            if (wanted := one.results.summary.get(key_of(one.results, step.key))) is not None:
                 assert math.isclose(step.value, wanted, rel_tol=1e-12), step.key
 
     assert failing(notes, check) == {}

@@ -21,7 +21,20 @@ from crankwork.locale import has_text
 from crankwork.note.engine_lines import engine_lines
 from crankwork.note.linkage_lines import linkage_lines
 from crankwork.quantities import QUANTITIES, base_key
-from note.built import BUILT, ENGINES, LINKAGES, SOME, VARIANTS, broken, groups, lines, looked_at, machine, results
+from note.built import (
+    BUILT,
+    ENGINES,
+    LINKAGES,
+    SOME,
+    VARIANTS,
+    broken,
+    groups,
+    key_of,
+    lines,
+    looked_at,
+    machine,
+    results,
+)
 
 WAYS = tuple(f"everything: {way}" for way in ("exact", "textbook", "series:6"))
 # groups of steps of whole engines, whose keys end with names and numbers
@@ -53,6 +66,7 @@ every_machine = looked_at(
 def expected(case, group, key):
     """Return the value that the results have of a key at the crank angle of a group, or None."""
     found = results(case)
+    key = key_of(found, key)
     if key in found.summary:
         return found.summary[key]
     if group.degrees is None or key not in found.columns:

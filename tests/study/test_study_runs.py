@@ -389,6 +389,7 @@ cylinder.compression_ratio = {{ from = 8, to = 9 }}
 """
 
 
+@pytest.mark.filterwarnings("ignore::crankwork.errors.RenamedKeyWarning")
 def test_a_study_says_whether_it_is_compiled_and_why_not(tmp_path, monkeypatch):
     monkeypatch.setattr(compiled, "compiles", lambda: False)
     machine, wrong = Path(__file__).parents[2] / "examples" / "petrol-four.toml", []

@@ -32,14 +32,13 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.machine import Machine
 from crankwork.method import Method
+from crankwork.quantities.renamed import MOVED
 from crankwork.working_cycle.calculated_cycle import Calculated
 
 _Value = TypeVar("_Value")
 _CHECK_STEP = 1.0
 # what a cycle is calculated with or checked by, and the rest of a summary says in its own way
 _NOT_SHOWN = ("first_law_residual", "rotational_speed")
-# without an owner they are those of the machine
-_OF_ENGINES_TOO = ("mean_torque", "indicated_power", "reduced_inertia", "reduced_inertia_1")
 _MOVING = ("piston_velocity", "piston_acceleration")
 _PUSHING = ("gas_pressure", "inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
 _WRONG_FORCES = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
@@ -98,7 +97,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
 
 def own_key(machine: Machine, key: str) -> str:
     """Return the key of a value of cylinder 1; of what the whole engine has too, that of the cylinder names it."""
-    return f"{key}.1" if machine.engine is not None and key in _OF_ENGINES_TOO else key
+    return MOVED.get(key, key) if machine.engine is not None else key
 
 
 def _by_own_keys(machine: Machine, values: Mapping[str, Known]) -> dict[str, Known]:

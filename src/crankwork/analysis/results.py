@@ -21,7 +21,7 @@ from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import Language, Refusal
 from crankwork.method import Method
-from crankwork.quantities import QUANTITIES, is_quantity
+from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.renamed import MOVED, RENAMED
 from crankwork.units import coherent_unit
 
@@ -170,7 +170,7 @@ class Results(Mapping[str, Array | float]):
 
     def holding(self, key: str) -> Results:
         """Return the results, of this form of the machine or of the other one, that have a key; these if none has."""
-        if self._has(key) or not is_quantity(key) or self.other is None:
+        if self._has(key) or base_key(key) not in QUANTITIES or self.other is None:
             return self
         return self.other if self.other._has(key) else self  # noqa: SLF001 - of its own class
 

@@ -30,7 +30,7 @@ from crankwork.note.printed_units import printed_unit
 from crankwork.note.sections import note_of_sections
 from crankwork.note.words import EngineWords, in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.report.language import FILE_KEYS, displayed, key_unit, label
+from crankwork.report.language import FILE_KEYS, display_key, displayed, key_unit, label
 from crankwork.report.notices import notice_text
 from crankwork.report.tables import any_nonzero
 from crankwork.units import UNITS
@@ -389,7 +389,7 @@ def _row(material: Material, key: str) -> tuple[Cell, ...]:
     area = summary["piston_area"] if material.per_area else None
     kind, dot, name = key.partition(".")
     angle = summary.get(f"{kind}_angle{dot}{name}") if kind.endswith(("_max", "_min")) else None
-    row = value_row(key, summary[key], words, area=area)
+    row = value_row(display_key(key, material.results), summary[key], words, area=area)
     return (*row, "–" if angle is None else words.amount(angle, "deg", digits=4))
 
 

@@ -44,11 +44,6 @@ def base_key(key: str) -> str:
     return key
 
 
-def is_quantity(key: str) -> bool:
-    """Return whether a key of results begins like one of a quantity of the table."""
-    return base_key(key) in QUANTITIES
-
-
 def subject(key: str) -> str:
     """Return the subject, of `SUBJECTS`, that a key of results belongs to: `piston_area.cycle` to the cycle."""
     owner = key.partition(".")[2]
