@@ -76,28 +76,44 @@ def analyse(
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method
     used = method or machine.method
-    if not used.is_exact and machine.lengths is None:
+    # a linkage with the structure of an engine is analysed as the engine that it is
+    form = _as_engine(machine) if machine.linkage is not None and machine.chambers else None
+    if not used.is_exact and (form or machine).lengths is None:
         raise MethodError(f"method {used.name} exists for a slider-crank only; use exact")
-    results = _analysed(machine, grid, method, progress)
+    results = _analysed(machine, grid, method, progress) if form is None else _relocated(form, machine, grid, method)
     stated = tuple(Notice(*notice) for notice in machine.notices)
-    form = partial(_in_other_form, machine, results.grid, used)
-    return replace(results, notices=(*stated, *results.notices), in_other_form=form)
+    other = partial(_in_other_form, machine, results.grid, used, is_engine=form is not None)
+    return replace(results, notices=(*stated, *results.notices), in_other_form=other)
 
 
-def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results | None:
-    """Return the results of an engine as the linkage that it is, or of a linkage as an engine; None if it is none."""
+def _as_engine(machine: Machine) -> Machine | None:
+    # few linkages are engines
+    from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+
+    return engine_form(machine)
+
+
+def _relocated(form: Machine, machine: Machine, grid: CrankGrid | None, method: Method | None) -> Results:
+    """Return the results of the engine form of a linkage, with the paths of the linkage."""
+    from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
+
+    results = _analysed(form, grid, method, None)
+    relocate(results.memory.values(), linkage_paths(machine))
+    return results
+
+
+def _in_other_form(machine: Machine, grid: CrankGrid, method: Method, *, is_engine: bool) -> Results | None:
+    """Return the results of an engine as the linkage that it is, or of a linkage as an engine; None if it is none.
+
+    `is_engine`: whether a linkage is analysed as an engine.
+    """
+    if is_engine:
+        return _analysed(machine, grid, None, None) if method.is_exact else None
     form = None if machine.other_form is None else machine.other_form(replace(machine, method=method))
-    if form is None and machine.linkage is not None:
-        # few linkages are engines
-        from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
-        from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
-
-        form = engine_form(machine)
-        if form is not None:
-            results = _analysed(form, grid, None, None)
-            relocate(results.memory.values(), linkage_paths(machine))
-            return results
-    return None if form is None else _analysed(form, grid, None, None)
+    if form is not None:
+        return _analysed(form, grid, None, None)
+    form = None if machine.linkage is None else _as_engine(machine)
+    return None if form is None else _relocated(form, machine, grid, None)
 
 
 def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:
