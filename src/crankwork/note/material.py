@@ -1,4 +1,4 @@
-"""Data of the sections of the note of an engine."""
+"""Results of a machine as the sections of its note tell them."""
 
 from __future__ import annotations
 
@@ -12,20 +12,29 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.forces import force_functions
+from crankwork.analysis.plans import POSITION_STEP, positions, worked_position
+from crankwork.analysis.rounding import summary_without_rounding, without_rounding
 from crankwork.formula.expression import Expression, Operation, Symbol
 from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
+from crankwork.locale import capital, has_text, say
 from crankwork.machine import Machine
+from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
-from crankwork.note.engine_lines import cycle_lines, engine_lines
-from crankwork.note.groups import Group
+from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
-from crankwork.note.words import EngineWords
+from crankwork.note.words import Words, named
 from crankwork.report.figure_data import figure_title, kind_of
 from crankwork.report.figures import drawings
 from crankwork.report.language import is_per_area, key_unit, label
+from crankwork.report.tables import any_nonzero
 from crankwork.show.scene import Drawing
 from crankwork.units import from_si
 
+# figures that are no curves
+_CONSTRUCTED = (
+    "position_plans", "velocity_plan", "acceleration_plan", "force_plans", "zhukovsky_lever", "centrodes",
+    "wittenbauer",
+)  # fmt: skip
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
@@ -43,7 +52,7 @@ TRANSFER = tuple(_OF_TRANSFER.values())
 class Material:
     """Results and what is chosen, and what follows from both; remembers what the note has shown already."""
 
-    results: Results  # Of an engine
+    results: Results  # A crank gear as an engine of one cylinder
     options: NoteOptions  # Language and what else is chosen
     has_engine: bool = True  # Whether the machine says what engine it is, and not only its crank gear is known
     _shown: set[tuple[object, ...]] = field(default_factory=set)
@@ -62,19 +71,51 @@ class Material:
         return self.options.order
 
     @property
+    def has_piston(self) -> bool:
+        """Whether the motion of a piston is known, which has formulas of its own."""
+        return "piston_displacement" in self.results.columns
+
+    def has(self, key: str) -> bool:
+        """Return whether the results have a column, a single value, a table or a listing of this name."""
+        results = self.results
+        return any(key in known for known in (results.columns, results.summary, results.tables, results.listings))
+
+    @cached_property
     def summary(self) -> Mapping[str, float]:
-        """Single values by key. [SI]"""
-        return self.results.summary
+        """Single values by key, as tables print them. [SI]"""
+        return self.results.summary if self.has_piston else summary_without_rounding(self.results)
 
     @property
     def per_area(self) -> bool:
         """Whether forces are divided by the piston area; notes of the Vietnamese school do so where they can."""
-        return self.options.per_area or (self.order == "vi" and "piston_area" in self.summary)
+        return self.has_piston and (self.options.per_area or (self.order == "vi" and "piston_area" in self.summary))
 
     @cached_property
-    def words(self) -> EngineWords:
+    def words(self) -> Words:
         """The words of the language."""
-        return EngineWords(self.options.language, per_area=self.per_area)
+        return Words(
+            self.options.language,
+            per_area=self.per_area,
+            period=self.results.period,
+            is_partial="crank_range" in self.results.summary,
+            has_names=not self.has_piston,
+        )
+
+    @cached_property
+    def structure(self) -> Structure | None:
+        """Mobility and groups of a linkage that was drawn."""
+        return structure(self.machine.drawn)[0]
+
+    @cached_property
+    def positions(self) -> Array:
+        """Where tables between the text have rows: the positions of plans as far as they are reached. [deg]"""
+        return self.results.grid.degrees if self.has_piston else positions(self.machine)
+
+    @property
+    def first(self) -> int | None:
+        """Number of the first position, counted from a crank angle of zero; none where they have no numbers."""
+        numbers = self.positions / POSITION_STEP
+        return round(float(numbers[0])) if np.allclose(numbers, np.round(numbers)) else None
 
     def shown(self, key: str, values: Array) -> Array:
         """Return values [SI] in the unit in which tables show their key."""
@@ -85,29 +126,26 @@ class Material:
         return np.asarray(from_si(values, unit) + 0.0)
 
     @cached_property
-    def columns(self) -> dict[str, Array]:
-        """Columns over the crank angle by key, in the units in which they are shown."""
-        columns = {key: self.shown(key, values) for key, values in self.results.columns.items()}
+    def columns(self) -> Mapping[str, Array]:
+        """All columns at the positions, as tables print them. [SI]"""
+        if not self.has_piston:
+            return without_rounding(self.results.columns_at(self.positions), self.machine.speed)
         # rod functions belong to forces: a machine of which only the motion is known does not need them
-        return columns | (force_functions(self.results) if "piston_force" in columns else {})
-
-    @cached_property
-    def listings(self) -> dict[str, dict[str, Array]]:
-        """Tables that do not run over the crank angle by name: columns by key, in the units in which they are shown."""
-        return {
-            name: {key: self.shown(key, values) for key, values in listing.columns.items()}
-            for name, listing in self.results.listings.items()
-        }
+        has_forces = "piston_force" in self.results.columns
+        functions = force_functions(self.results) if has_forces else {}
+        return {**without_rounding(self.results.columns, self.machine.speed), **functions}
 
     @cached_property
     def groups(self) -> dict[str, Group]:
-        """Lines of the memory by the name of their group."""
-        return {group.name: group for group in engine_lines(self.results)}
+        """Lines of the memory by the name of their group, those of a linkage worked where its plans are drawn."""
+        is_drawn = self.machine.linkage is not None and not self.has_piston
+        position = worked_position(self.results) if is_drawn else None
+        return {group.name: group for group in lines_of(self.results, position)}
 
     @cached_property
     def cycle(self) -> tuple[Line, ...]:
         """Lines of the calculation of the cycle."""
-        return cycle_lines(self.results)
+        return cycle_lines(self.results) if self.has_piston else ()
 
     @cached_property
     def drawn(self) -> Mapping[str, Drawing]:
@@ -116,33 +154,42 @@ class Material:
             return {}
         return drawings(self.results, language=self.options.language, per_area=self.per_area)
 
+    def lines(self, group: str, *kinds: str) -> list[Line]:
+        """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
+        lines = self.groups[group].lines if group in self.groups else ()
+        return [line for line in lines if not kinds or line.key.partition(".")[0] in kinds]
+
     def equations(self, group: str, *kinds: str, first: bool = False) -> list[Block]:
         """Return equations of the lines of a group that the note has not shown yet.
 
         Lines without a formula that are in a table are left to the table.
         """
-        lines = self.groups[group].lines if group in self.groups else ()
-        selected = [line for line in lines if not kinds or line.key.partition(".")[0] in kinds]
-        selected = [
-            row for row in selected if not isinstance(row, ValueLine) or row.key.partition(".")[0] not in _TABLED
-        ]
+        selected = self.lines(group, *kinds)
+        if self.has_piston:
+            selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
         return self.worked(_first(selected) if first else selected)
 
-    def worked(self, lines: Iterable[Line]) -> list[Block]:
-        """Return equations of lines that the note has not shown yet."""
+    def worked(
+        self, lines: Iterable[Line], marks: Mapping[str, str] | None = None, *, again: bool = False
+    ) -> list[Block]:
+        """Return equations of lines that the note has not shown yet; `marks`: symbols that some keys have here.
+
+        `again`: also of lines that were shown before.
+        """
         blocks: list[Block] = []
         if self.results.method.kinematics == "textbook":
             lines = list(lines)
             self._formulas |= {_formula_name(step) for step in lines if step.key in TRANSFER}
             lines = in_one_formula(lines)
         for line in map(self._plain, lines):
-            mark = _identity(line)
-            if mark in self._shown:
+            mark = _identity(line) if self.has_piston else (line.key, line.value)
+            if mark in self._shown and not again:
                 continue
             self._shown.add(mark)
-            defined = line.key if isinstance(line, ValueLine) else ""
+            defined = line.key if isinstance(line, ValueLine) and self.has_piston and not again else ""
             area = self.summary["piston_area"] if self.per_area and is_per_area(line.key) else 0.0
-            blocks.append(Equation(line, symbol=self.words.symbol(line.key), defined=defined, area=area))
+            symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
+            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area))
             self._keys.add(line.key)
             self._formulas.add(_formula_name(line))
         return blocks
@@ -171,28 +218,40 @@ class Material:
             yield from equations
 
     def worked_at(self, group: str) -> Iterator[Block]:
-        """Yield the sentence that says at which crank angle a group is worked."""
-        lines = self.groups.get(group)
-        if lines is not None and lines.degrees is not None:
-            yield self.words.paragraph("worked_at", value=self.words.amount(math.radians(lines.degrees), "deg"))
+        """Yield the sentence that says at which crank angle, or when, a group is worked."""
+        degrees = self.groups[group].degrees if group in self.groups else None
+        if degrees is not None:
+            key = "worked_time" if self.words.period else "worked_at" if self.has_piston else "worked_position"
+            yield self.words.paragraph(key, value=self.words.place_text(degrees))
+
+    def nonzero(self, *kinds: str) -> list[str]:
+        """Return the columns of some kinds that are not zero throughout."""
+        return any_nonzero(named(self.columns, *kinds), self.results.columns)
+
+    def of_axes(self, kind: str) -> list[str]:
+        """Return the columns of a place, x and y of one point after the other."""
+        names = (key.partition(".")[2] for key in named(self.columns, f"{kind}_x"))
+        return [f"{kind}_{axis}.{name}" for name in names for axis in "xy"]
 
     def presented(self, tables: Iterable[Table | None] = (), names: Iterable[str] = ()) -> Iterator[Block]:
-        """Yield tables and figures after a sentence that refers to them by number."""
+        """Yield tables and figures after sentences that refer to them by number; `names`: kinds of figures."""
         shown_tables = [table for table in tables if table is not None]
-        drawn = [self._figure(name) for name in names if name in self.drawn and name not in self._shown_figures]
-        sides = {
-            "tables": [table.label for table in shown_tables if table.label],
-            "figures": [figure.label for figure in drawn],
-        }
-        known = {side: listed(labels) for side, labels in sides.items() if labels}
+        drawn = [
+            name for kind in names for name in self.drawn if kind_of(name) == kind and name not in self._shown_figures
+        ]
+        labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
+        for name in drawn:
+            labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
         sentences: list[Run] = []
-        for side, runs in known.items():
-            sentence = self.words.sentence(f"see_{side if len(sides[side]) > 1 else side[:-1]}", **{side: runs})
-            sentences += [" ", *sentence] if sentences else sentence
+        for kind, shown in labels.items():
+            if shown:
+                what = "tables" if kind == "table" else "figures"
+                sentence = self.words.sentence(f"see_{kind}{'s' * (len(shown) > 1)}", **{what: listed(shown)})
+                sentences += [" ", *sentence] if sentences else sentence
         if sentences:
             yield Paragraph(tuple(sentences))
         yield from shown_tables
-        yield from drawn
+        yield from map(self._figure, drawn)
 
     def remaining_figures(self) -> list[str]:
         """Return the names of figures that no section has shown."""
@@ -217,14 +276,25 @@ class Material:
         engine = self.machine.engine
         several = engine is not None and len({place.throw for place in engine.layout.places}) > 1
         if not pins or not several:
-            return figure_title(name, self.words.language)
+            return capital(figure_title(name, self.words.language))
         title = figure_title(kind_of(name), self.words.language)
         return self.words.phrase("of_pin" if len(pins) == 1 else "of_pins", title=title, pins=", ".join(pins))
 
     def _figure(self, name: str) -> Figure:
+        """Return a figure with its caption, and what who cannot see it is told."""
         self._shown_figures.add(name)
-        title = self._title(name)
-        return Figure(self.drawn[name], title, f"{title}. {seen(name, self)}".rstrip(". ") + ".", label=f"f:{name}")
+        drawing, kind, title = self.drawn[name], kind_of(name), self._title(name)
+        if kind == "crankpin_polar" and self.machine.engine is None and self.words.has_names:
+            # the crankpin has a name
+            title = capital(drawing.title)
+        text = seen(name, self)
+        if not text and has_text(f"seen.{kind}"):
+            return Figure(drawing, title, say(f"seen.{kind}", self.words.language), label=f"f:{name}")
+        return Figure(drawing, title, f"{title}. {text}".rstrip(". ") + ".", label=f"f:{name}")
+
+
+def _kind(line: Line) -> str:
+    return line.key.partition(".")[0]
 
 
 def _identity(line: Line) -> tuple[object, ...]:
@@ -304,9 +374,11 @@ def _range(key: str, shown: Material) -> str:
     """Return the least and the largest value of a column or listing, in words."""
     words, values = shown.words, shown.columns.get(key)
     if values is None:
-        values = next((listing[key] for listing in shown.listings.values() if key in listing), None)
+        listings = (listing.columns for listing in shown.results.listings.values())
+        values = next((columns[key] for columns in listings if key in columns), None)
     if values is None or not len(values):
         return ""
+    values = shown.shown(key, values)
     low, high = (words.number(float(value), digits=4) for value in (values.min(), values.max()))
     named = label(key, words.language)
     return words.phrase("seen", quantity=named, low=low, high=f"{high}\u00a0{words.unit(key)}".rstrip())
