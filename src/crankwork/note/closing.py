@@ -21,8 +21,8 @@ from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
 from crankwork.note.words import Words, named
 from crankwork.report.comparison import comparison_rows, shown_names
-from crankwork.report.figure_data import kind_of
 from crankwork.report.language import display_key, displayed, key_unit, label
+from crankwork.report.look import kind_of
 from crankwork.report.notices import notice_text
 from crankwork.report.tables import any_nonzero
 

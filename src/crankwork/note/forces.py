@@ -29,7 +29,7 @@ from crankwork.note.parts import (
     works,
 )
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
-from crankwork.report.not_drawn import not_drawn
+from crankwork.report.notices import not_drawn
 from crankwork.report.tables import any_nonzero
 
 _STATICS, _WORK = "artobolevsky_1988, ch. 13", "artobolevsky_1988, ch. 15"

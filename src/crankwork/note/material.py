@@ -23,9 +23,9 @@ from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Run
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.words import Words, named
-from crankwork.report.figure_data import figure_title, kind_of
 from crankwork.report.figures import drawings
 from crankwork.report.language import is_per_area, key_unit, label
+from crankwork.report.look import figure_title, kind_of
 from crankwork.report.tables import any_nonzero
 from crankwork.show.scene import Drawing
 from crankwork.units import from_si

@@ -1,9 +1,9 @@
-"""The sheets of a linkage: its structure, plans and motion, the forces in it, its dynamics; their texts and tables."""
+"""What sheets have of links beside the figures: plans at a dozen positions, texts and tables."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -17,67 +17,32 @@ from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
 from crankwork.locale import decimal, say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import Structure, structure
-from crankwork.note.sheets.packing import Picture, in_grid
-from crankwork.note.sheets.sheet import Paper, Sheet, sheets_with
+from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.table import Column, numbers, table, text_block
 from crankwork.quantities import Language
-from crankwork.report.figure_data import kind_of
 from crankwork.report.language import called, symbol
-from crankwork.report.linkage_figures import Pictures, linkage_pictures
-from crankwork.report.linkage_look import Style, displayed_values, math_symbol, position_text, quantity_of
-from crankwork.report.linkage_plan_figures import acceleration_plan, node_name, size_of, velocity_plan
+from crankwork.report.look import Style, displayed_values, math_symbol, position_text, quantity_of
+from crankwork.report.plans import acceleration_plan, node_name, size_of, velocity_plan
 from crankwork.report.summary import results_method
 from crankwork.report.tables import any_nonzero
 from crankwork.show.paper import plain
 from crankwork.show.scene import Drawing
 
-# step of the motion that plans are taken from [deg], and how many figures a sheet has
-_DENSE_STEP, _FULL = 1.0, 8
+# step of the motion that plans are taken from [deg]
+_DENSE_STEP = 1.0
 _POSITIONS = tuple(range(0, 360, 30))
 # which positions get an acceleration plan
 _ACCELERATIONS = (1, 5, 9)
-# figures on each sheet, by the key of its title
-_SHEETS: dict[str, tuple[str, tuple[str, ...]]] = {
-    "linkage-kinematics": ("headings.linkage_kinematics", (
-        "structure", "position_plans", "velocity_plans", "acceleration_plans", "scales", "compared",
-    )),
-    "linkage-motion": ("sheets.motion_sheet", ("velocities", "accelerations", "sliders", "links", "driver")),
-    "linkage-forces": ("headings.linkage_forces", (
-        "force_plans", "zhukovsky_lever", "reactions", "joint_forces", "friction",
-    )),
-    "linkage-dynamics": ("sheets.linkage_dynamics", (
-        "torques", "reduced_inertia", "wittenbauer", "speed", "indicator", "chambers", "transient",
-    )),
-}  # fmt: skip
 _CLASSES = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 # points whose plans are compared, and what a reading on paper is rounded to [mm]
 _MOST_COMPARED, _READING = 3, 1
 # of the largest velocity or acceleration of a table, what is none
 _ZERO_TOLERANCE = 1e-6
 Draw = Callable[[], Drawing]
+Pictures = dict[str, Draw]
 
 
-def linkage_sheets(results: Results, language: Language, paper: Paper) -> Iterator[Sheet]:
-    """Yield the sheets of a linkage that was drawn, or of what is reduced to a driver."""
-    known = linkage_pictures(results, language)
-    if results.machine.linkage is not None:
-        known |= _words(results, language)
-    subjects: list[tuple[str, str, list[Picture]]] = []
-    for name, (title, kinds) in _SHEETS.items():
-        pictures = [Picture(key, known[key]) for kind in kinds for key in known if kind_of(key) == kind]
-        # one or two figures would leave a sheet of their own empty
-        if subjects and len(pictures) in (1, 2) and len(subjects[-1][2]) + len(pictures) <= _FULL:
-            first, before, joined_pictures = subjects[-1]
-            heading = say(title, language)
-            joined = before if len(pictures) == 1 else f"{before}; {heading[:1].lower()}{heading[1:]}"
-            subjects[-1] = first, joined, [*joined_pictures, *pictures]
-        elif pictures:
-            subjects.append((name, say(title, language), pictures))
-    for name, title, pictures in subjects:
-        yield from sheets_with(name, title, pictures, paper, language)
-
-
-def _words(results: Results, language: Language) -> Pictures:
+def of_links(results: Results, language: Language) -> Pictures:
     """Return plans at a dozen positions, and the texts and tables of the sheets, of a linkage that was drawn."""
     machine = results.machine
     mechanism, (analysed, _) = machine.mechanism, structure(machine.drawn)

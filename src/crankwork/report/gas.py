@@ -1,4 +1,4 @@
-"""The figures of one cylinder over the crank angle: motion, gas pressure, forces and torque."""
+"""The figures of the gas: pressure over the cycle, indicator diagrams, volume and force of chambers."""
 
 from __future__ import annotations
 
@@ -6,74 +6,45 @@ import itertools
 import re
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.engine import own_key
+from crankwork.analysis.chambers import indicators
 from crankwork.locale import say
-from crankwork.quantities import QUANTITIES
-from crankwork.report.engine_figure_data import EngineDrawn
-from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
+from crankwork.report.look import Drawn, axis_title, displayed_values, quantity_of
+from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, write_method
 from crankwork.show.labels import label_marks
-from crankwork.show.paper import Canvas
-from crankwork.show.place import current_layout, scaled_height
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Style
+from crankwork.show.paper import Canvas, plain
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 
-_STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
-_HEIGHT, _PANEL, _PANEL_GAP = 216.0, 126.0, 38.0
+STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
+HEIGHT = 216.0
 _LONGEST = 16
 # a letter with an index and primes
 _SYMBOL = re.compile(r"([^\W\d_])_?([^\W_]{0,3})(['′″]*)")
+_BAND = 12.0
+_FOUR_STROKES = ("intake", "compression", "expansion", "exhaust")
+_TWO_STROKES, _COMPRESSOR = ("expansion", "compression"), ("suction", "delivery")
+# a cycle of this length has its dead centre of ignition in the middle [deg]
+FOUR_STROKE = 720.0
+_INDICATOR, _ABOVE = 245.0, 24.0
+# crank angles before and after which the cylinder is open [deg], and what share of the diagram its loop may be
+_CALM, _FLAT = (180.0, 620.0), 0.1
+# where the loop may begin, as shares of the width, and what its numbers take beside it [pt]
+_STARTS, _NUMBERS = (0.36, 0.44, 0.52), 36.0
+
+# an inset lower than this shows nothing [pt]
+_LOWEST = 60.0
 
 
-class _Line(NamedTuple):
-    """A curve: key of its quantity, values [display unit], line style."""
-
-    key: str
-    values: Array
-    style: Style = SOLID
-
-
-def kinematics(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return three panels over one revolution; an approximate method shows the two orders it is made of."""
-    turn = engine.degrees <= 360
-    has_orders = "piston_velocity_first_order" in engine.columns
-    gap = _PANEL_GAP if has_orders else 20.0
-    head = 16.0 if has_orders else 4.0
-    panel = scaled_height(_PANEL)
-    paper = Canvas(current_layout().width, TOP + head + 3 * panel + 2 * gap + BOTTOM)
-    graphs: dict[str, Graph] = {}
-    top = TOP + head
-    for row, noun in enumerate(("displacement", "velocity", "acceleration")):
-        keys = {f"piston_{noun}": SOLID}
-        if has_orders:
-            keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
-        curves = [_Line(key, engine.values(key)[turn], style) for key, style in keys.items()]
-        box = ChartBox(current_layout().left, top, current_layout().inner, panel)
-        ends = limits(*(curve.values for curve in curves))
-        graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
-        for index, curve in enumerate(curves):
-            graph.curve(curve.key, engine.degrees[turn], curve.values, curve.style)
-            if has_orders:
-                left = box.left + 8 + 70 * index
-                paper.line([left, left + 20], [box.top - 10] * 2, style=curve.style, width=1.2, name="legend")
-                paper.text(left + 27, box.top - 7, engine.symbol(curve.key), size=8.5)
-        graph.y_title(engine.title(f"piston_{noun}"), 42.0)
-        graphs[noun] = graph
-        top += graph.box.height + gap
-    graphs["acceleration"].x_title(engine.title("crank_angle"))
-    return paper, graphs
-
-
-def pressure(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def pressure(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
     degrees, values = engine.degrees, engine.values("gas_pressure")
     other_pressures = engine.other_pressures
     names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *other_pressures)]
-    rows = [Row(name, style) for name, style in zip(names, itertools.cycle(_STYLES), strict=False)]
-    paper, box = banded_sheet(engine, _HEIGHT, rows if other_pressures else ())
+    rows = [Row(name, style) for name, style in zip(names, itertools.cycle(STYLES), strict=False)]
+    paper, box = banded_sheet(engine, HEIGHT, rows if other_pressures else ())
     graph = over_cycle(paper, box, limits(values, *other_pressures.values()), engine.cycle, engine.language)
     for (number, other), row in zip(other_pressures.items(), rows[1:], strict=True):
         graph.curve(f"gas_pressure.{number}", degrees, other, row.style)
@@ -84,7 +55,7 @@ def pressure(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     return paper, {"pressure": graph}
 
 
-def named_points(engine: EngineDrawn) -> list[tuple[str, float, float]]:
+def named_points(engine: Drawn) -> list[tuple[str, float, float]]:
     """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit]."""
     space = engine.results.solved.space
     return [
@@ -113,67 +84,7 @@ def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]]) -> Non
         label_marks(graph.paper, [(name, *graph.point(x, y)) for name, x, y in points], frame=graph.box)
 
 
-def piston_forces(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it."""
-    styles = {"gas_force": DASHED, "inertia_force": DASH_DOT, "weight_force": DOTTED}
-    parts = {key: style for key, style in styles.items() if key in engine.columns}
-    if len(parts) == 1:
-        return _forces(engine, "piston_forces", dict.fromkeys(parts, SOLID))
-    return _forces(engine, "piston_forces", {**parts, "piston_force": SOLID})
-
-
-def rod_forces(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the force along the rod and the side force."""
-    return _forces(engine, "rod_forces", {"rod_force": SOLID, "side_force": DASHED})
-
-
-def crankpin_forces(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the tangential and the radial force on the crankpin."""
-    return _forces(engine, "crankpin_forces", {"tangential_force": SOLID, "radial_force": DASHED})
-
-
-def _forces(engine: EngineDrawn, name: str, keys: Mapping[str, Style]) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Draw columns of forces over the cycle."""
-    curves = [_Line(key, engine.values(key), style) for key, style in keys.items()]
-    title = f"{', '.join(engine.symbol(key) for key in keys)}, {engine.unit('piston_force')}"
-    return _over_cycle(engine, name, curves, [Row(engine.named(key), style) for key, style in keys.items()], title)
-
-
-def _over_cycle(
-    engine: EngineDrawn, name: str, curves: Sequence[_Line], rows: Sequence[Row], title: str
-) -> tuple[Canvas, Mapping[str, Graph]]:
-    paper, box = banded_sheet(engine, _HEIGHT, rows)
-    graph = over_cycle(paper, box, limits(*(curve.values for curve in curves)), engine.cycle, engine.language)
-    for curve in curves:
-        graph.curve(curve.key, engine.degrees, curve.values, curve.style)
-    strokes(engine, graph)
-    graph.x_title(engine.title("crank_angle"))
-    graph.y_title(title)
-    return paper, {name: graph}
-
-
-def torque(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the crank torque of one cylinder and its mean."""
-    values, found = engine.values("crank_torque"), engine.results.memory[own_key(engine.results.machine, "mean_torque")]
-    mean = -found.value if found.key == "mean_driving_torque" else found.value
-    if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
-        mean = 0.0
-    row = QUANTITIES["mean_torque"]
-    text = f"{engine.symbol('mean_torque')} – {row.label(engine.language)}, {engine.value('mean_torque', mean)}"
-    level = np.full_like(values, float(engine.shown("mean_torque", mean)))
-    curves = [_Line("crank_torque", values), _Line("mean_torque", level, DASHED)]
-    rows = [Row(engine.named("crank_torque")), Row(text, DASHED)]
-    return _over_cycle(engine, "torque", curves, rows, engine.title("crank_torque"))
-
-
-_BAND = 12.0
-_FOUR_STROKES = ("intake", "compression", "expansion", "exhaust")
-_TWO_STROKES, _COMPRESSOR = ("expansion", "compression"), ("suction", "delivery")
-# a cycle of this length has its dead centre of ignition in the middle [deg]
-_FOUR_STROKE = 720.0
-
-
-def banded_sheet(engine: EngineDrawn, height: float, rows: Sequence[Row] = ()) -> tuple[Canvas, ChartBox]:
+def banded_sheet(engine: Drawn, height: float, rows: Sequence[Row] = ()) -> tuple[Canvas, ChartBox]:
     """Return paper with a legend and the place for a graph with a band above it. [pt]"""
     if not _names(engine):
         return sheet(height, rows)
@@ -181,7 +92,7 @@ def banded_sheet(engine: EngineDrawn, height: float, rows: Sequence[Row] = ()) -
     return paper, box._replace(top=box.top + _BAND, height=box.height - _BAND)
 
 
-def strokes(engine: EngineDrawn, graph: Graph) -> None:
+def strokes(engine: Drawn, graph: Graph) -> None:
     """Write the strokes of a cylinder above a graph, each over its half turn."""
     names = _names(engine)
     if not names:
@@ -194,41 +105,17 @@ def strokes(engine: EngineDrawn, graph: Graph) -> None:
         small_text(graph.paper, float(left + right) / 2, top - 3.5, say(f"drawing.{name}", engine.language))
 
 
-def _names(engine: EngineDrawn) -> tuple[str, ...]:
+def _names(engine: Drawn) -> tuple[str, ...]:
     """Return the keys of the strokes from the first dead centre on, none without gas that does work or takes it."""
     space = engine.results.solved.space
     if space is None or not space.work:
         return ()
-    if engine.cycle == _FOUR_STROKE:
+    if engine.cycle == FOUR_STROKE:
         return _FOUR_STROKES
     return _TWO_STROKES if space.work > 0 else _COMPRESSOR
 
 
-def firings(engine: EngineDrawn, graph: Graph) -> None:
-    """Write the number of each cylinder above a graph where it fires."""
-    centre = 360.0 if engine.cycle == _FOUR_STROKE else 0.0
-    numbers_at: dict[float, list[str]] = {}
-    for number, place in enumerate(engine.diagrams.whole.layout.places, start=1):
-        angle = (place.firing_angle + place.top + centre) % engine.cycle
-        numbers_at.setdefault(round(angle, 6), []).append(str(number))
-    top = graph.box.top
-    for angle, numbers in numbers_at.items():
-        x = float(graph.across(angle))
-        graph.paper.area([x, x - 2.2, x + 2.2], [top, top - 4.5, top - 4.5], fill="#000000")
-        small_text(graph.paper, x, top - 7, ",".join(numbers))
-
-
-_INDICATOR, _ABOVE = 245.0, 24.0
-# crank angles before and after which the cylinder is open [deg], and what share of the diagram its loop may be
-_CALM, _FLAT = (180.0, 620.0), 0.1
-# where the loop may begin, as shares of the width, and what its numbers take beside it [pt]
-_STARTS, _NUMBERS = (0.36, 0.44, 0.52), 36.0
-
-# an inset lower than this shows nothing [pt]
-_LOWEST = 60.0
-
-
-def indicator(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def indicator(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known."""
     space = engine.results.solved.space
     volume, values = engine.values("cylinder_volume"), engine.values("gas_pressure")
@@ -256,11 +143,11 @@ def indicator(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     return paper, {"indicator": graph} | ({"inset": inset} if inset else {})
 
 
-def _inset(engine: EngineDrawn, graph: Graph, volume: Array, values: Array) -> Graph | None:
+def _inset(engine: Drawn, graph: Graph, volume: Array, values: Array) -> Graph | None:
     """Draw the loop of gas exchange larger where no curve is, above the pressure of the surroundings."""
     degrees, (left, top, width, height) = engine.degrees, graph.box
     calm = (degrees < _CALM[0]) | (degrees > _CALM[1])
-    if engine.cycle != _FOUR_STROKE or np.ptp(values[calm]) > _FLAT * np.ptp(values):
+    if engine.cycle != FOUR_STROKE or np.ptp(values[calm]) > _FLAT * np.ptp(values):
         return None
     ends = limits(values[calm], margin=0.5)
     x, y = graph.across(volume), graph.down(values)
@@ -293,7 +180,7 @@ def _within(graph: Graph, x: Array, y: Array) -> tuple[Array, Array]:
     return x, np.where((y < low) | (y > high), np.nan, y)
 
 
-def _dead_centres(engine: EngineDrawn, graph: Graph) -> None:
+def _dead_centres(engine: Drawn, graph: Graph) -> None:
     """Mark the volumes at the dead centres, clearance and swept volume above."""
     space, paper, box = engine.results.solved.space, graph.paper, graph.box
     volumes = [
@@ -312,3 +199,27 @@ def _dead_centres(engine: EngineDrawn, graph: Graph) -> None:
         paper.arrow((middle, level), (left, level), width=0.5)
         paper.arrow((middle, level), (right, level), width=0.5)
         paper.text(middle, level - 3, engine.symbol(key), size=8, anchor="middle")
+
+
+def chamber_indicator(machine: Drawn) -> Drawing:
+    """Return pressure over volume of every chamber."""
+    results, style = machine.results, machine.style
+    diagrams = indicators(results)
+    volume, pressure = quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
+    drawn = {
+        name: (displayed_values(volume, diagram.volume), displayed_values(pressure, diagram.pressure))
+        for name, diagram in diagrams.items()
+    }
+    rows = [Row(plain(name), STYLES[k % 4]) for k, name in enumerate(drawn)] if len(drawn) > 1 else []
+    paper, box = sheet(259.0, rows)
+    x, y = (limits(*values, margin=0.05) for values in zip(*drawn.values(), strict=True))
+    graph = Graph(paper, box, x, y, style.language)
+    graph.frame(round_ticks(*x), round_ticks(*y, 10))
+    for k, (name, (across, up)) in enumerate(drawn.items()):
+        # tables of a law over time go by time
+        angles = diagrams[name].degrees * (results.period / 360.0 if results.period else 1.0)
+        graph.curve(name, across, up, STYLES[k % 4], angles=angles)
+    graph.x_title(axis_title(volume, style.language))
+    graph.y_title(axis_title(pressure, style.language))
+    write_method(paper, style.method)
+    return paper.drawing(say("figures.indicator", style.language), style.language)

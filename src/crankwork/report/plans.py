@@ -14,11 +14,11 @@ from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities import Language
-from crankwork.report.figure_data import figure_title
 from crankwork.report.language import symbol
-from crankwork.report.linkage_look import (
+from crankwork.report.look import (
     PLAIN,
     Style,
+    figure_title,
     key_of_links,
     math_symbol,
     position_sign,

@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike
 from crankwork.analysis import Array
 from crankwork.analysis.moving_engine import CylinderMoving, EngineMoving
 from crankwork.machine import Bearings, Machine
-from crankwork.report.arrows import forces_of, with_forces
-from crankwork.report.linkage_drawing import hatched
-from crankwork.report.sketch import Sketch, tints
+from crankwork.report.drawn_links import hatched
+from crankwork.report.sketch import Sketch, forces_of, tints, with_forces
 from crankwork.show.moving import Part, part
 from crankwork.show.scene import Box, Circle, Item, Pen, Polyline, Text, line, placed, rectangle, text_width
 

@@ -13,16 +13,15 @@ from crankwork.analysis import Array
 from crankwork.analysis.moving import Moving, moving
 from crankwork.analysis.skeleton import Pose, Skeleton, skeleton
 from crankwork.mechanism.mechanism import Mechanism
-from crankwork.report.figure_data import figure_title
-from crankwork.report.linkage_drawing import HATCH, corners, slot_middle, walls
-from crankwork.report.linkage_look import (
+from crankwork.report.drawn_links import HATCH, SLOT, Rail, Scene, corners, scene, slot_middle, walls
+from crankwork.report.look import (
     PLAIN,
     Style,
+    figure_title,
     position_sign,
     position_text,
     scale_text,
 )
-from crankwork.report.linkage_scene import SLOT, Rail, Scene, scene
 from crankwork.show.chart import ChartBox, Graph, write_method
 from crankwork.show.labels import label_marks, label_points
 from crankwork.show.paper import BLACK, Canvas, plain, text_width

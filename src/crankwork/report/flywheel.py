@@ -1,35 +1,37 @@
-"""The energy-mass diagram with its tangents, and the angular speed that follows."""
+"""The figures of speed and flywheel: excess work, speed over the cycle, the energy-mass diagram."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.diagrams import Fluctuation, Tangents, tangents
+from crankwork.analysis.turning import turning_diagram
 from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.figure_data import figure_title
 from crankwork.report.language import symbol
-from crankwork.report.linkage_look import (
-    PLAIN,
-    Style,
+from crankwork.report.look import (
+    Drawn,
     axis_title,
     displayed_values,
     drive_graph,
+    figure_title,
     quantity_of,
     scale_text,
 )
-from crankwork.show.chart import Graph, Row, round_ticks, sheet, write_method
-from crankwork.show.labels import label_marks, label_points
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_method
+from crankwork.show.labels import label_marks, label_points, mark_point
+from crankwork.show.paper import GREY, Canvas
 from crankwork.show.place import current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
 from crankwork.units import METRIC, use_units
 
+_PANEL_GAP, _NAMES = 15.0, 24.0
 _TALL, _WIDE = 331.0, 1.08
 # how much taller it may be for a round scale; how far tangents are drawn beyond the curve, of its width
 _TALLER, _BEYOND = 1.3, 0.12
@@ -37,13 +39,100 @@ _TALLER, _BEYOND = 1.3, 0.12
 Ends = tuple[float, float]
 
 
-def wittenbauer(inertia: Array, energy: Array, wanted: Fluctuation, degrees: Array, style: Style = PLAIN) -> Drawing:
-    """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis.
+def excess_work(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the total torque less its mean, hatched where it gives energy, and below it the work of that."""
+    language, excess = engine.language, engine.diagrams.excess
+    angle = np.radians(engine.diagrams.degrees)
+    surplus = engine.shown("total_torque", engine.diagrams.torque.total(angle) - excess.mean_torque)
+    surplus[-1] = surplus[0]
+    energy = engine.shown("excess_work", excess.curve(angle))
+    upper, lower = scaled_height(120.0), scaled_height(150.0)
+    paper = Canvas(current_layout().width, TOP + upper + _PANEL_GAP + lower + BOTTOM)
+    box = ChartBox(current_layout().left, TOP, current_layout().inner, upper)
+    torque = over_cycle(paper, box, limits(surplus), engine.cycle, language, numbers=False)
+    _hatch(torque, engine.diagrams.degrees, surplus)
+    torque.curve("surplus", engine.diagrams.degrees, surplus)
+    torque.y_title(
+        f"{engine.symbol('total_torque')} − {engine.symbol('mean_total_torque')}, {engine.unit('total_torque')}"
+    )
+    box = box._replace(top=TOP + torque.box.height + _PANEL_GAP, height=lower)
+    # room for names above and below
+    low, high = limits(energy, margin=max(0.16, _NAMES / lower))
+    graph = over_cycle(paper, box, (low, high), engine.cycle, language)
+    graph.curve("energy", engine.diagrams.degrees, energy)
+    extremes = excess.curve.extremes()
+    unit_less = [float(engine.shown("excess_work", value_si)) for value_si in (extremes.largest, extremes.least)]
+    for name, value, place in zip(("max", "min"), unit_less, (extremes.at_largest, extremes.at_least), strict=True):
+        graph.level(value, DASH_DOT, f"level_{name}")
+        symbol = engine.symbol("excess_work")[:-1]
+        sign = f"{symbol}{',' if '_' in symbol else '_'}{name}$"
+        mark_point(graph, name, float(np.degrees(place)), value, sign)
+    place = 0.5 * engine.cycle * (0.02 if np.degrees(extremes.at_largest) > 0.1 * engine.cycle else 1.9)
+    _span(graph, place, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
+    engine.name_axes(graph, "crank_angle", "excess_work")
+    return paper, {"torque": torque, "energy": graph}
 
-    `inertia` and `energy`: reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle;
-    `degrees`: crank angles; every thirtieth degree is marked [deg].
-    """
-    construction, language = tangents(inertia, energy, wanted), style.language
+
+def _hatch(graph: Graph, degrees: Array, values: Array) -> None:
+    """Hatch what lies over the horizontal axis."""
+    angles = np.arange(0.0, degrees[-1], degrees[-1] / 144)
+    over = np.interp(angles, degrees, values)
+    x, y, zero = graph.across(angles), graph.down(over), float(graph.down(0.0))
+    kept = over > 0
+    graph.paper.segments(np.column_stack([x, np.full_like(x, zero), x, y])[kept], width=0.5, colour=GREY)
+
+
+def _span(graph: Graph, angle: float, ends: list[float], text: str) -> None:
+    """Draw a double arrow between two levels with a text above the graph, where no curve is."""
+    x = float(graph.across(angle))
+    top, bottom = (float(graph.down(end)) for end in ends)
+    graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.8)
+    graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.8)
+    graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if angle < graph.x[1] / 2 else "end")
+
+
+def crank_speed(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the angular speed over the cycle with its mean and its extremes."""
+    language, speed = engine.language, engine.diagrams.torque.speed
+    if speed is None:
+        raise TypeError("this engine has no moment of inertia that its speed would follow from")
+    values = engine.shown("crank_speed", speed.speed(np.radians(engine.diagrams.degrees)))
+    mean = float(engine.shown("speed", engine.results.solved.speed))
+    rows = [
+        Row(engine.named("crank_speed")),
+        Row(
+            f"{engine.symbol('speed')} – {say('report.mean', language)},"
+            f" {engine.value('speed', engine.results.solved.speed)}",
+            DASHED,
+        ),
+        Row(f"{engine.named('speed_fluctuation')}, {engine.number(speed.fluctuation, 4)}", width=0.0),
+    ]
+    paper, box = sheet(200.0, rows)
+    room = 0.16 * float(np.ptp(values))
+    graph = over_cycle(paper, box, (float(values.min()) - room, float(values.max()) + room), engine.cycle, language)
+    graph.curve("speed", engine.diagrams.degrees, values)
+    graph.level(mean, DASHED, "mean")
+    ends = speed.extremes
+    for name, value, angle in (("max", ends.largest, ends.at_largest), ("min", ends.least, ends.at_least)):
+        text = f"{engine.symbol('speed')[:-1]}_{name}$ = {engine.value('crank_speed', value, 5)}"
+        mark_point(graph, name, float(np.degrees(angle)), float(engine.shown("crank_speed", value)), text)
+    engine.name_axes(graph, "crank_angle", "crank_speed")
+    return paper, {"crank_speed": graph}
+
+
+def has_energy_mass_diagram(machine: Drawn) -> bool:
+    """Return whether a fluctuation of the speed is wanted of something that has mass, which turns fully."""
+    columns, drive = machine.reached.columns, machine.results.machine.drive
+    # without masses the energy stands over one point
+    return has_speed(machine) and drive.fluctuation is not None and bool(np.any(columns["reduced_inertia"]))
+
+
+def wittenbauer(machine: Drawn) -> Drawing:
+    """Return the energy-mass diagram, its tangents and the piece kl that they cut from the energy axis."""
+    degrees, columns, drive = machine.reached.degrees, machine.reached.columns, machine.results.machine.drive
+    inertia, energy = columns["reduced_inertia"], columns["kinetic_energy_change"]
+    wanted = Fluctuation(machine.results.solved.speed, drive.fluctuation or 0.0)
+    construction, style, language = tangents(inertia, energy, wanted), machine.style, machine.language
     # slopes and angles are those of J over kg m2
     with use_units(METRIC):
         ends, scales = _ends(inertia, energy, construction)
@@ -134,12 +223,18 @@ def _angle(scale: float, slope: float, name: str, language: Language) -> str:
     return f"$ψ_{name}$ = {number(angle, language, digits=6)}°; {words} {number(slope, language, digits=4)} {unit}"
 
 
-def speed_curve(degrees: Array, speed: Array, evenness: Fluctuation, style: Style = PLAIN) -> Drawing:
-    """Return the angular speed of the crank over one cycle, with its largest and smallest value.
+def has_speed(machine: Drawn) -> bool:
+    """Return whether the speed over a whole cycle is known."""
+    return "crank_speed" in machine.reached.columns and machine.reached.is_whole
 
-    `evenness`: the mean and the fluctuation, as the results have them.
-    """
-    language, row = style.language, quantity_of("speed")
+
+def speed_curve(machine: Drawn) -> Drawing:
+    """Return the angular speed of the crank over one cycle, with its largest and smallest value."""
+    results, style, language, row = machine.results, machine.style, machine.language, quantity_of("speed")
+    evenness = Fluctuation(results.solved.speed, results.summary["speed_fluctuation"])
+    shaft = turning_diagram(results) if results.machine.turning is not None else None
+    degrees = machine.reached.degrees if shaft is None else shaft.degrees
+    speed = results.columns_at(degrees, ["crank_speed"])["crank_speed"]
     low, high = float(np.min(speed)), float(np.max(speed))
     mean = symbol("mean_torque", language).partition("_")[2]
     levels = (high, "max", DOTTED), (evenness.mean, mean, DASHED), (low, "min", DOTTED)

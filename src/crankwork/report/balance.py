@@ -1,4 +1,4 @@
-"""The figures of orders: balance before and after, loci of free forces, torque harmonics and their phase stars."""
+"""The figures of balance: free forces and moments by order, before and after, and their loci."""
 
 from __future__ import annotations
 
@@ -7,13 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import Array
 from crankwork.analysis.engine_diagrams import Locus
 from crankwork.locale import say
-from crankwork.report.engine_figure_data import BearingsDrawn, Drawn, EngineDrawn
 from crankwork.report.language import units_of
+from crankwork.report.look import Drawn
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, round_ticks, small_text
-from crankwork.show.labels import label_marks
 from crankwork.show.paper import BLACK, WIDER, Canvas, text_width
 from crankwork.show.place import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID
@@ -27,7 +25,7 @@ _HARDLY, _LEFT = 1e-3, 1e-9
 _LINE, _NARROW = 1e-6, 0.4
 
 
-class _Bars(NamedTuple):
+class Bars(NamedTuple):
     """Bars of one kind: name of the kind, and height by order."""
 
     kind: str
@@ -49,11 +47,11 @@ def _fill(paper: Canvas, corners: tuple[float, float, float, float], kind: int) 
         paper.segments(np.column_stack([a, start, b, end]), width=0.5)
 
 
-def _bar_graph(
+def bar_graph(
     engine: Drawn,
     paper: Canvas,
     box: ChartBox,
-    bars: Sequence[_Bars],
+    bars: Sequence[Bars],
     orders: Sequence[float],
     fills: Sequence[int],
 ) -> Graph:
@@ -96,7 +94,7 @@ def _value(paper: Canvas, middle: float, bottom: float, text: str, *, is_upright
         paper.text(middle, bottom, text, size=7.0, anchor="middle")
 
 
-def _swatches(paper: Canvas, texts: Sequence[str], fills: Sequence[int]) -> None:
+def swatches(paper: Canvas, texts: Sequence[str], fills: Sequence[int]) -> None:
     """Write the legend of bars above the graph, on as many lines as they need."""
     left, top = current_layout().left, TOP - 4
     for text, fill in zip(texts, fills, strict=True):
@@ -118,7 +116,7 @@ def _swatch_lines(texts: Sequence[str]) -> int:
     return lines
 
 
-def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return free forces and moments per order: of each kind of mass, and what is left of all together."""
     balance, language = engine.diagrams.balance, engine.language
     kinds = {
@@ -146,7 +144,7 @@ def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
     height = scaled_height(150.0)
     paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
-    _swatches(paper, texts, fills)
+    swatches(paper, texts, fills)
     for panel in (panel for panel in sizes if panel not in panels):
         key = f"free_{panel}"
         with use_units(units_of(engine.results, key, most[panel])):
@@ -161,32 +159,32 @@ def balance_orders(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
         key = f"free_{panel}"
         with use_units(units_of(engine.results, key, most[panel])):
             bars = [
-                _Bars(kind, {order: float(engine.shown(key, value)) for order, value in heights.items()})
+                Bars(kind, {order: float(engine.shown(key, value)) for order, value in heights.items()})
                 for kind, heights in sizes[panel].items()
             ]
             box = ChartBox(current_layout().left, TOP + head + index * (height + 28), current_layout().inner, height)
-            graphs[panel] = _bar_graph(engine, paper, box, bars, orders, fills)
+            graphs[panel] = bar_graph(engine, paper, box, bars, orders, fills)
             graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
     graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
     return paper, graphs
 
 
-def _inertia(engine: EngineDrawn) -> float:
+def _inertia(engine: Drawn) -> float:
     """Return the largest inertia force of one piston. [N]"""
     return float(np.max(np.abs(engine.columns["inertia_force"])))
 
 
-def _free(engine: EngineDrawn, panel: str) -> float:
+def _free(engine: Drawn, panel: str) -> float:
     """Return the least free force that is drawn, or moment, taken as a force at a metre. [N], [N m]"""
     return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
 
 
-def has_free_forces(engine: EngineDrawn) -> bool:
+def has_free_forces(engine: Drawn) -> bool:
     """Return whether any order leaves a force free before or after balancing."""
     return bool(engine.diagrams.loci)
 
 
-def balance_ellipses(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the closed curves in which the free forces of each order run, before and after balancing."""
     loci, language = engine.diagrams.loci, engine.language
     is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
@@ -215,9 +213,7 @@ def balance_ellipses(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     return paper, graphs
 
 
-def _locus(
-    engine: EngineDrawn, paper: Canvas, box: ChartBox, before: Locus, after: Locus, *, is_balanced: bool
-) -> Graph:
+def _locus(engine: Drawn, paper: Canvas, box: ChartBox, before: Locus, after: Locus, *, is_balanced: bool) -> Graph:
     """Draw the loci of one order, the reference direction of the engine upward."""
     reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
     width = max(float(np.max(np.abs(locus.across))) for locus in (before, after))
@@ -239,87 +235,3 @@ def _locus(
         else:
             paper.dot(*middle, 2.2)
     return graph
-
-
-def torque_harmonics(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the amplitudes of the harmonics of the torque as bars over the orders, of one cylinder and of all."""
-    columns = engine.results.listings["torque_harmonics"].columns
-    orders = columns["harmonic_order"].tolist()
-    kinds = {"one_cylinder": "harmonic_amplitude", "all_cylinders": "total_harmonic_amplitude"}
-    if engine.cylinders == 1:
-        kinds.pop("all_cylinders")
-    kinds = {name: key for name, key in kinds.items() if key in columns}
-    bars = [
-        _Bars(name, dict(zip(orders, engine.shown(key, columns[key]).tolist(), strict=True)))
-        for name, key in kinds.items()
-    ]
-    texts = [
-        f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" if engine.cylinders else engine.named(key)
-        for name, key in kinds.items()
-    ]
-    height = scaled_height(200.0)
-    paper = Canvas(current_layout().width, TOP + 19 + height + BOTTOM)
-    _swatches(paper, texts, [0, 4][: len(texts)])
-    graph = _bar_graph(
-        engine,
-        paper,
-        ChartBox(current_layout().left, TOP + 19, current_layout().inner, height),
-        bars,
-        orders,
-        [0, 4],
-    )
-    graph.x_title(engine.title("harmonic_order"))
-    symbols = ", ".join(engine.symbol(key) for key in kinds.values())
-    graph.y_title(f"{symbols}, {engine.unit('harmonic_amplitude')}")
-    return paper, {"torque_harmonics": graph}
-
-
-def phase_stars(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the phase stars of the orders up to 6, equal directions end to end, with the sum of each."""
-    stars = engine.diagrams.phase_stars
-    columns = 4 if len(stars) > 6 else 3
-    lines = -(-len(stars) // columns)
-    side, gap, head = (current_layout().width - 24) / columns - 8, 8.0, 14.0
-    paper = Canvas(current_layout().width, TOP + lines * (side + head) + 30)
-    graphs: dict[str, Graph] = {}
-    for k, star in enumerate(stars):
-        box = ChartBox(12 + (k % columns) * (side + gap), TOP + head + (k // columns) * (side + head), side, side)
-        order = engine.number(star.order)
-        graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
-        text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
-        small_text(paper, box.left + side / 2, box.top - 3, text)
-    paper.text(
-        current_layout().width / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle"
-    )
-    return paper, graphs
-
-
-def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: complex, engine: EngineDrawn) -> Graph:
-    """Draw one phase star, its reference direction upward and angles with the rotation, clockwise."""
-    directions: dict[tuple[float, float], list[int]] = {}
-    for number, vector in enumerate(vectors, start=1):
-        directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
-    longest = max(*(len(numbers_of_ray) for numbers_of_ray in directions.values()), abs(total))
-    reach = longest * (1 + 22 / (box.width / 2 - 22))
-    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
-    middle = graph.point(0.0, 0.0)
-    if abs(total) > 1e-9:
-        end = graph.point(total.imag, total.real)
-        paper.arrow(middle, end, width=3.2, colour="#a8a8a8")
-    graph.curves["sum"] = np.array([total.imag]), np.array([total.real])
-    ends = []
-    for (up, across), numbers in directions.items():
-        for k in range(len(numbers)):
-            paper.arrow(graph.point(k * across, k * up), graph.point((k + 1) * across, (k + 1) * up), width=0.8)
-        end = graph.point(len(numbers) * across, len(numbers) * up)
-        ends.append((",".join(str(number) for number in numbers), *end))
-    paper.dot(*middle, 1.6)
-    label_marks(paper, ends, size=7.0, dot=0.0)
-    graph.curves["ends"] = _ends(directions)
-    return graph
-
-
-def _ends(directions: Mapping[tuple[float, float], Sequence[int]]) -> tuple[Array, Array]:
-    lengths = np.array([len(numbers) for numbers in directions.values()])
-    up, across = np.array(list(directions)).T
-    return across * lengths, up * lengths

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import Array, Results
+from crankwork.analysis import Array
 from crankwork.analysis.lever import Lever, LeverForce, LeverTorque, zhukovsky_lever
 from crankwork.analysis.skeleton import skeleton
 from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.figure_data import figure_title
 from crankwork.report.language import displayed, key_unit, symbol
-from crankwork.report.linkage_look import Style, math_symbol, position_text, scale_text
-from crankwork.report.linkage_plan_figures import draw_vectors, node_name
+from crankwork.report.look import Drawn, figure_title, math_symbol, position_text, scale_text
+from crankwork.report.plans import draw_vectors, node_name
 from crankwork.show.chart import ChartBox, Graph, write_method
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import GREY, WIDER, Canvas, fitted_lines, plain, text_width
@@ -43,17 +41,24 @@ class _Named(NamedTuple):
     arm: str
 
 
-def lever_figure(results: Results, degrees: float, style: Style) -> dict[str, Callable[[], Drawing]]:
-    """Return the function that draws Zhukovsky's lever at a crank angle [deg]; none without forces."""
-    lever = zhukovsky_lever(results, degrees, style.links)
+def _of(machine: Drawn) -> tuple[Lever | None, float]:
+    """Return the lever at the angle that is worked, none without forces, and that angle. [deg]"""
+    degrees = float(machine.reached.degrees[machine.reached.row])
+    return zhukovsky_lever(machine.results, degrees, machine.style.links), degrees
+
+
+def has_lever(machine: Drawn) -> bool:
+    """Return whether forces act on the lever."""
+    return _of(machine)[0] is not None
+
+
+def lever_figure(machine: Drawn) -> Drawing:
+    """Return Zhukovsky's lever at the angle that is worked."""
+    (lever, degrees), style, language = _of(machine), machine.style, machine.language
     if lever is None:
-        return {}
-    numbers = {member.name: member.number for member in skeleton(results.machine.mechanism, style.links).members}
-    return {"zhukovsky_lever": partial(_figure, lever, numbers, degrees, style)}
-
-
-def _figure(lever: Lever, numbers: dict[str, int], degrees: float, style: Style) -> Drawing:
-    language = style.language
+        raise TypeError("no force acts on the lever")
+    shape = skeleton(machine.results.machine.mechanism, style.links)
+    numbers = {member.name: member.number for member in shape.members}
     forces = _named(lever, numbers, language)
     places = np.vstack([np.zeros(2), *lever.plan.nodes.values(), *(force.force.foot for force in forces)])
     (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)

@@ -13,7 +13,7 @@ from crankwork.analysis.bearing_diagrams import CrankpinLoad, PolarDiagram, Wear
 from crankwork.analysis.engine_diagrams import crankpin_of_one
 from crankwork.analysis.results import Listing
 from crankwork.locale import say
-from crankwork.report.engine_figure_data import BearingsDrawn, EngineDrawn
+from crankwork.report.look import Drawn
 from crankwork.show.chart import (
     ARROW,
     BOTTOM,
@@ -63,12 +63,12 @@ class _OverCycle(NamedTuple):
         return cls(mean, *(value for pair in zip(ends, angles, strict=True) for value in pair))
 
 
-def crankpin_polar(engine: BearingsDrawn, pin: str) -> tuple[Canvas, Mapping[str, Graph]]:
+def crankpin_polar(engine: Drawn, pin: str) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of all rods on a crankpin: tangential to the right, radial downward, seen from its pole."""
     return _pin_polar(engine, engine.bearings.crankpin(pin), engine.row("crankpin", pin))
 
 
-def _pin_polar(engine: BearingsDrawn, load: CrankpinLoad, pin: str = "crankpin") -> tuple[Canvas, Mapping[str, Graph]]:
+def _pin_polar(engine: Drawn, load: CrankpinLoad, pin: str = "crankpin") -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw the polar diagram of a crankpin with the inertia force of its rods from its pole."""
     rods, inertia = load.rods, load.inertia
     count = f"{rods} " if rods > 1 else ""
@@ -84,22 +84,22 @@ def _pin_polar(engine: BearingsDrawn, load: CrankpinLoad, pin: str = "crankpin")
     return _polar(engine, "crankpin_load", load.polar, rows if inertia else [], titles, pin)
 
 
-def crankpin_polar_of_one(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def crankpin_polar_of_one(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of the one rod of a crank gear on its crankpin, from the columns of the results."""
     return _pin_polar(engine, crankpin_of_one(engine.results, engine.degrees, engine.columns))
 
 
-def big_end_polar(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def big_end_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of the crankpin on the big-end bearing, in the frame of the rod."""
     return _rod_polar(engine, "big_end_load")
 
 
-def small_end_polar(engine: EngineDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def small_end_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the load of the piston pin on the small-end bearing, in the frame of the rod."""
     return _rod_polar(engine, "small_end_load")
 
 
-def _rod_polar(engine: EngineDrawn, key: str) -> tuple[Canvas, Mapping[str, Graph]]:
+def _rod_polar(engine: Drawn, key: str) -> tuple[Canvas, Mapping[str, Graph]]:
     unit = engine.unit(key)
     titles = (
         f"{engine.symbol(key)} {say('drawing.across_rod', engine.language)}, {unit}",
@@ -109,7 +109,7 @@ def _rod_polar(engine: EngineDrawn, key: str) -> tuple[Canvas, Mapping[str, Grap
 
 
 def _polar(
-    engine: BearingsDrawn,
+    engine: Drawn,
     key: str,
     diagram: PolarDiagram,
     rows: list[Row],
@@ -170,7 +170,7 @@ def _polar(
     return paper, {key: graph}
 
 
-def _mean(engine: BearingsDrawn, name: str) -> float:
+def _mean(engine: Drawn, name: str) -> float:
     """Return the mean load of a bearing; nothing of one that no listing has. [N]"""
     listing = engine.results.listings.get("bearing_loads")
     if listing is None or name not in listing.names:
@@ -218,7 +218,7 @@ def _equal_scales(box: ChartBox, x: Array, y: Array) -> tuple[ChartBox, tuple[fl
     return box, (middle[0] - half[0], middle[0] + half[0]), (middle[1] + half[1], middle[1] - half[1])
 
 
-def crankpin_load(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the size of the load on every unlike crankpin over the crank angle, mean and extremes of the first."""
     degrees, loads = engine.bearings.pin_sizes
     sizes = {pin: engine.shown("crankpin_load", size) for pin, size in loads.items()}
@@ -264,7 +264,7 @@ def crankpin_load(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
     return paper, {"crankpin_load": graph}
 
 
-def main_journal_polar(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def main_journal_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the loads of all main journals in the frame of the shaft, side by side on equal scales."""
     diagrams = engine.bearings.journals
     most = max(float(np.hypot(diagram.across, diagram.down).max()) for diagram in diagrams.values())
@@ -289,7 +289,7 @@ def main_journal_polar(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Grap
 
 
 def _small_polar(
-    engine: BearingsDrawn,
+    engine: Drawn,
     paper: Canvas,
     box: ChartBox,
     diagram: PolarDiagram,
@@ -324,17 +324,17 @@ _HATCH = 4.0
 _LARGEST = 270.0
 
 
-def crankpin_wear(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def crankpin_wear(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the wear rings of all unlike crankpins."""
     return _rings(engine, "crankpin_wear", "crankpin")
 
 
-def main_wear(engine: BearingsDrawn) -> tuple[Canvas, Mapping[str, Graph]]:
+def main_wear(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the wear rings of all main journals."""
     return _rings(engine, "main_wear", "main_journal")
 
 
-def _rings(engine: BearingsDrawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str, Graph]]:
+def _rings(engine: Drawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str, Graph]]:
     """Draw the rings of a listing side by side, depths on one scale."""
     angles, rings = wear_rings(engine.results, listing)
     rings = {name: ring._replace(sums=engine.shown("wear_sum", ring.sums)) for name, ring in rings.items()}
@@ -372,7 +372,7 @@ def _rings(engine: BearingsDrawn, listing: str, thing: str) -> tuple[Canvas, Map
     return paper, graphs
 
 
-def _ring(engine: BearingsDrawn, paper: Canvas, box: ChartBox, angles: Array, ring: WearRing, deepest: float) -> Graph:
+def _ring(engine: Drawn, paper: Canvas, box: ChartBox, angles: Array, ring: WearRing, deepest: float) -> Graph:
     """Draw a journal of radius 1, what is worn off it, its numbered rays and its oil hole."""
     reach = 1 + _ROOM / (box.width / 2 - _ROOM)
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
