@@ -44,7 +44,7 @@ _OF_ENGINES = (
 _PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
 # digits of differences
 _DIGITS = 3
-# in their order; of what links, joints and cylinders have the largest is told
+# in their order; of what links, joints and cylinders have the largest is before
 _NUMBERS = (
     "effective_power", "indicated_power", "motor_power", "shaft_power",
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
@@ -123,8 +123,8 @@ def _checks(material: Material) -> Iterator[Block]:
     words, results = material.words, material.results
     largest_errors = errors(material)
     if results.checks:
-        told = () if material.has_piston else (*words.sentence("identities"), " ")
-        yield Paragraph((*told, *words.sentence("checks", table=Reference("t:identities"))))
+        before = () if material.has_piston else (*words.sentence("identities"), " ")
+        yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
         rows = [(_identity(key, words), words.number(100.0 * check, digits=2)) for key, check in results.checks.items()]
         yield words.table("identities", ("identity", "residual"), rows, "lr", "t:identities")
     elif results.has_positions:
@@ -224,12 +224,12 @@ def _row(material: Material, key: str) -> tuple[Cell, ...]:
     area = summary["piston_area"] if material.per_area else None
     kind, dot, name = key.partition(".")
     places = {unit: summary.get(f"{kind}_{over}{dot}{name}") for over, unit in (("angle", "deg"), ("time", "s"))}
-    reached = [(at, unit) for unit, at in places.items() if at is not None and kind.endswith(("_max", "_min"))]
+    reached = [(place, unit) for unit, place in places.items() if place is not None and kind.endswith(("_max", "_min"))]
     row = value_row(display_key(key, material.results), summary[key], words, area=area)
     return (*row, words.amount(*reached[0], digits=4) if reached else "–")
 
 
-def _beside(material: Material) -> Iterator[Block]:
+def _further(material: Material) -> Iterator[Block]:
     """Yield single values that are not among the main results, and figures that no section has."""
     words, summary = material.words, material.summary
     main = {*_main_keys(material), *(() if material.has_engine else _OF_ENGINES)}
@@ -250,9 +250,9 @@ def _beside(material: Material) -> Iterator[Block]:
 
 def _rest(material: Material) -> Iterator[Block]:
     """Yield what no section has: journals, balance and flywheel in Vietnamese notes, further values, figures."""
-    sunk = [one for one in _SINKING if one.when(material)] if material.order == "vi" else []
+    sunk = [section for section in _SINKING if section.when(material)] if material.order == "vi" else []
     blocks = [block for section in sunk for block in written(section.parts, material)]
-    rest = [*material.intro("further", material.remaining_lines()), *_beside(material)]
+    rest = [*material.intro("further", material.remaining_lines()), *_further(material)]
     if rest:
         blocks += [material.words.heading("more", 2, numbered=False), *rest]
     if blocks:

@@ -82,7 +82,7 @@ def _marks(methods: list[str], material: Material) -> Mapping[str, str]:
     return marks
 
 
-def _course(material: Material) -> Iterator[Block]:
+def _over_angle(material: Material) -> Iterator[Block]:
     """Yield the table over the angle of a shaft."""
     results, degrees = material.results, material.results.grid.degrees
     stride = math.ceil(degrees.size / _MOST_ROWS)
@@ -111,7 +111,7 @@ def _is_alone(material: Material) -> bool:
 
 
 _FOUND: tuple[Part, ...] = (Text("flywheel", {"value": _wanted}), _by_methods)
-_COURSE = ("kinetic_energy_change", "crank_speed")
+_OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
 _FIGURES = ("excess_work", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")
 _STEADY = Text("steady", {"speed": amount("steady_speed", "rpm"), "fluctuation": number("steady_fluctuation")})
@@ -120,8 +120,8 @@ SECTIONS = (
         Head("evenness", sinks=True), When(_OF_ENERGY, (Text("evenness_of_all"),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), Lines("uniformity"),
         When(every(_is_wanted, has("flywheel_inertia.exact")), _FOUND),
-        When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _COURSE),)),)),
-        When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _COURSE),)),)),
+        When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),
+        When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _OF_ENERGY_AND_SPEED),)),)),
         When(_is_alone, HARMONICS),
     ), has("piston_displacement", "excess_work")),
     Section("energy", (
@@ -131,7 +131,7 @@ SECTIONS = (
     ), machine_has("turning")),
     Section("flywheel", (Head("flywheel"), Lines("flywheel")), every(machine_has("turning"), works("flywheel"))),
     Section("law_of_motion", (
-        Head("law_of_shaft"), When(has("crank_speed"), (Text("speed_of_shaft"),)), Lines("shaft_course"), _course,
+        Head("law_of_shaft"), When(has("crank_speed"), (Text("speed_of_shaft"),)), Lines("shaft_course"), _over_angle,
         Shown(("speed",)),
     ), lambda material: bool(material.machine.turning) and any(map(material.has, _COLUMNS))),
     Section("motor", (Head("motor"), Text("motor", {"rated": _rated}), Lines("motor")),
@@ -141,7 +141,7 @@ SECTIONS = (
         When(_is_wanted, (*_FOUND, Shown(("wittenbauer",)))),
     ), every(turning, has("excess_work"))),
     Section("law_of_motion", (
-        Head("law"), When(has("crank_speed"), (Text("law"), Places("speeds", _COURSE), Shown(("speed",)))),
+        Head("law"), When(has("crank_speed"), (Text("law"), Places("speeds", _OF_ENERGY_AND_SPEED), Shown(("speed",)))),
         When(has("steady_speed"), (_STEADY,)),
     ), lambda material: turning(material) and any(map(material.has, ("crank_speed", "steady_speed")))),
 )  # fmt: skip

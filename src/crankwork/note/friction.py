@@ -19,7 +19,7 @@ _WITH_FRICTION = (
 _JOINTS = ("friction_torque", "friction_force", "joint_force_with_friction", "normal_force_with_friction")
 
 
-def _rubbing(material: Material) -> Iterator[Block]:
+def _joints(material: Material) -> Iterator[Block]:
     """Yield what rubs, and how much."""
     joints = stated_friction(material.machine)
     yield ItemList(tuple(_friction_of_joint(joint, material.words) for joint in joints))
@@ -44,7 +44,7 @@ def _columns(material: Material) -> Iterable[str]:
 
 SECTIONS = (
     Section("friction", (
-        Head("friction"), Text("rubbing"), _rubbing, Text("with_friction", {"source": Citation(_SOURCE)}),
+        Head("friction"), Text("rubbing"), _joints, Text("with_friction", {"source": Citation(_SOURCE)}),
         At("friction"), Lines("friction"), Places("friction", _columns, "friction"),
         When(has("mean_friction_power"), (
             Text("mean_friction_power", {"value": amount("mean_friction_power", "W")}),

@@ -35,6 +35,11 @@ _CONSTRUCTED = (
     "position_plans", "velocity_plan", "acceleration_plan", "force_plans", "zhukovsky_lever", "centrodes",
     "wittenbauer",
 )  # fmt: skip
+# sentences that refer to one of a kind, and to several
+_SEE = {
+    "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
+    "figure": ("see_figure", "see_figures"),
+}  # fmt: skip
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
@@ -246,7 +251,7 @@ class Material:
         for kind, shown in labels.items():
             if shown:
                 what = "tables" if kind == "table" else "figures"
-                sentence = self.words.sentence(f"see_{kind}{'s' * (len(shown) > 1)}", **{what: listed(shown)})
+                sentence = self.words.sentence(_SEE[kind][len(shown) > 1], **{what: listed(shown)})
                 sentences += [" ", *sentence] if sentences else sentence
         if sentences:
             yield Paragraph(tuple(sentences))

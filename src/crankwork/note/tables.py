@@ -18,7 +18,7 @@ from crankwork.note.words import Words
 from crankwork.report.language import displayed, key_unit, label, row_name
 
 # rows that fit on a page, and parts and columns of a table that stand side by side
-_LONG, _MOST_PARTS, _MOST_BESIDE = 24, 3, 10
+_LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10
 # columns of numbers beside position and crank angle that fit on a page
 _MOST = 9
 _TURN = 360.0
@@ -75,7 +75,7 @@ def long_table(
 def folded(table: Table) -> Table:
     """Return a long narrow table with its parts side by side; any other as it is."""
     count, rows = len(table.headings), list(table.rows)
-    parts = min(_MOST_BESIDE // count, _MOST_PARTS)
+    parts = min(_MOST_COLUMNS // count, _MOST_PARTS)
     if len(rows) <= _LONG or parts == 1 or not parts:
         return table
     height = -(-len(rows) // parts)
@@ -171,7 +171,8 @@ def position_tables(
     each = -(-len(columns) // -(-len(columns) // _MOST))
     for start in range(0, len(columns), each):
         shown = [*before, *columns[start : start + each]]
-        headings, rows = [column.heading for column in shown], list(zip(*(one.entries for one in shown), strict=True))
+        headings = [column.heading for column in shown]
+        rows = list(zip(*(column.entries for column in shown), strict=True))
         align = "c" * len(before) + "r" * (len(shown) - len(before))
         table = words.table(caption, headings, rows, align, label)
         yield table if start == 0 else replace(table, caption="", label="")

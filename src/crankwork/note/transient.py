@@ -34,7 +34,7 @@ def _driven(material: Material) -> Iterator[Block]:
     )
 
 
-def _course(material: Material) -> Iterator[Block]:
+def _motion(material: Material) -> Iterator[Block]:
     """Yield a table of some rows of the motion."""
     columns = material.results.listings["transient"].columns
     count = len(columns["time"])
@@ -69,6 +69,6 @@ SECTIONS = (
             "time": amount("transient_time", "s"), "turn": amount("final_turn", "deg"),
             "speed": amount("final_speed", "rad/s"),
         }),
-        _course, Shown(("transient",)), _events,
+        _motion, Shown(("transient",)), _events,
     ), lambda material: turning(material) and material.has("transient")),
 )  # fmt: skip

@@ -158,11 +158,11 @@ class Words:
         known = [abs(value) for value in values if value == value]  # noqa: PLR0124 - not a number
         largest = max(known, default=0.0)
         if decimals is None:
-            whole = 1 + int(f"{largest:.{digits - 1}e}".partition("e")[2]) if largest else 1
-            if whole < -digits:
+            leading = 1 + int(f"{largest:.{digits - 1}e}".partition("e")[2]) if largest else 1
+            if leading < -digits:
                 return [self.number(value, digits=digits) for value in values]
             is_whole = all(value == round(value) and value < 10**digits for value in known)
-            decimals = 0 if is_whole else max(digits - whole, 0)
+            decimals = 0 if is_whole else max(digits - leading, 0)
         return [self.fixed(value, decimals) for value in values]
 
     def place(self, degrees: float) -> tuple[Math, float, str]:

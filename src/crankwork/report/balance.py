@@ -179,11 +179,6 @@ def _free(engine: Drawn, panel: str) -> float:
     return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
 
 
-def has_free_forces(engine: Drawn) -> bool:
-    """Return whether any order leaves a force free before or after balancing."""
-    return bool(engine.diagrams.loci)
-
-
 def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the closed curves in which the free forces of each order run, before and after balancing."""
     loci, language = engine.diagrams.loci, engine.language

@@ -35,7 +35,7 @@ from crankwork.report.flywheel import (
     speed_curve,
     wittenbauer,
 )
-from crankwork.report.forces import crankpin_forces, has_force_plans, piston_forces, plans_of_forces, rod_forces
+from crankwork.report.forces import forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
 from crankwork.report.gas import chamber_indicator, indicator, pressure
 from crankwork.report.harmonics import phase_stars, torque_harmonics
 from crankwork.report.language import for_readers, symbol
@@ -55,7 +55,7 @@ from crankwork.report.torque import (
 )
 from crankwork.show.chart import Graph
 from crankwork.show.paper import Canvas, plain
-from crankwork.show.scene import Drawing
+from crankwork.show.scene import DASHED, SOLID, Drawing, Style
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
 
@@ -178,17 +178,17 @@ def _as_they_are(panels: Sequence[Sequence[str]], _: Drawn) -> Sequence[Sequence
     return panels
 
 
-def _each(figure: str, *kinds: str, by: int = 0) -> Several:
+def _each(figure: str, *kinds: str, owners: int = 0) -> Several:
     """Return figures of all that have some quantities, a few in each; those after the first have numbers."""
 
     def figures_(machine: Drawn) -> Iterable[Curves]:
         columns = machine.reached.columns
-        names = [key.partition(".")[2] for key in _named(columns, kinds[by])]
+        names = [key.partition(".")[2] for key in _named(columns, kinds[owners])]
         # points of a link that have no name of their own are not told
         names = [name for name in names if all(f"{kind}.{name}" in columns for kind in kinds)
                  and not (figure == "points" and "." in name)]  # fmt: skip
-        for number, some in enumerate(_by_fours(names), start=1):
-            panels = [[f"{kind}.{name}" for name in some] for kind in kinds]
+        for number, group in enumerate(_by_fours(names), start=1):
+            panels = [[f"{kind}.{name}" for name in group] for kind in kinds]
             name = f"{figure}_{number}" if number > 1 else figure
             yield Curves(name, partial(_as_they_are, panels), when=_drawn)
 
@@ -289,6 +289,11 @@ def _crankpins(machine: Drawn) -> Iterable[Diagram]:
         yield Diagram("crankpin_polar", crankpin_polar_of_one, _engine, "crank_up", is_of_forces=True)
 
 
+def _forces(name: str, **styles: Style) -> Diagram:
+    """Return the figure of forces of one cylinder over the cycle."""
+    return Diagram(name, partial(forces_over_cycle, styles=styles), piston(*styles), is_of_forces=True)
+
+
 def _listed(listing: str) -> Needs:
     """Return the condition that the loads of an engine, or a listing of joints, are known."""
     return lambda machine: _engine(machine) or (_drawn(machine) and listing in machine.results.listings)
@@ -333,8 +338,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("velocity_plan", _plan(1), _drawn),
     Construction("acceleration_plan", _plan(2), _drawn),
     _each("sliders", "slider_displacement", "slider_velocity", "slider_acceleration"),
-    _each("links", "link_angle", "link_angular_velocity", "link_angular_acceleration", by=1),
-    _each("points", "point_x", "point_y", "point_velocity", "point_acceleration", by=2),
+    _each("links", "link_angle", "link_angular_velocity", "link_angular_acceleration", owners=1),
+    _each("points", "point_x", "point_y", "point_velocity", "point_acceleration", owners=2),
     Construction("centrodes", centrodes, every(_turning, has_centrodes)),
     Construction("indicator", chamber_indicator, lambda machine: _drawn(machine) and bool(_GAS(machine))),
     Curves("chambers", _GAS, when=_drawn),
@@ -352,14 +357,14 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("pressure", pressure, piston("gas_pressure")),
     Diagram("indicator", indicator, piston("gas_pressure")),
     Diagram("piston_forces", piston_forces, piston("piston_force"), is_of_forces=True),
-    Diagram("rod_forces", rod_forces, piston("rod_force"), is_of_forces=True),
-    Diagram("crankpin_forces", crankpin_forces, piston("tangential_force"), is_of_forces=True),
+    _forces("rod_forces", rod_force=SOLID, side_force=DASHED),
+    _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED),
     Diagram("torque", torque, piston("crank_torque")),
     Several(_crankpins, lambda machine: piston("tangential_force")(machine) or _drawn(machine)),
     Diagram("crankpin_load", crankpin_load, _listed("crankpin_wear"), is_of_forces=True),
     Diagram("big_end_polar", big_end_polar, _engine, "rod_up", is_of_forces=True),
     Diagram("small_end_polar", small_end_polar, _engine, "rod_up", is_of_forces=True),
-    Diagram("main_journal_polar", main_journal_polar, _listed("main_wear"), lambda one: one.shaft_frame,
+    Diagram("main_journal_polar", main_journal_polar, _listed("main_wear"), lambda machine: machine.shaft_frame,
             is_of_forces=True),
     Diagram("crankpin_wear", crankpin_wear, _listed("crankpin_wear"), is_of_forces=True),
     Diagram("main_wear", main_wear, _listed("main_wear"), is_of_forces=True),
@@ -408,7 +413,7 @@ def drawings(
 ) -> dict[str, Drawing]:
     """Return the figures of a machine as drawings; `only`: the names of those that are wanted."""
     machine = drawn_of(results, language, per_area=per_area)
-    return {name: one.picture(machine) for name, one in diagrams(machine).items() if only is None or name in only}
+    return {name: figure.picture(machine) for name, figure in diagrams(machine).items() if only is None or name in only}
 
 
 @for_readers

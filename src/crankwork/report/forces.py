@@ -55,32 +55,20 @@ def piston_forces(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it."""
     styles = {"gas_force": DASHED, "inertia_force": DASH_DOT, "weight_force": DOTTED}
     parts = {key: style for key, style in styles.items() if key in engine.columns}
-    if len(parts) == 1:
-        return _forces(engine, "piston_forces", dict.fromkeys(parts, SOLID))
-    return _forces(engine, "piston_forces", {**parts, "piston_force": SOLID})
+    alone = len(parts) == 1
+    return forces_over_cycle(engine, dict.fromkeys(parts, SOLID) if alone else {**parts, "piston_force": SOLID})
 
 
-def rod_forces(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the force along the rod and the side force."""
-    return _forces(engine, "rod_forces", {"rod_force": SOLID, "side_force": DASHED})
-
-
-def crankpin_forces(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the tangential and the radial force on the crankpin."""
-    return _forces(engine, "crankpin_forces", {"tangential_force": SOLID, "radial_force": DASHED})
-
-
-def _forces(engine: Drawn, name: str, keys: Mapping[str, Style]) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Draw columns of forces over the cycle."""
-    curves = [Line(key, engine.values(key), style) for key, style in keys.items()]
-    title = f"{', '.join(engine.symbol(key) for key in keys)}, {engine.unit('piston_force')}"
-    return curves_over_cycle(
-        engine, name, curves, [Row(engine.named(key), style) for key, style in keys.items()], title
-    )
+def forces_over_cycle(engine: Drawn, styles: Mapping[str, Style]) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return columns of forces over the cycle, each in its style."""
+    curves = [Line(key, engine.values(key), style) for key, style in styles.items()]
+    rows = [Row(engine.named(key), style) for key, style in styles.items()]
+    title = f"{', '.join(engine.symbol(key) for key in styles)}, {engine.unit('piston_force')}"
+    return curves_over_cycle(engine, curves, rows, title)
 
 
 def curves_over_cycle(
-    engine: Drawn, name: str, curves: Sequence[Line], rows: Sequence[Row], title: str
+    engine: Drawn, curves: Sequence[Line], rows: Sequence[Row], title: str
 ) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return curves of one cylinder with their legend, and the strokes above them."""
     paper, box = banded_sheet(engine, HEIGHT, rows)
@@ -90,7 +78,7 @@ def curves_over_cycle(
     strokes(engine, graph)
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(title)
-    return paper, {name: graph}
+    return paper, {curves[0].key: graph}
 
 
 def _plans(machine: Drawn) -> list[ForcePlan]:

@@ -53,8 +53,8 @@ _LINES = (("turning_moment", "torque", SOLID), ("load_torque", "load", DASHED))
 
 def torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the crank torque of one cylinder and its mean."""
-    values, found = engine.values("crank_torque"), engine.results.memory[own_key(engine.results.machine, "mean_torque")]
-    mean = -found.value if found.key == "mean_driving_torque" else found.value
+    values, known = engine.values("crank_torque"), engine.results.memory[own_key(engine.results.machine, "mean_torque")]
+    mean = -known.value if known.key == "mean_driving_torque" else known.value
     if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
         mean = 0.0
     row = QUANTITIES["mean_torque"]
@@ -62,7 +62,7 @@ def torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     level = np.full_like(values, float(engine.shown("mean_torque", mean)))
     curves = [Line("crank_torque", values), Line("mean_torque", level, DASHED)]
     rows = [Row(engine.named("crank_torque")), Row(text, DASHED)]
-    return curves_over_cycle(engine, "torque", curves, rows, engine.title("crank_torque"))
+    return curves_over_cycle(engine, curves, rows, engine.title("crank_torque"))
 
 
 def total_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:

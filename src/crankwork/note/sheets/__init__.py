@@ -72,7 +72,7 @@ def drawn_sheets(
     # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
     results = as_engine(results)
     machine = drawn_of(results, language, per_area=per_area)
-    known: Pictures = {name: partial(one.picture, machine) for name, one in diagrams(machine).items()}
+    known: Pictures = {name: partial(figure.picture, machine) for name, figure in diagrams(machine).items()}
     if machine.has_piston:
         known["data"] = partial(_data, machine)
         if "total_torque" in known:
