@@ -34,8 +34,8 @@ from crankwork.loads import monotone, treated
 from crankwork.locale.numbers import number
 from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.structure import _longest_loop
-from crankwork.note import engine_material
-from crankwork.note.linkage_forces import _friction_of_joint
+from crankwork.note import material
+from crankwork.note.friction import _friction_of_joint
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets.sheet import _LAYOUTS
 from crankwork.note.words import Words
@@ -329,7 +329,7 @@ def test_a_figure_of_a_shaft_with_one_crankpin_does_not_say_of_which() -> None:
     titles = []
     for name in ("v-two", "twin"):
         results = crankwork.analyse(crankwork.read(Path(__file__).parent / f"machines/{name}.toml"))
-        titles.append(engine_material.Material(results, NoteOptions(figures=False))._title("crankpin_polar"))
+        titles.append(material.Material(results, NoteOptions(figures=False))._title("crankpin_polar"))
     assert titles[1] == f"{titles[0]}, crankpin 1"
 
 

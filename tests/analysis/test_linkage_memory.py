@@ -20,7 +20,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.process import TorqueOnLink
 from crankwork.loads.table import Table
-from crankwork.note.linkage_note import linkage_note
+from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.web import web
 
@@ -129,7 +129,7 @@ flywheel.fluctuation = 0.04
     for results, codes in ((free, ["no_flywheel"]), (driven, [])):
         assert [one.code for one in results.notices if one.code == "no_flywheel"] == codes
         assert "wittenbauer" not in figures(results)
-        assert "(0; 0)" in web(linkage_note(results, NoteOptions(figures=False))).decode()
+        assert "(0; 0)" in web(note_of(results, NoteOptions(figures=False))).decode()
     assert driven.summary["flywheel_inertia"] > 0
     assert driven.summary["speed_fluctuation"] == pytest.approx(0.04, rel=1e-9)
 

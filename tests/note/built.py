@@ -18,9 +18,7 @@ from crankwork.formula.known import Known
 from crankwork.machine import Bearings, Drive, Engine
 from crankwork.note.contents import note_of
 from crankwork.note.document import Note
-from crankwork.note.engine_lines import engine_lines
-from crankwork.note.groups import Group
-from crankwork.note.linkage_lines import linkage_lines
+from crankwork.note.lines import Group, lines_of
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import Language
 
@@ -162,7 +160,7 @@ def results(case: str) -> crankwork.Results:
 def groups(case: str, *degrees: float) -> tuple[Group, ...]:
     """Return the groups of steps that a note shows, at chosen crank angles."""
     shown = results(case)
-    return (engine_lines if "piston_displacement" in shown.columns else linkage_lines)(shown, *degrees)
+    return lines_of(shown, *degrees)
 
 
 def lines(case: str, group: str, *degrees: float) -> dict:

@@ -37,9 +37,8 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.engine_lines import engine_lines
 from crankwork.note.legends import legend
-from crankwork.note.linkage_lines import linkage_lines
+from crankwork.note.lines import lines_of
 from crankwork.quantities import LANGUAGES, Language
 from crankwork.show.scene import Drawing, line
 
@@ -70,7 +69,7 @@ def groups_of():
     """Give the groups of lines that a note shows, at chosen crank angles."""
 
     def found(results, *degrees):
-        return (engine_lines if "piston_displacement" in results.columns else linkage_lines)(results, *degrees)
+        return lines_of(results, *degrees)
 
     return found
 

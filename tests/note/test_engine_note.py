@@ -11,12 +11,12 @@ import pytest
 import crankwork
 from crankwork.errors import CrankworkError
 from crankwork.locale import texts
-from crankwork.note import engine_material
+from crankwork.note import material as materials
+from crankwork.note.contents import note_of
 from crankwork.note.document import Bibliography, Equation, Heading, Paragraph
-from crankwork.note.engine_note import engine_note
 from crankwork.note.equations import printed_equation
 from crankwork.note.options import NoteOptions
-from crankwork.note.words import EngineWords
+from crankwork.note.words import Words
 from crankwork.quantities import LANGUAGES
 from crankwork.report.figures import figures as drawn_figures
 from each import for_each
@@ -78,7 +78,7 @@ def test_sections_stand_in_the_order_of_each_school():
     mixed = note(FOUR, "en", school="ru")
     assert headings(mixed)[2:4] == ["Working cycle", "Construction of the indicator diagram"]
     with pytest.raises(CrankworkError, match="take en, ru or vi"):
-        engine_note(results(SPARK), NoteOptions(school="de", figures=False))
+        note_of(results(SPARK), NoteOptions(school="de", figures=False))
 
 
 def test_the_table_of_forces_is_the_published_one():
@@ -193,7 +193,7 @@ def test_measured_pressure_is_named_and_tabulated(tmp_path):
     (tmp_path / "m.toml").write_text(MEASURED, encoding="utf-8")
     found = crankwork.analyse(crankwork.read(tmp_path / "m.toml"))
     for language in LANGUAGES:
-        one = engine_note(found, NoteOptions(language=language, figures=False))
+        one = note_of(found, NoteOptions(language=language, figures=False))
         paragraphs = [
             "".join(run for run in block.runs if isinstance(run, str)) for block in blocks(one, Paragraph)
         ]  # fmt: skip
@@ -235,7 +235,7 @@ def test_a_polar_diagram_says_the_load_of_its_own_crankpin():
     columns = results("v8-diesel").columns
     for name, pin in (("crankpin_polar", "1"), ("crankpin_polar_4", "4")):
         largest = float(columns[f"crankpin_tangential_force.{pin}"].max())
-        assert f"{EngineWords('en').number(largest / 1e3, digits=4)}\u00a0kN" in drawn[name].alt.partition(";")[0]
+        assert f"{Words('en').number(largest / 1e3, digits=4)}\u00a0kN" in drawn[name].alt.partition(";")[0]
     # of a crank gear with one crankpin there is no other
     one = figures(note(SPARK, "en", figures=True))["crankpin_polar"]
     assert one.caption == "Polar diagram of the load on the crankpin"
@@ -246,16 +246,16 @@ def test_a_polar_diagram_says_the_load_of_its_own_crankpin():
 def test_rotating_masses_have_no_order(language, wanted):
     shown = {block.step.key: block.symbol for block in blocks(note("v8-diesel", language), Equation)}
     assert shown["free_force.rotating"] == wanted
-    assert EngineWords(language).symbol("free_force.2") == {"en": "ΣF_q,2"}.get(language, "ΣP_jq,2")
+    assert Words(language, has_names=False).symbol("free_force.2") == {"en": "ΣF_q,2"}.get(language, "ΣP_jq,2")
 
 
 def test_what_is_not_known_is_left_out():
     spark = results(SPARK).machine
     motion = replace(spark, gas=None, masses=None, cylinder=None)
-    one = engine_note(crankwork.analyse(motion), NoteOptions(language="ru", figures=False))
+    one = note_of(crankwork.analyse(motion), NoteOptions(language="ru", figures=False))
     assert headings(one)[1:3] == ["Исходные данные", "Кинематика кривошипно-шатунного механизма"]
     assert not {"along", "total", "points"} & tables(one).keys()
-    no_gas = engine_note(crankwork.analyse(replace(spark, gas=None)), NoteOptions(language="vi", figures=False))
+    no_gas = note_of(crankwork.analyse(replace(spark, gas=None)), NoteOptions(language="vi", figures=False))
     assert "Đồ thị công" not in headings(no_gas)
     assert "Đồ thị mài mòn chốt khuỷu" in headings(no_gas)
     # nobody knows the journals of a crank gear of its own
@@ -279,8 +279,8 @@ def test_forces_per_area_are_divided_once():
 
 
 def test_a_figure_that_no_section_knows_stands_in_the_appendix(monkeypatch, drawing):
-    monkeypatch.setattr(engine_material, "drawings", lambda *_, **__: {"crankpin_polar": drawing, "main_wear": drawing})
-    material = engine_material.Material(results(FOUR), NoteOptions(language="en"))
+    monkeypatch.setattr(materials, "drawings", lambda *_, **__: {"crankpin_polar": drawing, "main_wear": drawing})
+    material = materials.Material(results(FOUR), NoteOptions(language="en"))
     assert material.remaining_figures() == ["crankpin_polar", "main_wear"]
     list(material.presented((), ["crankpin_polar"]))
     assert material.remaining_figures() == ["main_wear"]

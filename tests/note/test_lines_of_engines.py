@@ -13,7 +13,7 @@ from crankwork.analysis.engine_balance import engine_balance
 from crankwork.formula.lines import SumLine, ValueLine
 from crankwork.formula.replay import replay
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.note.engine_lines import engine_lines
+from crankwork.note.lines import lines_of
 from note.built import BUILT, broken, laid_out, lines, looked_at, machine, results
 
 EXAMPLES = ("narrow-v6", "petrol-four", "radial-five", "two-stroke", "v8-diesel")
@@ -32,7 +32,7 @@ def wrong_at(name, *angles):
     assert bool(wanted) == (name != "four without gas")
     for row, angle in enumerate(angles):
         compared = set()
-        for group in engine_lines(found, angle, angle):
+        for group in lines_of(found, angle, angle):
             if group.name not in ("engine_torque", "bearings"):
                 continue
             assert group.degrees == angle
@@ -187,7 +187,7 @@ def test_a_flywheel_that_is_not_needed_is_given_as_none():
 
 def test_a_counterweight_takes_its_shares_and_what_is_given():
     found = crankwork.analyse(laid_out("I4", counterweight=0.01, rotating_share=0.5, reciprocating_share=0.25))
-    balance = next(one for one in engine_lines(found) if one.name == "balance")
+    balance = next(one for one in lines_of(found) if one.name == "balance")
     shown = next(step for step in balance.lines if step.key == "counterweight_moment.1")
     m = found.machine.masses
     expected = (0.5 * (m.rod_big_end + m.crank) + 0.25 * m.reciprocating) * found["crank_radius"] + 0.01
@@ -202,7 +202,7 @@ def test_a_size_that_was_rounded_is_shown_before_and_after():
         assert old in text
         text = text.replace(old, new, 1)
     found = crankwork.analyse(crankwork.read_machine(text))
-    cycle = engine_lines(found)[0]
+    cycle = lines_of(found)[0]
     steps = {step.key: step.value for step in cycle.lines}
     assert cycle.name == "cycle"
     assert len(cycle.lines) == len(steps)

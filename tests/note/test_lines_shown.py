@@ -18,8 +18,7 @@ from crankwork.formula.lines import FormulaLine, Moment, SumLine, ValueLine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.measured import MeasuredPressure
 from crankwork.locale import has_text
-from crankwork.note.engine_lines import engine_lines
-from crankwork.note.linkage_lines import linkage_lines
+from crankwork.note.lines import lines_of
 from crankwork.quantities import QUANTITIES, base_key
 from note.built import (
     BUILT,
@@ -168,7 +167,7 @@ def test_a_given_speed_is_not_worked_out_of_the_revolutions_that_follow_from_it(
     assert not lines(name, "speed")
     one = machine(name)
     found = crankwork.analyse(replace(one, method=replace(one.method, pi=3.14)))
-    (step,) = next(group.lines for group in linkage_lines(found) if group.name == "speed")
+    (step,) = next(group.lines for group in lines_of(found) if group.name == "speed")
     assert step.value == pytest.approx(14.65 * 3.14 / math.pi, rel=1e-15)
     assert found.summary["speed"] == pytest.approx(step.value, rel=1e-15)
 
@@ -238,7 +237,7 @@ def test_a_measured_pressure_is_given_and_not_calculated():
     pressure = 1e5 + 3e6 * np.exp(-(((degrees - 372) / 25) ** 2))
     measured = MeasuredPressure(degrees, pressure, range(2, 723))
     found = crankwork.analyse(replace(engine, gas=replace(engine.gas, points={}, pieces=(), measured=measured)))
-    steps = {group.name: {step.key: step for step in group.lines} for group in engine_lines(found)}
+    steps = {group.name: {step.key: step for step in group.lines} for group in lines_of(found)}
     read = steps["forces"]["diagram_pressure"]
     assert isinstance(read, ValueLine)
     assert read.value == pytest.approx(pressure[390], rel=1e-12)
@@ -254,7 +253,7 @@ def test_a_linkage_that_cannot_turn_fully_is_shown_where_it_is():
     found = crankwork.analyse(crankwork.read_machine(crankwork.template("four-bar").replace('"62.5 mm"', '"150 mm"')))
     assert [notice.code for notice in found.notices] == ["partial", "unbounded", "transmission", "transmission"]
     for wanted, shown in ((30.0, 30.0), (300.0, 100.0), (0.0, 20.0)):
-        there = linkage_lines(found, wanted)
+        there = lines_of(found, wanted)
         assert [one.degrees for one in there if one.degrees is not None] == pytest.approx([shown] * 7)
         row = int(np.argmin(np.abs(found.grid.degrees - shown)))
         steps = {step.key: step.value for group in there for step in group.lines if step.key in found.columns}

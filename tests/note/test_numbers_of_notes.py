@@ -18,10 +18,10 @@ from crankwork.formula.known import Found, Pieces, in_order
 from crankwork.formula.lines import FormulaLine, Moment
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.note import engine_material, linkage_material
 from crankwork.note.document import Equation, Note, Table
-from crankwork.note.engine_tables import folded
+from crankwork.note.material import Material
 from crankwork.note.options import NoteOptions
+from crankwork.note.tables import folded
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.language import key_unit, reader_units
 from crankwork.units import from_si, use_units
@@ -33,6 +33,7 @@ SHORT = 3
 # Tables whose numbers no memory holds yet, by their label, and why. The list only shrinks.
 NOT_HELD = {
     "transfer": "sizes of transfer functions are made for the table from those of the points",
+    "t:transfer": "as they are given, in metres",
     "reduced": "the parts of a tabulated reduced inertia are unnamed terms of one sum",
     "t:polytropes": "the polytropes run over the volume, not over the crank angle",
     "t:errors": "an error as a share of the largest value",
@@ -147,8 +148,7 @@ def moments(results: Results) -> list[Moment]:
     if results.has_positions:
         degrees = results.grid.degrees.tolist()
     else:
-        material = engine_material if "piston_displacement" in results.columns else linkage_material
-        groups = material.Material(results, NoteOptions(figures=False)).groups.values()
+        groups = Material(results, NoteOptions(figures=False)).groups.values()
         degrees = {one.degrees for one in groups if one.degrees is not None}
     return [Moment(CrankGrid.from_degrees, one) for one in degrees] or [Moment(CrankGrid.from_degrees, 0.0)]
 

@@ -23,8 +23,8 @@ from crankwork.note.sheets.packing import Picture
 from crankwork.note.sheets.sheet import sheets_with
 from crankwork.note.sheets.table import text_block
 from crankwork.quantities import LANGUAGES
-from crankwork.report.engine_figure_data import engine_drawn
 from crankwork.report.figures import drawings
+from crankwork.report.look import drawn_of
 from crankwork.show.place import FINE, round_scale
 from crankwork.show.scene import Box, Hatch, Polyline, extent, hatch_lines, text_width
 from each import failing, for_each
@@ -85,7 +85,7 @@ def test_pressure_measured_on_the_sheet_is_the_pressure():
 @pytest.mark.slow
 @for_each("per_area", [False, True])
 def test_forces_measured_on_the_sheet_are_the_forces(per_area):
-    own = engine_drawn(results("spark-engine"), "en", per_area=per_area)
+    own = drawn_of(results("spark-engine"), "en", per_area=per_area)
     sheet = sheets("spark-engine", "en", per_area=True)[1] if per_area else sheets("spark-engine")[1]
     for name, key in (("piston_forces", "piston_force"), ("rod_forces", "side_force")):
         drawing = sheet.figure(name).drawing

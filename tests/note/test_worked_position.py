@@ -59,7 +59,7 @@ def test_names_of_joints_have_no_underscores_and_plans_the_letters_of_their_scho
 def test_figures_are_named_in_the_order_of_their_numbers():
     one = note("press-geometry", "en", figures=True)
     labels = [run.label for block in blocks(one, Paragraph) for run in block.runs if isinstance(run, Reference)]
-    named = [int(numbering(one).reference(label)) for label in labels if label.startswith("figure:")]
+    named = [int(numbering(one).reference(label)) for label in labels if label.startswith("f:")]
     assert len(named) > 10
     assert named == sorted(named)
 

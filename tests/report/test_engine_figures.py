@@ -15,9 +15,9 @@ from crankwork.cylinders.engines import inline, radial, vee
 from crankwork.cylinders.torque_harmonics import phase_star
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.machine import Bearings, Drive, Engine
-from crankwork.report.engine_figure_cylinder import _short
-from crankwork.report.engine_figure_data import EngineDrawn, engine_drawn
-from crankwork.report.engine_figure_list import figure_list
+from crankwork.report.figures import diagrams
+from crankwork.report.gas import _short
+from crankwork.report.look import Drawn, drawn_of
 from crankwork.show.chart import round_ticks
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import Canvas, fitted_lines, text_width
@@ -42,11 +42,11 @@ class Case(NamedTuple):
     """An engine, and what figures of it are drawn from."""
 
     results: Results
-    drawn: EngineDrawn
+    drawn: Drawn
 
 
 def _case(results: Results) -> Case:
-    return Case(results, engine_drawn(results, "en", per_area=False))
+    return Case(results, drawn_of(results, "en"))
 
 
 @functools.cache
@@ -62,18 +62,18 @@ def _engine(layout: str, **changes: object) -> Results:
     return analyse(replace(machine, method=method, engine=engine, drive=Drive(fluctuation=0.01)))
 
 
-def _graphs(engine: EngineDrawn, name: str):
-    return figure_list(engine)[name](engine)[1]
+def _graphs(engine: Drawn, name: str):
+    return diagrams(engine)[name].draw(engine)[1]
 
 
-def _graph(engine: EngineDrawn, name: str):
+def _graph(engine: Drawn, name: str):
     return next(iter(_graphs(engine, name).values()))
 
 
 @for_each("layout", LAYOUTS)
 def test_polar_diagrams_of_the_crankpin_have_its_largest_and_mean_load_around_their_pole(layout):
     results, drawn = of_layout(layout)
-    pins = [name for name in figure_list(drawn) if name.startswith("crankpin_polar")]
+    pins = [name for name in diagrams(drawn) if name.startswith("crankpin_polar")]
     for name in pins:
         graph = _graph(drawn, name)
         (x, y), pole = graph.curves["load"], graph.curves["pole"]
@@ -108,7 +108,7 @@ def test_the_indicator_diagram_holds_its_named_points_and_the_sharp_one_if_known
 @for_each("layout", LAYOUTS)
 def test_cylinders_fire_before_their_largest_torque(layout):
     drawn = of_layout(layout).drawn
-    paper, graphs = figure_list(drawn)["total_torque"](drawn)
+    paper, graphs = diagrams(drawn)["total_torque"].draw(drawn)
     graph = graphs["total_torque"]
     for number, torque in enumerate(drawn.diagrams.torques):
         peak = float(drawn.diagrams.degrees[np.argmax(torque)])
@@ -197,7 +197,7 @@ def test_the_total_torque_is_the_sum_of_the_drawn_cylinders_and_that_of_the_last
     assert curves["mean"][1] == pytest.approx([results.summary["mean_torque"]] * 2)
     assert curves["total"][1].max() == pytest.approx(results.summary["total_torque_max"], rel=2e-3)
     throws = {place.throw for place in drawn.results.machine.engine.layout.places}
-    assert ("accumulated_torque" in figure_list(drawn)) == (len(throws) > 1)
+    assert ("accumulated_torque" in diagrams(drawn)) == (len(throws) > 1)
     if len(throws) > 1:
         graphs = list(_graphs(drawn, "accumulated_torque").values())
         curve = next(iter(graphs[-1].curves.values()))[1]
@@ -254,7 +254,7 @@ def test_phase_stars_stack_equal_directions_and_add_up(layout):
 
 
 def test_free_forces_have_loci_as_long_as_their_listing():
-    assert "balance_ellipses" not in figure_list(of_layout("inline-6").drawn)
+    assert "balance_ellipses" not in diagrams(of_layout("inline-6").drawn)
     results, engine = _case(_engine("inline-4", rotating_share=1.0, balance_shafts=(2,)))
     graphs = _graphs(engine, "balance_ellipses")
     assert list(graphs) == ["2"]

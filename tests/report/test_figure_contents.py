@@ -13,7 +13,7 @@ import pytest
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.drawing import moving_drawing
-from crankwork.report.linkage_look import quantity_of
+from crankwork.report.look import quantity_of
 from crankwork.show.scene import Arc, Circle, Drawing, Polyline, Text, extent, pen_of, runs
 from crankwork.units import UNITS, to_si
 from each import for_each

@@ -14,9 +14,8 @@ from crankwork.analysis import analyse
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.quantities import LANGUAGES
-from crankwork.report.engine_figure_data import engine_drawn
-from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import drawings, figure_names, figures
+from crankwork.report.look import drawn_of, figure_title
 from crankwork.report.tables import sheets
 from crankwork.show.alt import alt_text
 from crankwork.show.scene import printable
@@ -120,7 +119,7 @@ def test_forces_per_area_change_forces_only_and_need_a_bore():
 
 
 def test_both_sides_of_a_jump_of_pressure_are_drawn():
-    drawn = engine_drawn(results_of("spark-engine", "exact"), "en", per_area=False)
+    drawn = drawn_of(results_of("spark-engine", "exact"), "en")
     near = drawn.columns["gas_pressure"][np.abs(drawn.degrees - 360) < 1e-3]
     assert near.tolist() == pytest.approx([2.42322e6, 4.5083e6], rel=1e-4)
 

@@ -13,7 +13,7 @@ from crankwork.note.sheets import drawn_sheets
 from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
-from crankwork.report.not_drawn import not_drawn
+from crankwork.report.notices import not_drawn
 from crankwork.show.chart import Graph, round_ticks, sheet
 from crankwork.show.labels import mark_point
 from crankwork.show.pdf import png

@@ -16,9 +16,10 @@ from crankwork.analysis.moving import moving
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.report.curves import curves
 from crankwork.report.figures import drawings
-from crankwork.report.linkage_figures import curves, instant_centres
-from crankwork.report.linkage_look import angle_ticks, axis_title, math_symbol
+from crankwork.report.look import angle_ticks, axis_title, math_symbol
+from crankwork.report.motion import instant_centres
 from crankwork.show.paper import plain
 from crankwork.show.place import ChartLayout, use_layout
 from crankwork.show.scene import Polyline, extent

@@ -13,11 +13,11 @@ from crankwork.analysis.lever import zhukovsky_lever
 from crankwork.analysis.moving import moving
 from crankwork.analysis.plans import accelerations, velocities
 from crankwork.analysis.skeleton import skeleton
-from crankwork.report import linkage_plan_figures, linkage_positions
+from crankwork.report import plans, positions
 from crankwork.report.figures import drawings
-from crankwork.report.linkage_look import Style
-from crankwork.report.linkage_plan_figures import velocity_plan
-from crankwork.report.linkage_positions import position_plans
+from crankwork.report.look import Style
+from crankwork.report.plans import velocity_plan
+from crankwork.report.positions import position_plans
 from crankwork.show.scene import Text as SceneText
 from crankwork.show.scene import extent
 from each import for_each
@@ -104,7 +104,7 @@ def _labelled(monkeypatch, module):
 
 
 def test_a_pole_has_a_letter_of_its_own(monkeypatch):
-    seen = _labelled(monkeypatch, linkage_plan_figures)
+    seen = _labelled(monkeypatch, plans)
     known = {**SHAPER, "links": {**SHAPER["links"], "link": {**SHAPER["links"]["link"], "points": {"P": [0.1, 0.02]}}}}
     mechanism = mechanism_from(known)[0]
     velocity_plan(mechanism, moving(mechanism, np.arange(0.0, 361.0, 30.0)), 1, 10.0)
@@ -115,7 +115,7 @@ def test_a_pole_has_a_letter_of_its_own(monkeypatch):
 
 
 def test_numbers_of_plans_do_not_grow_with_the_points_of_a_link(monkeypatch):
-    seen = _labelled(monkeypatch, linkage_positions)
+    seen = _labelled(monkeypatch, positions)
     points = {f"Q{k}": [0.01 * k, 0.001 * k * k] for k in range(12)}
     known = {**SHAPER, "links": {**SHAPER["links"], "link": {**SHAPER["links"]["link"], "points": points}}}
     position_plans(mechanism_from(known)[0])

@@ -309,7 +309,7 @@ def run(options: CommonOptions, output: str | None, *, excel_csv: bool) -> None:
         files.write_folder(output, contents, overwrite=options.overwrite)
         options.print_written(output, "\n")
         if formats:
-            from crankwork.report.not_drawn import not_drawn
+            from crankwork.report.notices import not_drawn
 
             for skipped in not_drawn(results, language):
                 _print_error(say("check.note", language, notice=skipped))

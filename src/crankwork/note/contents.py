@@ -11,6 +11,7 @@ from crankwork.locale import Refusal
 from crankwork.note.document import Note
 from crankwork.note.options import NoteOptions
 from crankwork.note.pdf import pdf
+from crankwork.note.sections import note_of_sections
 from crankwork.note.web import web
 from crankwork.note.word import word
 from crankwork.report.language import for_readers, reader_units
@@ -29,17 +30,9 @@ if TYPE_CHECKING:
 @for_readers
 def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     """Return the calculation note of a machine."""
-    # words that are not needed are not loaded
     options = options or NoteOptions()
-    if "piston_displacement" in results.columns:
-        from crankwork.note.engine_note import engine_note as written  # noqa: PLC0415 - loaded where it is needed
-    elif results.machine.turning is not None:
-        from crankwork.note.turning_note import turning_note as written  # noqa: PLC0415 - loaded where it is needed
-    else:
-        from crankwork.note.linkage_note import linkage_note as written  # noqa: PLC0415 - loaded where it is needed
-    return replace(
-        written(results, options), units=reader_units(results), provenance=provenance(results), results=results
-    )
+    note = note_of_sections(results, options)
+    return replace(note, units=reader_units(results), provenance=provenance(results), results=results)
 
 
 def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str, bytes]:

@@ -1,42 +1,61 @@
-"""The flywheel in a note: its lines by every method, and a table that compares them."""
+"""Flywheel, motor and speed in a note."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
 
-from crankwork.formula.known import Known, Use, in_order
-from crankwork.formula.lines import Line
+import numpy as np
+
 from crankwork.locale import capital
 from crankwork.note.document import Block, Bold, Paragraph
-from crankwork.note.linkage_tables import equations
-from crankwork.note.words import NoteWords
+from crankwork.note.lines import WHEEL_SIZES
+from crankwork.note.material import Material
+from crankwork.note.parts import (
+    Head,
+    Lines,
+    Listed,
+    Over,
+    Part,
+    Places,
+    Section,
+    Shown,
+    Text,
+    When,
+    amount,
+    every,
+    has,
+    lacks,
+    machine_has,
+    number,
+    turning,
+    works,
+)
+from crankwork.note.tables import position_tables, quantity_column
+from crankwork.note.torque import HARMONICS
 
-WHEEL_SIZES = (
-    "flywheel_mass", "rim_speed", "rim_stress", "rim_diameter", "rim_mass", "rim_section", "rim_thickness", "rim_width",
-)  # fmt: skip
-_WHEEL = ("wittenbauer_slope", "whole_inertia", "flywheel_inertia")
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
+# rows of a table over the angle of a shaft
+_MOST_ROWS = 120
+# a speed changes little
+_DIGITS = defaultdict(lambda: 4, crank_speed=6)
+_COLUMNS = (
+    "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
+)  # fmt: skip
 
 
-def values_by_method(memory: Mapping[str, Known]) -> Iterator[Known]:
-    """Yield the excess work, slopes and inertias of each method of finding the flywheel."""
-    for key in memory:
-        for known in in_order([memory[key]]) if key.startswith("flywheel_inertia.") else ():
-            kind = known.key.partition(".")[0]
-            if kind == "excess_work" or (kind in _WHEEL and isinstance(known.node, Use) and known.value > 0):
-                yield known
-
-
-def flywheel_by_methods(lines: Iterable[Line], summary: Mapping[str, float], words: NoteWords) -> Iterator[Block]:
+def _by_methods(material: Material) -> Iterator[Block]:
     """Yield the lines of every method under its name, and the table of what they find."""
+    words, summary, lines, last = material.words, material.results.summary, material.lines("flywheel"), ""
     methods = [key.partition(".")[2] for key in summary if key.startswith("flywheel_inertia.")]
-    lines, last = tuple(lines), ""
+    marks = _marks(methods, material)
     for line in lines:
         method = next((name for name in methods if name in line.key.split(".")), last or methods[0])
         if method != last and line.key not in _OF_ALL:
             yield Paragraph((Bold(capital(words.way(method))), ":"))
             last = method
-        yield from equations((line,), words, marks=_marks(methods, words))
+        yield from material.worked((line,), marks, again=True)
     excess = {
         name: line.value for name in methods for line in lines if line.key in (f"excess_work.{name}", "excess_work")
     }
@@ -50,9 +69,9 @@ def flywheel_by_methods(lines: Iterable[Line], summary: Mapping[str, float], wor
     yield words.table("flywheels", titles, rows, "lrr", "flywheels")
 
 
-def _marks(methods: Iterable[str], words: NoteWords) -> Mapping[str, str]:
+def _marks(methods: list[str], material: Material) -> Mapping[str, str]:
     """Return symbols of the slopes and inertias of each method: its name does not stand in a symbol."""
-    marks: dict[str, str] = {}
+    words, marks = material.words, dict[str, str]()
     for name in methods:
         for kind in ("excess_work", "flywheel_inertia", "whole_inertia"):
             marks[f"{kind}.{name}"] = words.symbol(kind)
@@ -61,3 +80,68 @@ def _marks(methods: Iterable[str], words: NoteWords) -> Mapping[str, str]:
         marks[f"wittenbauer_slope.{name}"] = slope
         marks |= {f"wittenbauer_slope.{name}.{end}": f"{slope}_{mark}" for end, mark in ends.items()}
     return marks
+
+
+def _over_angle(material: Material) -> Iterator[Block]:
+    """Yield the table over the angle of a shaft."""
+    results, degrees = material.results, material.results.grid.degrees
+    stride = math.ceil(degrees.size / _MOST_ROWS)
+    rows = np.unique(np.append(np.arange(0, degrees.size, stride), degrees.size - 1))
+    shown = [key for key in _COLUMNS if key in results.columns]
+    columns = [quantity_column(material, key, results.columns[key][rows], digits=_DIGITS[key]) for key in shown]
+    return position_tables("turning", degrees[rows], columns, material.words, first=None, label="turning")
+
+
+def _rated(material: Material) -> str:
+    return material.words.amount(material.machine.drive.rated_power, "kW")
+
+
+def _wanted(material: Material) -> str:
+    return material.words.number(material.machine.drive.fluctuation or 0.0)
+
+
+def _is_wanted(material: Material) -> bool:
+    """Return whether a fluctuation of the speed is wanted, for which a flywheel is found."""
+    return material.machine.drive.fluctuation is not None
+
+
+def _is_alone(material: Material) -> bool:
+    engine = material.machine.engine
+    return engine is not None and len(engine.layout.places) == 1
+
+
+_FOUND: tuple[Part, ...] = (Text("flywheel", {"value": _wanted}), _by_methods)
+_OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
+_FIGURES = ("excess_work", "crank_speed")
+_OF_ENERGY = has("excess_work.mertsalov")
+_STEADY = Text("steady", {"speed": amount("steady_speed", "rpm"), "fluctuation": number("steady_fluctuation")})
+SECTIONS = (
+    Section("evenness", (
+        Head("evenness", sinks=True), When(_OF_ENERGY, (Text("evenness_of_all"),)),
+        When(lacks(_OF_ENERGY), (Text("evenness"),)), Lines("uniformity"),
+        When(every(_is_wanted, has("flywheel_inertia.exact")), _FOUND),
+        When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),
+        When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _OF_ENERGY_AND_SPEED),)),)),
+        When(_is_alone, HARMONICS),
+    ), has("piston_displacement", "excess_work")),
+    Section("energy", (
+        Head("energy_extremes"),
+        When(has("energy_extremes"), (Text("extremes_of_energy"), Listed("energy_extremes", "energy_extremes"))),
+        Lines("energy_extremes"), Shown(("turning_moment", "loops")),
+    ), machine_has("turning")),
+    Section("flywheel", (Head("flywheel"), Lines("flywheel")), every(machine_has("turning"), works("flywheel"))),
+    Section("law_of_motion", (
+        Head("law_of_shaft"), When(has("crank_speed"), (Text("speed_of_shaft"),)), Lines("shaft_course"), _over_angle,
+        Shown(("speed",)),
+    ), lambda material: bool(material.machine.turning) and any(map(material.has, _COLUMNS))),
+    Section("motor", (Head("motor"), Text("motor", {"rated": _rated}), Lines("motor")),
+            lambda material: turning(material) and material.machine.drive.motor is not None),
+    Section("flywheel", (
+        Head("flywheel"), When(lacks(_is_wanted), (Lines("flywheel"),)),
+        When(_is_wanted, (*_FOUND, Shown(("wittenbauer",)))),
+    ), every(turning, has("excess_work"))),
+    Section("law_of_motion", (
+        Head("law"), When(has("crank_speed"), (Text("law"), Places("speeds", _OF_ENERGY_AND_SPEED), Shown(("speed",)))),
+        When(has("steady_speed"), (_STEADY,)),
+    ), lambda material: turning(material) and any(map(material.has, ("crank_speed", "steady_speed")))),
+)  # fmt: skip

@@ -4,12 +4,29 @@ from __future__ import annotations
 
 import datetime as dt
 import itertools
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import Protocol, TypeVar
 
+from crankwork.analysis import Results
+from crankwork.analysis.whole_engine import as_engine
+from crankwork.errors import CrankworkError
 from crankwork.locale import Language, say
-from crankwork.machine import Document, Machine
+from crankwork.machine import Document
+from crankwork.note import (
+    balance,
+    bearings,
+    closing,
+    data,
+    flywheel,
+    forces,
+    friction,
+    gas,
+    motion,
+    quality,
+    structure,
+    torque,
+    transient,
+)
 from crankwork.note.captions import printed_date
 from crankwork.note.document import (
     Block,
@@ -24,7 +41,9 @@ from crankwork.note.document import (
     TitlePage,
 )
 from crankwork.note.legends import explained
+from crankwork.note.material import Material
 from crankwork.note.options import NoteOptions
+from crankwork.note.parts import Section, written
 
 # headings of contents that fill a page to more than three fifths
 _OWN_PAGE = 24
@@ -37,49 +56,90 @@ _PEOPLE: dict[Language, tuple[str, ...]] = {
 _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 
-class _Material(Protocol):
-    @property
-    def machine(self) -> Machine: ...
-    @property
-    def options(self) -> NoteOptions: ...
+# sections in the order of a school; those that results have nothing for are left out
+_LINKAGE = (
+    "task", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics", "quality", "chambers",
+    "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor", "flywheel",
+    "law_of_motion", "transient", "comparison", "checks", "conclusion", "sources", "appendix",
+)  # fmt: skip
+_CRANK_GEAR: dict[str, tuple[str, ...]] = {
+    "ru": (
+        "preface", "data", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains", "balance",
+        "evenness", "comparison", "checks", "conclusion", "sources", "appendix",
+    ),
+    # between the data and the checks the twelve sections that such notes have
+    "vi": (
+        "preface", "data", "cycle", "indicator", "displacement", "velocity", "acceleration", "inertia",
+        "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "comparison", "checks",
+        "conclusion", "sources", "appendix",
+    ),
+    # engineers who read English want the results before the way to them
+    "en": (
+        "data", "method", "conclusion", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains",
+        "balance", "evenness", "comparison", "checks", "sources", "appendix",
+    ),
+}  # fmt: skip
+# every section of a note; of several with one name the first whose condition holds
+SECTIONS: tuple[Section, ...] = (
+    *data.SECTIONS, *structure.SECTIONS, *motion.SECTIONS, *quality.SECTIONS, *gas.SECTIONS, *forces.SECTIONS,
+    *torque.SECTIONS, *friction.SECTIONS, *bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS,
+    *transient.SECTIONS, *closing.SECTIONS,
+)  # fmt: skip
 
 
-M = TypeVar("M", bound=_Material)
+def sections_of(material: Material) -> dict[str, Section]:
+    """Return the sections of a note by name, as far as the results have anything for them."""
+    return {section.name: section for section in reversed(SECTIONS) if section.when(material)}
 
 
-def note_of_sections(
-    material: M,
-    sections: Mapping[str, Callable[[M], Iterator[Block]]],
-    order: tuple[str, ...],
-    title: str,
-    subtitle: str,
-    *,
-    with_results: bool = False,
-) -> Note:
-    """Return the note of some of these sections behind its cover and contents.
+def _order(material: Material) -> tuple[str, ...]:
+    if material.has_piston:
+        return _CRANK_GEAR[material.order]
+    # a table of transfer functions and the torques on a shaft are told in the order of the calculation
+    if material.order != "en" or material.machine.linkage is None or material.words.period:
+        return _LINKAGE
+    return ("task", "conclusion", *(name for name in _LINKAGE if name not in ("task", "conclusion")))
 
-    `order`: those of the school. What a note cites stands in its list of sources, which is always there.
+
+def note_of_sections(results: Results, options: NoteOptions) -> Note:
+    """Return the note of a machine behind its cover and contents: sections of its school, or those that it names.
+
+    What a note cites stands in its list of sources, which is always there.
     """
-    options, document = material.options, material.machine.document
+    if options.order not in _CRANK_GEAR:
+        raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
+    material = Material(as_engine(results), options, has_engine=results.machine.engine is not None)
+    document, words = material.machine.document, material.words
     if options.author.strip():
         document = replace(document, author=(options.author,))
     chosen = document.sections
     if chosen and "sources" not in chosen:
         chosen = (*chosen, "sources")
-    written = itertools.chain.from_iterable(sections[name](material) for name in chosen or order)
-    blocks = tuple(explained(written, options.language, with_results=with_results))
+    known = sections_of(material)
+    parts = itertools.chain.from_iterable(known[name].parts for name in chosen or _order(material) if name in known)
+    blocks = tuple(explained(written(parts, material), options.language, with_results=material.has_piston))
+    title, subtitle = _titles(material)
     # on a page of their own where they fill it: Typst then sets the rest once, not again with every page found
     listed = sum(isinstance(block, Heading) and block.level <= 2 for block in blocks)
-    front: list[Block] = [cover(document, options.language, subtitle), Contents()]
+    front: list[Block] = [cover(document, options.language, words.title(subtitle)), Contents()]
     if listed >= _OWN_PAGE:
         front.append(PageBreak())
     return Note(
-        options.title or material.machine.title or title,
+        options.title or material.machine.title or words.title(title),
         options.language,
         (*front, *(_complete(blocks) if chosen else blocks)),
         tuple(author for author in document.author if author.strip()),
         document.date,
     )
+
+
+def _titles(material: Material) -> tuple[str, str]:
+    """Return the keys of the title and the subtitle of a note that has none of its own."""
+    if material.has_piston:
+        return "crank_gear", "subtitle"
+    if material.machine.turning is not None:
+        return "turning", "turning_subtitle"
+    return ("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
 
 
 def _complete(blocks: Iterable[Block]) -> Iterator[Block]:

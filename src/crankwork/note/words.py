@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from string import Formatter
 
@@ -12,15 +11,13 @@ import numpy as np
 from crankwork.locale import Language, capital, decimal, has_text, say, texts
 from crankwork.locale.numbers import number
 from crankwork.note.captions import note_text
-from crankwork.note.document import Cell, Figure, Heading, Math, Paragraph, Run, Runs, Table
+from crankwork.note.document import Cell, Heading, Math, Paragraph, Run, Runs, Table
 from crankwork.note.equations import value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.symbols import owned_symbol
-from crankwork.quantities import QUANTITIES
-from crankwork.report.figure_data import kind_of
+from crankwork.quantities import QUANTITIES, base_key
 from crankwork.report.language import FILE_KEYS, displayed, displayed_column, key_unit
 from crankwork.report.language import symbol as key_symbol
-from crankwork.show.scene import Drawing
 from crankwork.units import from_si, shown_unit
 
 _TIGHT = ("°", "%")
@@ -28,12 +25,25 @@ _TIGHT = ("°", "%")
 _UNNUMBERED = ("preface", "conclusion", "sources", "appendix")
 
 
-class NoteWords(ABC):
-    """Texts of a note in one language, with forces divided by the piston area if requested."""
+class Words:
+    """Texts of a note in one language.
 
-    def __init__(self, language: Language, *, per_area: bool = False) -> None:
+    `per_area`: whether forces are divided by the piston area; `period`: of the law that drives, where positions are
+    times [s]; `is_partial`: whether the crank goes to and fro between dead positions; `has_names`: whether links,
+    points and chambers have names, which symbols tell.
+    """
+
+    def __init__(
+        self,
+        language: Language,
+        *,
+        per_area: bool = False,
+        period: float = 0.0,
+        is_partial: bool = False,
+        has_names: bool = True,
+    ) -> None:
         self.language: Language = language
-        self.per_area = per_area
+        self.per_area, self.period, self.is_partial, self.has_names = per_area, period, is_partial, has_names
 
     def title(self, key: str) -> str:
         """Return the words of a heading."""
@@ -99,9 +109,15 @@ class NoteWords(ABC):
         """Return the name of a way to find a flywheel."""
         return say("report.exact" if key == "exact" else f"report.way_{key}", self.language)
 
-    @abstractmethod
     def symbol(self, key: str) -> str:
-        """Return the symbol of a key as `base_subscript`."""
+        """Return the symbol of a key as `base_subscript`, what it belongs to in the subscript."""
+        if not self.has_names:
+            return value_symbol(key, self.language)
+        if base_key(key) not in QUANTITIES:
+            return key
+        kind, _, name = key.partition(".")
+        shown = QUANTITIES[kind].symbol(self.language) if kind in QUANTITIES else key_symbol(kind, self.language)
+        return owned_symbol(kind, shown, name, self.language) if name else shown
 
     def amount(self, value: float, unit: str, *, digits: int = 6) -> str:
         """Return a value in SI as text in a unit, or in that which the system in use has for it."""
@@ -127,14 +143,6 @@ class NoteWords(ABC):
             shown = shown.lstrip("-")
         return decimal(shown, self.language).replace("-", "−")
 
-
-class EngineWords(NoteWords):
-    """Texts of the note of an engine."""
-
-    def symbol(self, key: str) -> str:
-        """Return the symbol of a key as `base_subscript`, what tells its parts apart in the subscript."""
-        return value_symbol(key, self.language)
-
     def meaning(self, name: str) -> str:
         """Return the meaning of a key of the machine file, or the key itself if it has no text."""
         key = FILE_KEYS.get(name, name)
@@ -142,27 +150,20 @@ class EngineWords(NoteWords):
             return QUANTITIES[key].label(self.language)
         return say(f"report.{key}", self.language) if has_text(f"report.{key}") else key
 
-    def column_texts(self, values: Sequence[float], *, digits: int = 5, decimals: int | None = None) -> list[str]:
+    def column_texts(
+        self, values: Sequence[float], *, digits: int | None = None, decimals: int | None = None
+    ) -> list[str]:
         """Return numbers of one column, all with as many decimals as give the largest that many digits."""
+        digits = digits or (4 if self.has_names else 5)
         known = [abs(value) for value in values if value == value]  # noqa: PLR0124 - not a number
         largest = max(known, default=0.0)
         if decimals is None:
-            if not largest or all(value == round(value) and value < 10**digits for value in known):
-                decimals = 0
-            else:
-                decimals = max(digits - 1 - int(f"{largest:.0e}".partition("e")[2]), 0)
+            leading = 1 + int(f"{largest:.{digits - 1}e}".partition("e")[2]) if largest else 1
+            if leading < -digits:
+                return [self.number(value, digits=digits) for value in values]
+            is_whole = all(value == round(value) and value < 10**digits for value in known)
+            decimals = 0 if is_whole else max(digits - leading, 0)
         return [self.fixed(value, decimals) for value in values]
-
-
-class Words(NoteWords):
-    """Texts of the note of a linkage in one language; positions are times where a law with a period drives. [s]
-
-    `is_partial`: whether the crank goes to and fro between dead positions.
-    """
-
-    def __init__(self, language: Language, period: float = 0.0, *, is_partial: bool = False) -> None:
-        super().__init__(language)
-        self.period, self.is_partial = period, is_partial
 
     def place(self, degrees: float) -> tuple[Math, float, str]:
         """Return symbol, value and unit of a position: a crank angle, or a time."""
@@ -179,38 +180,6 @@ class Words(NoteWords):
         """Return the heading of a column of positions at which values are reached."""
         symbol, _, unit = self.place(0.0)
         return (self.column("at") + " ", symbol, ", °" if unit == "deg" else f", {printed_unit(unit, self.language)}")
-
-    def figure(self, name: str, drawing: Drawing) -> Figure:
-        """Return a figure with caption and description."""
-        number = name.removeprefix(kind_of(name)).removeprefix("_")
-        caption = note_text(f"figures.{kind_of(name)}", self.language) + (f", {number}" if number else "")
-        if kind_of(name) == "crankpin_polar":
-            # the crankpin has a name
-            caption = capital(drawing.title)
-        seen = say(f"seen.{kind_of(name)}", self.language)
-        return Figure(drawing, caption, seen, label=f"figure:{name}")
-
-    def symbol(self, key: str) -> str:
-        """Return the symbol of a key as `base_subscript`, the name of what it belongs to in the subscript."""
-        kind, _, name = key.partition(".")
-        shown = QUANTITIES[kind].symbol(self.language) if kind in QUANTITIES else key_symbol(kind, self.language)
-        return owned_symbol(kind, shown, name, self.language) if name else shown
-
-    def column_texts(self, values: Sequence[float], *, digits: int = 4) -> list[str]:
-        """Return numbers of one column with as many decimals as give the largest that many digits."""
-        largest = max((abs(value) for value in values if value == value), default=0.0)  # noqa: PLR0124 - not a number
-        if not largest:
-            return ["0"] * len(values)
-        integer_digits = len(f"{largest:.0f}") if largest >= 1 else 1 - _leading_zeros(largest)
-        if integer_digits < -digits:
-            return [self.number(value, digits=digits) for value in values]
-        decimals = max(digits - integer_digits, 0)
-        return [self.fixed(value, decimals) for value in values]
-
-
-def _leading_zeros(value: float) -> int:
-    """Return one more than the number of zeros between the decimal mark and the first digit."""
-    return int(f"{value:.0e}".partition("e-")[2] or 0)
 
 
 def named(columns: Mapping[str, object], *kinds: str) -> list[str]:

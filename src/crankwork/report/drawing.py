@@ -22,10 +22,10 @@ from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
-from crankwork.report.engine_drawing import engine_sketch
+from crankwork.report.drawn_cylinders import engine_sketch
+from crankwork.report.drawn_links import linkage_sketch
 from crankwork.report.language import called, displayed, for_readers, key_unit, label, symbol
-from crankwork.report.linkage_drawing import linkage_sketch
-from crankwork.report.linkage_look import scale_text
+from crankwork.report.look import scale_text
 from crankwork.report.sketch import Sketch
 from crankwork.show.formats import FILMS, FORMATS, Progress
 from crankwork.show.moving import Animation, Part, part

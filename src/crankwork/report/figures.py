@@ -1,45 +1,393 @@
-"""Figures of results, as many as there are data for, and the figure of a comparison."""
+"""Figures of results, as many as there are data for: the one list of them, and what is drawn of it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+import itertools
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis import Array, Results
-from crankwork.analysis.compare import Comparison, beside, difference
+from crankwork.analysis import Results
+from crankwork.analysis.moving import moving
+from crankwork.analysis.plans import driver_rates
 from crankwork.locale import say
-from crankwork.locale.numbers import unit_name
-from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.comparison import shown_names
-from crankwork.report.engine_figure_data import engine_drawn
-from crankwork.report.engine_figure_list import engine_pictures
-from crankwork.report.language import displayed, for_readers, in_own_units, key_unit, symbol
-from crankwork.report.linkage_figures import linkage_pictures
-from crankwork.report.turning_figures import turning_pictures
-from crankwork.show.chart import LEGEND_ROW, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet
-from crankwork.show.paper import Canvas
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
+from crankwork.quantities import Language
+from crankwork.report.balance import balance_ellipses, balance_orders
+from crankwork.report.bearings import (
+    big_end_polar,
+    crankpin_load,
+    crankpin_polar,
+    crankpin_polar_of_one,
+    crankpin_wear,
+    main_journal_polar,
+    main_wear,
+    small_end_polar,
+)
+from crankwork.report.comparison import comparison_figure, drawn_keys
+from crankwork.report.curves import curves
+from crankwork.report.flywheel import (
+    crank_speed,
+    excess_work,
+    has_energy_mass_diagram,
+    has_speed,
+    speed_curve,
+    wittenbauer,
+)
+from crankwork.report.forces import forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
+from crankwork.report.gas import chamber_indicator, indicator, pressure
+from crankwork.report.harmonics import phase_stars, torque_harmonics
+from crankwork.report.language import for_readers, symbol
+from crankwork.report.lever import has_lever, lever_figure
+from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of
+from crankwork.report.motion import brix, centrodes, has_centrodes, kinematics, tolle
+from crankwork.report.plans import acceleration_plan, velocity_plan
+from crankwork.report.positions import position_plans
+from crankwork.report.tables import any_nonzero
+from crankwork.report.torque import (
+    accumulated_torque,
+    has_turning_moment,
+    loops,
+    torque,
+    total_torque,
+    turning_moment,
+)
+from crankwork.show.chart import Graph
+from crankwork.show.paper import Canvas, plain
+from crankwork.show.scene import DASHED, SOLID, Drawing, Style
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
 
-_STEP, _MOST = 1.0, 2000
-# a cycle of more has no lines at multiples of 90 degrees
-_LONG = 720.0
-_STYLES: tuple[Style, ...] = (SOLID, DASHED, DASH_DOT, DOTTED)
-_COLOURS = ("#000000", "#b03030", "#2f5fa8", "#3a7d44", "#8a5a9c", "#a87b1f", "#4d4d4d")
-_UPPER, _LOWER, _GAP = 110.0, 62.0, 12.0
-# what a page of a note holds of it beside its caption, without axis and edges [pt]
-_TALLEST = 540.0
-# what a figure shows: of each row the first kind that there is
-_DRAWN = (
-    ("piston_displacement", "slider_displacement", "link_angle", "turning_moment"),
-    ("piston_velocity", "slider_velocity", "link_angular_velocity", "excess_torque"),
-    ("piston_acceleration", "slider_acceleration", "link_angular_acceleration", "kinetic_energy_change"),
-    ("total_torque", "crank_torque", "driving_torque", "balancing_torque", "static_torque", "driver_force",
-     "driver_torque"),
+# curves of a panel, and of what there is more is drawn in further figures
+_PER_PANEL = 4
+Needs = Callable[[Drawn], bool]
+Draw = Callable[[Drawn], tuple[Canvas, Mapping[str, Graph]]]
+
+
+class Diagram(NamedTuple):
+    """A figure with its name, what draws it on a paper, and what of a machine it needs."""
+
+    name: str
+    draw: Draw
+    needs: Needs
+    frame: str | Callable[[Drawn], str] = ""  # Key of the remark at its lower left: the frame of its vectors
+    is_of_forces: bool = False  # Whether its values may be by the piston area
+    owner: str = ""  # What it is of, for its title
+    number: str = ""  # That of a crankpin, where there are several
+
+    def picture(self, machine: Drawn) -> Drawing:
+        """Return it, with the method that made it."""
+        title = kind_of(self.name) + (f"_{self.number}" if self.number else "")
+        frame = self.frame(machine) if callable(self.frame) else self.frame
+        remark = say(f"drawing.{frame}", machine.language) if frame else ""
+        paper, _ = self.draw(machine)
+        return machine.finished(title, paper, remark, forces=self.is_of_forces, owner=self.owner)
+
+
+class Construction(NamedTuple):
+    """A figure that states its method and title itself."""
+
+    name: str
+    picture: Callable[[Drawn], Drawing]
+    needs: Needs
+
+
+class Curves(NamedTuple):
+    """A figure of curves: the keys of each of its panels, and the key of its own title; it needs what they have."""
+
+    name: str
+    panels: Callable[[Drawn], Sequence[Sequence[str]]]
+    title: str = ""
+    when: Needs = lambda _: True
+    remark: Callable[[Drawn], str] = lambda _: ""
+
+    def needs(self, machine: Drawn) -> bool:
+        """Return whether there is anything in it."""
+        return self.when(machine) and bool(self.panels(machine))
+
+    def picture(self, machine: Drawn) -> Drawing:
+        """Return it."""
+        reached, style, panels = machine.reached, machine.style, self.panels(machine)
+        title = say(self.title, style.language) if self.title else figure_title(self.name, style.language)
+        return curves(reached.degrees, reached.columns, panels, title, style, self.remark(machine))
+
+
+class Several(NamedTuple):
+    """Figures of one kind whose number depends on the machine."""
+
+    each: Callable[[Drawn], Iterable[Diagram | Curves]]
+    needs: Needs
+
+
+Entry = Diagram | Construction | Curves | Several
+
+
+def has(*keys: str) -> Needs:
+    """Return the condition that results have a column, or a listing, of each name."""
+    return lambda machine: all(key in machine.results.columns or key in machine.results.listings for key in keys)
+
+
+def piston(*keys: str) -> Needs:
+    """Return the condition that a piston has a column of each name."""
+    return lambda machine: machine.has_piston and all(key in machine.columns for key in keys)
+
+
+def every(*conditions: Needs) -> Needs:
+    """Return the condition that all of some hold."""
+    return lambda machine: all(condition(machine) for condition in conditions)
+
+
+def _drawn(machine: Drawn) -> bool:
+    """Return whether links are drawn one by one."""
+    return machine.results.machine.linkage is not None
+
+
+def _turning(machine: Drawn) -> bool:
+    """Return whether links are drawn, and no law over time drives."""
+    return _drawn(machine) and not machine.style.period
+
+
+def _engine(machine: Drawn) -> bool:
+    """Return whether cylinders turn a shaft, and their torque is known."""
+    return machine.has_piston and machine.results.machine.engine is not None and "crank_torque" in machine.columns
+
+
+def _many(machine: Drawn) -> bool:
+    return _engine(machine) and machine.diagrams.count > 1
+
+
+def _of_kinds(*kinds: str) -> Callable[[Drawn], list[Sequence[str]]]:
+    """Return what gives panels of the columns of each kind, a few in each."""
+
+    def panels(machine: Drawn) -> list[Sequence[str]]:
+        return [keys for kind in kinds for keys in _by_fours(_named(machine.reached.columns, kind))]
+
+    return panels
+
+
+def _by_fours(keys: Sequence[str]) -> list[Sequence[str]]:
+    return [keys[start : start + _PER_PANEL] for start in range(0, len(keys), _PER_PANEL)]
+
+
+def _named(columns: Iterable[str], kind: str) -> list[str]:
+    return [key for key in columns if key.partition(".")[0] == kind]
+
+
+def _as_they_are(panels: Sequence[Sequence[str]], _: Drawn) -> Sequence[Sequence[str]]:
+    return panels
+
+
+def _each(figure: str, *kinds: str, owners: int = 0) -> Several:
+    """Return figures of all that have some quantities, a few in each; those after the first have numbers."""
+
+    def figures_(machine: Drawn) -> Iterable[Curves]:
+        columns = machine.reached.columns
+        names = [key.partition(".")[2] for key in _named(columns, kinds[owners])]
+        # points of a link that have no name of their own are not told
+        names = [name for name in names if all(f"{kind}.{name}" in columns for kind in kinds)
+                 and not (figure == "points" and "." in name)]  # fmt: skip
+        for number, group in enumerate(_by_fours(names), start=1):
+            panels = [[f"{kind}.{name}" for name in group] for kind in kinds]
+            name = f"{figure}_{number}" if number > 1 else figure
+            yield Curves(name, partial(_as_they_are, panels), when=_drawn)
+
+    return Several(figures_, _drawn)
+
+
+def _driver(machine: Drawn) -> list[Sequence[str]]:
+    """Return coordinate and rates of the driver, its force or torque, its power."""
+    return [(key,) for key in machine.reached.columns if key.startswith("driver_")] if machine.style.period else []
+
+
+def _inertia(machine: Drawn) -> list[Sequence[str]]:
+    columns = machine.reached.columns
+    keys = any_nonzero(("reduced_inertia", "reduced_inertia_1"), columns)
+    return [(key,) for key in keys] if "dynamic_torque" in columns else []
+
+
+def _torques(machine: Drawn) -> list[Sequence[str]]:
+    keys = any_nonzero(("static_torque", "dynamic_torque", "driving_torque"), machine.reached.columns)
+    return [keys] if keys else []
+
+
+def _gives_work(machine: Drawn) -> str:
+    """Return the remark on a machine that nobody drives."""
+    driving = machine.reached.columns.get("driving_torque")
+    gives = driving is not None and bool(np.any(driving)) and np.nanmean(driving) < 0
+    sign = f"${symbol('driving_torque', machine.language)}$"
+    return say("drawing.gives_work", machine.language, symbol=sign) if gives else ""
+
+
+def _friction(machine: Drawn) -> list[Sequence[str]]:
+    """Return the driving forces and torques with and without friction, and the efficiency."""
+    columns = machine.reached.columns
+    pairs = (("balancing_torque", "torque_with_friction"), ("driver_force", "driver_force_with_friction"),
+             ("driver_torque", "driver_torque_with_friction"))  # fmt: skip
+    panels = [[key for key in pair if key in columns] for pair in pairs if pair[1] in columns]
+    ratio = [["instantaneous_efficiency"]] if "instantaneous_efficiency" in columns else []
+    shown = itertools.chain(*panels, *ratio)
+    return [*panels, *ratio] if panels and all(np.isfinite(columns[key]).any() for key in shown) else []
+
+
+def _joint_forces(machine: Drawn) -> list[Sequence[str]]:
+    """Return magnitudes in pins, and apart from them forces of guides, which have a sign."""
+    columns = machine.reached.columns
+    kinds = (any_nonzero(_named(columns, kind), columns) for kind in ("joint_force", "normal_force"))
+    return [panel for keys in kinds for panel in _by_fours(keys)]
+
+
+_IN_TIME = (("crank_angle",), ("crank_speed",), ("kinetic_energy", "potential_energy"), ("driving_torque",))
+
+
+def _transient(machine: Drawn) -> Drawing:
+    """Return crank angle, speed, energies and torque since a machine was let go."""
+    columns = machine.results.listings["transient"].columns
+    time = columns["time"]
+    panels = [tuple(key for key in panel if key in columns and np.any(columns[key])) for panel in _IN_TIME]
+    style = machine.style._replace(period=float(time[-1]))
+    title = say("tables.transient", machine.language)
+    return curves(360.0 * time / time[-1], columns, [panel for panel in panels if panel], title, style)
+
+
+def _positions(machine: Drawn) -> Drawing:
+    """Return position plans over the whole motion."""
+    reached = machine.reached
+    ends = None if reached.is_whole else (float(reached.degrees[0]), float(reached.degrees[-1]))
+    mechanism = machine.results.machine.mechanism
+    return position_plans(mechanism, ends, float(reached.degrees[reached.row]), machine.style)
+
+
+def _plan(order: int) -> Callable[[Drawn], Drawing]:
+    """Return what draws the plan of velocities, or of accelerations, at the angle that is worked."""
+
+    def picture(machine: Drawn) -> Drawing:
+        reached, mechanism = machine.reached, machine.results.machine.mechanism
+        rates = driver_rates(machine.results, reached.columns)
+        moved, (first, second) = moving(mechanism, reached.degrees), (float(rate[reached.row]) for rate in rates)
+        if order == 1:
+            return velocity_plan(mechanism, moved, reached.row, first, machine.style)
+        return acceleration_plan(mechanism, moved, reached.row, first, second, machine.style)
+
+    return picture
+
+
+def _crankpins(machine: Drawn) -> Iterable[Diagram]:
+    """Yield the polar diagram of every unlike crankpin; the first has no number in its name."""
+    if not machine.has_piston:
+        for number, pin in enumerate(machine.bearings.pins, start=1):  # type: ignore[attr-defined]
+            name = f"crankpin_polar_{number}" if number > 1 else "crankpin_polar"
+            yield Diagram(name, partial(crankpin_polar, pin=pin), _drawn, "crank_up", owner=plain(pin))
+        return
+    pins = list(machine.diagrams.pin_sizes[1]) if _engine(machine) else []
+    for index, pin in enumerate(pins):
+        name = f"crankpin_polar_{pin}" if index else "crankpin_polar"
+        # of several crankpins the first has a number too
+        own = pin if len(pins) > 1 else ""
+        yield Diagram(name, partial(crankpin_polar, pin=pin), _engine, "crank_up", is_of_forces=True, number=own)
+    if not pins:
+        yield Diagram("crankpin_polar", crankpin_polar_of_one, _engine, "crank_up", is_of_forces=True)
+
+
+def _forces(name: str, **styles: Style) -> Diagram:
+    """Return the figure of forces of one cylinder over the cycle."""
+    return Diagram(name, partial(forces_over_cycle, styles=styles), piston(*styles), is_of_forces=True)
+
+
+def _listed(listing: str) -> Needs:
+    """Return the condition that the loads of an engine, or a listing of joints, are known."""
+    return lambda machine: _engine(machine) or (_drawn(machine) and listing in machine.results.listings)
+
+
+def _has_joint_forces(machine: Drawn) -> bool:
+    return _drawn(machine) and bool(_joint_forces(machine))
+
+
+def _speed(machine: Drawn) -> bool:
+    """Return whether the speed over a cycle is known of a linkage, or of a shaft whose torques are."""
+    if machine.results.machine.turning is not None:
+        return has_turning_moment(machine) and "crank_speed" in machine.results.columns
+    return _drawn(machine) and has_speed(machine)
+
+
+def _loops(machine: Drawn) -> bool:
+    shaft = machine.results.machine.turning is not None
+    return shaft and not has_turning_moment(machine) and "energy_extremes" in machine.results.listings
+
+
+def _orders(machine: Drawn) -> str:
+    return "orders" if "piston_velocity_first_order" in machine.columns else ""
+
+
+def _compared(machine: Drawn) -> Drawing:
+    results = machine.results
+    if results.compared is None:
+        raise TypeError("these results stand beside no others")
+    return comparison_figure(results, results.compared, machine.language, per_area=machine.per_area)
+
+
+def _has_compared(machine: Drawn) -> bool:
+    return machine.results.compared is not None and bool(drawn_keys(machine.results.compared))
+
+
+_GAS = _of_kinds("cylinder_volume", "gas_pressure", "gas_force", "rod_load")
+# every figure, in the order in which they are told
+DIAGRAMS: tuple[Entry, ...] = (
+    Curves("driver", _driver, "tables.driver", _drawn),
+    Construction("position_plans", _positions, _drawn),
+    Construction("velocity_plan", _plan(1), _drawn),
+    Construction("acceleration_plan", _plan(2), _drawn),
+    _each("sliders", "slider_displacement", "slider_velocity", "slider_acceleration"),
+    _each("links", "link_angle", "link_angular_velocity", "link_angular_acceleration", owners=1),
+    _each("points", "point_x", "point_y", "point_velocity", "point_acceleration", owners=2),
+    Construction("centrodes", centrodes, every(_turning, has_centrodes)),
+    Construction("indicator", chamber_indicator, lambda machine: _drawn(machine) and bool(_GAS(machine))),
+    Curves("chambers", _GAS, when=_drawn),
+    Curves("reduced_inertia", _inertia, "quantities.reduced_inertia"),
+    Curves("torques", _torques, "quantities.driving_torque", remark=_gives_work),
+    Curves("friction", _friction, "tables.friction"),
+    Curves("joint_forces", _joint_forces, "tables.joint_forces"),
+    Construction("force_plans", plans_of_forces, every(_has_joint_forces, has_force_plans)),
+    Construction("zhukovsky_lever", lever_figure, every(_has_joint_forces, _turning, has_lever)),
+    Construction("turning_moment", turning_moment, has_turning_moment),
+    Construction("loops", loops, _loops),
+    Diagram("kinematics", kinematics, piston("piston_displacement"), _orders),
+    Diagram("brix", brix, piston("piston_displacement")),
+    Diagram("tolle", tolle, piston("piston_displacement")),
+    Diagram("pressure", pressure, piston("gas_pressure")),
+    Diagram("indicator", indicator, piston("gas_pressure")),
+    Diagram("piston_forces", piston_forces, piston("piston_force"), is_of_forces=True),
+    _forces("rod_forces", rod_force=SOLID, side_force=DASHED),
+    _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED),
+    Diagram("torque", torque, piston("crank_torque")),
+    Several(_crankpins, lambda machine: piston("tangential_force")(machine) or _drawn(machine)),
+    Diagram("crankpin_load", crankpin_load, _listed("crankpin_wear"), is_of_forces=True),
+    Diagram("big_end_polar", big_end_polar, _engine, "rod_up", is_of_forces=True),
+    Diagram("small_end_polar", small_end_polar, _engine, "rod_up", is_of_forces=True),
+    Diagram("main_journal_polar", main_journal_polar, _listed("main_wear"), lambda machine: machine.shaft_frame,
+            is_of_forces=True),
+    Diagram("crankpin_wear", crankpin_wear, _listed("crankpin_wear"), is_of_forces=True),
+    Diagram("main_wear", main_wear, _listed("main_wear"), is_of_forces=True),
+    Diagram("total_torque", total_torque, _many),
+    Diagram("accumulated_torque", accumulated_torque, every(_engine, lambda machine: machine.diagrams.has_throws)),
+    Diagram("excess_work", excess_work, _engine),
+    Diagram("crank_speed", crank_speed, every(_engine, lambda machine: machine.diagrams.torque.speed is not None)),
+    Diagram("torque_harmonics", torque_harmonics, _listed("torque_harmonics")),
+    Diagram("phase_stars", phase_stars, _many),
+    Diagram("balance_orders", balance_orders, _engine),
+    Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(machine.diagrams.loci))),
+    Construction("transient", _transient, every(_drawn, has("transient"))),
+    Construction("speed", speed_curve, _speed),
+    Construction("wittenbauer", wittenbauer, every(_drawn, has_energy_mass_diagram)),
+    Construction("comparison", _compared, _has_compared),
 )  # fmt: skip
+
+
+def diagrams(machine: Drawn) -> dict[str, Diagram | Construction | Curves]:
+    """Return the figures that there are of a machine, by name."""
+    entries = (entry for entry in DIAGRAMS if entry.needs(machine))
+    each = (entry.each(machine) if isinstance(entry, Several) else (entry,) for entry in entries)
+    return {entry.name: entry for entry in itertools.chain.from_iterable(each)}
 
 
 def figures(
@@ -64,115 +412,11 @@ def drawings(
     results: Results, *, language: Language = "en", per_area: bool = False, only: Collection[str] | None = None
 ) -> dict[str, Drawing]:
     """Return the figures of a machine as drawings; `only`: the names of those that are wanted."""
-    listed = _pictures(results, language, per_area=per_area)
-    return {name: draw() for name, draw in listed.items() if only is None or name in only}
+    machine = drawn_of(results, language, per_area=per_area)
+    return {name: figure.picture(machine) for name, figure in diagrams(machine).items() if only is None or name in only}
 
 
 @for_readers
 def figure_names(results: Results, language: Language = "en") -> list[str]:
     """Return the names of the figures of a machine, of which none is drawn."""
-    return list(_pictures(results, language, per_area=False))
-
-
-def _pictures(results: Results, language: Language, *, per_area: bool) -> dict[str, Callable[[], Drawing]]:
-    """Return the functions that draw the figures of a machine."""
-    listed = linkage_pictures if results.machine.turning is None else turning_pictures
-    pictures = listed(results, language)
-    if "piston_displacement" in results.columns:
-        pictures |= engine_pictures(engine_drawn(results, language, per_area=per_area))
-    if results.compared is not None and drawn_keys(results.compared):
-        pictures["comparison"] = partial(comparison_figure, results, results.compared, language, per_area=per_area)
-    return pictures
-
-
-@in_own_units
-def comparison_figure(results: Results, compared: Comparison, language: Language, *, per_area: bool = False) -> Drawing:
-    """Return the figure of a comparison: quantities by each name, and below each its differences."""
-    keys = drawn_keys(compared)
-    # two machines have pistons of their own
-    per_area = per_area and compared.is_of_methods
-    cycle = results.machine.cycle
-    degrees = np.linspace(0.0, cycle, min(round(cycle / _STEP), _MOST) + 1)
-    area = results.summary["piston_area"] if per_area else None
-    columns = compared.columns_at(degrees)
-    other_names, named = compared.names[1:], shown_names(compared, language)
-    looks = zip(named, _looks(compared.names), strict=True)
-    rows = [Row(shown, style, 1.2, colour) for shown, (_, style, colour) in looks]
-    if len(other_names) == 1:
-        rows.append(Row(f"Δ: {say('report.less', language, name=named[1], other=named[0])}", width=0.0))
-    else:
-        rows.append(Row(f"Δ: {say('report.less_own', language, other=named[0])}", width=0.0))
-    room = (_TALLEST - LEGEND_ROW * len(rows)) / len(keys) - 1.5 * _GAP
-    upper, lower = (min(most, share * room) for most, share in ((_UPPER, 0.63), (_LOWER, 0.37)))
-    paper, box = sheet(len(keys) * (upper + lower + 1.5 * _GAP) - _GAP, rows)
-    abscissas = _across(results, degrees)
-    top = box.top
-    for key in keys:
-        scale, unit = displayed(key, 1.0, per_area=area), unit_name(key_unit(key, per_area=per_area), language)
-        sign = QUANTITIES[key.partition(".")[0]]._replace(key=key).symbol(language)
-        for names, place, tall, mark in (
-            ([(beside(key, name), name) for name in compared.names], top, upper, f"${sign}$"),
-            ([(difference(key, name), name) for name in other_names], top + upper + _GAP / 2, lower, f"$Δ{sign}$"),
-        ):
-            is_last = key == keys[-1] and place > top
-            curves = {name: columns[column] * scale for column, name in names}
-            graph = _graph(
-                paper, ChartBox(box.left, place, box.width, tall), abscissas, curves, results, language, numbers=is_last
-            )
-            for name, style, colour in _looks(compared.names):
-                if name in curves:
-                    graph.curve(name, abscissas, curves[name], style, colour=colour)
-            graph.y_title(f"{mark}, {unit}" if unit else mark)
-            if is_last:
-                graph.x_title(_x_title(results, language))
-        top += upper + lower + 1.5 * _GAP
-    return paper.drawing(say("figures.comparison", language), language)
-
-
-def drawn_keys(compared: Comparison) -> list[str]:
-    """Return the columns that a figure shows; of several links or sliders the last, which others move."""
-    selected = []
-    for kinds in _DRAWN:
-        keys = {key.partition(".")[0]: key for key in compared.keys if np.any(compared.columns[_own(compared, key)])}
-        selected += [keys[kind] for kind in kinds if kind in keys][:1]
-    return selected
-
-
-def _own(compared: Comparison, key: str) -> str:
-    return beside(key, compared.names[0])
-
-
-def _looks(names: tuple[str, ...]) -> list[tuple[str, Style, str]]:
-    return [
-        (name, _STYLES[min(index, len(_STYLES) - 1)], _COLOURS[index % len(_COLOURS)])
-        for index, name in enumerate(names)
-    ]
-
-
-def _across(results: Results, degrees: Array) -> Array:
-    return degrees * results.period / 360.0 if results.period else degrees
-
-
-def _x_title(results: Results, language: Language) -> str:
-    key = "time" if results.period else "crank_angle"
-    return f"{QUANTITIES[key].label(language)} ${symbol(key, language)}$, {unit_name(key_unit(key), language)}"
-
-
-def _graph(  # noqa: PLR0913 - place, curves and how they are told
-    paper: Canvas,
-    box: ChartBox,
-    abscissas: Array,
-    curves: Mapping[str, Array],
-    results: Results,
-    language: Language,
-    *,
-    numbers: bool,
-) -> Graph:
-    """Return a graph that holds all numbers of some curves, with its frame drawn."""
-    y = limits(*curves.values())
-    if results.period or results.machine.cycle > _LONG:
-        over = "time" if results.period else "crank_angle"
-        graph = Graph(paper, box, (0.0, float(abscissas[-1])), y, language, over)
-        graph.frame(round_ticks(0.0, float(abscissas[-1])), round_ticks(*y, 4), labels=(numbers, True))
-        return graph
-    return over_cycle(paper, box, y, float(abscissas[-1]), language, numbers=numbers)
+    return list(diagrams(drawn_of(results, language)))

@@ -1,15 +1,20 @@
-"""Notices about results as sentences, by their code."""
+"""What readers should know as sentences: notices about results, and which figures are left out."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
+from crankwork.analysis import Results
 from crankwork.formula.expression import symbol
 from crankwork.locale import decimal, has_text, say, told
 from crankwork.locale.numbers import number, unit_name
+from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.language import FILE_KEYS, label
+from crankwork.report.tables import any_nonzero
+
+_DRAWN = ("reduced_inertia", "static_torque", "dynamic_torque", "driving_torque", "joint_force")
 
 
 def notice_text(code: str, values: Mapping[str, float | str], language: Language) -> str:
@@ -46,3 +51,26 @@ def _meanings(names: str, language: Language) -> str:
         f"{label(key, language)} ({name})" if key in QUANTITIES or has_text(f"report.{key}") else name
         for name, key in meant.items()
     )
+
+
+def not_drawn(results: Results, language: Language) -> Iterator[str]:
+    """Yield sentences about figures that are left out."""
+    names = list(dict.fromkeys(label(kind, language) for kind in _zero(results)))
+    if names:
+        yield say("report.not_drawn_zero", language, names=", ".join(names))
+    if results.machine.linkage is not None and _has_no_groups(results):
+        yield say("report.no_force_plans", language)
+
+
+def _zero(results: Results) -> Iterator[str]:
+    """Yield the quantities that figures are of and that are zero throughout."""
+    for kind in _DRAWN:
+        keys: Iterable[str] = [key for key in results.columns if key.partition(".")[0] == kind and kind in QUANTITIES]
+        if keys and not any_nonzero(keys, results.columns):
+            yield kind
+
+
+def _has_no_groups(results: Results) -> bool:
+    """Return whether there are joint forces, but a driver within a group, so that none is apart from it."""
+    has_forces = any(key.startswith("joint_force.") for key in results.columns)
+    return has_forces and isinstance(results.machine.mechanism.driver, Cylinder | LinkMotor)

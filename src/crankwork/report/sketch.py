@@ -1,18 +1,32 @@
-"""Drawings of mechanisms before they are placed on paper."""
+"""Drawings of mechanisms before they are placed on paper, and the forces on them: arrows to one scale."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis import Array
-from crankwork.show.moving import Part
-from crankwork.show.scene import Item, placed
+from crankwork.analysis.moving_engine import CylinderMoving
+from crankwork.report.language import displayed
+from crankwork.show.moving import Part, part
+from crankwork.show.place import round_scale
+from crankwork.show.scene import Box, Circle, Item, Pen, Polyline, Text, extent, moved, placed
 
 # how much of gas is seen at its least and its greatest pressure
 _THIN, _THICK = 0.06, 0.75
+# of the largest arrow, of a head, half the width of a shaft [mm]
+_LONGEST, _HEAD, _HALF = 32.0, 3.2, 0.28
+# height of letters, and how far they are from a tip [mm]
+_LETTERS, _CLEAR = 3.2, 4.0
+# where nothing moves: what is too short to be seen, what is free around a name [mm]
+_SHORTEST, _FREE = 1.6, 0.7
+# how a name stands to its force, turned from its way [deg], and how far off
+_TURNS, _REACHES = (0.0, 45.0, -45.0, 80.0, -80.0, 120.0, -120.0), (1.0, 1.4, 1.9, 2.5)
+_NO_LINE = Pen(0.0)
 
 
 def tints(pressures: Sequence[Array]) -> list[Array]:
@@ -60,3 +74,125 @@ class Sketch(NamedTuple):
         items, parts = [item for view in views for item in view.items], [each for view in views for each in view.parts]
         seen = tuple(each for view in views for each in view.views)
         return Sketch(items, parts, low, high, views[0].scale, views=seen)
+
+
+class Arrow(NamedTuple):
+    """A force at a place, shape (n, 2) [mm], along a direction [deg], against it where negative, shape (n,) [N].
+
+    `label`: what is written at its tip.
+    """
+
+    name: str
+    place: Array
+    turn: Array
+    force: Array
+    label: str = ""
+
+
+def with_forces(sketch: Sketch, arrows: Sequence[Arrow], frame: int | None = None) -> Sketch:
+    """Return a sketch with forces upon it, and how many units of force a millimetre of them is.
+
+    `frame`: the only one that is looked at; its forces are as long as there is room, and their names clear of others.
+    """
+    rows = slice(None) if frame is None else slice(frame, frame + 1)
+    largest = max((float(np.max(np.abs(arrow.force[rows]))) for arrow in arrows), default=0.0)
+    if not largest > 0:
+        return sketch
+    scale = round_scale(displayed("piston_force", largest) / _LONGEST)
+    corners, parts = [sketch.low[None], sketch.high[None]], list(sketch.parts)
+    taken = [] if frame is None else [extent(item) for body in parts for item in body.at(_of(body, frame))
+                                      if isinstance(item, Text | Circle)]  # fmt: skip
+    for arrow in arrows:
+        length = displayed("piston_force", 1.0) * arrow.force / scale
+        if frame is not None and abs(length[frame]) < _SHORTEST:
+            continue
+        turns = np.radians(arrow.turn)
+        ways = np.column_stack([np.cos(turns), np.sin(turns)]) * np.sign(length)[:, None]
+        ends = arrow.place + np.abs(length)[:, None] * ways
+        parts += _arrow(arrow, length, ends)
+        corners.append(ends[rows])
+        if arrow.label:
+            text = Text((0.0, -_LETTERS / 2), arrow.label, _LETTERS, "middle", halo=True)
+            away = _CLEAR * ways
+            if frame is not None:
+                away, box = _place_near_tip(text, ends[frame], ways[frame], taken)
+                taken.append(box)
+            corners += [(ends + away + side * _CLEAR)[rows] for side in (1, -1)]
+            # a force that is too short for its head has no name
+            shown = np.abs(length) > (_HEAD if frame is None else _SHORTEST)
+            parts.append(part(f"force.{arrow.name}.text", [text], ends + away, tint=shown))
+    places = np.vstack(corners)
+    return sketch._replace(parts=parts, low=places.min(axis=0), high=places.max(axis=0), force_scale=scale)
+
+
+def _of(part_: Part, frame: int) -> int:
+    """Return the row of the track of a part at a frame."""
+    return frame if len(part_.shift) > 1 else 0
+
+
+def _place_near_tip(text: Text, tip: Array, ahead: Array, taken: Sequence[Box]) -> tuple[Array, Box]:
+    """Return the offset of the name of a force from its tip, clear of other names, and the box it covers. [mm]"""
+    ways = []
+    for turn, reach in product(_TURNS, _REACHES):
+        cos, sin = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+        away = reach * _CLEAR * np.array([cos * ahead[0] - sin * ahead[1], sin * ahead[0] + cos * ahead[1]])
+        box = extent(moved(text, *(tip + away))).inset(-_FREE, -_FREE, -_FREE, -_FREE)
+        over = sum(
+            max(0.0, min(box.right, other.right) - max(box.left, other.left))
+            * max(0.0, min(box.top, other.top) - max(box.bottom, other.bottom))
+            for other in taken
+        )
+        ways.append((over + 0.3 * reach + 0.002 * abs(turn), away, box))
+    _, away, box = min(ways, key=lambda choice: choice[0])
+    return away, box
+
+
+def _arrow(arrow: Arrow, length: Array, ends: Array) -> list[Part]:
+    """Return shaft and head; a force shorter than a head has a smaller one."""
+    share = np.clip(length / _HEAD, -1.0, 1.0)
+    shaft = Polyline(
+        np.array([(0.0, _HALF), (1.0, _HALF), (1.0, -_HALF), (0.0, -_HALF)]),
+        _NO_LINE,
+        closed=True,
+        fill=0.0,
+        name="force",
+    )
+    head = Polyline(
+        np.array([(0.0, 0.0), (-_HEAD, _HEAD / 4), (-_HEAD, -_HEAD / 4)]), _NO_LINE, closed=True, fill=0.0, name="force"
+    )
+    return [
+        part(f"force.{arrow.name}.shaft", [shaft], arrow.place, arrow.turn, stretch=length - share * _HEAD),
+        part(f"force.{arrow.name}.head", [head], ends, arrow.turn, stretch=share),
+    ]
+
+
+def forces_of(cylinder: CylinderMoving, labels: Mapping[str, str]) -> list[Arrow]:
+    """Return the forces on pins and wall of a cylinder on its paper, as far as they are known."""
+    arm, rod = cylinder.pin, cylinder.joint - cylinder.piston
+    axis, number = np.full(len(arm), 90.0 - cylinder.place.axis), cylinder.place.number
+    ways = {
+        "piston_force": (cylinder.piston, axis + 180.0),
+        "side_force": (cylinder.piston, axis + 90.0),
+        "rod_force": (cylinder.joint, _turns(rod)),
+        # across the crank arm, with the rotation
+        "tangential_force": (cylinder.pin, _turns(arm) - 90.0),
+    }
+    return [Arrow(f"{key}.{number}", *ways[key], force, labels.get(key, "")) for key, force in cylinder.forces.items()]
+
+
+def forces_in_joints(
+    columns: Mapping[str, Array], points: Mapping[str, Array], labels: Mapping[str, str]
+) -> list[Arrow]:
+    """Return the forces in the joints of a linkage; where links share a pin, each of them has its own. [mm]"""
+    arrows = []
+    for key, x in columns.items():
+        kind, _, name = key.partition(".")
+        joint = name if name in points else name.rpartition("_")[0]
+        if kind == "joint_force_x" and joint in points:
+            force = np.nan_to_num(np.column_stack([x, columns[f"joint_force_y.{name}"]]))
+            arrows.append(Arrow(name, points[joint], _turns(force), np.hypot(*force.T), labels.get(name, "")))
+    return arrows
+
+
+def _turns(ways: NDArray[np.float64]) -> Array:
+    return np.degrees(np.unwrap(np.arctan2(ways[:, 1], ways[:, 0])))

@@ -35,9 +35,9 @@ from crankwork.page.document import follow, page, tables, values
 from crankwork.page.memories import TraceExport
 from crankwork.page.sliders import FAINT, LivePage, Slider, scale
 from crankwork.report.drawing import drawn, film_of
-from crankwork.report.figure_data import figure_title
 from crankwork.report.figures import drawings, figure_names
 from crankwork.report.language import in_own_units, key_unit
+from crankwork.report.look import figure_title
 from crankwork.report.notices import notice_text
 from crankwork.report.summary import results_method, warning_text
 from crankwork.report.workbook import workbook

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
@@ -11,15 +10,15 @@ from crankwork.analysis import Results
 from crankwork.analysis.whole_engine import as_engine
 from crankwork.errors import CrankworkError
 from crankwork.locale import say
-from crankwork.note.sheets.linkage import linkage_sheets
 from crankwork.note.sheets.packing import Picture
+from crankwork.note.sheets.plans import Pictures, of_links
 from crankwork.note.sheets.sheet import Paper, Sheet, numbered, sheets_with
 from crankwork.note.sheets.table import text_block
 from crankwork.note.sheets.title_block import TitleBlock, block_of
 from crankwork.quantities import Language
-from crankwork.report.engine_figure_data import EngineDrawn, engine_drawn
-from crankwork.report.engine_figure_list import engine_pictures
+from crankwork.report.figures import diagrams
 from crankwork.report.language import for_readers
+from crankwork.report.look import Drawn, drawn_of, kind_of
 from crankwork.report.summary import results_method
 from crankwork.show.scene import Drawing
 
@@ -31,13 +30,15 @@ __all__ = [
     "drawn_sheets",
 ]
 PLAIN = Paper()
+# figures that a sheet has room for
+_FULL = 8
 _DATA = (
     "bore", "stroke", "compression_ratio", "rod_ratio", "rotational_speed", "crank_radius", "rod_length", "offset",
     "reciprocating_mass", "rotating_mass", "indicated_mean_pressure", "indicated_power", "mean_torque",
 )  # fmt: skip
 # kinds of figures on each sheet, by the key of its title
 _SHEETS: dict[str, tuple[str, tuple[str, ...]]] = {
-    "engine-motion": ("sheets.first_sheet", ("indicator", "pressure", "brix", "tolle", "kinematics")),
+    "engine-motion": ("sheets.first_sheet", ("indicator", "pressure", "brix", "tolle", "kinematics", "data")),
     "engine-forces": ("headings.dynamics", (
         "piston_forces", "rod_forces", "crankpin_forces", "torque", "total_torque", "crankpin_load", "crankpin_polar",
         "crankpin_wear",
@@ -49,6 +50,18 @@ _SHEETS: dict[str, tuple[str, tuple[str, ...]]] = {
         "torque_harmonics", "phase_stars", "balance_orders", "balance_ellipses",
     )),
 }  # fmt: skip
+_OF_LINKS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "linkage-kinematics": ("headings.linkage_kinematics", (
+        "structure", "position_plans", "velocity_plans", "acceleration_plans", "scales", "compared",
+    )),
+    "linkage-motion": ("sheets.motion_sheet", ("velocities", "accelerations", "sliders", "links", "driver")),
+    "linkage-forces": ("headings.linkage_forces", (
+        "force_plans", "zhukovsky_lever", "reactions", "joint_forces", "friction",
+    )),
+    "linkage-dynamics": ("sheets.linkage_dynamics", (
+        "torques", "reduced_inertia", "wittenbauer", "speed", "indicator", "chambers", "transient",
+    )),
+}  # fmt: skip
 
 
 @for_readers
@@ -58,30 +71,35 @@ def drawn_sheets(
     """Return the sheets of a machine; figures for which nothing is known are left out."""
     # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
     results = as_engine(results)
-    sheets = [*engine_sheets(results, language, paper, per_area=per_area), *linkage_sheets(results, language, paper)]
-    if not sheets:
+    machine = drawn_of(results, language, per_area=per_area)
+    known: Pictures = {name: partial(figure.picture, machine) for name, figure in diagrams(machine).items()}
+    if machine.has_piston:
+        known["data"] = partial(_data, machine)
+        if "total_torque" in known:
+            known.pop("torque")
+    if results.machine.linkage is not None:
+        known |= of_links(results, language)
+    subjects: list[tuple[str, str, list[Picture]]] = []
+    for name, (title, kinds) in (_SHEETS if machine.has_piston else _OF_LINKS).items():
+        pictures = [Picture(key, known[key]) for kind in kinds for key in known if kind_of(key) == kind]
+        # one or two figures would leave a sheet of their own empty
+        is_few = len(pictures) in (1, 2) and not machine.has_piston
+        if subjects and is_few and len(subjects[-1][2]) + len(pictures) <= _FULL:
+            first, before, joined_pictures = subjects[-1]
+            heading = say(title, language)
+            joined = before if len(pictures) == 1 else f"{before}; {heading[:1].lower()}{heading[1:]}"
+            subjects[-1] = first, joined, [*joined_pictures, *pictures]
+        elif pictures:
+            subjects.append((name, say(title, language), pictures))
+    if not subjects:
         raise CrankworkError("sheets need the motion of a piston, a drawn linkage or torques; these results have none")
+    sheets: list[Sheet] = []
+    for name, title, pictures in subjects:
+        sheets += sheets_with(name, title, pictures, paper, language)
     return numbered(sheets, paper)
 
 
-def engine_sheets(results: Results, language: Language, paper: Paper, *, per_area: bool) -> Iterator[Sheet]:
-    """Yield the sheets of an engine, or of a crank gear, as far as its figures are known."""
-    if "piston_displacement" not in results.columns:
-        return
-    engine = engine_drawn(results, language, per_area=per_area)
-    known = engine_pictures(engine)
-    if "total_torque" in known:
-        known.pop("torque")
-    for name, (title, kinds) in _SHEETS.items():
-        pictures = [
-            Picture(key, draw) for kind in kinds for key, draw in known.items() if key.rstrip("_0123456789") == kind
-        ]
-        if name == "engine-motion":
-            pictures.append(Picture("data", partial(_data, engine)))
-        yield from sheets_with(name, say(title, language), pictures, paper, language)
-
-
-def _data(engine: EngineDrawn) -> Drawing:
+def _data(engine: Drawn) -> Drawing:
     """Draw the data of the engine in rows."""
     summary, language = engine.results.summary, engine.language
     known = {key: float(summary[key]) for key in _DATA if summary.get(key) is not None}

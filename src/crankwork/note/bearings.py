@@ -1,0 +1,129 @@
+"""The loads of bearings and their wear in a note: of a crankpin, its rod and the main journals, of any joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+from crankwork.note.document import Block, Citation, Math, Runs
+from crankwork.note.lines import first_articulated
+from crankwork.note.material import Material
+from crankwork.note.parts import (
+    At,
+    Head,
+    Keys,
+    Lines,
+    Listed,
+    Over,
+    Part,
+    Places,
+    Rows,
+    Section,
+    Shown,
+    Text,
+    every,
+    has,
+    turning,
+)
+from crankwork.note.words import named
+
+_SOURCE = "kolchin_demidov_2008, ch. 9"
+_ON_CRANKPIN = (
+    "big_end_inertia_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load",
+)  # fmt: skip
+_STATISTICS = (
+    "mean_crankpin_load", "bearing_load_ratio", "bearing_pressure", "bearing_pressure_max", "reversal_duration",
+    "reversal_ratio",
+)  # fmt: skip
+_ON_ROD = ("big_end_load", "piston_pin_force", "small_end_load")
+_ON_MAINS = (
+    "shaft_unbalance", "unbalance_force", "unbalance_weight", "unbalance_tangential_force", "journal_share",
+    "main_journal_load",
+)  # fmt: skip
+_ON_PINS = ("crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "main_journal_load")
+
+
+def _columns(material: Material) -> list[str]:
+    return [key for key in material.results.groups.get("bearings", ()) if key in material.columns]
+
+
+def _has_pin(material: Material) -> bool:
+    return material.has_piston and bool(_columns(material))
+
+
+def _of_crankpin(material: Material) -> Iterable[str]:
+    return [key for key in _columns(material) if key.startswith("crankpin_")]
+
+
+def _group(name: str) -> Keys:
+    """Return what gives the keys of a table of the results."""
+    return lambda material: material.results.groups.get(name, ())
+
+
+def _articulated(material: Material) -> Iterator[Block]:
+    """Yield motion and forces of the first cylinder whose rod is articulated, worked at its own crank angle."""
+    words, engine = material.words, material.machine.engine
+    if engine is None or "articulated" not in material.groups:
+        return
+    number = first_articulated(engine)
+    of_crankpin, own = (
+        words.amount(math.radians(material.groups[name].degrees or 0.0), "deg") for name in ("bearings", "articulated")
+    )
+    shown: Runs = (Math(words.symbol(f"crank_angle.{number}")), f" = {own}")
+    yield words.paragraph("articulated", number=str(number), value=of_crankpin, own=shown)
+    yield from material.equations("articulated")
+
+
+def _oil_hole(material: Material) -> Iterator[Block]:
+    """Yield where the oil hole belongs."""
+    angle = next((material.summary[key] for key in material.summary if key.startswith("oil_hole_angle")), None)
+    if angle is not None:
+        yield material.words.paragraph("wear", value=material.words.amount(angle, "deg", digits=4))
+
+
+def _oil_holes(material: Material) -> Iterator[Block]:
+    """Yield where the oil hole of each pin belongs."""
+    words = material.words
+    for key in named(material.summary, "oil_hole_angle"):
+        angle = words.amount(material.summary[key], "deg", digits=4)
+        yield words.paragraph("joint_wear", name=key.partition(".")[2], value=angle)
+
+
+_PIN: tuple[Part, ...] = (Text("crankpin"), _articulated, At("bearings"), Lines("bearings", _ON_CRANKPIN))
+_STATED = Lines("bearing_loads", _STATISTICS, intro="loads", first=True)
+_OF_ROD = Lines("bearings", _ON_ROD)
+_LOADS, _OF_WEAR = Rows("bearing_loads", "loads"), Rows("crankpin_wear", "crankpin_wear")
+_WEAR: tuple[Part, ...] = (_oil_hole, Shown(("crankpin_wear",), (_OF_WEAR,)))
+SECTIONS = (
+    # polar, unrolled and wear in one
+    Section("crankpin", (
+        Head("crankpin"), *_PIN, _OF_ROD, _STATED,
+        Shown(("crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar"),
+              (Over("crankpin", _columns), _LOADS)),
+        Head("wear", 2), *_WEAR,
+    ), _has_pin),
+    Section("polar", (
+        Head("crankpin"), *_PIN, Shown(("crankpin_polar",), (Over("crankpin", _of_crankpin),)),
+    ), _has_pin),
+    Section("unrolled", (Head("unrolled"), _STATED, Shown(("crankpin_load",), (_LOADS,))), _has_pin),
+    Section("big_end", (
+        Head("big_end"), Text("big_end"), At("bearings"), _OF_ROD,
+        Shown(("big_end_polar", "small_end_polar"), (Over("rods", ("big_end_load", "small_end_load")),)),
+    ), has("piston_displacement", "big_end_load")),
+    Section("wear", (Head("wear"), *_WEAR), has("piston_displacement", "crankpin_wear")),
+    # main journals, and the torque along the shaft
+    Section("mains", (
+        Head("mains", sinks=True), Text("mains"), At("bearings"), Lines("bearings", _ON_MAINS),
+        Shown(("main_journal_polar",), (Over("mains", _group("main_journals")),)),
+        Shown(("main_wear",), (Rows("main_wear", "main_wear"),)), Lines("engine_torque"),
+        Shown(("accumulated_torque",), (Over("accumulated", _group("accumulated_torque")),)),
+    ), lambda material: material.has_piston and material.has_engine and material.has("main_journals")),
+    Section("bearings", (
+        Head("bearings"), Text("joint_bearings", {"source": Citation(_SOURCE)}), At("joint_bearings"),
+        Lines("joint_bearings", _ON_PINS), Places("bearings", _ON_PINS, "bearings", filled=True),
+        Text("joint_loads"), Lines("bearing_sizes"), Listed("bearing_loads", "loads"),
+        Shown(("crankpin_polar", "crankpin_load", "main_journal_polar")), _oil_holes,
+        Listed("crankpin_wear", "crankpin_wear"), Listed("main_wear", "main_wear"),
+        Shown(("crankpin_wear", "main_wear")),
+    ), every(turning, has("bearing_loads"))),
+)  # fmt: skip

@@ -1,0 +1,297 @@
+"""The end of a note: comparison with others, checks, main results, what stands nowhere else, sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from crankwork.analysis import Results
+from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.solved import Notice
+from crankwork.locale import say
+from crankwork.note import balance, bearings, flywheel
+from crankwork.note.data import GEAR, cycle_keys
+from crankwork.note.document import Bibliography, Block, Cell, ItemList, Math, Paragraph, Reference, Runs, Table
+from crankwork.note.material import Material
+from crankwork.note.parts import Head, Section, Shown, Text, When, drawn, has, lacks, school, written
+from crankwork.note.printed_units import printed_unit
+from crankwork.note.table_width import SIZES, fits
+from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
+from crankwork.note.words import Words, named
+from crankwork.report.comparison import comparison_rows, shown_names
+from crankwork.report.language import display_key, displayed, key_unit, label
+from crankwork.report.look import kind_of
+from crankwork.report.notices import notice_text
+from crankwork.report.tables import any_nonzero
+
+# results of a crank gear that stand in the conclusion, in their order; the others stand in the appendix
+_MAIN = (
+    "mean_piston_speed", "piston_velocity_max", "piston_velocity_min", "piston_acceleration_max",
+    "piston_acceleration_min", "gas_pressure_max", "inertia_force_max", "inertia_force_min", "piston_force_max",
+    "piston_force_min", "side_force_max", "side_force_min", "tangential_force_max", "tangential_force_min",
+    "rotating_inertia_force", "crank_torque_max", "crank_torque_min", "mean_torque", "indicated_work",
+    "indicated_mean_pressure", "indicated_power", "effective_mean_pressure", "effective_power", "effective_torque",
+    "effective_efficiency", "effective_fuel_consumption", "displacement", "total_torque_max",
+    "total_torque_min", "excess_work", "flywheel_inertia", "speed_fluctuation", "mean_crankpin_load",
+    "crankpin_load_max", "oil_hole_angle",
+)  # fmt: skip
+_OF_ENGINES = (
+    "displacement", "mean_torque.1", "indicated_power.1", "total_torque_max", "total_torque_min", "cylinder_count",
+)  # fmt: skip
+# what a comparison and a table of main results leave out: where extremes are reached stands beside them
+_PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
+# digits of differences
+_DIGITS = 3
+# in their order; of what links, joints and cylinders have the largest is before
+_NUMBERS = (
+    "effective_power", "indicated_power", "motor_power", "shaft_power",
+    "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
+    "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
+    "slider_stroke", "joint_force_max", "crankpin_load_max", "excess_work", "flywheel_inertia",
+    "flywheel_inertia.exact", "speed_fluctuation", "piston_velocity_max", "piston_acceleration_max",
+    "piston_acceleration_min",
+)  # fmt: skip
+_SAME = {"shaft_power": ("motor_power",)}
+_MOST = 12
+
+
+_DYNAMICS = (
+    "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
+    "kinetic_energy_change", "crank_speed",
+)  # fmt: skip
+_MOTION = (
+    "slider_displacement", "slider_velocity", "slider_acceleration",
+    "link_angle", "link_angular_velocity", "link_angular_acceleration",
+)  # fmt: skip
+
+
+# what stands in the appendix in the Vietnamese order
+_SINKING = [
+    section
+    for section in (*bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS)
+    if section.name in ("mains", "balance", "evenness")
+]
+
+
+def _is_place(key: str) -> bool:
+    return key.partition(".")[0].endswith(_PLACES)
+
+
+def _compared(material: Material) -> Iterator[Block]:
+    """Yield the single values by each name."""
+    words, results, compared = material.words, material.results, material.results.compared
+    if compared is None:
+        return
+    # two machines have pistons of their own
+    per_area = material.per_area and compared.is_of_methods
+    own, *other_names = shown_names(compared, words.language)
+    key = "compared_methods" if compared.is_of_methods else "compared_machines"
+    yield words.paragraph(key, table=Reference("t:compared"), own=own)
+    titles: list[Runs] = [(words.column("quantity"),), (words.column("unit"),), (own,)]
+    for other in other_names:
+        titles += [(other,), ("Δ",)]
+    rows = [
+        (
+            label(display_key(key, results) if key in results.memory else key, words.language),
+            printed_unit(key_unit(key, per_area=per_area), words.language) or "–",
+            words.number(values[0]),
+            # after the own value come another and how far it is above it
+            *(words.number(value, digits=_DIGITS if index % 2 else 6) for index, value in enumerate(values[1:])),
+        )
+        for key, values in comparison_rows(results, per_area=per_area).items()
+        if not _is_place(key)
+    ]
+    align = "lc" + "r" * (len(titles) - 2)
+    table = words.table("comparison", titles, rows, align, "t:compared")
+    yield replace(table, wide=not fits(titles, rows, SIZES[-1]))
+
+
+def errors(material: Material) -> dict[str, tuple[float, float]]:
+    """Return the largest errors against exact [SI], and their shares of the largest value, by key."""
+    largest_errors = {}
+    for key in (name for name in material.summary if name.endswith("_error")):
+        values = material.results.columns.get(key.removesuffix("_error"))
+        if values is not None and np.any(values):
+            largest_errors[key] = (material.summary[key], material.summary[key] / float(np.max(np.abs(values))))
+    return largest_errors
+
+
+def _checks(material: Material) -> Iterator[Block]:
+    """Yield the identities that were checked, the errors of the method, and what the reader should know."""
+    words, results = material.words, material.results
+    largest_errors = errors(material)
+    if results.checks:
+        before = () if material.has_piston else (*words.sentence("identities"), " ")
+        yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
+        rows = [(_identity(key, words), words.number(100.0 * check, digits=2)) for key, check in results.checks.items()]
+        yield words.table("identities", ("identity", "residual"), rows, "lr", "t:identities")
+    elif results.has_positions:
+        yield words.paragraph("no_checks")
+    if largest_errors:
+        yield words.paragraph("errors", table=Reference("t:errors"))
+        yield _errors(material, largest_errors)
+    if results.notices:
+        yield words.paragraph("notices")
+        yield ItemList(tuple((_notice(notice, words),) for notice in results.notices))
+
+
+def _identity(key: str, words: Words) -> Cell:
+    """Return the identity that a check tests: in words, or symbols where it is an equation."""
+    text = say(f"report.{key}", words.language)
+    return Math(text) if "²" in text else text
+
+
+def _notice(notice: Notice, words: Words) -> str:
+    """Return the sentence of a notice; keys of the machine file that it names become what they mean."""
+    values = {
+        name: ", ".join(map(words.meaning, value.split(", "))) if name in ("name", "names") else value
+        for name, value in notice.values.items()
+        if isinstance(value, str)
+    }
+    return notice_text(notice.code, {**notice.values, **values}, words.language)
+
+
+def _errors(material: Material, largest_errors: dict[str, tuple[float, float]]) -> Table:
+    """Return the errors of the method, each also as a share of the largest value."""
+    words = material.words
+    rows = [
+        (
+            label(key.removesuffix("_error"), words.language),
+            words.number(displayed(key, error), digits=4),
+            printed_unit(key_unit(key), words.language) or "–",
+            words.number(100 * share, digits=2),
+        )
+        for key, (error, share) in largest_errors.items()
+    ]
+    return words.table("errors", ("quantity", "value", "unit", "relative"), rows, "lrcr", "t:errors")
+
+
+def _main_numbers(material: Material) -> Iterator[Block]:
+    """Yield the numbers that matter, one in a line."""
+    results, words, summary = material.results, material.words, material.results.summary
+    keys = [
+        key
+        for kind in _NUMBERS
+        if not any(same in summary for same in _SAME.get(kind, ()))
+        for key in _of(kind, summary)
+    ]
+    items = [_item(key, results, words) for key in keys[:_MOST]]
+    if items:
+        yield words.paragraph("numbers")
+        yield ItemList(tuple(items))
+
+
+def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
+    """Return the key of a quantity, or of the largest of those that links, joints and cylinders have."""
+    if kind in summary or "." in kind:
+        return [kind] if kind in summary else []
+    parts = [key for key in summary if key.startswith(f"{kind}.")] if kind.endswith(("_max", "_stroke")) else []
+    return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
+
+
+def _item(key: str, results: Results, words: Words) -> Runs:
+    unit = printed_unit(key_unit(key), words.language)
+    name = say("report.exact", words.language) if key.endswith(".exact") else ""
+    own = display_key(key, results).removesuffix(".exact")
+    title = label(own, words.language) + (f", {name}" if name else "")
+    value = words.number(displayed(key, results.summary[key]), digits=5)
+    return (f"{title}, ", Math(words.symbol(own)), f" = {value}\u00a0{unit}".rstrip("\u00a0"))
+
+
+def _conclusion(material: Material) -> Iterator[Block]:
+    """Yield the main results as a table."""
+    yield value_table("summary", [_row(material, key) for key in _main_keys(material)], material.words)
+
+
+def _main_keys(material: Material) -> list[str]:
+    """Return the keys of the main results in order: all, but of a crank gear those that its appendix does not have."""
+    summary = material.summary
+    if not material.has_piston:
+        return [key for key in summary if not _is_place(key)]
+    # those of each method have a table of their own
+    alone = ("excess_work", "flywheel_inertia")
+    keys = [key for kind in _MAIN for key in summary
+            if key == kind or (key.startswith(f"{kind}.") and kind not in alone)]  # fmt: skip
+    # for one cylinder those of its own torque only
+    return [key for key in keys if material.has_engine or key not in _OF_ENGINES]
+
+
+def _row(material: Material, key: str) -> tuple[Cell, ...]:
+    """Return name, symbol, value and unit of a single value, and the crank angle or time where it is reached."""
+    words, summary = material.words, material.summary
+    area = summary["piston_area"] if material.per_area else None
+    kind, dot, name = key.partition(".")
+    places = {unit: summary.get(f"{kind}_{over}{dot}{name}") for over, unit in (("angle", "deg"), ("time", "s"))}
+    reached = [(place, unit) for unit, place in places.items() if place is not None and kind.endswith(("_max", "_min"))]
+    row = value_row(display_key(key, material.results), summary[key], words, area=area)
+    return (*row, words.amount(*reached[0], digits=4) if reached else "–")
+
+
+def _further(material: Material) -> Iterator[Block]:
+    """Yield single values that are not among the main results, and figures that no section has."""
+    words, summary = material.words, material.summary
+    main = {*_main_keys(material), *(() if material.has_engine else _OF_ENGINES)}
+    main |= {*GEAR, "bore", *(cycle_keys(material) if material.cycle else ())}
+    left = [
+        key
+        for key in summary
+        if key not in main
+        and not material.is_shown(key)
+        and not _is_place(key)
+        and not key.partition(".")[0].endswith("_error")
+    ]
+    if left:
+        yield words.paragraph("more", table=Reference("t:more"))
+        yield value_table("more", [_row(material, key) for key in left], words)
+    yield from material.presented((), dict.fromkeys(map(kind_of, material.remaining_figures())))
+
+
+def _rest(material: Material) -> Iterator[Block]:
+    """Yield what no section has: journals, balance and flywheel in Vietnamese notes, further values, figures."""
+    sunk = [section for section in _SINKING if section.when(material)] if material.order == "vi" else []
+    blocks = [block for section in sunk for block in written(section.parts, material)]
+    rest = [*material.intro("further", material.remaining_lines()), *_further(material)]
+    if rest:
+        blocks += [material.words.heading("more", 2, numbered=False), *rest]
+    if blocks:
+        yield material.words.heading("appendix")
+        yield from blocks
+
+
+def _all_columns(material: Material) -> Iterator[Block]:
+    """Yield all columns at the step of the tables, where the sections before have not the same tables."""
+    words, results = material.words, material.results
+    columns, degrees = without_rounding(results.columns, results.machine.speed), results.grid.degrees
+    if len(degrees) == len(material.positions) and np.allclose(degrees, material.positions):
+        return
+    over = "period" if words.period else "partial" if words.is_partial else "turn"
+    yield words.heading(f"appendix_{over}")
+    tables = {
+        "torques_all": any_nonzero(_DYNAMICS, results.columns),
+        "driver_all": [key for key in columns if key.startswith("driver_")],
+        "motion_all": named(columns, *_MOTION),
+        f"reactions_{over}": material.nonzero("joint_force", "axial_force", "normal_force", "normal_moment"),
+    }
+    for caption, keys in tables.items():
+        yield from position_tables(caption, degrees, quantity_columns(material, keys, columns), words, first=None)
+
+
+def _has_checks(material: Material) -> bool:
+    results = material.results
+    return bool(results.checks or results.notices or results.has_positions or errors(material))
+
+
+SECTIONS = (
+    Section("comparison", (Head("comparison"), _compared, Shown(("comparison",))),
+            lambda material: material.results.compared is not None),
+    Section("checks", (Head("checks"), _checks), _has_checks),
+    Section("conclusion", (
+        When(school("en"), (Head("results"),)), When(lacks(school("en")), (Head("conclusion"),)),
+        _main_numbers, Text("conclusion", {"table": Reference("t:summary")}), _conclusion,
+    )),
+    Section("sources", (Head("sources"), lambda _: (Bibliography(),))),
+    Section("appendix", (_rest,), has("piston_displacement")),
+    Section("appendix", (_all_columns,), drawn),
+)  # fmt: skip

@@ -1,0 +1,169 @@
+"""The forces in a note: masses and forces of a crank gear, inertia of links, forces in joints, the lever."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from crankwork.analysis import Array
+from crankwork.analysis.linkage import torque_by_routes
+from crankwork.analysis.rounding import without_rounding
+from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
+from crankwork.note.material import Material
+from crankwork.note.parts import (
+    At,
+    Head,
+    Lines,
+    Over,
+    Part,
+    Places,
+    Section,
+    Shown,
+    Text,
+    When,
+    drawn,
+    driven,
+    either,
+    every,
+    works,
+)
+from crankwork.note.tables import Column, long_table, quantity_column, tabulated
+from crankwork.report.notices import not_drawn
+from crankwork.report.tables import any_nonzero
+
+_STATICS, _WORK = "artobolevsky_1988, ch. 13", "artobolevsky_1988, ch. 15"
+_ALONG = ("gas_pressure", "gas_force", "piston_acceleration", "inertia_force", "weight_force", "piston_force")
+_ACROSS = (
+    "side_factor", "side_force", "rod_factor", "rod_force", "rod_transverse_force", "radial_factor", "radial_force",
+    "tangential_factor", "tangential_force", "crank_torque",
+)  # fmt: skip
+_OF_PISTON = ("gas_force", "inertia_force", "piston_force")
+_BEFORE_FORCES = (
+    "rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine", "cylinder_volume", "diagram_pressure",
+    "gas_pressure", "gas_force",
+)  # fmt: skip
+_INERTIA = (
+    "piston_transfer_1", "piston_transfer_2", "piston_acceleration", "inertia_acceleration", "inertia_force",
+    "rotating_inertia_force",
+)  # fmt: skip
+# decimals of the table of forces that Vietnamese notes print
+_VIETNAMESE = {"gas_force": 5, "inertia_force": 6, "piston_force": 6}
+
+
+def _per_area(material: Material) -> Iterator[Block]:
+    """Yield how forces are related to the piston area, where they are."""
+    if material.per_area:
+        words = material.words
+        value = words.amount(material.summary["piston_area"], "cm2")
+        yield words.paragraph("per_area", value=value, unit=words.unit("gas_pressure"))
+
+
+def _masses(material: Material) -> Iterator[Block]:
+    """Yield the masses of the crank gear."""
+    given = material.machine.masses
+    rigid = given is not None and bool(given.rod_inertia_excess) and material.results.method.rod == "rigid"
+    yield from material.intro("masses_rigid" if rigid else "masses", material.equations("masses"))
+
+
+def _along(material: Material) -> Iterable[str]:
+    """Return the columns of forces along the cylinder axis."""
+    keys, method = any_nonzero(_ALONG, material.columns), material.results.method
+    if method.inertia_rod_ratio is not None and not method.is_exact:
+        # the acceleration of the columns is not the one that the inertia force is made of
+        keys.remove("piston_acceleration")
+    return keys
+
+
+def _across(material: Material) -> Iterable[str]:
+    """Return the columns of forces on wall, rod and crankpin."""
+    return [key for key in _ACROSS if key != "rod_transverse_force" or any_nonzero((key,), material.columns)]
+
+
+def _to_six_decimals(material: Material) -> Table | None:
+    """Return the gas force, inertia force and their sum, to six decimals where they are per area."""
+    return long_table(material, "along", _OF_PISTON, decimals=_VIETNAMESE if material.per_area else None)
+
+
+def _undrawn(material: Material) -> Iterator[Block]:
+    """Yield which figures are left out, and why."""
+    for notice in not_drawn(material.results, material.words.language):
+        yield Paragraph((f"{notice[0].upper()}{notice[1:]}.",))
+
+
+def _lever(material: Material) -> Iterator[Block]:
+    """Yield the balancing torque by five methods at every position, with their largest difference."""
+    words = material.words
+    routes, gaps = torque_by_routes(material.results, material.positions)
+    of_routes = {f"balancing_torque.{name}": values for name, values in routes.items()}
+    printed = without_rounding({**material.columns, **of_routes}, material.machine.speed)
+    if not any_nonzero(of_routes, printed):
+        # differences of rounding noise mean nothing
+        routes, gaps = {name: printed[key] for name, key in zip(routes, of_routes, strict=True)}, np.zeros_like(gaps)
+    largest = words.number(100.0 * float(np.max(gaps, initial=0.0)), digits=2)
+    yield words.paragraph("lever", source=Citation(_WORK), difference=largest)
+    shown = [_route(name, values, material) for name, values in routes.items()]
+    percent = [words.number(difference, digits=2) for difference in (100.0 * gaps).tolist()]
+    shown.append(Column((words.column("difference"),), percent))
+    yield from tabulated(material, "routes", shown, "routes")
+
+
+def _route(name: str, values: Array, material: Material) -> Column:
+    column = quantity_column(material, "balancing_torque", values, digits=5)
+    return column._replace(heading=(*column.heading, f", {material.words.term(name)}"))
+
+
+def _is_loaded(material: Material) -> bool:
+    """Return whether anything acts on links: masses, loads or gas."""
+    machine = material.machine
+    return drawn(material) and bool(machine.mechanism.bodies or machine.loads or machine.chambers)
+
+
+def _has_bodies(material: Material) -> bool:
+    return bool(material.machine.mechanism.bodies)
+
+
+_OF_FORCES = Lines("force_extremes", intro="extremes")
+_OF_POWER = Lines("power", ("mean_torque", "mean_driving_torque"))
+_WORKED: tuple[Part, ...] = (At("forces"), Lines("forces"), Lines("reduction"))
+_ON_CRANKPIN = Shown(("rod_forces", "crankpin_forces", "torque"), (Over("forces", _across),))
+_INERTIA_OF_LINKS: tuple[Part, ...] = (
+    Text("inertia_of_links", {"source": Citation(_STATICS)}), At("inertia_loads"), Lines("inertia_loads"),
+)  # fmt: skip
+_IN_JOINTS = ("joint_force", "tooth_force", "separating_force", "normal_force", "normal_moment")
+SECTIONS = (
+    Section("dynamics", (
+        Head("dynamics"), Head("masses", 2), _masses,
+        When(works("forces"), (
+            Head("forces", 2), *_WORKED, _per_area, Shown(("piston_forces",), (Over("along", _along),)), _ON_CRANKPIN,
+            Head("extremes", 2), _OF_FORCES, _OF_POWER,
+        )),
+    ), either(works("masses"), works("forces"))),
+    Section("inertia", (
+        Head("inertia"), _masses, At("forces"), Lines("forces", _INERTIA, intro="inertia"),
+        Lines("force_extremes", ("inertia_force_max", "inertia_force_min"), intro="extremes"),
+        When(works("forces"), (Text("see_table", {"tables": Reference("t:along")}),)),
+    ), works("masses")),
+    Section("piston_forces", (
+        Head("along"), At("forces"), Lines("forces", (*_BEFORE_FORCES, "weight_force", "piston_force")), _per_area,
+        Shown(("piston_forces",), (_to_six_decimals,)),
+        Lines("force_extremes", ("piston_force_max", "piston_force_min"), intro="extremes"),
+    ), works("forces")),
+    Section("crank_forces", (Head("forces"), *_WORKED, _ON_CRANKPIN, _OF_FORCES, _OF_POWER), works("forces")),
+    # what a driver with a law of its own has to give
+    Section("forces", (
+        Head("linkage_forces"), When(_has_bodies, _INERTIA_OF_LINKS), Text("driven_reactions"),
+        Lines("joint_forces"), Lines("driver_force"),
+        Places("reactions", (
+            "driver_force", "driver_torque", "driver_power", "joint_force", "axial_force", "normal_force",
+            "normal_moment",
+        ), "reactions", filled=True),
+        Shown(("joint_forces",)),
+    ), every(_is_loaded, driven)),
+    Section("forces", (
+        Head("linkage_forces"), When(_has_bodies, (Head("inertia_loads", 2), *_INERTIA_OF_LINKS)),
+        Head("reactions", 2), Text("reactions"), At("joint_forces"), Lines("joint_forces"),
+        Places("reactions", _IN_JOINTS, "reactions", filled=True), Shown(("joint_forces", "force_plans")), _undrawn,
+        Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),
+    ), _is_loaded),
+)  # fmt: skip

@@ -1,0 +1,340 @@
+"""The gas in a note: the working cycle calculated, the indicator diagram, the chambers between sliding pieces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from crankwork.analysis.polytropes import Polytropes, polytropes
+from crankwork.analysis.stated import stated_chambers
+from crankwork.formula.expression import symbol
+from crankwork.formula.known import Pieces
+from crankwork.formula.known import Table as TableOfValues
+from crankwork.formula.lines import FormulaLine, Line, ValueLine
+from crankwork.locale import has_text, say
+from crankwork.notation import ARGUMENTS, argument_unit
+from crankwork.note.data import cycle_keys
+from crankwork.note.document import Block, Cell, Citation, Math, Reference, Runs, Table
+from crankwork.note.legends import legend
+from crankwork.note.material import Material
+from crankwork.note.parts import (
+    At,
+    Head,
+    Lines,
+    Places,
+    Section,
+    Shown,
+    Text,
+    When,
+    machine_has,
+)
+from crankwork.note.printed_units import printed_unit
+from crankwork.note.tables import Column, column_table, folded, quantity_column, value_row, value_table
+from crankwork.note.words import Words, in_display_unit
+from crankwork.quantities import QUANTITIES, base_key
+from crankwork.report.language import FILE_KEYS, displayed
+from crankwork.units import UNITS
+
+# stage of the calculation: what it gives
+_STAGES: dict[str, tuple[str, ...]] = {
+    "fuel": (
+        "fuel_heating_value", "air_mass_needed", "air_amount_needed", "fresh_charge_amount", "product_co",
+        "product_h2", "product_co2", "product_h2o", "product_o2", "product_n2", "product_amount", "molar_change_ideal",
+        "heat_lost_incomplete",
+    ),
+    "intake": (
+        "compressor_temperature", "charge_temperature", "charge_pressure", "charge_density", "intake_pressure_loss",
+        "intake_pressure", "residual_fraction", "intake_temperature", "volumetric_efficiency",
+    ),
+    "compression": (
+        "compression_pressure", "compression_temperature", "compression_celsius", "fresh_charge_heat", "product_heat",
+        "mixture_heat",
+    ),
+    "combustion": (
+        "molar_change", "working_mixture_heat", "product_heat_constant", "product_heat_slope",
+        "product_heat_constant_pressure", "combustion_energy", "combustion_celsius", "combustion_temperature",
+        "combustion_pressure", "combustion_pressure_real", "pressure_rise_ratio", "cut_off",
+    ),
+    "expansion": (
+        "afterexpansion", "expansion_pressure", "expansion_temperature", "residual_temperature_found",
+        "residual_temperature_deviation",
+    ),
+    "heat_release": (
+        "gas_mass", "burning_progress", "burnt_fraction", "burning_rate", "cylinder_temperature", "gas_heat_ratio",
+        "motored_pressure", "wall_gas_speed", "heat_transfer_coefficient", "piston_displacement", "wall_area",
+        "wall_heat_rate", "pressure_rise",
+    ),
+    "indicated": (
+        "theoretical_mean_pressure", "indicated_mean_pressure", "indicated_efficiency", "indicated_fuel_consumption",
+    ),
+    "effective": (
+        "mechanical_loss_pressure", "effective_mean_pressure", "mechanical_efficiency", "effective_efficiency",
+        "effective_fuel_consumption", "effective_power", "effective_torque", "fuel_rate", "power_per_litre",
+    ),
+    "size": (
+        "bore", "stroke", "crank_radius", "piston_area", "swept_volume", "displacement", "mean_piston_speed",
+        "clearance_volume",
+    ),
+    "heat_balance": (
+        "heat_supplied", "heat_to_coolant", "heat_to_exhaust", "heat_unburnt", "heat_rest", "heat_share",
+        "molar_enthalpy",
+    ),
+}  # fmt: skip
+_SHARES = (
+    ("effective", "effective_power"), ("to_coolant", "heat_to_coolant"), ("to_exhaust", "heat_to_exhaust"),
+    ("unburnt", "heat_unburnt"), ("rest", "heat_rest"),
+)  # fmt: skip
+_MEASURED_STEP = 10.0
+_DELIVERED, _VOLUME = "eastop_mcconkey_1993, ch. 12", "kolchin_demidov_2008, ch. 5"
+_CHARGE = "urieli_berchowitz_1984"
+_SINGLE = (
+    "swept_volume", "clearance_volume", "compression_ratio", "gas_pressure_max", "indicated_work",
+    "indicated_mean_pressure", "indicated_power",
+)  # fmt: skip
+
+
+# what varies with the crank angle or stands among the data of the machine
+_ELSEWHERE = (
+    "crank_angle", "cylinder_pressure", "cylinder_temperature", "cylinder_volume", "piston_displacement",
+    "diagram_pressure", "bore", "rotational_speed", "speed", "stroke",
+)  # fmt: skip
+# arguments that formulas of the cycle calculate under several names
+_CALCULATED = ("Q_part", "mc_gas", "th_gas", "T_zero", "t_gas", "h_prod", "h_fresh", "p_1", "V_1", "V_phi")
+# what a fuel, or the kind of an engine, brings along when it is taken as usual
+_BROUGHT = {
+    "fuel": ("fuel_carbon", "fuel_hydrogen", "fuel_oxygen", "fuel_molar_mass"),
+    "mechanical_loss_pressure": ("mechanical_loss_constant", "mechanical_loss_slope"),
+}
+
+
+def _cycle(material: Material) -> Iterator[Block]:
+    """Yield the calculation of the working cycle, stage by stage."""
+    words = material.words
+    steps = [line for line in material.groups["cycle"].lines if not isinstance(line, ValueLine)]
+    rows = list(_cycle_data(material, [step for step in steps if isinstance(step, FormulaLine)]))
+    if rows:
+        yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
+        yield value_table("cycle_data", rows, words)
+    yield words.paragraph("cycle")
+    for stage, lines in _staged(steps).items():
+        equations = material.worked(lines)
+        if equations:
+            yield words.heading(stage, 2)
+        if equations and stage == "heat_release":
+            yield words.paragraph("heat_release")
+        yield from equations
+    yield from material.presented([_heat_balance(material)])
+
+
+def _staged(steps: Sequence[Line]) -> dict[str, list[Line]]:
+    """Return steps by the stage that they belong to; a part of a quantity belongs where it is used."""
+    stages = {key: stage for stage, keys in _STAGES.items() for key in keys}
+    lines_of: dict[str, list[Line]] = {stage: [] for stage in _STAGES}
+    current = "fuel"
+    for step in steps:
+        kind, dot, _ = step.key.partition(".")
+        if not dot or kind == "heat_share" or step.key.endswith((".cycle", ".peak")):
+            current = stages.get(kind, current)
+        lines_of[current].append(step)
+    return lines_of
+
+
+def _heat_balance(material: Material) -> Table | None:
+    words, summary = material.words, material.summary
+    if "heat_share.rest" not in summary:
+        return None
+    parts = [(name, key) for name, key in _SHARES if f"heat_share.{name}" in summary and key in summary]
+    columns = [
+        Column((words.column("row"),), [say(f"report.{name}", words.language) for name, _ in parts]),
+        Column((words.column("heat", "kW"),), words.column_texts([displayed(key, summary[key]) for _, key in parts])),
+        Column(
+            (words.column("share"),), words.column_texts([summary[f"heat_share.{name}"] * 100 for name, _ in parts])
+        ),
+    ]
+    return column_table("heat_balance", columns, words)
+
+
+def _measured(material: Material) -> Iterator[Block]:
+    """Yield where measured pressure comes from, with a coarse table of it; nothing if it was not measured."""
+    words, gas = material.words, material.machine.gas
+    if gas is None or gas.measured is None:
+        return
+    cycles = next((item.values["cycles"] for item in material.results.notices if item.code == "cycles_averaged"), 1)
+    yield words.paragraph(
+        "measured",
+        file=gas.measured.file or "–",
+        samples=words.number(len(gas.measured.degrees)),
+        cycles=words.number(float(cycles)),
+        table=Reference("t:measured"),
+    )
+    if gas.angle_shift:
+        yield words.paragraph("shifted", shift=words.amount(math.radians(gas.angle_shift), "deg"))
+    if gas.resample is not None:
+        yield words.paragraph("resampled", step=words.amount(math.radians(gas.resample), "deg"))
+    degrees = np.arange(0.0, gas.cycle + 1e-9, _MEASURED_STEP)
+    pressures = material.results.columns_at(degrees, ("diagram_pressure",))["diagram_pressure"]
+    columns = [
+        Column(words.titled("crank_angle"), [words.number(float(angle)) for angle in degrees]),
+        quantity_column(material, "diagram_pressure", pressures),
+    ]
+    yield folded(column_table("measured", columns, words))
+
+
+def _exponents(lines: Polytropes, words: Words) -> Runs:
+    numbers = {name: words.number(exponent) for name, exponent in lines.exponents.items()}
+    if len(numbers) == 1:
+        ((name, value),) = numbers.items()
+        return words.sentence("exponent", symbol=Math(words.symbol(f"{name}_exponent")), value=value)
+    return words.sentence("exponents", **numbers)
+
+
+def _polytrope_table(lines: Polytropes, material: Material) -> Table:
+    words = material.words
+    multiple = "/".join(map(words.symbol, ("cylinder_volume", "clearance_volume")))
+    columns = [
+        Column((Math(multiple),), [words.number(multiple_value, digits=5) for multiple_value in lines.multiples]),
+        quantity_column(material, "cylinder_volume", lines.volumes),
+    ]
+    for name, pressures in lines.pressures.items():
+        column = quantity_column(material, "diagram_pressure", pressures)
+        columns.append(column._replace(heading=(f"{words.column(name)} ", *column.heading)))
+    return column_table("polytropes", columns, words)
+
+
+def _points(material: Material) -> Table | None:
+    """Return the named points of the diagram with angle, volume and pressure, in the order of the cycle."""
+    words, results = material.words, material.results
+    named = sorted(results.solved.space.diagram.named.items(), key=lambda item: item[1][0])
+    if not named:
+        return None
+    degrees = np.array([angle for _, (angle, _) in named])
+    pressures = np.array([pressure for _, (_, pressure) in named])
+    volumes = results.columns_at(degrees, ("cylinder_volume",))["cylinder_volume"]
+    columns = [
+        Column((words.column("point"),), [Math(name) if "_" in name else name for name, _ in named]),
+        Column(words.titled("crank_angle"), [words.number(float(angle), digits=5) for angle in degrees]),
+        quantity_column(material, "cylinder_volume", volumes),
+        quantity_column(material, "diagram_pressure", pressures),
+    ]
+    gas = material.machine.gas
+    if gas is not None and gas.is_absolute:
+        columns.append(quantity_column(material, "gas_pressure", pressures - gas.ambient))
+    return column_table("points", columns, words)
+
+
+def _laws(material: Material) -> Table | None:
+    """Return the law of the pressure on each stretch of the cycle, where it has several."""
+    words, results = material.words, material.results
+    known = results.memory.get("diagram_pressure")
+    if known is None or not isinstance(known.node, Pieces):
+        return None
+    rows: list[tuple[Cell, ...]] = []
+    start = 0.0
+    for end in np.unique([*known.node.ends, results.machine.cycle]).tolist():
+        moment = results.moment((start + end) / 2)
+        law, step = moment.law(known).node, moment.step(known)
+        if isinstance(step, FormulaLine):
+            law_text: Cell = Math(step)
+        elif isinstance(law, TableOfValues):
+            law_text = say(f"memory.{law.word}", words.language)
+        else:
+            law_text = words.amount(step.value, "MPa")
+        rows.append((words.number(start, digits=5), words.number(end, digits=5), law_text))
+        start = end
+    ends = ((words.column(name, "deg"),) for name in ("law_from", "law_to"))
+    return words.table("laws", (*ends, (Math(words.symbol("diagram_pressure")),)), rows, "rrl", "t:laws")
+
+
+def _polytropes(material: Material) -> Iterator[Block]:
+    """Yield the polytropes that compression and expansion follow; nothing where they follow none."""
+    words, lines = material.words, polytropes(material.results)
+    if lines is not None:
+        yield words.paragraph("polytropes", polytrope=_exponents(lines, words), table=Reference("t:polytropes"))
+        yield _polytrope_table(lines, material)
+
+
+def _cycle_data(material: Material, steps: Sequence[FormulaLine]) -> Iterator[tuple[Cell, ...]]:
+    """Yield the inputs of the cycle, given or assumed, and other arguments of its formulas that no formula gives."""
+    words, given, assumed = material.words, cycle_keys(material), _assumed(material)
+
+    def marked(key: str, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
+        return (f"{row[0]} ({words.term('assumed')})", *row[1:]) if key in assumed else row
+
+    for key in given:
+        yield marked(key, value_row(key, material.summary[key], words))
+    known = {*given, *material.summary, *material.results.columns, *_ELSEWHERE}
+    known |= {base_key(line.key) for line in material.cycle}
+    for step in steps:
+        meanings = {entry.symbol: entry.text for entry in legend(step, words.language, frozenset(known))}
+        for name, value in step.values.items():
+            if name not in ARGUMENTS:
+                continue
+            shown, key = symbol(name, words.language), _key(name)
+            if shown not in meanings or key in known or name in _CALCULATED:
+                continue
+            known.add(key)
+            stated = argument_unit(name)
+            if key in QUANTITIES and stated in UNITS and UNITS[stated].factor == 1.0:
+                yield marked(key, value_row(key, value, words))
+                continue
+            unit = printed_unit(stated, words.language)
+            title = meanings[shown].removesuffix(f", {unit}") if unit else meanings[shown]
+            yield marked(key, (title, Math(shown), words.number(value), unit or "–"))
+
+
+def _key(name: str) -> str:
+    entry = ARGUMENTS[name]
+    return f"argument:{name}" if has_text(f"arguments.{name}") else entry.quantity
+
+
+def _assumed(material: Material) -> set[str]:
+    """Return the keys of default values that the calculation assumes."""
+    names = [str(notice.values["names"]) for notice in material.results.notices if notice.code == "cycle_assumed"]
+    keys = {FILE_KEYS.get(name, name) for names_of_notice in names for name in names_of_notice.split(", ")}
+    return keys | {key_brought for key in keys for key_brought in _BROUGHT.get(key, ())}
+
+
+def _works(material: Material) -> Iterator[Block]:
+    """Yield the table of the single values of every chamber."""
+    words = material.words
+    rows = [(chamber.name, *_values(chamber.name, material)) for chamber in stated_chambers(material.machine)]
+    titles = [words.titled(key, QUANTITIES[base_key(key)].unit) for key in _SINGLE]
+    yield words.table("gas_work", ("chamber", *titles), rows, "l" + "r" * len(_SINGLE))
+
+
+def _values(name: str, material: Material) -> Iterator[str]:
+    """Yield the single values of a chamber; a dash for what it has not."""
+    words, summary = material.words, material.results.summary
+    for key in _SINGLE:
+        value = summary.get(f"{key}.{name}", math.nan)
+        yield words.number(in_display_unit(key.removesuffix("_max"), [value])[0])
+
+
+def _is_absolute(material: Material) -> bool:
+    return material.machine.gas is not None and material.machine.gas.is_absolute
+
+
+_OF_DELIVERY = Lines("delivery", intro="delivery", source=_DELIVERED)
+SECTIONS = (
+    Section("cycle", (Head("cycle"), _cycle), lambda material: bool(material.cycle)),
+    Section("indicator", (
+        Head("indicator"), _measured, Lines("gas", intro="volumes"), _polytropes,
+        When(_is_absolute, (Text("absolute"),)),
+        Shown(("indicator", "pressure"), (_points, _laws)),
+        Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"), _OF_DELIVERY,
+        When(lambda material: any(key.startswith("inlet_flow.") for key in material.summary), (
+            Text("delivery_of_all"),
+        )),
+    ), lambda material: material.has_piston and material.results.solved.space is not None),
+    Section("chambers", (
+        Head("chambers"), Text("chambers", {"source": Citation(_VOLUME)}),
+        When(lambda material: any(charge.exponent is None for charge in material.machine.charges.values()), (
+            Text("isothermal", {"source": Citation(_CHARGE)}),
+        )),
+        Lines("charges"), At("chambers"), Lines("chambers"),
+        Places("gas", ("cylinder_volume", "gas_pressure", "gas_force", "rod_load"), "gas"),
+        Shown(("chambers", "indicator")), Text("gas_work"), Lines("gas_work"), _works, _OF_DELIVERY,
+    ), machine_has("chambers")),
+)  # fmt: skip

@@ -1,0 +1,422 @@
+"""Results of a machine as the sections of its note tell them."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from crankwork.analysis import Array, Results
+from crankwork.analysis.forces import force_functions
+from crankwork.analysis.plans import POSITION_STEP, positions, worked_position
+from crankwork.analysis.rounding import summary_without_rounding, without_rounding
+from crankwork.formula.expression import Expression, Operation, Symbol
+from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
+from crankwork.locale import capital, has_text, say
+from crankwork.machine import Machine
+from crankwork.mechanism.structure import Structure, structure
+from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
+from crankwork.note.lines import Group, cycle_lines, lines_of
+from crankwork.note.options import NoteOptions
+from crankwork.note.words import Words, named
+from crankwork.report.figures import drawings
+from crankwork.report.language import is_per_area, key_unit, label
+from crankwork.report.look import figure_title, kind_of
+from crankwork.report.tables import any_nonzero
+from crankwork.show.scene import Drawing
+from crankwork.units import from_si
+
+# figures that are no curves
+_CONSTRUCTED = (
+    "position_plans", "velocity_plan", "acceleration_plan", "force_plans", "zhukovsky_lever", "centrodes",
+    "wittenbauer",
+)  # fmt: skip
+# sentences that refer to one of a kind, and to several
+_SEE = {
+    "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
+    "figure": ("see_figure", "see_figures"),
+}  # fmt: skip
+# what a crank gear of its own has no need of
+_OF_ENGINES = ("total_torque", "main_journal", "journal_share")
+# values without a formula that a table of their own gives
+_TABLED = ("free_force", "free_moment", "firing_angle", "cylinder_count", "bearing_load_max", "mean_bearing_load")
+# what follows from a transfer function, which stands before it
+_OF_TRANSFER = {
+    f"{key}{order}": f"{transfer}{order}"
+    for key, transfer in (("piston_velocity", "piston_transfer_1"), ("piston_acceleration", "piston_transfer_2"))
+    for order in ("", "_first_order", "_second_order")
+} | {"inertia_acceleration": "piston_transfer_2.inertia"}
+TRANSFER = tuple(_OF_TRANSFER.values())
+
+
+@dataclass
+class Material:
+    """Results and what is chosen, and what follows from both; remembers what the note has shown already."""
+
+    results: Results  # A crank gear as an engine of one cylinder
+    options: NoteOptions  # Language and what else is chosen
+    has_engine: bool = True  # Whether the machine says what engine it is, and not only its crank gear is known
+    _shown: set[tuple[object, ...]] = field(default_factory=set)
+    _shown_figures: set[str] = field(default_factory=set)
+    _keys: set[str] = field(default_factory=set)
+    _formulas: set[str] = field(default_factory=set)
+
+    @property
+    def machine(self) -> Machine:
+        """The machine."""
+        return self.results.machine
+
+    @property
+    def order(self) -> str:
+        """The school whose order of sections is followed."""
+        return self.options.order
+
+    @property
+    def has_piston(self) -> bool:
+        """Whether the motion of a piston is known, which has formulas of its own."""
+        return "piston_displacement" in self.results.columns
+
+    def has(self, key: str) -> bool:
+        """Return whether the results have a column, a single value, a table or a listing of this name."""
+        results = self.results
+        return any(key in known for known in (results.columns, results.summary, results.tables, results.listings))
+
+    @cached_property
+    def summary(self) -> Mapping[str, float]:
+        """Single values by key, as tables print them. [SI]"""
+        return self.results.summary if self.has_piston else summary_without_rounding(self.results)
+
+    @property
+    def per_area(self) -> bool:
+        """Whether forces are divided by the piston area; notes of the Vietnamese school do so where they can."""
+        return self.has_piston and (self.options.per_area or (self.order == "vi" and "piston_area" in self.summary))
+
+    @cached_property
+    def words(self) -> Words:
+        """The words of the language."""
+        return Words(
+            self.options.language,
+            per_area=self.per_area,
+            period=self.results.period,
+            is_partial="crank_range" in self.results.summary,
+            has_names=not self.has_piston,
+        )
+
+    @cached_property
+    def structure(self) -> Structure | None:
+        """Mobility and groups of a linkage that was drawn."""
+        return structure(self.machine.drawn)[0]
+
+    @cached_property
+    def positions(self) -> Array:
+        """Where tables between the text have rows: the positions of plans as far as they are reached. [deg]"""
+        return self.results.grid.degrees if self.has_piston else positions(self.machine)
+
+    @property
+    def first(self) -> int | None:
+        """Number of the first position, counted from a crank angle of zero; none where they have no numbers."""
+        numbers = self.positions / POSITION_STEP
+        return round(float(numbers[0])) if np.allclose(numbers, np.round(numbers)) else None
+
+    def shown(self, key: str, values: Array) -> Array:
+        """Return values [SI] in the unit in which tables show their key."""
+        unit = key_unit(key, per_area=self.per_area)
+        if self.per_area and unit != key_unit(key):
+            values = values / self.summary["piston_area"]
+        # adding zero turns -0.0 into 0.0
+        return np.asarray(from_si(values, unit) + 0.0)
+
+    @cached_property
+    def columns(self) -> Mapping[str, Array]:
+        """All columns at the positions, as tables print them. [SI]"""
+        if not self.has_piston:
+            return without_rounding(self.results.columns_at(self.positions), self.machine.speed)
+        # rod functions belong to forces: a machine of which only the motion is known does not need them
+        has_forces = "piston_force" in self.results.columns
+        functions = force_functions(self.results) if has_forces else {}
+        return {**without_rounding(self.results.columns, self.machine.speed), **functions}
+
+    @cached_property
+    def groups(self) -> dict[str, Group]:
+        """Lines of the memory by the name of their group, those of a linkage worked where its plans are drawn."""
+        is_drawn = self.machine.linkage is not None and not self.has_piston
+        position = worked_position(self.results) if is_drawn else None
+        return {group.name: group for group in lines_of(self.results, position)}
+
+    @cached_property
+    def cycle(self) -> tuple[Line, ...]:
+        """Lines of the calculation of the cycle."""
+        return cycle_lines(self.results) if self.has_piston else ()
+
+    @cached_property
+    def drawn(self) -> Mapping[str, Drawing]:
+        """Figures by name; none if they are left out."""
+        if not self.options.figures:
+            return {}
+        return drawings(self.results, language=self.options.language, per_area=self.per_area)
+
+    def lines(self, group: str, *kinds: str) -> list[Line]:
+        """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
+        lines = self.groups[group].lines if group in self.groups else ()
+        return [line for line in lines if not kinds or line.key.partition(".")[0] in kinds]
+
+    def equations(self, group: str, *kinds: str, first: bool = False) -> list[Block]:
+        """Return equations of the lines of a group that the note has not shown yet.
+
+        Lines without a formula that are in a table are left to the table.
+        """
+        selected = self.lines(group, *kinds)
+        if self.has_piston:
+            selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
+        return self.worked(_first(selected) if first else selected)
+
+    def worked(
+        self, lines: Iterable[Line], marks: Mapping[str, str] | None = None, *, again: bool = False
+    ) -> list[Block]:
+        """Return equations of lines that the note has not shown yet; `marks`: symbols that some keys have here.
+
+        `again`: also of lines that were shown before.
+        """
+        blocks: list[Block] = []
+        if self.results.method.kinematics == "textbook":
+            lines = list(lines)
+            self._formulas |= {_formula_name(step) for step in lines if step.key in TRANSFER}
+            lines = in_one_formula(lines)
+        for line in map(self._plain, lines):
+            mark = _identity(line) if self.has_piston else (line.key, line.value)
+            if mark in self._shown and not again:
+                continue
+            self._shown.add(mark)
+            defined = line.key if isinstance(line, ValueLine) and self.has_piston and not again else ""
+            area = self.summary["piston_area"] if self.per_area and is_per_area(line.key) else 0.0
+            symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
+            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area))
+            self._keys.add(line.key)
+            self._formulas.add(_formula_name(line))
+        return blocks
+
+    def _plain(self, line: Line) -> Line:
+        """Return a line of the cycle, values without the mark of the cycle where the diagram gives the same."""
+        if isinstance(line, FormulaLine):
+            named = [(name, kind) for name, key in line.named if (kind := self._kind(key, line.values[name])) != key]
+            if named:
+                line = line._replace(named=tuple({**dict(line.named), **dict(named)}.items()))
+        return line._replace(key=self._kind(line.key, line.value))
+
+    def _kind(self, key: str, value: float) -> str:
+        kind, _, name = key.partition(".")
+        same = name == "cycle" and math.isclose(value, self.summary.get(kind, math.nan))
+        return kind if same else key
+
+    def is_shown(self, key: str) -> bool:
+        """Return whether an equation has given a value."""
+        return key in self._keys
+
+    def intro(self, key: str, equations: list[Block], **values: Run | Runs) -> Iterator[Block]:
+        """Yield a sentence and the equations that it leads to; nothing if there are none."""
+        if equations:
+            yield self.words.paragraph(key, **values)
+            yield from equations
+
+    def worked_at(self, group: str) -> Iterator[Block]:
+        """Yield the sentence that says at which crank angle, or when, a group is worked."""
+        degrees = self.groups[group].degrees if group in self.groups else None
+        if degrees is not None:
+            key = "worked_time" if self.words.period else "worked_at" if self.has_piston else "worked_position"
+            yield self.words.paragraph(key, value=self.words.place_text(degrees))
+
+    def nonzero(self, *kinds: str) -> list[str]:
+        """Return the columns of some kinds that are not zero throughout."""
+        return any_nonzero(named(self.columns, *kinds), self.results.columns)
+
+    def of_axes(self, kind: str) -> list[str]:
+        """Return the columns of a place, x and y of one point after the other."""
+        names = (key.partition(".")[2] for key in named(self.columns, f"{kind}_x"))
+        return [f"{kind}_{axis}.{name}" for name in names for axis in "xy"]
+
+    def presented(self, tables: Iterable[Table | None] = (), names: Iterable[str] = ()) -> Iterator[Block]:
+        """Yield tables and figures after sentences that refer to them by number; `names`: kinds of figures."""
+        shown_tables = [table for table in tables if table is not None]
+        drawn = [
+            name for kind in names for name in self.drawn if kind_of(name) == kind and name not in self._shown_figures
+        ]
+        labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
+        for name in drawn:
+            labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
+        sentences: list[Run] = []
+        for kind, shown in labels.items():
+            if shown:
+                what = "tables" if kind == "table" else "figures"
+                sentence = self.words.sentence(_SEE[kind][len(shown) > 1], **{what: listed(shown)})
+                sentences += [" ", *sentence] if sentences else sentence
+        if sentences:
+            yield Paragraph(tuple(sentences))
+        yield from shown_tables
+        yield from map(self._figure, drawn)
+
+    def remaining_figures(self) -> list[str]:
+        """Return the names of figures that no section has shown."""
+        left = [name for name in self.drawn if name not in self._shown_figures]
+        return [name for name in left if self.has_engine or not name.startswith("main_")]
+
+    def remaining_lines(self) -> list[Block]:
+        """Return equations of lines that no section has shown: single values, and formulas that are new."""
+        all_lines = (line for group in self.groups.values() for line in group.lines)
+        lines = [line for line in all_lines if not isinstance(line, ValueLine | DelayedLine)]
+        if not self.has_engine:
+            lines = [line for line in lines if not line.key.startswith(_OF_ENGINES)]
+        return self.worked(
+            line
+            for line in lines
+            if line.key not in self._keys and (line.key in self.summary or _formula_name(line) not in self._formulas)
+        )
+
+    def _title(self, name: str) -> str:
+        """Return the caption of a figure, of a shaft with several crankpins also which of them."""
+        pins = crankpins(name, self.results.columns)
+        engine = self.machine.engine
+        several = engine is not None and len({place.throw for place in engine.layout.places}) > 1
+        if not pins or not several:
+            return capital(figure_title(name, self.words.language))
+        title = figure_title(kind_of(name), self.words.language)
+        return self.words.phrase("of_pin" if len(pins) == 1 else "of_pins", title=title, pins=", ".join(pins))
+
+    def _figure(self, name: str) -> Figure:
+        """Return a figure with its caption, and what who cannot see it is told."""
+        self._shown_figures.add(name)
+        drawing, kind, title = self.drawn[name], kind_of(name), self._title(name)
+        if kind == "crankpin_polar" and self.machine.engine is None and self.words.has_names:
+            # the crankpin has a name
+            title = capital(drawing.title)
+        text = seen(name, self)
+        if not text and has_text(f"seen.{kind}"):
+            return Figure(drawing, title, say(f"seen.{kind}", self.words.language), label=f"f:{name}")
+        return Figure(drawing, title, f"{title}. {text}".rstrip(". ") + ".", label=f"f:{name}")
+
+
+def _kind(line: Line) -> str:
+    return line.key.partition(".")[0]
+
+
+def _identity(line: Line) -> tuple[object, ...]:
+    """Return the mark that equal lines share."""
+    if not isinstance(line, FormulaLine):
+        return (line.key, line.value)
+    mark = line.key.partition(".")[2]
+    return (line.formula.name, *line.values.values(), "" if mark == "cycle" else mark)
+
+
+def _formula_name(line: Line) -> str:
+    """Return the name of the formula of a line; of a sum what it sums, of arithmetic in place what it gives."""
+    if not isinstance(line, FormulaLine):
+        return line.key.partition(".")[0]
+    return line.formula.name if line.formula.source else "".join(letter for letter in line.key if not letter.isdigit())
+
+
+def _first(lines: list[Line]) -> Iterator[Line]:
+    """Yield the first line of each formula, and for each quantity the first value without one."""
+    seen: set[tuple[str, str]] = set()
+    for line in lines:
+        mark = (_formula_name(line), line.key.partition(".")[0])
+        if mark not in seen:
+            seen.add(mark)
+            yield line
+
+
+_SHOWN: Mapping[str, tuple[str, ...]] = {
+    "kinematics": ("piston_displacement", "piston_velocity", "piston_acceleration"),
+    "pressure": ("gas_pressure",),
+    "indicator": ("gas_pressure",),
+    "piston_forces": ("gas_force", "inertia_force", "piston_force"),
+    "rod_forces": ("rod_force", "side_force"),
+    "crankpin_forces": ("tangential_force", "radial_force"),
+    "torque": ("crank_torque",),
+    "crankpin_polar": ("crankpin_tangential_force", "crankpin_radial_force"),
+    "brix": ("piston_displacement",),
+    "tolle": ("piston_displacement", "piston_acceleration"),
+    "total_torque": ("total_torque",),
+    "crankpin_load": ("crankpin_load",),
+    "big_end_polar": ("big_end_load",),
+    "small_end_polar": ("small_end_load",),
+    "excess_work": ("kinetic_energy_change",),
+    "crank_speed": ("crank_speed",),
+    "crankpin_wear": ("wear_sum",),
+    "balance_orders": ("free_force", "free_moment"),
+    "torque_harmonics": ("harmonic_amplitude", "total_harmonic_amplitude"),
+}
+# figures that show each crankpin whose load is another
+_OF_CRANKPINS = ("crankpin_polar", "crankpin_load", "crankpin_wear")
+_OVER_CYCLE = {"accumulated_torque": "accumulated_torque", "main_journal_polar": "main_journals"}
+
+
+def seen(name: str, shown: Material) -> str:
+    """Return the quantities of a figure with their extreme values."""
+    keys = _SHOWN.get(kind_of(name), ())
+    pins = crankpins(name, shown.results.columns)
+    if pins:
+        keys = tuple(f"{key}.{pin}" for pin in pins for key in keys)
+    if name in _OVER_CYCLE:
+        keys = shown.results.groups.get(_OVER_CYCLE[name], ())
+    return "; ".join(text for text in (_range(key, shown) for key in keys) if text)
+
+
+def crankpins(name: str, columns: Iterable[str]) -> tuple[str, ...]:
+    """Return the numbers of the crankpins that a figure shows: of a polar diagram one, none of other figures."""
+    kind = kind_of(name)
+    pins = tuple(key.partition(".")[2] for key in columns if key.startswith("crankpin_load."))
+    if kind not in _OF_CRANKPINS or not pins:
+        return ()
+    if kind != "crankpin_polar":
+        return pins
+    return (name.rpartition("_")[2],) if name != kind else pins[:1]
+
+
+def _range(key: str, shown: Material) -> str:
+    """Return the least and the largest value of a column or listing, in words."""
+    words, values = shown.words, shown.columns.get(key)
+    if values is None:
+        listings = (listing.columns for listing in shown.results.listings.values())
+        values = next((columns[key] for columns in listings if key in columns), None)
+    if values is None or not len(values):
+        return ""
+    values = shown.shown(key, values)
+    low, high = (words.number(float(value), digits=4) for value in (values.min(), values.max()))
+    named = label(key, words.language)
+    return words.phrase("seen", quantity=named, low=low, high=f"{high}\u00a0{words.unit(key)}".rstrip())
+
+
+def in_one_formula(lines: Iterable[Line]) -> Iterator[Line]:
+    """Yield lines, the transfer functions of the piston put into what follows from them: v = R ω (sin φ + ...)."""
+    all_lines = list(lines)
+    known = {item.key: item for item in all_lines if isinstance(item, FormulaLine)}
+    joined: dict[str, FormulaLine | None] = {}
+    for key, factor in _OF_TRANSFER.items():
+        line, transfer = known.get(key), known.get(factor)
+        if line is not None and transfer is not None and (product := _joined(line, transfer)) is not None:
+            joined[key], joined[factor] = product, None
+    for each in all_lines:
+        replaced = joined.get(each.key, each)
+        if replaced is not None:
+            yield replaced
+
+
+def _joined(line: FormulaLine, transfer: FormulaLine) -> FormulaLine | None:
+    """Return a product with a transfer function as a product with what that is a product of."""
+    match line.expression, transfer.expression:
+        case (
+            Operation(operator.mul, (Symbol(name), speed)),
+            Operation(operator.mul, (first, second))
+            | Operation(operator.truediv, (Operation(operator.mul, (first, second)), _)) as whole,
+        ):
+            factor: Expression = Operation(operator.mul, (first, speed))
+            if whole.function is operator.truediv:
+                factor = Operation(operator.truediv, (factor, whole.operands[1]))
+            tree = Operation(operator.mul, (factor, second))
+            values = {key: value for key, value in line.values.items() if key != name}
+            named = (*transfer.named, *(symbol for symbol in line.named if symbol[0] != name))
+            return line._replace(values={**transfer.values, **values}, tree=tree, named=named)
+    return None

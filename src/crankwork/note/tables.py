@@ -1,0 +1,178 @@
+"""Tables of notes: over the crank angle, over positions, of rows that are things, of single values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import Array
+from crankwork.locale import has_text
+from crankwork.note.document import Cell, Math, Runs, Table
+from crankwork.note.material import Material
+from crankwork.note.printed_units import printed_unit
+from crankwork.note.table_width import SIZES, fits
+from crankwork.note.words import Words
+from crankwork.report.language import displayed, key_unit, label, row_name
+
+# rows that fit on a page, and parts and columns of a table that stand side by side
+_LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10
+# columns of numbers beside position and crank angle that fit on a page
+_MOST = 9
+_TURN = 360.0
+
+
+class Column(NamedTuple):
+    """A column of a table: heading and finished entries."""
+
+    heading: Runs
+    entries: Sequence[Cell]
+
+
+def quantity_column(
+    material: Material, key: str, values: Array, *, digits: int | None = None, decimals: int | None = None
+) -> Column:
+    """Return a column of a quantity, whose values are in SI, in its unit."""
+    words, shown = material.words, material.shown(key, values).tolist()
+    return Column(words.titled(key), words.column_texts(shown, digits=digits, decimals=decimals))
+
+
+def quantity_columns(material: Material, keys: Iterable[str], columns: Mapping[str, Array]) -> list[Column]:
+    """Return columns of quantities, as many digits for the largest value of each."""
+    return [quantity_column(material, key, columns[key]) for key in keys]
+
+
+def angle_table(material: Material, caption: str, keys: Iterable[str], *, one_turn: bool = False) -> Table | None:
+    """Return a table over the crank angle; parts of a long narrow one stand side by side."""
+    table = long_table(material, caption, keys, one_turn=one_turn)
+    return None if table is None else folded(table)
+
+
+def long_table(
+    material: Material,
+    caption: str,
+    keys: Iterable[str],
+    *,
+    one_turn: bool = False,
+    decimals: Mapping[str, int] | None = None,
+) -> Table | None:
+    """Return a table over the crank angle with one row for each."""
+    words, degrees = material.words, material.results.grid.degrees
+    rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
+    columns = [
+        quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key))
+        for key in keys
+        if key in material.columns
+    ]
+    if not columns:
+        return None
+    angles = [words.number(float(angle)) for angle in degrees[rows]]
+    return column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
+
+
+def folded(table: Table) -> Table:
+    """Return a long narrow table with its parts side by side; any other as it is."""
+    count, rows = len(table.headings), list(table.rows)
+    parts = min(_MOST_COLUMNS // count, _MOST_PARTS)
+    if len(rows) <= _LONG or parts == 1 or not parts:
+        return table
+    height = -(-len(rows) // parts)
+    filled = rows + [("",) * count] * (height * parts - len(rows))
+    side_by_side = zip(*(filled[part * height : (part + 1) * height] for part in range(parts)), strict=True)
+    joined = [tuple(entry for row in joined_rows for entry in row) for joined_rows in side_by_side]
+    return replace(table, headings=table.headings * parts, rows=joined, align=table.align * parts)
+
+
+def column_table(caption: str, columns: Sequence[Column], words: Words, first: str = "c") -> Table:
+    """Return a table of finished columns; `first`: how the first one is aligned."""
+    headings = tuple(column.heading for column in columns)
+    rows = list(zip(*(column.entries for column in columns), strict=True))
+    table = words.table(caption, headings, rows, first + "r" * (len(columns) - 1), f"t:{caption}")
+    return replace(table, wide=not fits(headings, rows, SIZES[-1]))
+
+
+def listing_table(material: Material, name: str, caption: str) -> Table | None:
+    """Return a table of results that does not run over the crank angle."""
+    words, listing = material.words, material.results.listings.get(name)
+    if listing is None:
+        return None
+    columns: list[Column] = []
+    # a crank mechanism by itself has no known journals
+    hidden = "" if material.has_engine else "main_journal"
+    rows = [k for k, row in enumerate(listing.names) if not (hidden and row.startswith(hidden))]
+    if listing.names:
+        columns.append(Column((words.column("row"),), [_row_text(listing.names[k], words) for k in rows]))
+    for key, values in listing.columns.items():
+        if not columns:
+            entries = [words.number(value) for value in material.shown(key, values).tolist()]
+            columns.append(Column(words.titled(key), entries))
+        elif not (listing.names and material.has_piston) or np.any(np.nan_to_num(values[rows])):
+            columns.append(quantity_column(material, key, values[rows] if listing.names else values))
+    return column_table(caption, columns, words, "l" if listing.names else "c")
+
+
+def _row_text(name: str, words: Words) -> str:
+    """Return what a row of a listing is called; joints have names of their own."""
+    return row_name(name, words.language) if has_text(f"report.{name.partition('.')[0]}") else name.replace("_", " ")
+
+
+def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words) -> Table:
+    """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry."""
+    entries = list(rows)
+    titles: list[str | Runs] = ["quantity", "symbol", "value", "unit"]
+    if any(len(row) > len(titles) for row in entries):
+        titles.append((words.column("at") + " ", words.place(0.0)[0]))
+    return words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}")
+
+
+def value_row(key: str, value: float, words: Words, *, area: float | None = None) -> tuple[Cell, ...]:
+    """Return name, symbol, value and unit of a single value."""
+    return (
+        label(key, words.language),
+        Math(words.symbol(key)),
+        words.number(displayed(key, value, per_area=area)),
+        printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
+    )
+
+
+def tabulated(
+    material: Material, caption: str, keys: Iterable[str] | Sequence[Column], label: str = ""
+) -> Iterator[Table]:
+    """Yield a table over the numbered positions of columns, finished or by their keys."""
+    columns = [
+        quantity_column(material, item, material.columns[item]) if isinstance(item, str) else item for item in keys
+    ]
+    return position_tables(caption, material.positions, columns, material.words, first=material.first, label=label)
+
+
+def position_tables(
+    caption: str,
+    degrees: Array,
+    columns: Sequence[Column],
+    words: Words,
+    *,
+    first: int | None = 0,
+    label: str = "",
+) -> Iterator[Table]:
+    """Yield a table over positions of the crank, in parts if it has too many columns.
+
+    Positions are numbered from `first`, if it is given.
+    """
+    if not columns:
+        return
+    places = [words.place(float(angle)) for angle in degrees]
+    heading: Runs = (places[0][0], ", °") if places[0][2] == "deg" else words.titled("time")
+    before = [Column(heading, [words.number(value) for _, value, _ in places])]
+    if first is not None:
+        before.insert(0, Column((words.column("position"),), [str(first + k) for k in range(len(degrees))]))
+    # about as many on each page
+    each = -(-len(columns) // -(-len(columns) // _MOST))
+    for start in range(0, len(columns), each):
+        shown = [*before, *columns[start : start + each]]
+        headings = [column.heading for column in shown]
+        rows = list(zip(*(column.entries for column in shown), strict=True))
+        align = "c" * len(before) + "r" * (len(shown) - len(before))
+        table = words.table(caption, headings, rows, align, label)
+        yield table if start == 0 else replace(table, caption="", label="")

@@ -1,0 +1,192 @@
+"""The torque in a note: of all cylinders, reduced to a crank, of a table, on a shaft; its harmonics and losses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from crankwork.formula.known import in_order
+from crankwork.formula.replay import Program
+from crankwork.note.document import Block, Citation, Equation, Math, Reference, Table
+from crankwork.note.material import Material
+from crankwork.note.parts import (
+    At,
+    Condition,
+    Head,
+    Lines,
+    Listed,
+    Part,
+    Places,
+    Rows,
+    Section,
+    Shown,
+    Text,
+    When,
+    draws,
+    either,
+    every,
+    has,
+    lacks,
+    machine_has,
+    school,
+    turning,
+)
+from crankwork.note.tables import Column, angle_table, column_table, folded, position_tables, quantity_columns
+
+_WORK, _EFFICIENCY, _HARMONICS = "artobolevsky_1988, ch. 15", "artobolevsky_1988, ch. 14", "den_hartog_1956, ch. 5"
+_TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
+_OF_TABLE = ("reduced_inertia_1", "dynamic_torque", "static_torque", "balancing_torque", "driving_torque")
+
+
+def _firing_order(material: Material) -> str:
+    engine = material.machine.engine
+    return "–".join(map(str, engine.layout.firing_order)) if engine is not None else ""
+
+
+def _all_cylinders(material: Material) -> Table | None:
+    """Return the torques of the cylinders and their sum; Vietnamese notes add the sum of the tangential forces."""
+    words, columns = material.words, material.columns
+    keys = [key for key in columns if key.startswith("crank_torque.")] or ["crank_torque"]
+    keys.append("total_torque")
+    if material.order != "vi":
+        return angle_table(material, "total", keys)
+    force = material.results.columns["total_torque"] / material.summary["crank_radius"]
+    unit = words.unit("tangential_force")
+    angles = [words.number(float(angle)) for angle in material.results.grid.degrees]
+    shown = words.column_texts(material.shown("tangential_force", force).tolist())
+    made = [Column(words.titled("crank_angle"), angles), *quantity_columns(material, keys, columns)]
+    return folded(column_table("total", [*made, Column((Math("ΣT"), f", {unit}"), shown)], words))
+
+
+def _losses(material: Material) -> Iterator[Block]:
+    """Yield the paragraphs on the efficiency of the joints."""
+    words = material.words
+    drive = material.machine.drive
+    if drive.efficiency == 1 and material.machine.friction:
+        # a section of its own says what rubs
+        return
+    yield words.heading("efficiency", 2)
+    if drive.efficiency == 1:
+        yield words.paragraph("no_losses")
+        return
+    yield words.paragraph("efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency))
+    # what the chain comes to before it is rounded is the efficiency as well
+    marks = {"efficiency.exact": words.symbol("efficiency")}
+    yield from material.worked(material.lines("efficiency"), marks)
+    if drive.exact_efficiency is not None:
+        used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency)
+        yield words.paragraph("efficiency_rounded", used=used, exact=exact)
+
+
+def _over_positions(caption: str, label: str, *keys: str) -> Callable[[Material], Iterator[Table]]:
+    """Return what yields a table of a machine whose positions are rows of its file, numbered from one."""
+
+    def table(material: Material) -> Iterator[Table]:
+        shown = [*(_of_bodies(material) if caption == "reduced" else []),
+                 *quantity_columns(material, keys, material.results.columns)]  # fmt: skip
+        return position_tables(caption, material.results.grid.degrees, shown, material.words, first=1, label=label)
+
+    return table
+
+
+def _of_bodies(material: Material) -> list[Column]:
+    """Return the terms of the bodies in the reduced inertia."""
+    results = material.results
+    traced_values = in_order([results.memory["reduced_inertia"]])
+    known = {traced.key: traced for traced in traced_values if traced.key.startswith("reduced_inertia.")}
+    rows = Program(known)(results.grid)
+    return quantity_columns(material, [key for key in known if rows[key].any()], rows)
+
+
+def _at_all(key: str) -> Callable[[Material], Iterator[Block]]:
+    """Return what yields the equation of a quantity at every position, its number in the subscript."""
+
+    def equations(material: Material) -> Iterator[Block]:
+        results, shown = material.results, material.words.symbol(key)
+        for number, degrees in enumerate(results.grid.degrees.tolist(), start=1):
+            yield Equation(results.moment(degrees).step(results.memory[key]), symbol=_numbered(shown, number))
+
+    return equations
+
+
+def _numbered(symbol: str, position: int) -> str:
+    return f"{symbol}{',' if '_' in symbol else '_'}{position}"
+
+
+def _cylinders(count: Callable[[int], bool]) -> Condition:
+    """Return the condition on how many cylinders turn a shaft together."""
+    return lambda material: material.machine.engine is not None and count(len(material.machine.engine.layout.places))
+
+
+def _states(name: str) -> Condition:
+    """Return the condition that the table of transfer functions of a machine has a column."""
+    return lambda material: getattr(material.machine.transfer, name) is not None
+
+
+_ONE, _SEVERAL = _cylinders(lambda count: count == 1), _cylinders(lambda count: count > 1)
+# amplitudes of the torque by order, worked for the first of them
+HARMONICS: tuple[Part, ...] = (
+    Lines("torque_harmonics", ("harmonic_amplitude", "total_harmonic_amplitude"), intro="harmonics", first=True),
+    Shown(("torque_harmonics", "phase_stars"), (Rows("torque_harmonics", "harmonics"),)),
+)
+_CITED = {"source": Citation(_WORK)}
+_IS_TABLE = machine_has("transfer")
+SECTIONS = (
+    # for one cylinder only where the order of sections asks for it
+    Section("torque", (
+        Head("total"), When(_ONE, (Text("one_cylinder"),)),
+        When(_SEVERAL, (Text("total"), Text("order", {"order": _firing_order}))),
+        Lines("firing"), Lines("uniformity", ("mean_total_torque", "mean_driving_torque", "mean_torque")),
+        When(_SEVERAL, (
+            Shown((), (Rows("firing", "firing"),)), At("engine_torque"),
+            Lines("engine_torque", ("tangential_force", "crank_torque", "throw_torque", "total_torque")),
+        )),
+        When(school("vi"), (Text("tangential_sum"),)),
+        When(_SEVERAL, (Shown(("total_torque",), (_all_cylinders,)),)),
+        When(_ONE, (
+            Shown(("total_torque",)),
+            When(draws("torque"), (Text("see_figure", {"figures": Reference("f:torque")}),)),
+        )),
+        When(_SEVERAL, HARMONICS),
+    ), every(has("total_torque_max"), either(_SEVERAL, every(_ONE, school("vi"))))),
+    Section("static", (
+        Head("static"),
+        When(lacks(_states("static_torque")), (
+            Text("given_balancing"), At("torques"), Lines("torques", ("static_torque",)),
+        )),
+        _over_positions("table_static", "static", "static_torque"),
+    ), every(_IS_TABLE, has("static_torque"))),
+    Section("dynamic", (
+        Head("dynamic"), Text("table_reduction", {**_CITED, "table": Reference("t:transfer")}), Lines("speed"),
+        At("reduction"), Lines("reduction", ("reduced_inertia",)),
+        When(_states("reduced_inertia_1"), (Text("given_derivative"),)),
+        When(lacks(_states("reduced_inertia_1")), (_at_all("reduced_inertia_1"),)),
+        _over_positions("reduced", "reduced", "reduced_inertia", "reduced_inertia_1"), Shown(("reduced_inertia",)),
+        _at_all("dynamic_torque"),
+    ), _IS_TABLE),
+    Section("driving", (
+        Head("driving"), Text("torques"), _losses, Text("driving"), _at_all("driving_torque"),
+        _over_positions("table_torque", "torque", *_OF_TABLE), Shown(("torques",)),
+    ), every(_IS_TABLE, has("driving_torque"))),
+    Section("moments", (
+        Head("turning_moments"),
+        When(has("turning_moment"), (
+            Lines("stretches"), At("turning_moments"), Lines("turning_moments"), Text("mean_of_torque"),
+        )),
+        Lines("shaft_power"),
+    ), machine_has("turning")),
+    Section("reduction", (
+        Head("reduction"), Text("reduction", _CITED), At("reduction"), Lines("reduction"),
+        Places("reduced", ("reduced_inertia", "reduced_inertia_1"), "reduced", filled=True),
+        Shown(("reduced_inertia",)),
+    ), every(turning, has("reduced_inertia"))),
+    Section("torques", (
+        Head("torques"), Text("torques"), At("torques"),
+        Lines("torques", ("static_torque", "dynamic_torque", "balancing_torque")), _losses, Text("driving"),
+        Lines("torques", ("driving_torque",)), Places("table_torque", _TORQUES, "torque", filled=True),
+        Shown(("torques",)),
+    ), every(turning, has("reduced_inertia"))),
+    Section("harmonics", (
+        Head("torque_harmonics"), Text("crank_harmonics", {"source": Citation(_HARMONICS)}), Lines("crank_harmonics"),
+        Listed("torque_harmonics", "harmonics"), Shown(("torque_harmonics",)),
+    ), every(turning, has("torque_harmonics"))),
+)  # fmt: skip

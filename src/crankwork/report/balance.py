@@ -1,0 +1,232 @@
+"""The figures of balance: free forces and moments by order, before and after, and their loci."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.engine_diagrams import Locus
+from crankwork.locale import say
+from crankwork.report.language import units_of
+from crankwork.report.look import Drawn
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, round_ticks, small_text
+from crankwork.show.paper import BLACK, WIDER, Canvas, text_width
+from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.scene import DASHED, SOLID
+from crankwork.units import use_units
+
+# between values of neighbouring bars [pt]
+_BETWEEN = 5.0
+# of the inertia force of a piston, what of free forces is told in words, and what is rounding
+_HARDLY, _LEFT = 1e-3, 1e-9
+# across the cylinders, what of a free force is nothing, and how wide it is shown then, of its height
+_LINE, _NARROW = 1e-6, 0.4
+
+
+class Bars(NamedTuple):
+    """Bars of one kind: name of the kind, and height by order."""
+
+    kind: str
+    heights: Mapping[float, float]
+
+
+def _fill(paper: Canvas, corners: tuple[float, float, float, float], kind: int) -> None:
+    """Draw a bar from left, top, right, bottom [pt]: white, hatched, grey, hatched back, black or hatched across."""
+    left, top, right, bottom = corners
+    fill = ("#ffffff", "#ffffff", "#b0b0b0", "#ffffff", BLACK, "#ffffff")[kind]
+    paper.area([left, right, right, left], [top, top, bottom, bottom], fill=fill, width=0.7)
+    for slope in {1: (1,), 3: (-1,), 5: (1, -1)}.get(kind, ()):
+        width = right - left
+        rise = np.arange(top - width + 3.5, bottom, 3.5)
+        start, end = np.maximum(rise, top), np.minimum(rise + width, bottom)
+        a, b = left + (start - rise), left + (end - rise)
+        if slope < 0:
+            a, b = right - (start - rise), right - (end - rise)
+        paper.segments(np.column_stack([a, start, b, end]), width=0.5)
+
+
+def bar_graph(
+    engine: Drawn,
+    paper: Canvas,
+    box: ChartBox,
+    bars: Sequence[Bars],
+    orders: Sequence[float],
+    fills: Sequence[int],
+) -> Graph:
+    """Draw groups of bars over the orders."""
+    most = max((max(bar.heights.values(), default=0.0) for bar in bars), default=0.0) or 1.0
+    top_end = (1.22 if len(orders) < 8 else 1.1) * most
+    graph = Graph(paper, box, (0.0, float(len(orders))), (0.0, top_end), engine.language, to_scale=False)
+    has_any = any(bar.heights and max(bar.heights.values()) for bar in bars)
+    ticks = round_ticks(0.0, top_end, max(3, round(box.height / 26))) if has_any else np.zeros(1)
+    graph.frame(np.array([]), ticks)
+    for place, order in enumerate(orders):
+        present = [index for index, bar in enumerate(bars) if order in bar.heights]
+        width = 0.8 / max(len(bars), 1)
+        start = place + 0.5 - width * len(present) / 2
+        values = [engine.number(bars[which].heights[order], 4) for which in present]
+        room = box.width / len(orders) * width - _BETWEEN
+        is_upright = any(WIDER * text_width(value, 7.0) > room for value in values)
+        for index, (which, text) in enumerate(zip(present, values, strict=True)):
+            height = bars[which].heights[order]
+            left, right = graph.across(start + index * width), graph.across(start + (index + 1) * width)
+            top, bottom = graph.down(height), graph.down(0.0)
+            if height > 0.002 * most:
+                _fill(paper, (float(left), float(top), float(right), float(bottom)), fills[which])
+                if len(orders) < 8:
+                    _value(paper, float(left + right) / 2, float(top) - 3, text, is_upright=is_upright)
+            elif len(orders) < 8:
+                small_text(paper, float(left + right) / 2, float(bottom) - 2.5, "0")
+        if len(orders) <= 12 or order == round(order):
+            small_text(paper, float(graph.across(place + 0.5)), box.top + box.height + 11, engine.number(order))
+    for bar in bars:
+        graph.curves[bar.kind] = np.array(list(bar.heights)), np.array(list(bar.heights.values()))
+    return graph
+
+
+def _value(paper: Canvas, middle: float, bottom: float, text: str, *, is_upright: bool) -> None:
+    """Write a value over its bar, upward where bars are narrower than their values."""
+    if is_upright:
+        paper.upward_text(middle + 2.5, bottom - WIDER * text_width(text, 7.0) / 2, text, size=7.0)
+    else:
+        paper.text(middle, bottom, text, size=7.0, anchor="middle")
+
+
+def swatches(paper: Canvas, texts: Sequence[str], fills: Sequence[int]) -> None:
+    """Write the legend of bars above the graph, on as many lines as they need."""
+    left, top = current_layout().left, TOP - 4
+    for text, fill in zip(texts, fills, strict=True):
+        width = WIDER * text_width(text, 8.5) + 26
+        if left > current_layout().left and left + width > current_layout().width - 4:
+            left, top = current_layout().left, top + 13.4
+        _fill(paper, (left, top + 1.5, left + 13, top + 9.5), fill)
+        paper.text(left + 18, top + 9, text, size=8.5)
+        left += width
+
+
+def _swatch_lines(texts: Sequence[str]) -> int:
+    left, lines = current_layout().left, 1
+    for text in texts:
+        width = WIDER * text_width(text, 8.5) + 26
+        if left > current_layout().left and left + width > current_layout().width - 4:
+            left, lines = current_layout().left, lines + 1
+        left += width
+    return lines
+
+
+def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return free forces and moments per order: of each kind of mass, and what is left of all together."""
+    balance, language = engine.diagrams.balance, engine.language
+    kinds = {
+        "reciprocating": balance.reciprocating,
+        "rotating": (balance.rotating,),
+        "counterweights": (balance.counterweights,) if balance.weights else (),
+        "balance_shafts": balance.shafts,
+        "knuckle_pins": balance.knuckles,
+        "residual": balance.residual,
+    }
+    kinds = {name: parts for name, parts in kinds.items() if parts}
+    order = ["reciprocating", "rotating", "balance_shafts", "counterweights", "residual", "knuckle_pins"]
+    fills = [order.index(kind) for kind in kinds]
+    sizes = {
+        panel: {
+            kind: {float(part.order): getattr(part, panel).largest for part in parts} for kind, parts in kinds.items()
+        }
+        for panel in (("force", "moment") if engine.diagrams.is_spread else ("force",))
+    }
+    most = {
+        key: max((max(heights.values(), default=0.0) for heights in sizes[key].values()), default=0.0) for key in sizes
+    }
+    panels = [panel for panel in sizes if most[panel] > _free(engine, panel)] or ["force"]
+    texts = [say(f"report.{kind}", language) for kind in kinds]
+    head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
+    height = scaled_height(150.0)
+    paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
+    swatches(paper, texts, fills)
+    for panel in (panel for panel in sizes if panel not in panels):
+        key = f"free_{panel}"
+        with use_units(units_of(engine.results, key, most[panel])):
+            # of forces that cancel rounding is left
+            size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
+        free = f"{say(f'drawing.{key}', language)} {engine.symbol(key)}"
+        text = say("drawing.hardly_free", language, free=free, size=size)
+        paper.text(current_layout().left, TOP + head - 9.4, text, size=8.5)
+    orders = [float(part.order) for part in balance.reciprocating]
+    graphs: dict[str, Graph] = {}
+    for index, panel in enumerate(panels):
+        key = f"free_{panel}"
+        with use_units(units_of(engine.results, key, most[panel])):
+            bars = [
+                Bars(kind, {order: float(engine.shown(key, value)) for order, value in heights.items()})
+                for kind, heights in sizes[panel].items()
+            ]
+            box = ChartBox(current_layout().left, TOP + head + index * (height + 28), current_layout().inner, height)
+            graphs[panel] = bar_graph(engine, paper, box, bars, orders, fills)
+            graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
+    graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
+    return paper, graphs
+
+
+def _inertia(engine: Drawn) -> float:
+    """Return the largest inertia force of one piston. [N]"""
+    return float(np.max(np.abs(engine.columns["inertia_force"])))
+
+
+def _free(engine: Drawn, panel: str) -> float:
+    """Return the least free force that is drawn, or moment, taken as a force at a metre. [N], [N m]"""
+    return (_HARDLY if panel == "force" else _LEFT) * _inertia(engine)
+
+
+def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the closed curves in which the free forces of each order run, before and after balancing."""
+    loci, language = engine.diagrams.loci, engine.language
+    is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
+    rows = [say("drawing.before", language), say("drawing.after", language)] if is_balanced else []
+    columns = 2 if len(loci) > 1 else 1
+    lines = -(-len(loci) // columns)
+    side, gap = (scaled_height(170.0), 56.0) if columns == 2 else (scaled_height(240.0), 0.0)
+    head = 13.4 * len(rows) + (5 if rows else 0) + 12
+    start = (current_layout().width - columns * side - (columns - 1) * gap) / 2 + 16
+    paper = Canvas(current_layout().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
+    for index, text in enumerate(rows):
+        left, style = current_layout().left, DASHED if index == 0 else SOLID
+        paper.line([left, left + 20], [TOP + 2 + 13.4 * index] * 2, style=style, width=1.2, name="legend")
+        paper.text(left + 27, TOP + 5 + 13.4 * index, text, size=8.5)
+    graphs: dict[str, Graph] = {}
+    for index, (order, (before, after)) in enumerate(loci.items()):
+        box = ChartBox(
+            start + (index % columns) * (side + gap), TOP + head + (index // columns) * (side + 52), side, side
+        )
+        graphs[str(order)] = _locus(engine, paper, box, before, after, is_balanced=is_balanced)
+        small_text(paper, box.left + side / 2, box.top - 5, say("report.order", language, order=order))
+        title = f"{engine.symbol('free_force')}, {engine.unit('free_force')}"
+        graphs[str(order)].x_title(title)
+        if not index % columns:
+            graphs[str(order)].y_title(title, 30.0)
+    return paper, graphs
+
+
+def _locus(engine: Drawn, paper: Canvas, box: ChartBox, before: Locus, after: Locus, *, is_balanced: bool) -> Graph:
+    """Draw the loci of one order, the reference direction of the engine upward."""
+    reach = 1.15 * float(engine.shown("free_force", max(before.largest, after.largest)))
+    width = max(float(np.max(np.abs(locus.across))) for locus in (before, after))
+    # forces of an engine in line go to and fro along its cylinders
+    share = 1.0 if width > _LINE * max(before.largest, after.largest) else _NARROW
+    box = box._replace(left=box.left + (1 - share) / 2 * box.width, width=share * box.width)
+    graph = Graph(paper, box, (-share * reach, share * reach), (-reach, reach), engine.language)
+    box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.height / 32))))
+    graph.frame(ticks[np.abs(ticks) < share * reach], ticks)
+    middle = graph.point(0.0, 0.0)
+    paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
+    drawn = [("before", before, DASHED if is_balanced else SOLID)] + ([("after", after, SOLID)] if is_balanced else [])
+    for name, locus, style in drawn:
+        across, up = engine.shown("free_force", locus.across), engine.shown("free_force", locus.up)
+        graph.curve(name, across, up, style)
+        if locus.largest > 1e-3 * max(before.largest, after.largest):
+            end = graph.point(float(across[0]), float(up[0]))
+            paper.arrow(middle, end, width=1.0)
+        else:
+            paper.dot(*middle, 2.2)
+    return graph

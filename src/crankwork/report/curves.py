@@ -1,0 +1,146 @@
+"""Curves of quantities over the angle or the time of what drives, one panel below the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from crankwork.analysis import Array
+from crankwork.errors import CrankworkError
+from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
+from crankwork.quantities import Quantity
+from crankwork.report.gas import STYLES
+from crankwork.report.look import PLAIN, Style, axis_title, displayed_values, drive_graph, math_symbol, quantity_of
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, legend, legend_height, limits, write_method
+from crankwork.show.labels import mark_point
+from crankwork.show.paper import Canvas, plain
+from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.scene import Drawing
+
+_ALONE, _PANEL, _GAP = 216.0, 126.0, 16.0
+# what a page of a note holds with its caption [pt]
+_TALLEST = 600.0
+# characters of a name that still fit beside a panel
+_LONG = 20
+# what tells where something is
+_PLACES = ("slider_displacement", "driver_displacement", "driver_angle", "link_angle", "point_x", "point_y")
+# curves nearer than this share of the range fall together in print
+_SAME, _ROUNDING = 0.003, 1e-9
+
+
+def curves(
+    degrees: Array,
+    columns: Mapping[str, Array],
+    panels: Sequence[str | Sequence[str]],
+    title: str,
+    style: Style = PLAIN,
+    remark: str = "",
+) -> Drawing:
+    """Return quantities over the crank angle, one panel below the other.
+
+    `columns`: values in SI by key, `joint_force.A` for what belongs to a point or link; `panels`: keys of each panel;
+    those of one panel share a unit; `remark`: what stands beneath.
+    """
+    all_panels = [_panel((panel,) if isinstance(panel, str) else tuple(panel), columns) for panel in panels]
+    if not all_panels:
+        raise CrankworkError("curves need at least one key")
+    # quantities that are zero throughout are named in a remark
+    sets = [panel for panel in all_panels if any(np.any(columns[row.key]) for row in panel)] or all_panels
+    shown = [[displayed_values(row, columns[row.key]) for row in panel] for panel in sets]
+    # beside a panel among others there is no room for a name
+    has_legends = any(_has_legend(panel, style) for panel in sets)
+    legends = [_rows(*panel, style) if has_legends else [] for panel in zip(sets, shown, strict=True)]
+    above = [legend_height(rows) for rows in legends]
+    room = (_TALLEST - BOTTOM - sum(above)) / len(sets) - _GAP
+    high = scaled_height(_ALONE if len(sets) == 1 else min(_PANEL, room))
+    paper = Canvas(current_layout().width, TOP + sum(above) + len(sets) * (high + _GAP) - _GAP + BOTTOM)
+    abscissas = degrees * style.period / 360.0 if style.period else degrees
+    top = TOP
+    for quantities, values, rows, height in zip(sets, shown, legends, above, strict=True):
+        legend(paper, rows, top - 4)
+        box = ChartBox(current_layout().left, top + height, current_layout().inner, high)
+        is_place = quantities[0].key.partition(".")[0] in _PLACES
+        ends = limits(*values, is_place=is_place)
+        graph = drive_graph(paper, box, abscissas, ends, style, is_last=quantities is sets[-1])
+        _draw(graph, abscissas, quantities, values)
+        graph.y_title(_title(quantities, style, has_legend=has_legends))
+        top += height + graph.box.height + _GAP
+    dead = "; ".join(f"{number(round(limit, 2), style.language)}°" for limit in style.limits)
+    zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
+    remarks = [
+        say("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
+        f"{' = '.join(zero)} = 0" if zero else "",
+        remark,
+    ]
+    write_method(paper, style.method, "; ".join(text for text in remarks if text))
+    return paper.drawing(title, style.language)
+
+
+def _panel(keys: tuple[str, ...], columns: Mapping[str, Array]) -> list[Quantity]:
+    """Return the quantities of a panel."""
+    missing = [key for key in keys if key not in columns]
+    if missing:
+        raise CrankworkError(f"there is no column {missing[0]}; there is {', '.join(columns)}")
+    quantities = [quantity_of(key) for key in keys]
+    units = {row.unit for row in quantities}
+    if len(units) > 1:
+        raise CrankworkError(f"{', '.join(keys)} have different units; give each a panel of its own")
+    return quantities
+
+
+def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
+    """Return whether names stand above a panel: there are several, or one with a name of its own, or too long."""
+    return len(quantities) > 1 or "." in quantities[0].key or len(quantities[0].label(style.language)) > _LONG
+
+
+def _draw(graph: Graph, abscissas: Array, quantities: Sequence[Quantity], values: Sequence[Array]) -> None:
+    """Draw the curves of a panel, and the extremes of one that is alone."""
+    for order, together in enumerate(_together(values)):
+        first, *further = together
+        for other in further:
+            graph.curves[quantities[other].key] = abscissas, values[other]
+        graph.curve(quantities[first].key, abscissas, values[first], STYLES[order % 4])
+    known = np.where(np.isfinite(values[0]), values[0], 0.0)
+    if len(values) > 1 or np.ptp(known) <= _SAME * np.max(np.abs(known)):
+        return
+    for name, where in (("max", int(np.argmax(known))), ("min", int(np.argmin(known)))):
+        # a value that is zero beside the largest is rounding
+        value = float(known[where]) if abs(known[where]) > _ROUNDING * np.max(np.abs(known)) else 0.0
+        mark_point(graph, name, float(abscissas[where]), value, graph.tick_text(value))
+
+
+def _together(values: Sequence[Array]) -> list[list[int]]:
+    """Return the groups of curves of a panel that coincide, so that each is drawn once."""
+    size = max((float(np.ptp(row[np.isfinite(row)])) for row in values if np.isfinite(row).any()), default=0.0)
+    # constants differ by rounding
+    size += _ROUNDING * max((float(np.max(np.abs(row[np.isfinite(row)]), initial=0.0)) for row in values), default=0.0)
+    groups: list[list[int]] = []
+    for index, column in enumerate(values):
+        for group in groups:
+            if np.allclose(values[group[0]], column, rtol=0.0, atol=_SAME * size, equal_nan=True):
+                group.append(index)
+                break
+        else:
+            groups.append([index])
+    return groups
+
+
+def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style) -> list[Row]:
+    rows = []
+    for order, together in enumerate(_together(values)):
+        signs = dict.fromkeys(math_symbol(quantities[index].symbol(style.language)) for index in together)
+        names = (plain(quantities[index].label(style.language)) for index in together)
+        rows.append(Row(f"{', '.join(signs)} – {'; '.join(names)}", STYLES[order % 4]))
+    return rows
+
+
+def _title(quantities: Sequence[Quantity], style: Style, *, has_legend: bool) -> str:
+    """Return the title of the vertical axis: the name, or the symbols where a legend has the names."""
+    if not has_legend:
+        return axis_title(quantities[0], style.language)
+    unit = unit_name(quantities[0].unit, style.language)
+    signs = dict.fromkeys(math_symbol(row.symbol(style.language)) for row in quantities)
+    names = ", ".join(signs) if len(quantities) < 5 else ""
+    return f"{names}, {unit}" if names and unit else names or unit

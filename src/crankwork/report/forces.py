@@ -1,0 +1,210 @@
+"""The figures of forces: along the cylinder axis, on rod and crankpin, and the force plans of groups of links."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import Array
+from crankwork.analysis.force_plans import ForcePlan, PlanForce, force_plans
+from crankwork.analysis.skeleton import skeleton
+from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
+from crankwork.quantities import QUANTITIES, Language
+from crankwork.report.gas import HEIGHT, banded_sheet, strokes
+from crankwork.report.look import (
+    Drawn,
+    displayed_values,
+    figure_title,
+    key_of_links,
+    math_symbol,
+    position_sign,
+    position_text,
+    scale_text,
+)
+from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, write_method
+from crankwork.show.labels import label_marks
+from crankwork.show.paper import GREY, Canvas, plain
+from crankwork.show.place import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
+
+_HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 34.0
+# the tallest plan, and all of them together [pt]
+_HIGHEST, _WHOLE = 230.0, 560.0
+# a paper wider than this has two plans side by side [pt]
+_TWO = 560.0
+# how far apart forces are drawn that lie along each other, and what is as near as that [pt]
+_LANE, _NEAR, _LANES = 6.0, 4.0, (0, 1, -1, 2, -2, 3, -3)
+_LOAD, _REACTION = 0.9, 1.6
+# a group of fewer forces has no plan, only two that are equal
+_FEWEST, _MOST = 3, 4
+
+
+class Line(NamedTuple):
+    """A curve: key of its quantity, values [display unit], line style."""
+
+    key: str
+    values: Array
+    style: Style = SOLID
+
+
+def piston_forces(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the parts of the force on the piston and their sum; a part that is the whole sum stands for it."""
+    styles = {"gas_force": DASHED, "inertia_force": DASH_DOT, "weight_force": DOTTED}
+    parts = {key: style for key, style in styles.items() if key in engine.columns}
+    alone = len(parts) == 1
+    return forces_over_cycle(engine, dict.fromkeys(parts, SOLID) if alone else {**parts, "piston_force": SOLID})
+
+
+def forces_over_cycle(engine: Drawn, styles: Mapping[str, Style]) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return columns of forces over the cycle, each in its style."""
+    curves = [Line(key, engine.values(key), style) for key, style in styles.items()]
+    rows = [Row(engine.named(key), style) for key, style in styles.items()]
+    title = f"{', '.join(engine.symbol(key) for key in styles)}, {engine.unit('piston_force')}"
+    return curves_over_cycle(engine, curves, rows, title)
+
+
+def curves_over_cycle(
+    engine: Drawn, curves: Sequence[Line], rows: Sequence[Row], title: str
+) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return curves of one cylinder with their legend, and the strokes above them."""
+    paper, box = banded_sheet(engine, HEIGHT, rows)
+    graph = over_cycle(paper, box, limits(*(curve.values for curve in curves)), engine.cycle, engine.language)
+    for curve in curves:
+        graph.curve(curve.key, engine.degrees, curve.values, curve.style)
+    strokes(engine, graph)
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(title)
+    return paper, {curves[0].key: graph}
+
+
+def _plans(machine: Drawn) -> list[ForcePlan]:
+    reached = machine.reached
+    plans = force_plans(machine.results, float(reached.degrees[reached.row]))
+    return [plan for plan in plans if len(plan.forces) >= _FEWEST][:_MOST]
+
+
+def has_force_plans(machine: Drawn) -> bool:
+    """Return whether a group of links has three forces at the angle that is worked."""
+    return bool(_plans(machine))
+
+
+def plans_of_forces(machine: Drawn) -> Drawing:
+    """Return the force plans at the angle that is worked."""
+    style, reached, plans = machine.style, machine.reached, _plans(machine)
+    shape = skeleton(machine.results.machine.mechanism, style.links)
+    numbers, degrees = {member.name: member.number for member in shape.members}, float(reached.degrees[reached.row])
+    title, spans = figure_title("force_plans", style.language), [np.ptp(_ends(plan), axis=0) for plan in plans]
+    # upright ones side by side where there is room
+    upright = sum(bool(high > wide) for wide, high in spans)
+    columns = 2 if current_layout().width > _TWO and upright > max(1, len(plans) / 2) else 1
+    rows = [plans[start : start + columns] for start in range(0, len(plans), columns)]
+    most = scaled_height(min(_HIGHEST, _WHOLE / len(rows)))
+    heights = []
+    for row in rows:
+        listed = max(len(plan.forces) + len(plan.links) for plan in row)
+        heights.append(max(_ROW * listed + _HEAD, *(_needed(plan, most, columns) for plan in row)))
+    paper = Canvas(current_layout().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
+    top, wide, scales = TOP, current_layout().width / columns, set[float]()
+    for row, height in zip(rows, heights, strict=True):
+        for index, plan in enumerate(row):
+            scales.add(_plan(paper, plan, ChartBox(index * wide, top, wide, height), numbers, style.language))
+        top += height + _HEAD
+    shown = f"{position_sign(style)} = {position_text(degrees, style)}"
+    paper.text(current_layout().width - 14, paper.height - 20, shown, anchor="end")
+    remarks = ["force_plan", *(["own_scales"] if len(scales) > 1 else [])]
+    write_method(paper, style.method, "; ".join(say(f"drawing.{remark}", style.language) for remark in remarks))
+    return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
+
+
+def _scale(plan: ForcePlan, width: float, height: float) -> float:
+    """Return the scale at which a polygon has room beside its list. [displayed unit/mm]"""
+    # beside it letters stand between it and the list
+    room = np.array([width - _LIST - 4 * _MARGIN, height - 2 * _MARGIN])
+    return round_scale(float(points_per_mm() * np.max(np.ptp(_ends(plan), axis=0) / room)), FINE)
+
+
+def _needed(plan: ForcePlan, most: float, columns: int) -> float:
+    """Return the height of a plan, at most `most`. [pt]"""
+    scale = _scale(plan, current_layout().width / columns, most)
+    return float(np.ptp(_ends(plan), axis=0)[1]) * points_per_mm() / scale + 2 * _MARGIN
+
+
+def _plan(paper: Canvas, plan: ForcePlan, place: ChartBox, numbers: dict[str, int], language: Language) -> float:
+    """Draw the polygon of a group to its own scale, which is returned, and its forces beside it."""
+    left, top, width, height = place
+    row, ends, scale = QUANTITIES["joint_force"], _ends(plan), _scale(plan, width, height)
+    width -= _LIST
+    unit = points_per_mm() / scale
+    middle = (ends.min(axis=0) + ends.max(axis=0)) / 2 * unit
+    x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)
+    graph = Graph(paper, ChartBox(left, top + _HEAD, width, height), x, y, language, to_scale=False)
+    marks = []
+    corners = np.array([graph.point(*(end * unit)) for end in ends])
+    sides = _separated_sides(corners)
+    for index, force in enumerate(plan.forces):
+        start, end = sides[index]
+        for corner, moved in zip(corners[index : index + 2], sides[index], strict=True):
+            if np.any(corner != moved):
+                paper.line([corner[0], moved[0]], [corner[1], moved[1]], width=0.4, colour=GREY)
+        paper.arrow(start, end, width=_REACTION if force.kind != "load" else _LOAD, style=SOLID)
+        marks.append((_symbol(force, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
+    label_marks(paper, marks, dot=0.0)
+    links = ", ".join(str(numbers.get(link, link)) for link in plan.links)
+    head = say("drawing.links" if len(plan.links) > 1 else "drawing.link", language, links=links)
+    paper.text(left + 14, top + 10, f"{head}: {scale_text('μ_F', scale, row.unit, language)}")
+    for count, force in enumerate(plan.forces):
+        shown = number(float(f"{_size(force):.4g}"), language)
+        text = f"{_symbol(force, numbers, language)} = {shown} {unit_name(row.unit, language)}"
+        paper.text(left + width, top + _HEAD + 12 + _ROW * count, text, size=8.5)
+    names = {own_number: name for name, own_number in numbers.items()}
+    for count, key in enumerate(key_of_links(names, (numbers[link] for link in plan.links if link in numbers))):
+        paper.text(left + width, top + _HEAD + 12 + _ROW * (len(plan.forces) + count), key, size=8.5)
+    return scale
+
+
+def _ends(plan: ForcePlan) -> Array:
+    """Return the corners of the polygon of a group, shape (n, 2). [displayed unit]"""
+    ends = np.vstack([np.zeros(2), np.cumsum([(force.x, force.y) for force in plan.forces], axis=0)])
+    return displayed_values(QUANTITIES["joint_force"], ends)
+
+
+def _separated_sides(corners: Array) -> list[Array]:
+    """Return the sides of a polygon, those that would lie over others shifted across. [pt]"""
+    placed: list[Array] = []
+    for start, end in pairwise(corners):
+        side = end - start
+        across = np.array([-side[1], side[0]]) / max(float(np.hypot(*side)), 1e-9)
+        lanes = [np.array([start, end]) + lane * _LANE * across for lane in _LANES]
+        free = [lane for lane in lanes if not any(_lie_over(lane, other) for other in placed)]
+        placed.append((free or lanes)[0])
+    return placed
+
+
+def _lie_over(first: Array, second: Array) -> bool:
+    """Return whether two sides lie along each other."""
+    vector, length = first[1] - first[0], float(np.hypot(*(first[1] - first[0])))
+    if length < _LANE:
+        return False
+    off = second - first[0]
+    along, distance = off @ vector / length, np.abs(off @ np.array([-vector[1], vector[0]])) / length
+    return bool(np.all(distance < _NEAR)) and min(along.max(), length) - max(along.min(), 0.0) > _LANE
+
+
+def _size(force: PlanForce) -> float:
+    values: Array = displayed_values(QUANTITIES["joint_force"], np.array(force.size))
+    return float(values)
+
+
+def _symbol(force: PlanForce, numbers: dict[str, int], language: Language) -> str:
+    """Return the symbol of a force: that of its joint, of its guide, of the loads on its link, or of the driver."""
+    if force.kind == "driver":
+        return math_symbol(QUANTITIES["driver_force"].symbol(language))
+    if force.kind == "load":
+        return math_symbol(f"F_{numbers.get(force.name, plain(force.name))}")
+    if force.kind == "guide":
+        return math_symbol(f"N_{numbers.get(force.name, plain(force.name))}")
+    return math_symbol(QUANTITIES["joint_force"]._replace(key=f"joint_force.{force.name}").symbol(language))

@@ -1,0 +1,225 @@
+"""The figures of the gas: pressure over the cycle, indicator diagrams, volume and force of chambers."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from crankwork.analysis import Array
+from crankwork.analysis.chambers import indicators
+from crankwork.locale import say
+from crankwork.report.look import Drawn, axis_title, displayed_values, quantity_of
+from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, write_method
+from crankwork.show.labels import label_marks
+from crankwork.show.paper import Canvas, plain
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
+
+STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
+HEIGHT = 216.0
+_LONGEST = 16
+# a letter with an index and primes
+_SYMBOL = re.compile(r"([^\W\d_])_?([^\W_]{0,3})(['′″]*)")
+_BAND = 12.0
+_FOUR_STROKES = ("intake", "compression", "expansion", "exhaust")
+_TWO_STROKES, _COMPRESSOR = ("expansion", "compression"), ("suction", "delivery")
+# a cycle of this length has its dead centre of ignition in the middle [deg]
+FOUR_STROKE = 720.0
+_INDICATOR, _ABOVE = 245.0, 24.0
+# crank angles before and after which the cylinder is open [deg], and what share of the diagram its loop may be
+_CALM, _FLAT = (180.0, 620.0), 0.1
+# where the loop may begin, as shares of the width, and what its numbers take beside it [pt]
+_STARTS, _NUMBERS = (0.36, 0.44, 0.52), 36.0
+
+# an inset lower than this shows nothing [pt]
+_LOWEST = 60.0
+
+
+def pressure(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
+    degrees, values = engine.degrees, engine.values("gas_pressure")
+    other_pressures = engine.other_pressures
+    names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *other_pressures)]
+    rows = [Row(name, style) for name, style in zip(names, itertools.cycle(STYLES), strict=False)]
+    paper, box = banded_sheet(engine, HEIGHT, rows if other_pressures else ())
+    graph = over_cycle(paper, box, limits(values, *other_pressures.values()), engine.cycle, engine.language)
+    for (number, other), row in zip(other_pressures.items(), rows[1:], strict=True):
+        graph.curve(f"gas_pressure.{number}", degrees, other, row.style)
+    graph.curve("gas_pressure", degrees, values)
+    engine.name_axes(graph, "crank_angle", "gas_pressure")
+    strokes(engine, graph)
+    mark_points(graph, named_points(engine))
+    return paper, {"pressure": graph}
+
+
+def named_points(engine: Drawn) -> list[tuple[str, float, float]]:
+    """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit]."""
+    space = engine.results.solved.space
+    return [
+        (_short(name), angle, float(engine.shown("gas_pressure", space.gauge(value))))
+        for name, (angle, value) in space.diagram.named.items()
+    ]
+
+
+def _short(name: str) -> str:
+    """Return the name of a point as it is printed: with a subscript if it has one, shortened if it is long."""
+    if symbol := _SYMBOL.fullmatch(name):
+        base, index, primes = symbol.groups()
+        marks = "″" * (primes == "''") or primes.replace("'", "′")
+        return f"${base}{marks}{'_' if index else ''}{index}$"
+    known = "".join(letter if letter.isprintable() and letter != "$" else "□" for letter in name)
+    return known if len(known) <= _LONGEST else f"{known[: _LONGEST - 1]}…"
+
+
+def mark_points(graph: Graph, points: Sequence[tuple[str, float, float]]) -> None:
+    """Mark named points of a graph, their names clear of what is drawn.
+
+    `points`: name and place in the units of the scales [their units].
+    """
+    if points:
+        graph.curves["points"] = np.array([point[1] for point in points]), np.array([point[2] for point in points])
+        label_marks(graph.paper, [(name, *graph.point(x, y)) for name, x, y in points], frame=graph.box)
+
+
+def banded_sheet(engine: Drawn, height: float, rows: Sequence[Row] = ()) -> tuple[Canvas, ChartBox]:
+    """Return paper with a legend and the place for a graph with a band above it. [pt]"""
+    if not _names(engine):
+        return sheet(height, rows)
+    paper, box = sheet(height + _BAND, rows)
+    return paper, box._replace(top=box.top + _BAND, height=box.height - _BAND)
+
+
+def strokes(engine: Drawn, graph: Graph) -> None:
+    """Write the strokes of a cylinder above a graph, each over its half turn."""
+    names = _names(engine)
+    if not names:
+        return
+    ends = graph.across(np.arange(0.0, engine.cycle + 1, 180.0))
+    top = graph.box.top
+    lines = [(end, top - _BAND, end, top) for end in ends]
+    graph.paper.segments(np.array([*lines, (ends[0], top - _BAND, ends[-1], top - _BAND)]), width=0.4)
+    for name, (left, right) in zip(names, pairwise(ends), strict=True):
+        small_text(graph.paper, float(left + right) / 2, top - 3.5, say(f"drawing.{name}", engine.language))
+
+
+def _names(engine: Drawn) -> tuple[str, ...]:
+    """Return the keys of the strokes from the first dead centre on, none without gas that does work or takes it."""
+    space = engine.results.solved.space
+    if space is None or not space.work:
+        return ()
+    if engine.cycle == FOUR_STROKE:
+        return _FOUR_STROKES
+    return _TWO_STROKES if space.work > 0 else _COMPRESSOR
+
+
+def indicator(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known."""
+    space = engine.results.solved.space
+    volume, values = engine.values("cylinder_volume"), engine.values("gas_pressure")
+    sharp = space.theoretical
+    pressures = [values]
+    if sharp is not None:
+        absolute = sharp.pressure(engine.degrees, engine.columns["cylinder_volume"])
+        pressures.append(engine.shown("gas_pressure", space.gauge(absolute)))
+    rows = [Row(engine.named("gas_pressure")), Row(say("drawing.sharp", engine.language), DASHED, 0.9)]
+    paper, box = sheet(_INDICATOR + _ABOVE, rows if sharp is not None else ())
+    box = box._replace(top=box.top + _ABOVE, height=box.height - _ABOVE)
+    ends, reach = limits(*pressures), 1.06 * float(np.max(volume))
+    graph = Graph(paper, box, (0.0, reach), ends, engine.language)
+    graph.frame(round_ticks(0.0, reach, 8), round_ticks(*ends, 9))
+    if sharp is not None:
+        graph.curve("theoretical", volume, pressures[1], DASHED, width=0.9, angles=engine.degrees)
+    graph.curve("gas_pressure", volume, values, angles=engine.degrees)
+    engine.name_axes(graph, "cylinder_volume", "gas_pressure")
+    _dead_centres(engine, graph)
+    points = [
+        (name, float(np.interp(angle, engine.degrees, volume)), value) for name, angle, value in named_points(engine)
+    ]
+    mark_points(graph, points)
+    inset = _inset(engine, graph, volume, values)
+    return paper, {"indicator": graph} | ({"inset": inset} if inset else {})
+
+
+def _inset(engine: Drawn, graph: Graph, volume: Array, values: Array) -> Graph | None:
+    """Draw the loop of gas exchange larger where no curve is, above the pressure of the surroundings."""
+    degrees, (left, top, width, height) = engine.degrees, graph.box
+    calm = (degrees < _CALM[0]) | (degrees > _CALM[1])
+    if engine.cycle != FOUR_STROKE or np.ptp(values[calm]) > _FLAT * np.ptp(values):
+        return None
+    ends = limits(values[calm], margin=0.5)
+    x, y = graph.across(volume), graph.down(values)
+    centre = float(np.max(x))
+    for start in _STARTS:
+        begin = left + start * width
+        box = ChartBox(begin, top + 0.05 * height, centre - 8 - begin, 0.36 * height)
+        room = (x > box.left - _NUMBERS) & (y < box.top + box.height + 10) & (x < box.left + box.width)
+        if not np.any(room):
+            break
+    else:
+        return None
+    if box.height < _LOWEST:
+        return None
+    inset = Graph(graph.paper, box, (0.0, graph.x[1]), ends, engine.language)
+    # on a sheet it is smaller, to a round scale
+    box = inset.box
+    corners = box.left - _NUMBERS, box.left + box.width, box.top - 6, box.top + box.height + 6
+    graph.paper.area([corners[0], corners[1], corners[1], corners[0]], [*corners[2:3] * 2, *corners[3:] * 2])
+    inset.frame(np.array([]), round_ticks(*ends, min(5, round(inset.box.height / 16))))
+    inset.curve("gas_exchange", *_within(inset, volume, values), angles=degrees)
+    graph.paper.text(box.left + box.width, float(inset.down(0.0)) - 3, engine.symbol("ambient_pressure"), size=8,
+                     anchor="end")  # fmt: skip
+    return inset
+
+
+def _within(graph: Graph, x: Array, y: Array) -> tuple[Array, Array]:
+    """Return a curve with gaps where it leaves the graph."""
+    low, high = sorted(graph.y)
+    return x, np.where((y < low) | (y > high), np.nan, y)
+
+
+def _dead_centres(engine: Drawn, graph: Graph) -> None:
+    """Mark the volumes at the dead centres, clearance and swept volume above."""
+    space, paper, box = engine.results.solved.space, graph.paper, graph.box
+    volumes = [
+        float(engine.shown("cylinder_volume", size)) for size in (space.clearance, space.clearance + space.swept)
+    ]
+    for name, volume in zip(("tdc", "bdc"), volumes, strict=True):
+        x = float(graph.across(volume))
+        down = np.array([box.top - 6, box.top + box.height])
+        paper.line([x, x], down, style=DASH_DOT, width=0.6)
+        small_text(paper, x, box.top - 17, say(f"drawing.{name}", engine.language))
+    level = box.top - 4
+    spans = (("clearance_volume", 0.0, volumes[0]), ("swept_volume", volumes[0], volumes[1]))
+    for key, start, end in spans:
+        left, right = float(graph.across(start)), float(graph.across(end))
+        middle = (left + right) / 2
+        paper.arrow((middle, level), (left, level), width=0.5)
+        paper.arrow((middle, level), (right, level), width=0.5)
+        paper.text(middle, level - 3, engine.symbol(key), size=8, anchor="middle")
+
+
+def chamber_indicator(machine: Drawn) -> Drawing:
+    """Return pressure over volume of every chamber."""
+    results, style = machine.results, machine.style
+    diagrams = indicators(results)
+    volume, pressure = quantity_of("cylinder_volume"), quantity_of("diagram_pressure")
+    drawn = {
+        name: (displayed_values(volume, diagram.volume), displayed_values(pressure, diagram.pressure))
+        for name, diagram in diagrams.items()
+    }
+    rows = [Row(plain(name), STYLES[k % 4]) for k, name in enumerate(drawn)] if len(drawn) > 1 else []
+    paper, box = sheet(259.0, rows)
+    x, y = (limits(*values, margin=0.05) for values in zip(*drawn.values(), strict=True))
+    graph = Graph(paper, box, x, y, style.language)
+    graph.frame(round_ticks(*x), round_ticks(*y, 10))
+    for k, (name, (across, up)) in enumerate(drawn.items()):
+        # tables of a law over time go by time
+        angles = diagrams[name].degrees * (results.period / 360.0 if results.period else 1.0)
+        graph.curve(name, across, up, STYLES[k % 4], angles=angles)
+    graph.x_title(axis_title(volume, style.language))
+    graph.y_title(axis_title(pressure, style.language))
+    write_method(paper, style.method)
+    return paper.drawing(say("figures.indicator", style.language), style.language)

@@ -1,0 +1,100 @@
+"""The figures of the harmonics of the torque: amplitudes by order, and phase stars."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from crankwork.analysis import Array
+from crankwork.locale import say
+from crankwork.report.balance import Bars, bar_graph, swatches
+from crankwork.report.look import Drawn
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, small_text
+from crankwork.show.labels import label_marks
+from crankwork.show.paper import Canvas
+from crankwork.show.place import current_layout, scaled_height
+
+
+def torque_harmonics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the amplitudes of the harmonics of the torque as bars over the orders, of one cylinder and of all."""
+    columns = engine.results.listings["torque_harmonics"].columns
+    orders = columns["harmonic_order"].tolist()
+    kinds = {"one_cylinder": "harmonic_amplitude", "all_cylinders": "total_harmonic_amplitude"}
+    if engine.cylinders == 1:
+        kinds.pop("all_cylinders")
+    kinds = {name: key for name, key in kinds.items() if key in columns}
+    bars = [
+        Bars(name, dict(zip(orders, engine.shown(key, columns[key]).tolist(), strict=True)))
+        for name, key in kinds.items()
+    ]
+    texts = [
+        f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" if engine.cylinders else engine.named(key)
+        for name, key in kinds.items()
+    ]
+    height = scaled_height(200.0)
+    paper = Canvas(current_layout().width, TOP + 19 + height + BOTTOM)
+    swatches(paper, texts, [0, 4][: len(texts)])
+    graph = bar_graph(
+        engine,
+        paper,
+        ChartBox(current_layout().left, TOP + 19, current_layout().inner, height),
+        bars,
+        orders,
+        [0, 4],
+    )
+    graph.x_title(engine.title("harmonic_order"))
+    symbols = ", ".join(engine.symbol(key) for key in kinds.values())
+    graph.y_title(f"{symbols}, {engine.unit('harmonic_amplitude')}")
+    return paper, {"torque_harmonics": graph}
+
+
+def phase_stars(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the phase stars of the orders up to 6, equal directions end to end, with the sum of each."""
+    stars = engine.diagrams.phase_stars
+    columns = 4 if len(stars) > 6 else 3
+    lines = -(-len(stars) // columns)
+    side, gap, head = (current_layout().width - 24) / columns - 8, 8.0, 14.0
+    paper = Canvas(current_layout().width, TOP + lines * (side + head) + 30)
+    graphs: dict[str, Graph] = {}
+    for k, star in enumerate(stars):
+        box = ChartBox(12 + (k % columns) * (side + gap), TOP + head + (k // columns) * (side + head), side, side)
+        order = engine.number(star.order)
+        graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
+        text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
+        small_text(paper, box.left + side / 2, box.top - 3, text)
+    paper.text(
+        current_layout().width / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle"
+    )
+    return paper, graphs
+
+
+def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: complex, engine: Drawn) -> Graph:
+    """Draw one phase star, its reference direction upward and angles with the rotation, clockwise."""
+    directions: dict[tuple[float, float], list[int]] = {}
+    for number, vector in enumerate(vectors, start=1):
+        directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
+    longest = max(*(len(numbers_of_ray) for numbers_of_ray in directions.values()), abs(total))
+    reach = longest * (1 + 22 / (box.width / 2 - 22))
+    graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
+    middle = graph.point(0.0, 0.0)
+    if abs(total) > 1e-9:
+        end = graph.point(total.imag, total.real)
+        paper.arrow(middle, end, width=3.2, colour="#a8a8a8")
+    graph.curves["sum"] = np.array([total.imag]), np.array([total.real])
+    ends = []
+    for (up, across), numbers in directions.items():
+        for k in range(len(numbers)):
+            paper.arrow(graph.point(k * across, k * up), graph.point((k + 1) * across, (k + 1) * up), width=0.8)
+        end = graph.point(len(numbers) * across, len(numbers) * up)
+        ends.append((",".join(str(number) for number in numbers), *end))
+    paper.dot(*middle, 1.6)
+    label_marks(paper, ends, size=7.0, dot=0.0)
+    graph.curves["ends"] = _ends(directions)
+    return graph
+
+
+def _ends(directions: Mapping[tuple[float, float], Sequence[int]]) -> tuple[Array, Array]:
+    lengths = np.array([len(numbers) for numbers in directions.values()])
+    up, across = np.array(list(directions)).T
+    return across * lengths, up * lengths

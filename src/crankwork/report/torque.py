@@ -1,0 +1,300 @@
+"""The figures of torques: of one cylinder, of all of them, along the shaft, and the turning moment on a shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from crankwork.analysis import Results
+from crankwork.analysis.engine import own_key
+from crankwork.analysis.turning import TurningDiagram, turning_diagram
+from crankwork.locale import say
+from crankwork.locale.numbers import number, unit_name
+from crankwork.quantities import QUANTITIES, Language
+from crankwork.report.forces import Line, curves_over_cycle
+from crankwork.report.gas import FOUR_STROKE
+from crankwork.report.language import row_name
+from crankwork.report.look import Drawn, angle_ticks, axis_title, displayed_values, figure_title, math_symbol
+from crankwork.show.chart import (
+    BOTTOM,
+    TOP,
+    WIDE_FIGURES,
+    ChartBox,
+    Graph,
+    Row,
+    limits,
+    over_cycle,
+    round_ticks,
+    sheet,
+    small_text,
+    true_slices,
+    write_method,
+)
+from crankwork.show.labels import label_marks, label_points
+from crankwork.show.paper import BLACK, Canvas, plain, text_width
+from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
+from crankwork.units import from_si
+
+_MANY, _FIRING, _PANEL_GAP = 8, 15.0, 15.0
+_THIN, _NAMED = 0.8, 1.3
+# of the torques of cylinders, and what is lighter than black
+_DASHES: tuple[Style, ...] = (DOTTED, DASH_DOT, (3.0, 2.0), (12.0, 2.0, 1.5, 2.0, 1.5, 2.0))
+_LIGHTER = "#808080"
+_UPPER, _LOWER, _GAP = 216.0, 144.0, 16.0
+_MOST_TICKS = 12
+_MOST_NAMED = 24
+# letters of the work of a loop [pt]
+_NAME = 7.5
+_LINES = (("turning_moment", "torque", SOLID), ("load_torque", "load", DASHED))
+
+
+def torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the crank torque of one cylinder and its mean."""
+    values, known = engine.values("crank_torque"), engine.results.memory[own_key(engine.results.machine, "mean_torque")]
+    mean = -known.value if known.key == "mean_driving_torque" else known.value
+    if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
+        mean = 0.0
+    row = QUANTITIES["mean_torque"]
+    text = f"{engine.symbol('mean_torque')} – {row.label(engine.language)}, {engine.value('mean_torque', mean)}"
+    level = np.full_like(values, float(engine.shown("mean_torque", mean)))
+    curves = [Line("crank_torque", values), Line("mean_torque", level, DASHED)]
+    rows = [Row(engine.named("crank_torque")), Row(text, DASHED)]
+    return curves_over_cycle(engine, curves, rows, engine.title("crank_torque"))
+
+
+def total_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the torque of each cylinder, thin, and their sum with its mean."""
+    language, torque = engine.language, engine.diagrams.torque
+    each = engine.shown("crank_torque", engine.diagrams.torques)
+    shown = each if len(each) <= _MANY else each[:1]
+    total = engine.shown("total_torque", torque.total(np.radians(engine.diagrams.degrees)))
+    total[-1] = total[0]
+    mean = float(engine.shown("mean_total_torque", engine.diagrams.excess.mean_torque))
+    mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
+    rows = [
+        Row(engine.named("total_torque"), width=_NAMED),
+        Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED),
+        *_of_cylinders(engine, len(shown)),
+        Row(f"▼ – {say('drawing.fires', language)}", width=0.0),
+    ]
+    paper, box = sheet(225.0 + _FIRING, rows)
+    box = box._replace(top=box.top + _FIRING, height=box.height - _FIRING)
+    graph = over_cycle(paper, box, limits(total, shown), engine.cycle, language)
+    firings(engine, graph)
+    for index, torque_curve in enumerate(shown):
+        style, colour = _look(index)
+        graph.curve(f"cylinder_{index + 1}", engine.diagrams.degrees, torque_curve, style, width=_THIN, colour=colour)
+    graph.curve("total", engine.diagrams.degrees, total, width=_NAMED)
+    graph.level(mean, DASHED, "mean")
+    graph.x_title(engine.title("crank_angle"))
+    graph.y_title(f"{engine.symbol('total_torque')}, {engine.symbol('crank_torque')}, {engine.unit('total_torque')}")
+    if len(shown) > 1:
+        peaks = [(index, int(np.argmax(torque_curve))) for index, torque_curve in enumerate(shown)]
+        tips = [(str(k + 1), *graph.point(engine.diagrams.degrees[peak], shown[k][peak])) for k, peak in peaks]
+        label_marks(paper, tips, size=7.5, dot=1.2, frame=graph.box)
+    return paper, {"total_torque": graph}
+
+
+def _look(cylinder: int) -> tuple[Style, str]:
+    """Return dashes and shade of the torque of a cylinder, no two alike of as many as are shown."""
+    return _DASHES[cylinder % len(_DASHES)], (BLACK, _LIGHTER)[cylinder // len(_DASHES)]
+
+
+def _of_cylinders(engine: Drawn, count: int) -> list[Row]:
+    """Return the legend of the torques of so many cylinders, one line for each dash pattern."""
+    rows = []
+    for first in range(min(count, len(_DASHES))):
+        numbers = ", ".join(str(index + 1) for index in range(first, count, len(_DASHES)))
+        key = "drawing.cylinders" if "," in numbers else "drawing.cylinder"
+        which = say(key, engine.language, number=numbers)
+        other = _LIGHTER if "," in numbers else ""
+        rows.append(Row(f"{engine.named('crank_torque')}, {which}", _DASHES[first], _THIN, other=other))
+    return rows
+
+
+def accumulated_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the torque on every main journal that carries some, in panels of one scale."""
+    journals = engine.shown("journal_torque", engine.diagrams.journal_torques)
+    height = scaled_height(max(52.0, min(110.0, 560.0 / len(journals))))
+    paper = Canvas(current_layout().width, TOP + len(journals) * height + (len(journals) - 1) * _PANEL_GAP + BOTTOM)
+    graphs, ends, top = {}, limits(journals), TOP
+    for index, values in enumerate(journals):
+        is_last = index == len(journals) - 1
+        box = ChartBox(current_layout().left, top, current_layout().inner, height)
+        graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=is_last)
+        graph.curve(f"journal_{index + 2}", engine.diagrams.degrees, values)
+        graph.y_title(f"{engine.symbol('journal_torque')[:-1]}{index + 2}$, {engine.unit('journal_torque')}")
+        name = row_name(f"main_journal.{index + 2}", engine.language)
+        small_text(paper, graph.box.left + graph.box.width - 3, box.top - 2, name, "end")
+        graphs[str(index + 2)] = graph
+        top += graph.box.height + _PANEL_GAP
+    graph.x_title(engine.title("crank_angle"))
+    return paper, graphs
+
+
+def firings(engine: Drawn, graph: Graph) -> None:
+    """Write the number of each cylinder above a graph where it fires."""
+    centre = 360.0 if engine.cycle == FOUR_STROKE else 0.0
+    numbers_at: dict[float, list[str]] = {}
+    for cylinder, place in enumerate(engine.diagrams.whole.layout.places, start=1):
+        angle = (place.firing_angle + place.top + centre) % engine.cycle
+        numbers_at.setdefault(round(angle, 6), []).append(str(cylinder))
+    top = graph.box.top
+    for angle, numbers in numbers_at.items():
+        x = float(graph.across(angle))
+        graph.paper.area([x, x - 2.2, x + 2.2], [top, top - 4.5, top - 4.5], fill="#000000")
+        small_text(graph.paper, x, top - 7, ",".join(numbers))
+
+
+def has_turning_moment(machine: Drawn) -> bool:
+    """Return whether torques on a shaft are known over its angle."""
+    return machine.results.machine.turning is not None and turning_diagram(machine.results) is not None
+
+
+def _shown(drawn: TurningDiagram) -> TurningDiagram:
+    """Return a diagram in display units."""
+    torque, work = (float(from_si(1.0, QUANTITIES[key].unit)) for key in ("turning_moment", "excess_work"))
+    return drawn._replace(
+        torque=drawn.torque * torque,
+        load=drawn.load * torque,
+        energy=drawn.energy * work,
+        loops=tuple((middle, height * torque, work_of_loop) for middle, height, work_of_loop in drawn.loops),
+    )
+
+
+def turning_moment(machine: Drawn) -> Drawing:
+    """Return the torque over its load with the works of the loops between them, and below it the energy."""
+    results, language = machine.results, machine.language
+    diagram = turning_diagram(results)
+    if diagram is None:
+        raise TypeError("the torques on this shaft are not known over its angle")
+    drawn = _shown(diagram)
+    rows = _rows(results, language)
+    paper, box = sheet(_UPPER + _GAP + _LOWER, rows)
+    upper = ChartBox(box.left, box.top, box.width, _UPPER)
+    lower = ChartBox(box.left, box.top + _UPPER + _GAP, box.width, _LOWER)
+    _torques(paper, upper, drawn, language)
+    _energy(paper, lower, results, drawn, language)
+    excess = results.summary["excess_work"]
+    write_method(
+        paper,
+        machine.style.method,
+        f"{math_symbol(QUANTITIES['excess_work'].symbol(language))} = {_work(excess, language)}",
+    )
+    return paper.drawing(figure_title("turning_moment", language), language)
+
+
+def _rows(results: Results, language: Language) -> list[Row]:
+    turning = results.machine.turning
+    given = {} if turning is None else turning.diagrams
+    rows = []
+    for key, table, line in _LINES:
+        name = plain(QUANTITIES[key].label(language))
+        name = name if table in given else say("drawing.constant", language, name=name)
+        rows.append(Row(f"{math_symbol(QUANTITIES[key].symbol(language))} – {name}", line))
+    return rows
+
+
+def _torques(paper: Canvas, box: ChartBox, drawn: TurningDiagram, language: Language) -> None:
+    graph = Graph(
+        paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.torque, drawn.load), language, "crank_angle"
+    )
+    over = drawn.torque > drawn.load
+    # what is more than the load is shaded, what is less is hatched
+    for where, fill in ((over, graph.shade), (~over, graph.hatch)):
+        for rows in true_slices(where):
+            part = slice(max(rows.start - 1, 0), rows.stop + 1)
+            angles, load = drawn.degrees[part], drawn.load[part]
+            # where they cross they are one
+            torque = np.where(where[part], drawn.torque[part], load)
+            fill(np.append(angles, angles[::-1]), np.append(torque, load[::-1]))
+    _frame(graph, is_last=False)
+    for (key, _, line), values in zip(_LINES, (drawn.torque, drawn.load), strict=True):
+        graph.curve(key, drawn.degrees, values, line)
+    names = ", ".join(math_symbol(QUANTITIES[key].symbol(language)) for key, _, _ in _LINES)
+    graph.y_title(f"{names}, {unit_name(QUANTITIES['turning_moment'].unit, language)}")
+    if len(drawn.loops) <= _MOST_NAMED:
+        for middle, height, work in drawn.loops:
+            _name_loop(graph, drawn, (middle, height), _work(work, language, signed=True))
+
+
+def _name_loop(graph: Graph, drawn: TurningDiagram, place: tuple[float, float], text: str) -> None:
+    """Write the work of a loop where the loop is tallest for it, upward if it is nowhere as wide as the text."""
+    over, x = drawn.torque > drawn.load, graph.across(drawn.degrees)
+    inside = next((rows for rows in true_slices(over) + true_slices(~over)
+                   if drawn.degrees[rows][0] <= place[0] <= drawn.degrees[rows][-1]), slice(0))  # fmt: skip
+    ends = graph.down(np.array([drawn.torque, drawn.load]))
+    upper, lower = ends.min(axis=0), ends.max(axis=0)
+    zero = float(graph.down(0.0))
+    middle, length, height = graph.point(*place), WIDE_FIGURES * text_width(text, _NAME), 1.5 * _NAME
+    for wide, tall in ((length, height), (height, length)):
+        best, chosen = -math.inf, middle
+        for place_x in x[inside].tolist():
+            over_text = np.abs(x - place_x) <= wide / 2
+            top, bottom = float(upper[over_text].max()), float(lower[over_text].min())
+            if top < zero < bottom:
+                top, bottom = (zero, bottom) if bottom - zero > zero - top else (top, zero)
+            # of places with as much room that in the middle
+            worth = min(bottom - top, 2 * tall) - 0.01 * abs(place_x - middle[0])
+            if bottom - top > tall and worth > best:
+                best, chosen = worth, (place_x, (top + bottom) / 2)
+        if best > -math.inf:
+            break
+    else:
+        wide = length
+    if wide == length:
+        graph.text_on_white(chosen[0], chosen[1] + 0.35 * _NAME, text, "middle", _NAME)
+        return
+    sides = np.array([-0.5, 0.5, 0.5, -0.5]) * wide, np.array([-0.5, -0.5, 0.5, 0.5]) * tall
+    graph.paper.area(chosen[0] + sides[0], chosen[1] + sides[1])
+    graph.paper.upward_text(chosen[0] + 0.35 * _NAME, chosen[1], text, size=_NAME)
+
+
+def _work(work: float, language: Language, *, signed: bool = False) -> str:
+    unit = QUANTITIES["excess_work"].unit
+    shown = number(float(from_si(work, unit)), language, digits=4)
+    return f"{'+' if signed and work > 0 else ''}{shown} {unit_name(unit, language)}"
+
+
+def _energy(paper: Canvas, box: ChartBox, results: Results, drawn: TurningDiagram, language: Language) -> None:
+    row = QUANTITIES["kinetic_energy_change"]
+    graph = Graph(paper, box, (0.0, float(drawn.degrees[-1])), limits(drawn.energy), language, "crank_angle")
+    _frame(graph, is_last=True)
+    graph.curve("kinetic_energy_change", drawn.degrees, drawn.energy)
+    columns = results.listings["energy_extremes"].columns
+    angle, energy = np.degrees(columns["crank_angle"]), displayed_values(row, columns["kinetic_energy_change"])
+    for find, line, name in ((np.argmax, DASH_DOT, "max"), (np.argmin, DOTTED, "min")):
+        graph.curve(name, graph.x, [float(energy[int(find(energy))])] * 2, line, width=0.8)
+    if angle.size <= _MOST_NAMED:
+        for x, y in zip(angle, energy, strict=True):
+            paper.dot(*graph.point(x, y), 1.3)
+    graph.y_title(axis_title(row, language))
+    signed = math_symbol(QUANTITIES["crank_angle"].symbol(language))
+    graph.x_title(f"{say('drawing.angle_of_shaft', language)} {signed}, °")
+
+
+def _frame(graph: Graph, *, is_last: bool) -> None:
+    """Draw the frame of a graph over the angle of a shaft, over a period of any length."""
+    rows = max(4, round(graph.box.height / 24))
+    graph.frame(angle_ticks(*graph.x), round_ticks(*graph.y, rows), labels=(is_last, True))
+
+
+def loops(machine: Drawn) -> Drawing:
+    """Return the energy after each loop about the mean, as a broken line over their numbers."""
+    language, row = machine.language, QUANTITIES["kinetic_energy_change"]
+    energy = machine.results.listings["energy_extremes"].columns["kinetic_energy_change"]
+    count, values = np.arange(energy.size + 1.0), displayed_values(row, np.append(0.0, energy))
+    paper, box = sheet(216.0)
+    y = limits(values)
+    graph = Graph(paper, box, (0.0, float(energy.size)), y, language)
+    graph.frame(count[:: max(1, math.ceil(count.size / _MOST_TICKS))], round_ticks(*y))
+    graph.curve("kinetic_energy_change", count, values)
+    names = [(number(y, language, digits=4), x, y) for x, y in zip(count.tolist(), values.tolist(), strict=True)]
+    label_points(graph, names)
+    graph.x_title(axis_title(QUANTITIES["loop_number"], language))
+    graph.y_title(axis_title(row, language))
+    write_method(paper, machine.style.method)
+    return paper.drawing(figure_title("loops", language), language)
