@@ -183,12 +183,9 @@ def drawn_again(
 
 
 def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str]:
-    """Return where the results of an engine and of its form differ; those of a calculated cycle may be wanting."""
-    lost, scales = of_cycle(engine), _scales(engine)
-    # of a cycle with ports the file of the engine states the ratio of the closed cylinder
-    geometric = engine.memory.get("geometric_compression_ratio")
-    ratio = {} if geometric is None else {"compression_ratio": geometric.value}
-    pairs = [("summary", {**engine.summary, **ratio}, form.summary), ("column", engine.columns, form.columns)]
+    """Return where the results of an engine and of its form differ."""
+    scales = _scales(engine)
+    pairs = [("summary", engine.summary, form.summary), ("column", engine.columns, form.columns)]
     empty = Listing({})
     pairs += [
         (f"listing {name}", listing.columns, form.listings.get(name, empty).columns)
@@ -203,11 +200,10 @@ def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str
     found += [
         f"table {name}: {sorted(set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ())))}"
         for name in engine.tables.keys() | form.tables.keys()
-        if (set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ()))) - lost
+        if set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ()))
     ]
     for kind, own, other in pairs:
-        # a key of the cycle may be wanting, not wrong
-        found += [f"{kind} {key}" for key in (own.keys() - other.keys() - lost) | (other.keys() - own.keys())]
+        found += [f"{kind} {key}" for key in own.keys() ^ other.keys()]
         for key in own.keys() & other.keys():
             first, second = (_without_noise(key, values, limit, scales) for values in (own, other))
             if first.shape != second.shape or np.any(np.isnan(first) != np.isnan(second)):
@@ -219,8 +215,8 @@ def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str
             if kind == "summary" and far.any() and _is_another_peak(key, float(second), engine, room):
                 continue
             found += [f"{kind} {key}: {own[key]} is {other[key]}"] if far.any() else []
-    found += [f"check {key}" for key in (engine.checks.keys() ^ form.checks.keys()) - lost]
-    found += [f"notice {code}" for code in (_codes(engine) ^ _codes(form)) - _codes_of_cycle(engine) - _OF_SHORTHAND]
+    found += [f"check {key}" for key in engine.checks.keys() ^ form.checks.keys()]
+    found += [f"notice {code}" for code in (_codes(engine) ^ _codes(form)) - _OF_SHORTHAND]
     return found + [
         f"check {key}: {value}" for key, value in form.checks.items() if value > form.allowed.get(key, limit)
     ]
@@ -266,27 +262,8 @@ def _is_another_peak(key: str, angle: float, engine: Results, room: float) -> bo
     return abs(there - stated) <= room * abs(stated)
 
 
-def of_cycle(results: Results) -> set[str]:
-    """Return the keys that a calculated cycle adds to the results of its engine.
-
-    What both a cycle and an engine have stands in the summary as that of the cycle.
-    """
-    space = getattr(results.solved, "space", None)
-    values = set() if space is None or space.calculated is None else set(space.calculated.values)
-    also = {f"{key}.cycle" for key in values} & set(results.summary)
-    return (values - {"indicated_mean_pressure"}) | also
-
-
 def _codes(results: Results) -> set[str]:
     return {notice.code for notice in results.notices}
-
-
-def _codes_of_cycle(results: Results) -> set[str]:
-    """Return the codes of what a calculated cycle says, and of what is said of it beside the torque of the engine."""
-    space = getattr(results.solved, "space", None)
-    calculated = None if space is None else space.calculated
-    beside = {"torque_of_cycle", "cycle_in_every"}
-    return set() if calculated is None else {code for code, _ in calculated.notices} | beside
 
 
 def _unit(key: str) -> str:

@@ -405,7 +405,7 @@ class _Form:
             return 0.0
         later = chamber.delay - place.firing_angle - place.top
         later -= cycle * round(later / cycle)
-        if chamber.released is None and chamber.valves is None:
+        if chamber.calculated is None and chamber.valves is None:
             return later if abs(later) > _SAME_ANGLE else 0.0
         # these begin at the nearest dead centre
         if abs(later) > _TURN / 2:

@@ -85,7 +85,7 @@ def _retold(
     if given_gas is None or given_gas.measured is not None:
         return None
     if given_gas.calculated is not None:
-        traced = getattr(given_gas.calculated, "traced", None)
+        traced = given_gas.calculated.traced
         return None if traced is None else partial(traced, volume, solved.stroke[1:])
     size = memory["clearance_volume"], memory["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")

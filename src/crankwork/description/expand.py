@@ -36,7 +36,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
         _check_expressible(machine, reader)
         if reader.problems:
             raise input_error(description.dump(), description.name, reader)
-        description = Description(_linkage_text(values, engine_of(description), language), description.name)
+        description = Description(_linkage_text(values, engine_of(description)), description.name)
     return _with_defaults(description, say("check.by_default", language))
 
 
@@ -61,11 +61,9 @@ def _check_expressible(machine: Machine, reader: Reader) -> None:
         reader.complain("method.kinematics", Refusal("unsaid_method"))
 
 
-def _linkage_text(values: Mapping[str, Any], machine: Machine, language: Language) -> str:
+def _linkage_text(values: Mapping[str, Any], machine: Machine) -> str:
     """Return the tables of a linkage for a crank mechanism."""
-    # a release of heat is written out whole
-    is_lost = "cycle" in values and values["cycle"].get("kind") != "wiebe"
-    lines = [f"# {say('check.unsaid_cycle', language)}"] if is_lost else []
+    lines = list[str]()
     for key, value in linkage_tables(values, machine):
         for table in value if isinstance(value, list) else [value]:
             if isinstance(table, Mapping):

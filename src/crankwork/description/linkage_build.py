@@ -70,7 +70,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if not method.is_exact:
         reader.complain("method.kinematics", Refusal("linkage_exact"))
     loads = _loads(values, linkage, reader)
-    chambers, charges = build_chambers(values, linkage, reader, read_measured)
+    chambers, charges = build_chambers(values, linkage, mechanism, reader, read_measured, method.pi)
     if "driver" in values:
         check_loads(values, reader)
         check_gas(values, reader)

@@ -7,7 +7,7 @@ from typing import get_args
 
 from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description import document_keys
-from crankwork.description.engine_keys import BALANCE, BEARINGS, FLYWHEEL, HEAT_RELEASE
+from crankwork.description.engine_keys import BALANCE, BEARINGS, CHAMBER_CYCLE, FLYWHEEL
 from crankwork.description.keys import (
     AMBIENT,
     DIAGRAM,
@@ -144,7 +144,7 @@ _CHAMBER = TableSpec("chamber", {
     **DIAGRAM,
     "valves": KeySpec(PIPED_VALVES, instead_of=(*DIAGRAM, "pressure", "cycle"),
                   only={"pressures": ("absolute",), "period": ("360 deg",)}),
-    "cycle": KeySpec(HEAT_RELEASE, instead_of=("points", "pieces", "measured", "pressure")),
+    "cycle": KeySpec(CHAMBER_CYCLE, instead_of=("points", "pieces", "measured", "pressure")),
     "delay": KeySpec(_TURN),
     "temperature": _TEMPERATURE,
 })  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Found, Known, absent, given, is_known, total
+from crankwork.formula.known import Found, Known, absent, delayed, given, is_known, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -322,10 +322,9 @@ def _of_its_own(
         return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices
     if cycle > chamber.cycle:
         notices.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
-    # diagrams of heat or of valves begin at the nearest dead centre
-    counts = chamber.released is not None or chamber.valves is not None
-    start, bottom = _ends_of_stroke(space, chamber.delay) if counts else (0.0, 0.0)
-    begins = chamber.delay + start
+    # valves open by the volume, wherever the dead centre is
+    begins = chamber.delay if chamber.valves is None else chamber.delay + _ends_of_stroke(space, chamber.delay)[0]
+    retold: Callable[[], Known] | None = None
     # cycles at equal volumes share one diagram
     phases = [angle % space.period for angle in np.arange(0.0, full_cycle, chamber.cycle).tolist()]
     if chamber.measured is not None:
@@ -338,15 +337,17 @@ def _of_its_own(
         )
         notices += measured_notices
         diagrams = dict.fromkeys(phases, samples)
-    elif chamber.released is not None:
-        diagrams = {}
+    elif chamber.calculated is not None:
+        if chamber.calculated.has_corners and (len(space.dead_centres), space.period) != (2, _TURN):
+            raise DiagramError(f"{path}.cycle", Refusal("cycle_strokes", count=len(space.dead_centres)))
+        diagrams, centres = {}, _ends_of_stroke(space, begins)
         for phase in dict.fromkeys(phases):
-            diagrams[phase], heat_notices = chamber.released.diagram_in(
-                _volume_from(space, begins + phase),
-                _rate_from(space, begins + phase),
-                (0.0, (bottom - start) % space.period),
-            )
-            notices += heat_notices
+            volume_at, rate_at = _volume_from(space, begins + phase), _rate_from(space, begins + phase)
+            calculated = chamber.calculated.pressure(volume_at, rate_at, centres)
+            diagrams[phase] = calculated.diagram
+            notices += calculated.notices
+        if chamber.calculated.traced is not None and len(diagrams) == 1:
+            retold = partial(_delayed_pressure, chamber.calculated.traced, space.volume, centres, (begins, cycle), key)
     else:
         diagrams = {phase: _solved(chamber, space, begins + phase, path) for phase in dict.fromkeys(phases)}
         notices += [
@@ -355,17 +356,10 @@ def _of_its_own(
             for point, angle, step in phase_diagram.jumps
         ]
     diagram = _joined(diagrams, phases).later(begins)
-    stated = DiagramInput(
-        chamber.points,
-        chamber.pieces,
-        path,
-        space.volume,
-        space.clearance,
-        space.swept,
-        stated_valves(path, chamber),
-        begins,
-    )
-    retold = partial(stated.retold, diagram) if len(diagrams) == 1 and chamber.pieces else None
+    if chamber.pieces and len(diagrams) == 1:
+        size, valves = (space.clearance, space.swept), stated_valves(path, chamber)
+        stated = DiagramInput(chamber.points, chamber.pieces, path, space.volume, *size, valves, begins)
+        retold = partial(stated.retold, diagram)
     pressure = remembered_pressure(diagram, space.volume, path, retold, name)
     own_phases = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)
@@ -373,10 +367,21 @@ def _of_its_own(
 
 
 def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
-    """Return the nearest angle of smallest volume and that of the largest, counted from `delay`. [deg]"""
+    """Return the nearest angle of smallest volume and the next one of the largest, counted from `delay`. [deg]"""
     volumes = space.volume_at(np.array(space.dead_centres))
     least, largest = (float(space.dead_centres[index_of(volumes)]) - delay for index_of in (np.argmin, np.argmax))
-    return (least + space.period / 2) % space.period - space.period / 2, largest
+    top = (least + space.period / 2) % space.period - space.period / 2
+    return top, top + (largest - least) % space.period
+
+
+def _delayed_pressure(
+    traced: Callable[[Known, tuple[float, float]], Known], volume: Known, centres: tuple[float, float],
+    delay: tuple[float, float], key: str,
+) -> Known:  # fmt: skip
+    """Return the pressure of a calculated cycle as a traced column; `delay`: angle by which it is later, and cycle."""
+    begins, cycle = delay
+    earlier = delayed(volume, -begins, cycle, volume.key)
+    return delayed(traced(earlier, centres), begins, cycle, key)
 
 
 def _solved(chamber: Chamber, space: _Space, start: float, path: str) -> IndicatorDiagram:
