@@ -107,7 +107,7 @@ def apart_from_bodies(values: Values, results: Results) -> Iterator[tuple[str, f
     }
     largest = max(float(np.max(np.abs(one))) for key, one in expected.items() if key.startswith("joint_force"))
     for key, value in expected.items():
-        size = largest if "force" in key else float(np.max(np.abs(expected["balancing_torque"]))) or 1.0
+        size = largest if "force" in key else largest * abs(bodies.joints[1].at_other)
         size = float(np.max(value)) if key == "reduced_inertia" else size
         column = found.columns.get(key, np.full(angles.shape, 0.0))
         yield key, float(np.max(np.abs(column - value))) / (size or 1.0)

@@ -155,12 +155,15 @@ def _not_finite(results: Results) -> list[str]:
     values: dict[str, Any] = {**results.columns, **results.summary, **results.checks}
     for name, listing in results.listings.items():
         values |= {f"{name} {key}": column for key, column in listing.columns.items()}
-    # a bearing whose size is not given has no pressure, a link that does not turn no instant centre
     return [
         key
         for key, one in values.items()
-        if not np.all(np.isfinite(one) | (np.isnan(one) & (" bearing_pr" in key or key.startswith("instant_centre"))))
+        if not np.all(np.isfinite(one) | (np.isnan(one) & any(part in key for part in _MAY_BE_ABSENT)))
     ]
+
+
+# of bearings whose size is not stated, or with no rod along which their load reverses, and of a link that never turns
+_MAY_BE_ABSENT = ("bearing_loads bearing_pressure", "bearing_loads reversal_", "instant_centre_")
 
 
 def _refused(error: CrankworkError, text: str) -> Outcome:

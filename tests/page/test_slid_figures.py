@@ -51,7 +51,8 @@ def test_what_polynomials_do_not_follow_is_named_and_links_stand_upon_joints(sto
     free = [f"free_force.{order}" for order in range(1, 5)]
     assert data["sliders"]["filed"] == [*free, "counterweight_moment", "counterweight_angle", "oil_hole_angle.A"]
     plans = ["position_plans", "velocity_plan", "acceleration_plan", "centrodes", "force_plans", "zhukovsky_lever"]
-    assert [name for name, one in data["figures"].items() if one.get("filed")] == plans
+    of_sums = ["crankpin_wear", "main_wear", "torque_harmonics"]
+    assert [name for name, one in data["figures"].items() if one.get("filed")] == plans + of_sums
     joints = data["sliders"]["joints"]
     places = ("A", "B", "P", "rocker.centre")
     assert joints["joints"] == {f"joint.{one}": [f"point_x.{one}", f"point_y.{one}"] for one in places}

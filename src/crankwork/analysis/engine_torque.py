@@ -36,7 +36,7 @@ from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import TrueSpeed, excess_work
 
 _SAMPLES = 1440
-# what rounding leaves of a mean of nothing, of the largest torque
+# what rounding leaves of a mean of nothing, of the largest torque of a cylinder
 _CANCELLED = 1e-13
 
 
@@ -107,10 +107,11 @@ def engine_torque(
     balance = _balance(whole, memory, over, all_)
     mean = over.mean("total_torque", "mean_total_torque")
     if whole.machine.angular_acceleration and balance.torque.key == "static_torque":
-        # what speeds up the parts is none of a cycle that repeats; of weights alone rounding is left
-        value, largest = balance.curve.mean, max(abs(extremes[f"total_torque_{end}"].value) for end in ("max", "min"))
-        value = value if abs(value) > _CANCELLED * largest else 0.0
-        mean = (-Known(Found(-value, "mean", (balance.torque,)), "mean_driving_torque")).named("mean_total_torque")
+        # what speeds up the parts is none of a cycle that repeats
+        mean = (-Known(Found(-balance.curve.mean, "mean", (balance.torque,)), "mean_driving_torque")).named(mean.key)
+    if abs(mean.value) <= _CANCELLED * max(map(abs, one.extremes()[::2])):
+        # of cylinders that only weights and inertia turn rounding is left
+        mean = Known(Found(0.0, "mean", (memory["total_torque"],)), mean.key)
     mean = delivered_or_needed(mean)
     summary = {"mean_torque": mean}
     summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}

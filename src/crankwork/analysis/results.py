@@ -50,6 +50,18 @@ class Listing(NamedTuple):
     # What rows are called where they are things, such as `crankpin.1`; empty where the first column says it
     names: tuple[str, ...] = ()
 
+    def with_rows_of(self, other: Listing) -> Listing:
+        """Return this table with the rows of another one below it; of rows that both have, with its further columns."""
+        if not self.names:
+            return Listing({**other.columns, **self.columns})
+        names = (*self.names, *(name for name in other.names if name not in self.names))
+        columns = {key: np.full(len(names), np.nan) for key in (*self.columns, *other.columns)}
+        for table in (other, self):
+            rows = [names.index(name) for name in table.names]
+            for key, values in table.columns.items():
+                columns[key][rows] = values
+        return Listing(columns, names)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Results(Mapping[str, Array | float]):
@@ -155,6 +167,14 @@ class Results(Mapping[str, Array | float]):
             for name, keys in {**other.groups, **self.groups}.items()
         }
         codes = {notice.code for notice in self.notices}
+        # in either file the rows of the engine come first
+        first, second = (
+            (self.listings, other.listings) if self.machine.linkage is None else (other.listings, self.listings)
+        )
+        listings = {
+            name: table.with_rows_of(second[name]) if name in second else table
+            for name, table in {**second, **first}.items()
+        }
         return replace(
             self,
             columns={**other.columns, **self.columns},
@@ -163,7 +183,7 @@ class Results(Mapping[str, Array | float]):
             allowed={**other.allowed, **self.allowed},
             notices=(*self.notices, *(notice for notice in other.notices if notice.code not in codes)),
             groups=groups,
-            listings={**other.listings, **self.listings},
+            listings=listings,
             memory={**other.memory, **self.memory},
             in_other_form=None,
         )

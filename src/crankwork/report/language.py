@@ -173,8 +173,10 @@ def called(link: str, language: Language) -> str:
 
 
 def row_name(name: str, language: Language) -> str:
-    """Return the name of a row of a listing: `crankpin.1` is crankpin 1."""
+    """Return the name of a row of a listing: `crankpin.1` is crankpin 1, and joints have their own names."""
     kind, _, number = name.partition(".")
+    if not has_text(f"report.{kind}"):
+        return name
     what = say(f"report.{kind}", language)
     if kind in _BY_ORDER:
         return f"{what}, {say('report.order', language, order=number)}"
