@@ -405,13 +405,10 @@ class _Form:
             return 0.0
         later = chamber.delay - place.firing_angle - place.top
         later -= cycle * round(later / cycle)
-        if chamber.calculated is None and chamber.valves is None:
-            return later if abs(later) > _SAME_ANGLE else 0.0
-        # these begin at the nearest dead centre
-        if abs(later) > _TURN / 2:
-            key = f"shaft.firing.{cell.slider}" if cell.slider in self._shaft.firing else ""
-            raise NoCellsError(Refusal("cells_start", name=cell.slider), key)
-        return 0.0
+        if chamber.calculated is not None or chamber.valves is not None:
+            # these begin at the nearest dead centre
+            later = _TURN * round(later / _TURN) % cycle
+        return later if abs(later) > _SAME_ANGLE else 0.0
 
 
 def _two_masses(cells: Sequence[Cell]) -> CrankGearMasses:

@@ -10,7 +10,7 @@ from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
 from crankwork.analysis.solved import SolvedCylinder, WorkingSpace
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Found, Known, absent, given
+from crankwork.formula.known import Found, Known, absent, delayed, given
 from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
 from crankwork.loads.gas import gauge_pressure
@@ -51,7 +51,11 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
     memory = moving.memory
     area = memory["piston_area"]
     volume = gas.cylinder_volume(memory["clearance_volume"], area, memory["piston_displacement"])
-    read = remembered_pressure(space.diagram, volume, _path(solved), _retold(solved, space, memory, volume))
+    of_cycle = remembered_pressure(space.diagram, volume, _path(solved), _retold(solved, space, memory, volume))
+    read, stated_gas = of_cycle, solved.machine.gas
+    if stated_gas is not None and stated_gas.calculated is not None:
+        # a calculated cycle begins at 0, whole turns earlier than its chamber
+        read = delayed(of_cycle, stated_gas.delay, stated_gas.cycle, of_cycle.key)
     pressure = read.named("gas_pressure")
     if space.ambient:
         pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
@@ -65,7 +69,7 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
         back = given("back_pressure", space.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
     found = {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
-    return found | _filling(solved, space, (read, volume))
+    return found | _filling(solved, space, (of_cycle, volume))
 
 
 def _filling(solved: SolvedCylinder, space: WorkingSpace, columns: tuple[Known, Known]) -> dict[str, Known]:

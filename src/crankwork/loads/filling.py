@@ -371,6 +371,8 @@ def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
     volumes = space.volume_at(np.array(space.dead_centres))
     least, largest = (float(space.dead_centres[index_of(volumes)]) - delay for index_of in (np.argmin, np.argmax))
     top = (least + space.period / 2) % space.period - space.period / 2
+    # rounding would let it end the cycle
+    top = top if abs(top) > _SAME_ANGLE else 0.0
     return top, top + (largest - least) % space.period
 
 
