@@ -76,12 +76,34 @@ def analyse(
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method
     used = method or machine.method
-    if not used.is_exact and machine.lengths is None:
-        raise MethodError(f"method {used.name} exists for a slider-crank only; use exact")
-    results = _analysed(machine, grid, method, progress)
+    engine = _engine_by(used, machine)
+    results = _analysed(machine if engine is None else engine, grid, method, progress)
     stated = tuple(Notice(*notice) for notice in machine.notices)
-    form = partial(_in_other_form, machine, results.grid, used)
-    return replace(results, notices=(*stated, *results.notices), in_other_form=form)
+    results = replace(results, notices=(*stated, *results.notices))
+    if engine is not None:
+        return _located(results, machine)
+    return replace(results, in_other_form=partial(_in_other_form, machine, results.grid, used))
+
+
+def _engine_by(method: Method, machine: Machine) -> Machine | None:
+    """Return the engine that a linkage is if its method is approximate, which only engines have; None otherwise."""
+    if method.is_exact or machine.lengths is not None:
+        return None
+    # most linkages are computed exactly
+    from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
+
+    form = engine_form_or_reason(machine)
+    if isinstance(form, Machine):
+        return form
+    raise MethodError(Refusal("method_of_engines", method=method.name, reason=form.message))
+
+
+def _located(results: Results, machine: Machine) -> Results:
+    """Return results of the engine that a linkage is, their inputs where the linkage states them."""
+    from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
+
+    relocate(results.memory.values(), linkage_paths(machine))
+    return results
 
 
 def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results | None:
@@ -90,13 +112,10 @@ def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results
     if form is None and machine.linkage is not None:
         # few linkages are engines
         from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
-        from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
 
         form = engine_form(machine)
         if form is not None:
-            results = _analysed(form, grid, None, None)
-            relocate(results.memory.values(), linkage_paths(machine))
-            return results
+            return _located(_analysed(form, grid, None, None), machine)
     return None if form is None else _analysed(form, grid, None, None)
 
 
@@ -138,6 +157,8 @@ def columns_only(machine: Machine) -> Results:
     """
     if machine.transfer is not None or machine.turning is not None:
         return analyse(machine)
+    if (engine := _engine_by(machine.method, machine)) is not None:
+        return _located(columns_only(engine), machine)
     if machine.linkage is not None:
         from crankwork.analysis.linkage import linkage_columns  # noqa: PLC0415 - loaded where it is needed
 
@@ -152,7 +173,7 @@ def columns_only(machine: Machine) -> Results:
 
 def value_only(machine: Machine, key: str) -> Results:
     """Return results that give a single value, and maybe no others; they take a part of the time of `analyse`."""
-    if machine.linkage is None or machine.transfer is not None or machine.turning is not None:
+    if machine.linkage is None or not machine.method.is_exact:
         return analyse(machine)
     from crankwork.analysis.linkage import linkage_value  # noqa: PLC0415 - loaded where it is needed
 

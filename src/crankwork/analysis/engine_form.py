@@ -395,11 +395,12 @@ class _Form:
             head, behind = self._chambers[cell.slider].head, self._chambers[cell.slider].crank_end
             if head is not None:
                 gas = gas_of(*head, layout.cycle, behind[1] if behind else None)
-                gas = replace(gas, delay=self._gas_delay(cell, head[1], place, layout.cycle))
+                gas = replace(gas, delay=self._gas_delay(head[1], place, layout.cycle))
                 gases.append(next((known for known in gases if nearly_equal(known, gas)), gas))
         return tuple(gases)
 
-    def _gas_delay(self, cell: Cell, chamber: Chamber, place: CylinderPlace, cycle: float) -> float:
+    @staticmethod
+    def _gas_delay(chamber: Chamber, place: CylinderPlace, cycle: float) -> float:
         """Return how much later than its own cycle the gas of a cylinder is. [deg]"""
         if chamber.pressure is not None:
             return 0.0

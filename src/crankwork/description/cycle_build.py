@@ -269,7 +269,7 @@ def chamber_cycles(
         return sized, calculated
     sliders = values["shaft"]["cylinders"]
     lengths = _lengths(mechanism)
-    for names in _alike({name: table for name, table in tables.items() if "kind" in table["cycle"]}, sliders):
+    for names in _equal_cycles({name: table for name, table in tables.items() if "kind" in table["cycle"]}, sliders):
         pressure = _of_cycle(names, tables, lengths, crank["speed"].value, reader, pi)
         ambient = tables[names[0]].but(pressures="absolute").si("ambient")
         for name in names if pressure is not None else ():
@@ -284,7 +284,7 @@ def _angle(chamber: Values) -> float:
     return float(chamber["period"].split()[0])
 
 
-def _alike(tables: Mapping[str, Values], sliders: list[str]) -> list[list[str]]:
+def _equal_cycles(tables: Mapping[str, Values], sliders: list[str]) -> list[list[str]]:
     """Return the names of chambers whose cycles state the same, in the order of their pieces on the shaft."""
     groups = list[tuple[object, list[str]]]()
     place = {slider: number for number, slider in enumerate(sliders)}

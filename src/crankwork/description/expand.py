@@ -57,8 +57,6 @@ def _check_expressible(machine: Machine, reader: Reader) -> None:
     """Report everything that no table of a linkage expresses."""
     if machine.transfer is not None:
         reader.complain("transfer", Refusal("unsaid_transfer"))
-    if machine.transfer is None and not machine.method.is_exact:
-        reader.complain("method.kinematics", Refusal("unsaid_method"))
 
 
 def _linkage_text(values: Mapping[str, Any], machine: Machine) -> str:

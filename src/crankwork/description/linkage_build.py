@@ -10,7 +10,7 @@ from typing import Any
 
 from crankwork.analysis.chambers import traced_linkage
 from crankwork.analysis.reach import reachable
-from crankwork.description.build import build_method, crank_speed
+from crankwork.description.build import build_method, check_inertia_ratio, crank_speed
 from crankwork.description.chamber_build import build_chambers
 from crankwork.description.drive_build import read_drive
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
@@ -67,8 +67,6 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     for problem in problems:
         reader.complain(problem.key or "links", problem.message)
     method = build_method(values["method"], reader)
-    if not method.is_exact:
-        reader.complain("method.kinematics", Refusal("linkage_exact"))
     loads = _loads(values, linkage, reader)
     chambers, charges = build_chambers(values, linkage, mechanism, reader, read_measured, method.pi)
     if "driver" in values:
@@ -112,8 +110,25 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         stated=stated_numbers(values),
     )
     check_friction(machine, reader)
+    _check_method(machine, reader)
     moving = checked_motion(machine, crank, reader)
     return moving if moving is not None and _fits(moving, values, reader) else None
+
+
+def _check_method(machine: Machine, reader: Reader) -> None:
+    """Report an approximate method of a linkage that is no engine."""
+    method = machine.method
+    if method.is_exact:
+        return
+    # most linkages are computed exactly
+    from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
+
+    form = engine_form_or_reason(machine)
+    if not isinstance(form, Machine):
+        message = Refusal("method_of_engines", method=method.name, reason=form.message)
+        reader.complain("method.kinematics", message)
+    else:
+        check_inertia_ratio(method, form.lengths, reader)
 
 
 def _drive(values: Values, method: Method, reader: Reader) -> Drive:

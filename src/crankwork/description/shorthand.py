@@ -129,13 +129,11 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     if not loading:
         # with loads of its own it is no engine whose bearings are known
         yield from _of_shaft(values, machine, gears)
+    is_exact = machine.method.is_exact
     if "flywheel" in values:
         yield "flywheel", values["flywheel"]
-    method = {
-        key: value
-        for key, value in values.get("method", {}).items()
-        if key in ("kinematics", "pi", "gravity", "weights")
-    }
+    # the inertia of the rods says it of an exact method
+    method = {key: value for key, value in values.get("method", {}).items() if key != "rod" or not is_exact}
     yield from ((key, table) for key, table in (("method", method), ("table", values.get("table"))) if table)
 
 
@@ -205,7 +203,9 @@ def _rod(gear: CrankMechanism, gears: list[CrankMechanism]) -> dict[str, Any]:
         return rod
     centre = masses.rod_small_end / mass * gear.length
     inertia = mass * centre * (gear.length - centre)
-    inertia += masses.rod_inertia_excess if machine.method.rod == "rigid" else 0.0
+    if machine.method.rod == "rigid" or not machine.method.is_exact:
+        # what an approximate method leaves out counts in its errors
+        inertia += masses.rod_inertia_excess
     return rod | {"mass": _unit(mass, "kg"), "centre": _place(centre), "inertia": _unit(inertia, "kg*m2")}
 
 

@@ -324,7 +324,7 @@ def _of_its_own(
         notices.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
     # valves open by the volume, wherever the dead centre is
     begins = chamber.delay if chamber.valves is None else chamber.delay + _ends_of_stroke(space, chamber.delay)[0]
-    retold: Callable[[], Known] | None = None
+    general_form: Callable[[], Known] | None = None
     # cycles at equal volumes share one diagram
     phases = [angle % space.period for angle in np.arange(0.0, full_cycle, chamber.cycle).tolist()]
     if chamber.measured is not None:
@@ -346,8 +346,8 @@ def _of_its_own(
             calculated = chamber.calculated.pressure(volume_at, rate_at, centres)
             diagrams[phase] = calculated.diagram
             notices += calculated.notices
-        if chamber.calculated.traced is not None and len(diagrams) == 1:
-            retold = partial(_delayed_pressure, chamber.calculated.traced, space.volume, centres, (begins, cycle), key)
+        if (traced := chamber.calculated.traced) is not None and len(diagrams) == 1:
+            general_form = partial(_delayed_pressure, traced, space.volume, centres, (begins, cycle), key)
     else:
         diagrams = {phase: _solved(chamber, space, begins + phase, path) for phase in dict.fromkeys(phases)}
         notices += [
@@ -359,8 +359,8 @@ def _of_its_own(
     if chamber.pieces and len(diagrams) == 1:
         size, valves = (space.clearance, space.swept), stated_valves(path, chamber)
         stated = DiagramInput(chamber.points, chamber.pieces, path, space.volume, *size, valves, begins)
-        retold = partial(stated.retold, diagram)
-    pressure = remembered_pressure(diagram, space.volume, path, retold, name)
+        general_form = partial(stated.retold, diagram)
+    pressure = remembered_pressure(diagram, space.volume, path, general_form, name)
     own_phases = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)
     return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices
