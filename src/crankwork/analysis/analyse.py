@@ -92,7 +92,7 @@ def _engine_by(method: Method, machine: Machine) -> Machine | None:
     # most linkages are computed exactly
     from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
 
-    form = engine_form_or_reason(machine)
+    form = engine_form_or_reason(replace(machine, method=method))
     if isinstance(form, Machine):
         return form
     raise MethodError(Refusal("method_of_engines", method=method.name, reason=form.message))

@@ -21,7 +21,7 @@ from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads.chamber import Chamber
 from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
-from crankwork.machine import Bearings, Cylinder, Engine, Gas, Machine, Shaft
+from crankwork.machine import Bearings, Cylinder, Drive, Engine, Gas, Machine, Shaft
 from crankwork.mechanism.cells import Cell, CrankCells, NoCellsError, Part, crank_cells
 from crankwork.mechanism.mechanism import slider_crank
 
@@ -34,6 +34,8 @@ _SAME_ANGLE = 1e-9
 
 def engine_form(machine: Machine) -> Machine | None:
     """Return a linkage of crank, rods and pistons as the engine that it is, None if it is another machine.
+
+    The engine of an exact method is without friction and motor.
 
     The crank angle counts as in the linkage: from the axis of cylinder 1.
     """
@@ -62,14 +64,18 @@ def _check_expressible(machine: Machine) -> None:
         raise NoCellsError(Refusal("cells_turn"))
     drive = machine.drive
     unsupported = {
-        "friction": machine.friction,
         "charges": machine.charges,
         "links": machine.redundant,
-        "transient": machine.transient,
-        "motor": drive.motor,
-        "efficiency": drive.chain or drive.efficiency != 1,
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,
     }
+    if not machine.method.is_exact:
+        # an exact one counts them in the linkage
+        unsupported |= {
+            "friction": machine.friction,
+            "transient": machine.transient,
+            "motor": drive.motor,
+            "efficiency": drive.chain or drive.efficiency != 1,
+        }
     for table, stated in unsupported.items():
         if stated:
             raise NoCellsError(Refusal("cells_unsaid", table=table))
@@ -115,7 +121,8 @@ class _Form:
             reciprocating_share=self._shaft.reciprocating_share,
             balance_shafts=self._shaft.balance_shafts,
         )
-        drive = replace(machine.drive, inertia=machine.drive.inertia + inertia)
+        wheel = machine.drive
+        drive = Drive(inertia=wheel.inertia + inertia, fluctuation=wheel.fluctuation, wheel=wheel.wheel)
         has_wheel = drive.wheel is not None or drive.fluctuation is not None or drive.inertia
         has_shaft = machine.shaft is not None and machine.shaft != Shaft(bore=machine.shaft.bore)
         has_shaft = has_shaft or engine.bearings != Bearings()
@@ -129,6 +136,8 @@ class _Form:
             gas=gases[0] if gases else None,
             has_gravity=bool(machine.loads),
             loads=(),
+            friction=(),
+            transient=None,
             chambers={},
             bearings=Bearings(),
             shaft=None,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import partial
+from typing import TypeVar
 
 from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
@@ -17,6 +18,10 @@ from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
 from crankwork.loads.retold import DiagramInput
 from crankwork.loads.valves import StatedValves
+
+_Value = TypeVar("_Value")
+# what a cycle is calculated with or checked by, and the rest of a summary says in its own way
+_NOT_SHOWN = ("first_law_residual", "rotational_speed")
 
 
 def space_memory(solved: SolvedCylinder, moving: MovingCylinder) -> dict[str, Known]:
@@ -144,3 +149,10 @@ def _ends_of_polytropes(solved: SolvedCylinder, space: WorkingSpace, volume: Kno
                 end = gas.polytropic_pressure(p_1, V_1, V, exponent).named(f"diagram_pressure.{name}")
                 found |= {V.key: V, end.key: end}
     return found
+
+
+def cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
+    """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
+    own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
+    shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
+    return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}

@@ -15,6 +15,7 @@ from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
 from crankwork.description.engine_keys import CHAMBER_CYCLE, OF_LINKAGE
 from crankwork.description.load_keys import LOADING
+from crankwork.description.written import key_text
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.machine import Engine, Gas, Machine
 from crankwork.units import from_si
@@ -105,7 +106,7 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     """Yield the keys of a linkage and their values, as a file states them."""
     loading = {key: values[key] for key in LOADING if key in values}
     # what is copied means what it means in its own format
-    yield "format", values.get("format", 1) if loading else 2
+    yield "format", values.get("format", 1) if loading or "cycle" in values else 2
     yield from ((key, values[key]) for key in ("title", "decimal_mark", "units") if key in values)
     if "document" in values:
         # the note of a linkage has other sections
@@ -126,8 +127,8 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     for mechanism in gears:
         yield from _chambers(values, mechanism)
     yield from loading.items()
-    if not loading:
-        # with loads of its own it is no engine whose bearings are known
+    if "loads" not in loading:
+        # with these it is no engine whose bearings are known
         yield from _of_shaft(values, machine, gears)
     is_exact = machine.method.is_exact
     if "flywheel" in values:
@@ -135,6 +136,19 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     # the inertia of the rods says it of an exact method
     method = {key: value for key, value in values.get("method", {}).items() if key != "rod" or not is_exact}
     yield from ((key, table) for key, table in (("method", method), ("table", values.get("table"))) if table)
+
+
+def given_motion_tables(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the keys of links whose motion is given, and their values, for a table of transfer functions."""
+    transfer, own = values["transfer"], ("file", "sheet", "angles", "bodies")
+    reduced = {key: value for key, value in transfer.items() if key not in own}
+    plain = {key: value for key, value in values.items() if not isinstance(value, Mapping)}
+    tables = {key: value for key, value in values.items() if key not in ("transfer", "crank", *plain)}
+    yield from {"format": values.get("format", 1), **plain}.items()
+    yield "crank", {**values["crank"], **reduced}
+    yield "table", {"angles": transfer["angles"]}
+    yield from ((f"links.{key_text(name)}", body) for name, body in transfer["bodies"].items())
+    yield from tables.items()
 
 
 def _of_shaft(

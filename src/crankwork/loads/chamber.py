@@ -31,6 +31,10 @@ class CalculatedDiagram(Protocol):
         """The diagram."""
 
     @property
+    def memory(self) -> Mapping[str, Known]:
+        """Single values by key, in the order of calculation."""
+
+    @property
     def notices(self) -> tuple[tuple[str, Mapping[str, float | str]], ...]:
         """What is to be known about it: codes and values."""
 

@@ -21,6 +21,7 @@ from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, combine_loads, force_on_slider
 from crankwork.loads.chamber import (
     ZERO_TOLERANCE,
+    CalculatedDiagram,
     Chamber,
     Charge,
     Face,
@@ -63,6 +64,7 @@ class ChamberGas(NamedTuple):
     singles: Mapping[str, Known]
     forces: tuple[GasForce, ...]
     notices: tuple[NoticeData, ...]
+    calculated: Mapping[str, CalculatedDiagram] = {}  # Calculated cycles by the names of their chambers
 
     def loads(self, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
         """Return the forces as loads, traced if the motion is traced, else as numbers."""
@@ -125,6 +127,7 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
     full_cycle = least_common(cycle_of(chambers), period)
     spaces = _spaces(chambers, motion, pi, law, period)
     pressures, works, own, all_notices = dict[str, Known](), dict[str, Known](), list[Known](), list[NoticeData]()
+    calculated = dict[str, CalculatedDiagram]()
     for name, charge in charges.items():
         pressure, values = _sealed(name, charge, chambers, spaces, period)
         own += values
@@ -134,8 +137,10 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
     works |= _works(pressures, spaces, period)
     for name, chamber in chambers.items():
         if name not in pressures:
-            pressures[name], works[name], notices = _of_its_own(name, chamber, spaces[name], full_cycle, law)
-            all_notices += notices
+            own_gas = _of_its_own(name, chamber, spaces[name], full_cycle, law)
+            pressures[name], works[name] = own_gas.pressure, own_gas.work
+            calculated |= {name: own_gas.calculated} if own_gas.calculated is not None else {}
+            all_notices += own_gas.notices
             if turning is not None and chamber.valves is not None and chamber.valves.has_pipes:
                 flow = Flow(*_rates(spaces[name]), *turning, pi)
                 piped = _behind_pipes(name, chamber, spaces[name], pressures[name], flow)
@@ -161,7 +166,7 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
         own += [*_sizes(space), works[name], mean]
     columns += [*(gas_force.force for gas_force in forces), *_rod_loads(forces)]
     once = {repr(notice): notice for notice in all_notices}
-    return ChamberGas(_by_key(columns), _by_key(own), tuple(forces), tuple(once.values()))
+    return ChamberGas(_by_key(columns), _by_key(own), tuple(forces), tuple(once.values()), calculated)
 
 
 def _rod_loads(forces: Sequence[GasForce]) -> Iterator[Known]:
@@ -308,10 +313,17 @@ def _distinct_angles(degrees: list[float], period: float) -> tuple[float, ...]:
     return tuple(angle for before, angle in itertools.pairwise([-1.0, *ordered]) if angle - before > _SAME_ANGLE)
 
 
-def _of_its_own(
-    name: str, chamber: Chamber, space: _Space, full_cycle: float, law: Law | None
-) -> tuple[Known, Known, list[NoticeData]]:
-    """Return the pressure of a chamber that is not part of a charge, its work over a cycle, and notices."""
+class _OwnGas(NamedTuple):
+    """The pressure of a chamber that is not part of a charge, its work over a cycle, and what else is known of it."""
+
+    pressure: Known
+    work: Known
+    notices: list[NoticeData]
+    calculated: CalculatedDiagram | None = None
+
+
+def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, law: Law | None) -> _OwnGas:
+    """Return the gas of a chamber that is not part of a charge."""
     key, path = f"diagram_pressure.{name}", f"chambers.{name}"
     notices: list[NoticeData] = []
     cycle = own_cycle(chamber, space.period)
@@ -319,12 +331,14 @@ def _of_its_own(
         pressure = given(key, chamber.pressure, f"{path}.pressure")
         # zero if the volume repeats
         done = chamber.factor * chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, cycle])))[0])
-        return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices
+        work = Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}")
+        return _OwnGas(pressure, work, notices)
     if cycle > chamber.cycle:
         notices.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
     # valves open by the volume, wherever the dead centre is
     begins = chamber.delay if chamber.valves is None else chamber.delay + _ends_of_stroke(space, chamber.delay)[0]
     general_form: Callable[[], Known] | None = None
+    calculated: CalculatedDiagram | None = None
     # cycles at equal volumes share one diagram
     phases = [angle % space.period for angle in np.arange(0.0, full_cycle, chamber.cycle).tolist()]
     if chamber.measured is not None:
@@ -363,7 +377,8 @@ def _of_its_own(
     pressure = remembered_pressure(diagram, space.volume, path, general_form, name)
     own_phases = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)
-    return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices
+    work = Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}")
+    return _OwnGas(pressure, work, notices, calculated)
 
 
 def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
