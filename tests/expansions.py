@@ -7,13 +7,25 @@ import math
 import random
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from crankwork import analyse, read_machine, template, template_names
 from crankwork.analysis.results import Listing, Results
 from crankwork.description.written import key_text, toml
 from crankwork.quantities import QUANTITIES, base_key
+
+ROOT = Path(__file__).parents[1]
+# shares of the limits that are found to be used
+Shares = list[float]
+
+
+def machine_files(*folders: str) -> dict[str, str]:
+    """Return the text of every template, and of every file in folders, by name."""
+    paths = (path for folder in folders for path in sorted((ROOT / folder).glob("*.toml")))
+    return {name: template(name) for name in template_names()} | {path.stem: path.read_text("utf-8") for path in paths}
 
 
 def written(values: Mapping[str, Any]) -> str:
@@ -182,8 +194,34 @@ def drawn_again(
     return replace(results, groups=groups, listings=listings, **tables)
 
 
-def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str]:
-    """Return where the results of an engine and of its form differ."""
+WAYS = ("again", "renamed", "shuffled", "turned")
+_DEGREES = 37.0
+
+
+def differences_as_drawn(
+    engine: Results, values: Mapping[str, Any], way: str, seed: int = 1, shares: Shares | None = None
+) -> list[str]:
+    """Return where an engine differs from its linkage that is drawn in one of `WAYS`; `shares`: as in `differences`."""
+    # weights point down, whichever way the machine is turned
+    way = "again" if way == "turned" and engine.machine.has_gravity else way
+    changed = {
+        "again": dict, "renamed": renamed, "shuffled": lambda values: shuffled(values, seed),
+        "turned": lambda values: turned(values, _DEGREES),
+    }[way](values)  # fmt: skip
+    names = {new: old for old, new in new_names(values).items()} if way == "renamed" else {}
+    reversed_links = [
+        name for name, link in values["links"].items() if way == "shuffled" and changed["links"][name] != link
+    ]
+    linkage = analyse(read_machine(written(changed), folder=ROOT)).complete
+    drawn = drawn_again(linkage, names, _DEGREES if way == "turned" else 0.0, reversed_links)
+    return [f"{way}: {line[:160]}" for line in differences(engine.complete, drawn, shares=shares)]
+
+
+def differences(engine: Results, form: Results, limit: float = 1e-9, shares: Shares | None = None) -> list[str]:
+    """Return where the results of an engine and of its form differ.
+
+    `limit`: of the size of a value; `shares`: takes for each value by how much of its size it differs.
+    """
     scales = _scales(engine)
     pairs = [("summary", engine.summary, form.summary), ("column", engine.columns, form.columns)]
     empty = Listing({})
@@ -212,6 +250,8 @@ def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str
             apart = _apart(key, first, second, engine)
             room = _ANGLES if _unit(key) in _OF_ANGLES else limit * (_largest(own, key) + _SMALL * scales[_unit(key)])
             far = apart > room
+            if shares is not None and kind in ("summary", "column") and not far.any():
+                shares.append(limit * float(np.nanmax(np.append(apart / np.where(room, room, 1.0), 0.0))))
             if kind == "summary" and far.any() and _is_another_peak(key, float(second), engine, room):
                 continue
             if kind == "listing bearing_loads" and far.any() and key.endswith("_angle"):
