@@ -249,6 +249,9 @@ def differences(engine: Results, form: Results, limit: float = 1e-9, shares: Sha
                 continue
             apart = _apart(key, first, second, engine)
             room = _ANGLES if _unit(key) in _OF_ANGLES else limit * (_largest(own, key) + _SMALL * scales[_unit(key)])
+            if kind == "column" and len(first) == len(engine.grid) and engine.grid.degrees[-1] == engine.machine.cycle:
+                # where the cycle jumps at its end, the value is that of either side
+                apart[-1] = min(apart[-1], _apart(key, first[:1], second[-1:], engine)[0])
             far = apart > room
             if shares is not None and kind in ("summary", "column") and not far.any():
                 shares.append(limit * float(np.nanmax(np.append(apart / np.where(room, room, 1.0), 0.0))))

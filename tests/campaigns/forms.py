@@ -137,7 +137,9 @@ def _of_volumes(values: Values, bodies: Bodies, found: Results, angles: Array) -
         ways = along(panels.angles.ravel(), slider).reshape(panels.angles.shape)
         low, high = panels.range(ways @ panels.to_series.T)
         swept = (high - low) * area(chamber)
-        volume = swept / (chamber["compression_ratio"] - 1) + (along(angles, slider) - low) * area(chamber)
+        # of a cycle with ports it is the ratio of the closed cylinder
+        closed = swept * (1 - found.summary.get("lost_stroke", 0.0))
+        volume = closed / (chamber["compression_ratio"] - 1) + (along(angles, slider) - low) * area(chamber)
         yield f"cylinder_volume.{name}", float(np.max(np.abs(found[f"cylinder_volume.{name}"] - volume))) / swept
 
 

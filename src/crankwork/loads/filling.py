@@ -337,6 +337,9 @@ def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, l
         notices.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
     # valves open by the volume, wherever the dead centre is
     begins = chamber.delay if chamber.valves is None else chamber.delay + _ends_of_stroke(space, chamber.delay)[0]
+    # a calculated cycle comes later as that of a cylinder does, so that its jumps keep their sides
+    later = chamber.delay if chamber.calculated is not None else 0.0
+    volume = delayed(space.volume, -later, full_cycle, space.volume.key)
     general_form: Callable[[], Known] | None = None
     calculated: CalculatedDiagram | None = None
     # cycles at equal volumes share one diagram
@@ -361,7 +364,7 @@ def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, l
             diagrams[phase] = calculated.diagram
             notices += calculated.notices
         if (traced := chamber.calculated.traced) is not None and len(diagrams) == 1:
-            general_form = partial(_delayed_pressure, traced, space.volume, centres, (begins, cycle), key)
+            general_form = partial(traced, volume, centres)
     else:
         diagrams = {phase: _solved(chamber, space, begins + phase, path) for phase in dict.fromkeys(phases)}
         notices += [
@@ -369,12 +372,12 @@ def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, l
             for phase, phase_diagram in diagrams.items()
             for point, angle, step in phase_diagram.jumps
         ]
-    diagram = _joined(diagrams, phases).later(begins)
+    diagram = _joined(diagrams, phases).later(begins - later)
     if chamber.pieces and len(diagrams) == 1:
         size, valves = (space.clearance, space.swept), stated_valves(path, chamber)
         stated = DiagramInput(chamber.points, chamber.pieces, path, space.volume, *size, valves, begins)
         general_form = partial(stated.retold, diagram)
-    pressure = remembered_pressure(diagram, space.volume, path, general_form, name)
+    pressure = delayed(remembered_pressure(diagram, volume, path, general_form, name), later, full_cycle, key)
     own_phases = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)
     work = Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}")
@@ -389,16 +392,6 @@ def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
     # rounding would let it end the cycle
     top = top if abs(top) > _SAME_ANGLE else 0.0
     return top, top + (largest - least) % space.period
-
-
-def _delayed_pressure(
-    traced: Callable[[Known, tuple[float, float]], Known], volume: Known, centres: tuple[float, float],
-    delay: tuple[float, float], key: str,
-) -> Known:  # fmt: skip
-    """Return the pressure of a calculated cycle as a traced column; `delay`: angle by which it is later, and cycle."""
-    begins, cycle = delay
-    earlier = delayed(volume, -begins, cycle, volume.key)
-    return delayed(traced(earlier, centres), begins, cycle, key)
 
 
 def _solved(chamber: Chamber, space: _Space, start: float, path: str) -> IndicatorDiagram:
