@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from crankwork import analyse, read_machine, template, template_names
+from crankwork import Machine, analyse, read_machine, template, template_names
 from crankwork.analysis.results import Listing, Results
 from crankwork.description.written import key_text, toml
 from crankwork.quantities import QUANTITIES, base_key
@@ -192,6 +192,15 @@ def drawn_again(
     }
     tables = {name: of(getattr(results, name)) for name in ("columns", "summary", "checks", "allowed")}
     return replace(results, groups=groups, listings=listings, **tables)
+
+
+def of_linkage(machine: Machine) -> Results:
+    """Return the results of a machine as a linkage, also where it is an engine."""
+    results = analyse(machine)
+    if results.machine.linkage is None:
+        assert results.other is not None, "not written as a linkage"
+        return results.other
+    return results
 
 
 WAYS = ("again", "renamed", "shuffled", "turned")

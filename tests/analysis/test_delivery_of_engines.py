@@ -9,6 +9,7 @@ import pytest
 import crankwork
 from crankwork.description.expand import expanded
 from crankwork.report.summary import description_text
+from expansions import of_linkage
 
 # per cylinder: piston area times stroke, 300 times a minute [m3/s]
 ONE = math.pi / 4 * 0.0635**2 * 0.127 * 300 / 60
@@ -128,7 +129,7 @@ def test_mass_power_and_slip_are_those_of_both_cylinders():
 
 def test_it_is_that_of_the_linkage_with_a_chamber_for_each_cylinder(tmp_path):
     (tmp_path / "gear.toml").write_text(TRIPLEX, "utf-8")
-    linkage = crankwork.analyse(crankwork.read_machine(expanded(tmp_path / "gear.toml")))
+    linkage = of_linkage(crankwork.read_machine(expanded(tmp_path / "gear.toml")))
     engine = analysed(TRIPLEX).summary
     assert linkage.summary["inlet_flow"] == pytest.approx(engine["inlet_flow"], rel=1e-12)
     assert linkage.summary["inlet_flow.cylinder_2"] == pytest.approx(engine["inlet_flow.of_cylinder"], rel=1e-12)

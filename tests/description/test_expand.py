@@ -19,7 +19,7 @@ from crankwork.errors import CrankworkError, InputError
 from crankwork.formula.known import Given, in_order
 from crankwork.formula.replay import Program
 from each import for_each
-from expansions import ROOT, differences, machine_files
+from expansions import ROOT, differences, machine_files, of_linkage
 from shown import in_parts
 
 plausible_file = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible.py"))["plausible_file"]
@@ -70,7 +70,7 @@ def numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text):
     out = expanded(path)
     again = written(tmp_path, out, "again")
     assert expanded(again) == out
-    gear, linkage = analyse(read(path)), analyse(read(again))
+    gear, linkage = analyse(read(path)), of_linkage(read(again))
     for key, (other, sign) in COLUMNS.items():
         if key in gear.columns:
             size = np.max(np.abs(gear.columns[key]))
@@ -129,7 +129,7 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
     again = written(tmp_path, out, "again")
     assert expanded(again) == out
     machine = read(path, settings)
-    engine, linkage = analyse(machine), analyse(read(again))
+    engine, linkage = analyse(machine), of_linkage(read(again))
     whole = whole_engine(solve(machine, machine.method))
     # beside the corners of diagrams, where one side or the other is meant
     degrees = np.arange(0.3, machine.cycle, 7.5)
@@ -137,12 +137,12 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
     def same(found, wanted, what):
         assert found == pytest.approx(wanted, rel=1e-9, abs=1e-9 * np.max(np.abs(wanted))), what
 
-    def of_linkage(key):
+    def column(key):
         return linkage.columns_at(degrees, [key])[key]
 
     # what the engine gives is what the driver need not, who also speeds up the flywheel
     torque = engine.columns_at(degrees, ["total_torque"])["total_torque"]
-    same(-of_linkage("balancing_torque"), torque - machine.drive.inertia * machine.angular_acceleration, "torque")
+    same(-column("balancing_torque"), torque - machine.drive.inertia * machine.angular_acceleration, "torque")
     for key, other in OF_CYLINDERS.items():
         if whole.has(key):
             own = whole.each(key, degrees)
@@ -154,17 +154,15 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
                         CrankGrid.from_degrees(degrees)
                     )[""]
             for number, values in enumerate(own, start=1):
-                same(of_linkage(f"{other}{number}"), values, f"{key}.{number}")
+                same(column(f"{other}{number}"), values, f"{key}.{number}")
     for key in (one for one in engine.memory if one.startswith("crankpin_load.") and one.count(".") == 1):
         pin = key.replace("crankpin_load.", "A")
         names = [one for one in linkage.memory if re.fullmatch(rf"joint_force_x\.{pin}(_rod_\d+)?", one)]
-        x, y = (sum(of_linkage(one.replace("_x", part)) for one in names) for part in ("_x", "_y"))
+        x, y = (sum(column(one.replace("_x", part)) for one in names) for part in ("_x", "_y"))
         same(np.hypot(x, y), engine.columns_at(degrees, [key])[key], key)
     whole_inertia = engine.memory.get("reduced_inertia")
     if whole_inertia is not None:
-        same(
-            of_linkage("reduced_inertia"), Program({"": whole_inertia})(CrankGrid.from_degrees(degrees))[""], "inertia"
-        )
+        same(column("reduced_inertia"), Program({"": whole_inertia})(CrankGrid.from_degrees(degrees))[""], "inertia")
     assert linkage.summary["mean_torque"] == pytest.approx(work_per_angle(engine, machine), rel=1e-9)
 
 

@@ -76,25 +76,29 @@ def analyse(
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method
     used = method or machine.method
-    engine = _engine_by(used, machine)
-    results = _analysed(machine if engine is None else engine, grid, method, progress)
+    engine = _engine_of(machine, used)
+    results = _analysed(engine or machine, grid, method, progress)
     stated = tuple(Notice(*notice) for notice in machine.notices)
-    results = replace(results, notices=(*stated, *results.notices))
-    if engine is not None:
-        return _located(results, machine)
-    return replace(results, in_other_form=partial(_in_other_form, machine, results.grid, used))
+    other = partial(_in_other_form, machine, results.grid, used, is_engine=engine is not None)
+    results = replace(results, notices=(*stated, *results.notices), in_other_form=other)
+    return results if engine is None else _located(results, machine)
 
 
-def _engine_by(method: Method, machine: Machine) -> Machine | None:
-    """Return the engine that a linkage is if its method is approximate, which only engines have; None otherwise."""
-    if method.is_exact or machine.lengths is not None:
+def _engine_of(machine: Machine, method: Method) -> Machine | None:
+    """Return the engine that a linkage with gas is analysed as, None for other machines.
+
+    MethodError if the method is approximate, which only engines have, and the machine is none.
+    """
+    if machine.lengths is not None or (method.is_exact and not machine.chambers):
         return None
-    # most linkages are computed exactly
+    # most linkages are no engines
     from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
 
-    form = engine_form_or_reason(replace(machine, method=method))
+    form = engine_form_or_reason(machine, has_all=True)
     if isinstance(form, Machine):
         return form
+    if method.is_exact:
+        return None
     raise MethodError(Refusal("method_of_engines", method=method.name, reason=form.message))
 
 
@@ -106,17 +110,21 @@ def _located(results: Results, machine: Machine) -> Results:
     return results
 
 
-def _in_other_form(machine: Machine, grid: CrankGrid, method: Method) -> Results | None:
-    """Return the results of an engine as the linkage that it is, or of a linkage as an engine; None if it is none."""
-    form = None if machine.other_form is None else machine.other_form(replace(machine, method=method))
-    if form is None and machine.linkage is not None:
-        # few linkages are engines
-        from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+def _in_other_form(machine: Machine, grid: CrankGrid, method: Method, *, is_engine: bool) -> Results | None:
+    """Return the results of an engine as the linkage that it is, or of a linkage as an engine; None if it is none.
 
-        form = engine_form(machine)
-        if form is not None:
-            return _located(_analysed(form, grid, None, None), machine)
-    return None if form is None else _analysed(form, grid, None, None)
+    `is_engine`: whether a linkage is analysed as an engine.
+    """
+    if is_engine:
+        return _analysed(machine, grid, None, None) if method.is_exact else None
+    form = None if machine.other_form is None else machine.other_form(replace(machine, method=method))
+    if form is not None or machine.linkage is None:
+        return None if form is None else _analysed(form, grid, None, None)
+    # few linkages are engines
+    from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+
+    form = engine_form(machine)
+    return None if form is None else _located(_analysed(form, grid, None, None), machine)
 
 
 def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:
@@ -157,7 +165,8 @@ def columns_only(machine: Machine) -> Results:
     """
     if machine.transfer is not None or machine.turning is not None:
         return analyse(machine)
-    if (engine := _engine_by(machine.method, machine)) is not None:
+    engine = None if machine.method.is_exact else _engine_of(machine, machine.method)
+    if engine is not None:
         return _located(columns_only(engine), machine)
     if machine.linkage is not None:
         from crankwork.analysis.linkage import linkage_columns  # noqa: PLC0415 - loaded where it is needed

@@ -35,7 +35,7 @@ _SAME_ANGLE = 1e-9
 def engine_form(machine: Machine) -> Machine | None:
     """Return a linkage of crank, rods and pistons as the engine that it is, None if it is another machine.
 
-    The engine of an exact method is without friction and motor.
+    The engine is without friction and motor.
 
     The crank angle counts as in the linkage: from the axis of cylinder 1.
     """
@@ -43,10 +43,13 @@ def engine_form(machine: Machine) -> Machine | None:
     return form if isinstance(form, Machine) else None
 
 
-def engine_form_or_reason(machine: Machine) -> Machine | Problem:
-    """Return a linkage as the engine that it is, or why it is none, with the key in the description that shows it."""
+def engine_form_or_reason(machine: Machine, *, has_all: bool = False) -> Machine | Problem:
+    """Return a linkage as the engine that it is, or why it is none, with the key in the description that shows it.
+
+    `has_all`: whether the engine must have everything that the linkage has, friction and motor too.
+    """
     try:
-        _check_expressible(machine)
+        _check_expressible(machine, has_all=has_all)
         crank = crank_cells(machine.mechanism)
         return _Form(machine, crank, machine.shaft or Shaft()).machine()
     except NoCellsError as error:
@@ -55,7 +58,7 @@ def engine_form_or_reason(machine: Machine) -> Machine | Problem:
         return Problem("", error.args[0])
 
 
-def _check_expressible(machine: Machine) -> None:
+def _check_expressible(machine: Machine, *, has_all: bool) -> None:
     """Raise for what an engine has no tables for."""
     if machine.linkage is None or machine.transfer is not None or machine.turning is not None:
         raise NoCellsError(Refusal("cells_driver"))
@@ -68,8 +71,7 @@ def _check_expressible(machine: Machine) -> None:
         "links": machine.redundant,
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,
     }
-    if not machine.method.is_exact:
-        # an exact one counts them in the linkage
+    if has_all:
         unsupported |= {
             "friction": machine.friction,
             "transient": machine.transient,

@@ -123,7 +123,7 @@ def _check_method(machine: Machine, reader: Reader) -> None:
     # most linkages are computed exactly
     from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
 
-    form = engine_form_or_reason(machine)
+    form = engine_form_or_reason(machine, has_all=True)
     if not isinstance(form, Machine):
         message = Refusal("method_of_engines", method=method.name, reason=form.message)
         reader.complain("method.kinematics", message)
