@@ -419,7 +419,8 @@ def _rate_from(space: _Space, start: float) -> VolumeAt:
 
 
 def _volume_from(space: _Space, start: float) -> VolumeAt:
-    return lambda degrees: space.volume_at(degrees + start)
+    volume = Program({"": space.volume})
+    return lambda degrees: volume(CrankGrid.from_degrees(degrees + start))[""]
 
 
 def _jump(point: str, degrees: float, step: float, law: Law | None) -> NoticeData:
