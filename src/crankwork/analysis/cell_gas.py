@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.locale import Refusal
 from crankwork.machine import Gas, Machine
 from crankwork.mechanism.cells import Cell, NoCellsError
+
+if TYPE_CHECKING:
+    from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 # of the size of a value, where rounding ends
 _SAME = 1e-11
@@ -73,7 +76,7 @@ def gas_of(name: str, chamber: Chamber, cycle: float, crank_end: Chamber | None)
         ambient=chamber.ambient,
         names_ambient=chamber.names_ambient,
         back_pressure=behind,
-        calculated=chamber.calculated,
+        calculated=cast("CalculatedPressure | None", chamber.calculated),
         factor=chamber.factor,
         factor_path=f"{path}.pressure_factor",
         path=path,

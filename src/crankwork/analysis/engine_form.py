@@ -66,7 +66,7 @@ def _check_expressible(machine: Machine, *, has_all: bool) -> None:
     if partial or machine.mechanism.passages:
         raise NoCellsError(Refusal("cells_turn"))
     drive = machine.drive
-    unsupported = {
+    unsupported: dict[str, object] = {
         "charges": machine.charges,
         "links": machine.redundant,
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,

@@ -35,7 +35,8 @@ def build_chambers(
     holder = _holders(sealed, tables, reader)
     for name, charge in sealed.items():
         _check_charge(f"charges.{name}", charge, reader)
-    chambers, pressures = {}, dict[str, PressureOfCycle]()
+    chambers = dict[str, Chamber]()
+    pressures: Mapping[str, PressureOfCycle] = {}
     if any("cycle" in table for table in tables.values()):
         from crankwork.description.cycle_build import chamber_cycles  # noqa: PLC0415 - few chambers have one
 

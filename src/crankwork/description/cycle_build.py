@@ -271,17 +271,23 @@ def chamber_cycles(
     lengths = _lengths(mechanism)
     for names in _equal_cycles({name: table for name, table in tables.items() if "kind" in table["cycle"]}, sliders):
         pressure = _of_cycle(names, tables, lengths, crank["speed"].value, reader, pi)
-        ambient = tables[names[0]].but(pressures="absolute").si("ambient")
-        for name in names if pressure is not None else ():
-            motored = tables[name]["cycle"]["motored"]
-            around = given("ambient_pressure", ambient, f"chambers.{name}.ambient") if motored == "ambient" else None
-            calculated[name] = MisfirePressure(pressure, _angle(tables[name]), around) if motored else pressure
-            sized[name] = cylinder_of(tables[name], pressure)
+        if pressure is not None:
+            calculated |= {name: _in_chamber(pressure, tables[name], name) for name in names}
+            sized |= {name: cylinder_of(tables[name], pressure) for name in names}
     return sized, calculated
 
 
-def _angle(chamber: Values) -> float:
-    return float(chamber["period"].split()[0])
+def _in_chamber(
+    pressure: CornerPressure | HeatReleasePressure, chamber: Values, name: str
+) -> CornerPressure | HeatReleasePressure | MisfirePressure:
+    """Return the pressure of a calculated cycle in a chamber, that without combustion if it is motored."""
+    motored, around = chamber["cycle"]["motored"], None
+    if motored is None:
+        return pressure
+    if motored == "ambient":
+        ambient = chamber.but(pressures="absolute").si("ambient")
+        around = given("ambient_pressure", ambient, f"chambers.{name}.ambient")
+    return MisfirePressure(pressure, float(chamber["period"].split()[0]), around)
 
 
 def _equal_cycles(tables: Mapping[str, Values], sliders: list[str]) -> list[list[str]]:
