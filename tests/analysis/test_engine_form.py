@@ -232,7 +232,7 @@ def test_a_calculated_cycle_of_a_drawn_chamber_is_that_of_an_engine():
     for results in (linkage, linkage.other):
         assert results["thermal_efficiency"] == pytest.approx(efficiency, rel=1e-12)
     assert linkage["indicated_work.head"] == pytest.approx(efficiency * 1e6 * mass, rel=1e-9)
-    assert linkage.other["indicated_work"] == pytest.approx(efficiency * 1e6 * mass, rel=1e-9)
+    assert linkage["indicated_work"] == pytest.approx(efficiency * 1e6 * mass, rel=1e-9)
     leaves = {known.node.path for known in in_order(linkage.memory.values()) if isinstance(known.node, Given)}
     places = {"chambers.head.cycle.heat", "chambers.head.cycle.intake_temperature", "chambers.head.compression_ratio"}
     assert places <= leaves
