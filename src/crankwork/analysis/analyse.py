@@ -17,7 +17,7 @@ from crankwork.errors import CrankworkError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
-from crankwork.method import Method
+from crankwork.method import EXACT, Method
 
 _IN_JOINTS = ("joint_force", "normal_force")
 
@@ -100,6 +100,11 @@ def _engine_of(machine: Machine, method: Method) -> Machine | None:
     if method.is_exact:
         return None
     raise MethodError(Refusal("method_of_engines", method=method.name, reason=form.message))
+
+
+def is_engine(machine: Machine) -> bool:
+    """Return whether a machine is analysed as an engine by every method."""
+    return machine.lengths is not None or _engine_of(machine, EXACT) is not None
 
 
 def _located(results: Results, machine: Machine) -> Results:
