@@ -7,14 +7,25 @@ import math
 import random
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from crankwork import Machine, analyse
+from crankwork import Machine, analyse, read_machine, template, template_names
 from crankwork.analysis.results import Listing, Results
 from crankwork.description.written import key_text, toml
 from crankwork.quantities import QUANTITIES, base_key
+
+ROOT = Path(__file__).parents[1]
+# shares of the limits that are found to be used
+Shares = list[float]
+
+
+def machine_files(*folders: str) -> dict[str, str]:
+    """Return the text of every template, and of every file in folders, by name."""
+    paths = (path for folder in folders for path in sorted((ROOT / folder).glob("*.toml")))
+    return {name: template(name) for name in template_names()} | {path.stem: path.read_text("utf-8") for path in paths}
 
 
 def written(values: Mapping[str, Any]) -> str:
@@ -192,13 +203,36 @@ def of_linkage(machine: Machine) -> Results:
     return results
 
 
-def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str]:
-    """Return where the results of an engine and of its form differ; those of a calculated cycle may be wanting."""
-    lost, scales = of_cycle(engine), _scales(engine)
-    # of a cycle with ports the file of the engine states the ratio of the closed cylinder
-    geometric = engine.memory.get("geometric_compression_ratio")
-    ratio = {} if geometric is None else {"compression_ratio": geometric.value}
-    pairs = [("summary", {**engine.summary, **ratio}, form.summary), ("column", engine.columns, form.columns)]
+WAYS = ("again", "renamed", "shuffled", "turned")
+_DEGREES = 37.0
+
+
+def differences_as_drawn(
+    engine: Results, values: Mapping[str, Any], way: str, seed: int = 1, shares: Shares | None = None
+) -> list[str]:
+    """Return where an engine differs from its linkage that is drawn in one of `WAYS`; `shares`: as in `differences`."""
+    # weights point down, whichever way the machine is turned
+    way = "again" if way == "turned" and engine.machine.has_gravity else way
+    changed = {
+        "again": dict, "renamed": renamed, "shuffled": lambda values: shuffled(values, seed),
+        "turned": lambda values: turned(values, _DEGREES),
+    }[way](values)  # fmt: skip
+    names = {new: old for old, new in new_names(values).items()} if way == "renamed" else {}
+    reversed_links = [
+        name for name, link in values["links"].items() if way == "shuffled" and changed["links"][name] != link
+    ]
+    linkage = analyse(read_machine(written(changed), folder=ROOT)).complete
+    drawn = drawn_again(linkage, names, _DEGREES if way == "turned" else 0.0, reversed_links)
+    return [f"{way}: {line[:160]}" for line in differences(engine.complete, drawn, shares=shares)]
+
+
+def differences(engine: Results, form: Results, limit: float = 1e-9, shares: Shares | None = None) -> list[str]:
+    """Return where the results of an engine and of its form differ.
+
+    `limit`: of the size of a value; `shares`: takes for each value by how much of its size it differs.
+    """
+    scales = _scales(engine)
+    pairs = [("summary", engine.summary, form.summary), ("column", engine.columns, form.columns)]
     empty = Listing({})
     pairs += [
         (f"listing {name}", _by_name(listing), _by_name(form.listings.get(name, empty)))
@@ -213,11 +247,10 @@ def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str
     found += [
         f"table {name}: {sorted(set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ())))}"
         for name in engine.tables.keys() | form.tables.keys()
-        if (set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ()))) - lost
+        if set(engine.tables.get(name, ())) ^ set(form.tables.get(name, ()))
     ]
     for kind, own, other in pairs:
-        # a key of the cycle may be wanting, not wrong
-        found += [f"{kind} {key}" for key in (own.keys() - other.keys() - lost) | (other.keys() - own.keys())]
+        found += [f"{kind} {key}" for key in own.keys() ^ other.keys()]
         for key in own.keys() & other.keys():
             first, second = (_without_noise(key, values, limit, scales) for values in (own, other))
             if first.shape != second.shape or np.any(np.isnan(first) != np.isnan(second)):
@@ -225,7 +258,12 @@ def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str
                 continue
             apart = _apart(key, first, second, engine)
             room = _ANGLES if _unit(key) in _OF_ANGLES else limit * (_largest(own, key) + _SMALL * scales[_unit(key)])
+            if kind == "column" and len(first) == len(engine.grid) and engine.grid.degrees[-1] == engine.machine.cycle:
+                # where the cycle jumps at its end, the value is that of either side
+                apart[-1] = min(apart[-1], _apart(key, first[:1], second[-1:], engine)[0])
             far = apart > room
+            if shares is not None and kind in ("summary", "column") and not far.any():
+                shares.append(limit * float(np.nanmax(np.append(apart / np.where(room, room, 1.0), 0.0))))
             if kind == "summary" and far.any() and _is_another_peak(key, float(second), engine, room):
                 continue
             if kind == "listing bearing_loads" and far.any() and key.endswith("_angle"):
@@ -236,8 +274,8 @@ def differences(engine: Results, form: Results, limit: float = 1e-9) -> list[str
                 found += [f"{kind} {key}: {[names[row] for row in far]}"] if far else []
                 continue
             found += [f"{kind} {key}: {own[key]} is {other[key]}"] if far.any() else []
-    found += [f"check {key}" for key in (engine.checks.keys() ^ form.checks.keys()) - lost]
-    found += [f"notice {code}" for code in (_codes(engine) ^ _codes(form)) - _codes_of_cycle(engine) - _OF_SHORTHAND]
+    found += [f"check {key}" for key in engine.checks.keys() ^ form.checks.keys()]
+    found += [f"notice {code}" for code in (_codes(engine) ^ _codes(form)) - _OF_SHORTHAND]
     return found + [
         f"check {key}: {value}" for key, value in form.checks.items() if value > form.allowed.get(key, limit)
     ]
@@ -301,27 +339,8 @@ def _is_same_load(bearing: str, engine: Results, first: float, second: float) ->
     return abs(loads[0] - loads[1]) <= 1e-9 * abs(loads[0])
 
 
-def of_cycle(results: Results) -> set[str]:
-    """Return the keys that a calculated cycle adds to the results of its engine.
-
-    What both a cycle and an engine have stands in the summary as that of the cycle.
-    """
-    space = getattr(results.solved, "space", None)
-    values = set() if space is None or space.calculated is None else set(space.calculated.values)
-    also = {f"{key}.cycle" for key in values} & set(results.summary)
-    return (values - {"indicated_mean_pressure"}) | also
-
-
 def _codes(results: Results) -> set[str]:
     return {notice.code for notice in results.notices}
-
-
-def _codes_of_cycle(results: Results) -> set[str]:
-    """Return the codes of what a calculated cycle says, and of what is said of it beside the torque of the engine."""
-    space = getattr(results.solved, "space", None)
-    calculated = None if space is None else space.calculated
-    beside = {"torque_of_cycle", "cycle_in_every"}
-    return set() if calculated is None else {code for code, _ in calculated.notices} | beside
 
 
 def _unit(key: str) -> str:

@@ -296,6 +296,8 @@ class TransferTable:
         Method of differentiation if it is not tabulated.
     static_torque, balancing_torque : tuple of float or None
         Torque that balances the loads, and torque that balances loads and inertia. [N m]
+    of_bodies, of_crank : str
+        Paths in the description of the bodies, and of what is reduced to the crank.
     """
 
     angles: tuple[float, ...]
@@ -304,6 +306,8 @@ class TransferTable:
     differences: Differences = "central"
     static_torque: tuple[float, ...] | None = None
     balancing_torque: tuple[float, ...] | None = None
+    of_bodies: str = "transfer.bodies"
+    of_crank: str = "transfer"
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,12 @@ import math
 import random
 import runpy
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import crankwork
-from crankwork import CrankGrid, analyse, read_machine, template, template_names
+from crankwork import CrankGrid, analyse, read_machine, template
 from crankwork.analysis.engine_form import engine_form, engine_form_or_reason
 from crankwork.analysis.form_paths import linkage_paths, relocate
 from crankwork.analysis.results import Results
@@ -21,18 +20,14 @@ from crankwork.errors import CrankworkError, InputError, Problem
 from crankwork.formula.known import Given, in_order
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.trace import NotCompiledError
+from crankwork.locale import LANGUAGES, told
 from crankwork.machine import Machine
 from each import for_each
-from expansions import differences, mirrored, renamed, shuffled, turned, written
+from expansions import ROOT, differences, machine_files, mirrored, renamed, shuffled, turned, written
 from shown import in_parts
 
-ROOT = Path(__file__).parents[2]
 smooth_engine = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible_engines.py"))["smooth_engine"]
-FILES = {
-    **{name: template(name) for name in template_names()},
-    **{path.stem: path.read_text("utf-8") for path in sorted((ROOT / "examples").glob("*.toml"))},
-    **{path.stem: path.read_text("utf-8") for path in sorted((ROOT / "tests" / "machines").glob("*.toml"))},
-}
+FILES = machine_files("examples", "tests/machines")
 ENGINES = [name for name, text in FILES.items() if "rod" in tomllib.loads(text)]
 WAYS = {
     "again": written,
@@ -219,15 +214,106 @@ pieces = [{{ law = "rounded", points = ["a", "b", "c"] }}]
     assert linkage["gas_pressure.head"] == pytest.approx(found[1])
 
 
+OTTO = """compression_ratio = 9
+period = "720 deg"
+ambient = "0.1 MPa"
+pressures = "absolute"
+cycle = { kind = "otto", intake_pressure = "0.1 MPa", intake_temperature = "300 K", heat = "1000 kJ/kg" }
+"""
+
+
+@pytest.mark.elsewhere
+def test_a_calculated_cycle_of_a_drawn_chamber_is_that_of_an_engine():
+    """Of Otto's cycle in closed form: efficiency 1 - 9^-0.4, and its share of the heat to p V / (R T) of gas."""
+    linkage = analyse(read_machine(DRAWN.replace('pressure = "0.2 MPa"', OTTO)))
+    swept = math.pi / 4 * 0.1**2 * 0.1
+    mass = 0.1e6 * swept * 9 / 8 / (287 * 300)
+    efficiency = 1 - 9**-0.4
+    for results in (linkage, linkage.other):
+        assert results["thermal_efficiency"] == pytest.approx(efficiency, rel=1e-12)
+    assert linkage["indicated_work.head"] == pytest.approx(efficiency * 1e6 * mass, rel=1e-9)
+    assert linkage["indicated_work"] == pytest.approx(efficiency * 1e6 * mass, rel=1e-9)
+    leaves = {known.node.path for known in in_order(linkage.memory.values()) if isinstance(known.node, Given)}
+    places = {"chambers.head.cycle.heat", "chambers.head.cycle.intake_temperature", "chambers.head.compression_ratio"}
+    assert places <= leaves
+    assert not any(path.startswith(("cycle", "cylinder")) for path in leaves)
+
+
+@pytest.mark.elsewhere
+@for_each(("word", "work"), [("compressed", 0.0), ("ambient", 0.0)])
+def test_a_chamber_without_combustion_does_no_work(word, work):
+    cold = OTTO.replace("cycle = {", f'cycle = {{ motored = "{word}",')
+    linkage = analyse(read_machine(DRAWN.replace('pressure = "0.2 MPa"', cold)))
+    # what is compressed adiabatically expands as it was
+    assert linkage["indicated_work.head"] == pytest.approx(work, abs=1e-9)
+    peak = 0.1e6 * (9**1.4 if word == "compressed" else 1)
+    assert linkage.value("diagram_pressure.head", 360.0) == pytest.approx(peak, rel=1e-9)
+
+
+@for_each(
+    ("old", "new", "key"),
+    [
+        ("compression_ratio = 9\n", "", "chambers.head.compression_ratio"),
+        ('heat = "1000 kJ/kg"', 'heat = "1000 kJ/kg", cut_off = 2', "chambers.head.cycle"),
+        ('kind = "otto"', 'kind = "otto", fuel = "petrol"', "chambers.head.cycle.fuel"),
+    ],
+)
+def test_mistakes_of_a_cycle_are_told_at_its_chamber(old, new, key):
+    assert old in OTTO
+    with pytest.raises(InputError) as refusal:
+        read_machine(DRAWN.replace('pressure = "0.2 MPa"', OTTO.replace(old, new)))
+    assert refusal.value.problems[0].key.startswith(key)
+
+
+def test_a_cycle_with_corners_needs_the_strokes_of_an_engine():
+    text, cycle = FILES["atkinson"], tomllib.loads(OTTO.replace("720 deg", "360 deg"))
+    values = tomllib.loads(text)
+    ((name, chamber),) = values["chambers"].items()
+    faces = {key: value for key, value in chamber.items() if key in ("slider", "bore", "sense")}
+    with pytest.raises(InputError, match="turns back 4 times"):
+        read_machine(written({**values, "chambers": {name: {**faces, **cycle}}}))
+
+
+@pytest.mark.elsewhere
+def test_approximate_methods_are_those_of_the_engine():
+    """The first two terms of the binomial: x = r [(1 - cos) + (r / l) / 4 (1 - cos 2)]."""
+    textbook = read_machine(f'{DRAWN}\n[method]\nkinematics = "textbook"\n')
+    at = np.radians([30.0, 60.0, 200.0])
+    wanted = 0.05 * (1 - np.cos(at) + 0.25 / 4 * (1 - np.cos(2 * at)))
+    for results in (analyse(textbook, np.degrees(at)), analyse(read_machine(DRAWN), np.degrees(at), method="textbook")):
+        assert results["piston_displacement"] == pytest.approx(wanted, rel=1e-12)
+        exact = 0.05 * (1 - np.cos(at)) + 0.2 - np.sqrt(0.04 - (0.05 * np.sin(at)) ** 2)
+        assert results["piston_displacement_error"] >= np.max(np.abs(wanted - exact))
+    leaves = {known.node.path for known in in_order(results.memory.values()) if isinstance(known.node, Given)}
+    assert "links.rod.length" in leaves
+
+
+def test_another_linkage_refuses_an_approximate_method_by_name():
+    for text in (FILES["four-bar"], DRAWN.replace("[sliders.piston]", f"{RUBBED}[sliders.piston]")):
+        with pytest.raises(InputError) as refusal:
+            read_machine(f'{text.partition("[method]")[0]}\n[method]\nkinematics = "textbook"\n')
+        (problem,) = refusal.value.problems
+        assert problem.key == "method.kinematics"
+        for language in LANGUAGES:
+            assert "textbook" in told(problem.message, language)
+            assert "exact" in told(problem.message, language)
+
+
+RUBBED = '[friction]\npins = { Q = { coefficient = 0.1, radius = "5 mm" } }\n'
+
+
+def test_an_engine_that_rubs_keeps_what_has_no_friction():
+    """The forces of an engine are those without friction; what it takes is told of the linkage."""
+    rubbed, smooth = (analyse(read_machine(DRAWN.replace("[sliders", f"{extra}[sliders"))) for extra in (RUBBED, ""))
+    assert "friction_power" in rubbed
+    assert rubbed["crank_torque_max"] == pytest.approx(smooth["crank_torque_max"], rel=1e-12)
+
+
 OTHER = {
     'speed = "100 rad/s"': ('speed = "100 rad/s"\nstart = "10 deg"', "angle of 0"),
-    "[sliders.piston]": (
-        '[friction]\npins = { Q = { coefficient = 0.1, radius = "5 mm" } }\n[sliders.piston]',
-        "friction",
-    ),
+    "[sliders.piston]": ('[[loads]]\nkind = "force"\npoint = "Q"\nx = "10 N"\n[sliders.piston]', "loads"),
     "sense = -1": ('sense = 1\nrod_diameter = "20 mm"', "no chamber"),
     'centre = ["50 mm", "0 mm"]': ('centre = ["50 mm", "1 mm"]', "centre of mass of rod"),
-    'pressure = "0.2 MPa"': ('pressure = "0.2 MPa"\n[efficiency]\nchain = [0.9]', "efficiency"),
 }
 
 

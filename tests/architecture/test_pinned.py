@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "274ffc63bbc6",
     "quantities": "eb8dc364166d",
-    "defaults": "7951cd01bc67",
+    "defaults": "2c6b4fafdf12",
 }
 
 

@@ -1,7 +1,9 @@
 """Compares engines with the linkages that they are, and both with another program: `scripts/campaign forms`.
 
-Engines are drawn by chance. Results of the file, of the file of its linkage, and of `bodies.py` must agree: that
-program takes from crankwork only the pressure at an angle and where it breaks.
+First every template, example and machine of the tests with what `check --expand` writes of it: all keys, by every kind
+of method, and of engines however the linkage is drawn. Then engines that are drawn by chance: results of the file, of
+the file of its linkage, and of `bodies.py` must agree. That program takes from crankwork only the pressure at an angle
+and where it breaks.
 """
 
 from __future__ import annotations
@@ -28,10 +30,12 @@ from crankwork.description.expand import expanded
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.formula.known import breaks_of
-from expansions import differences, drawn_again, new_names, renamed, shuffled, turned, written
+from expansions import ROOT, WAYS, Shares, differences, differences_as_drawn, machine_files, written
 
 smooth_engine = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible_engines.py"))["smooth_engine"]
-WAYS = ("again", "renamed", "shuffled", "turned")
+# tables that are shorthand, by one of which an engine is known
+_SHORTHAND = ("rod", "piston", "cylinder", "engine", "transfer")
+METHODS = ("exact", "textbook", "series:6")
 # of the largest value of a key
 LIMIT = 1e-8
 
@@ -133,7 +137,9 @@ def _of_volumes(values: Values, bodies: Bodies, found: Results, angles: Array) -
         ways = along(panels.angles.ravel(), slider).reshape(panels.angles.shape)
         low, high = panels.range(ways @ panels.to_series.T)
         swept = (high - low) * area(chamber)
-        volume = swept / (chamber["compression_ratio"] - 1) + (along(angles, slider) - low) * area(chamber)
+        # of a cycle with ports it is the ratio of the closed cylinder
+        closed = swept * (1 - found.summary.get("lost_stroke", 0.0))
+        volume = closed / (chamber["compression_ratio"] - 1) + (along(angles, slider) - low) * area(chamber)
         yield f"cylinder_volume.{name}", float(np.max(np.abs(found[f"cylinder_volume.{name}"] - volume))) / swept
 
 
@@ -158,29 +164,21 @@ def _of_turning(turning: Turning, found: Results, angles: Array) -> Iterator[tup
 
 def linkage_of(text: str) -> Values:
     """Return the tables of the linkage that an engine is."""
+    return tomllib.loads(expanded_text(text))
+
+
+def expanded_text(text: str, settings: Sequence[str] = ()) -> str:
+    """Return a machine file written out."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "machine.toml"
         path.write_text(text, "utf-8")
-        return tomllib.loads(expanded(path))
+        return expanded(path, settings)
 
 
 def apart(text: str, number: int) -> tuple[list[str], float]:
     """Return what differs between an engine, its linkage and the bodies, and the largest difference from these."""
     values, engine = linkage_of(text), analyse(read_machine(text))
-    way = WAYS[number % len(WAYS)]
-    # weights point down, whichever way the machine is turned
-    way = "again" if way == "turned" and engine.machine.has_gravity else way
-    changed = {
-        "again": dict, "renamed": renamed, "shuffled": functools.partial(shuffled, seed=number),
-        "turned": functools.partial(turned, degrees=37.0),
-    }[way](values)  # fmt: skip
-    names = {new: old for old, new in new_names(values).items()} if way == "renamed" else {}
-    own = values["links"].items()
-    backwards = [n for n, link in own if way == "shuffled" and changed["links"][n]["joins"] != link["joins"]]
-    linkage = analyse(read_machine(written(changed)))
-    found = [f"{way}: {one[:160]}" for one in differences(
-        engine.complete, drawn_again(linkage.complete, names, 37.0 if way == "turned" else 0.0, backwards)
-    )]  # fmt: skip
+    found = differences_as_drawn(engine, values, WAYS[number % len(WAYS)], number)
     worst = 0.0
     for key, size in apart_from_bodies(values, engine):
         worst = max(worst, size)
@@ -188,17 +186,61 @@ def apart(text: str, number: int) -> tuple[list[str], float]:
     return found, worst
 
 
+def apart_from_expansion(text: str, shares: Shares) -> Iterator[str]:
+    """Yield where a machine differs from what `check --expand` writes of it."""
+    stated = tomllib.loads(text)
+    for method in METHODS if "rod" in stated else ("",):
+        settings = [f"method.kinematics={method}"] if method else []
+        out, machine = expanded_text(text, settings), read_machine(text, overrides=settings, folder=ROOT)
+        results, values = analyse(machine), tomllib.loads(out)
+        yield from (f"[{table}] stands in the expansion" for table in _SHORTHAND if table in values)
+        others = analyse(read_machine(out, folder=ROOT))
+        found = differences(results.complete, others.complete, shares=shares)
+        yield from (f"{method}: {line[:160]}" for line in found)
+        for way in WAYS[1:] if "rod" in stated else ():
+            yield from (f"{method} {line}" for line in differences_as_drawn(results, values, way, shares=shares))
+
+
+def compare_files(names: Sequence[str]) -> int:
+    """Compare machine files with their expansions, print a line for each that differs, and return how many do."""
+    began, differ, shares = time.monotonic(), 0, Shares()
+    files = machine_files("examples", "tests/machines")
+    files = {name: files[name] for name in names or files}
+    for name, text in files.items():
+        try:
+            found = list(apart_from_expansion(text, shares))
+        except CrankworkError as error:
+            found = [str(error)]
+        if found:
+            differ += 1
+            _tell(f"{name}: {'; '.join(found[:4])}{f'; {len(found)} in all' if len(found) > 4 else ''}")
+    _tell(
+        f"{len(files)} files compared with their expansions in {time.monotonic() - began:.0f} s, {differ} differ; "
+        f"{len(shares)} values, the largest difference {max(shares, default=0.0):.2g}"
+    )
+    return differ
+
+
 def main(words: Sequence[str] | None = None) -> int:
-    """Compare many engines, print a line for each that differs, and return how many do."""
+    """Compare files with their expansions and engines by chance with their linkages; return how many differ."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=300, help="how many engines")
+    parser.add_argument("--only", choices=("files", "chance"), help="files, or engines by chance; both otherwise")
+    parser.add_argument("--files", nargs="*", default=[], help="names of files to compare; all of them otherwise")
+    parser.add_argument("--count", type=int, default=300, help="how many engines by chance")
     parser.add_argument("--first", type=int, default=0, help="number of the first one")
     parser.add_argument("--seed", type=int, default=1)
     asked = parser.parse_args(words)
+    differ = 0 if asked.only == "chance" else compare_files(asked.files)
+    differ += 0 if asked.only == "files" else compare_by_chance(asked.seed, asked.first, asked.count)
+    return min(differ, 100)
+
+
+def compare_by_chance(seed: int, first: int, count: int) -> int:
+    """Compare engines that are drawn by chance, print a line for each that differs, and return how many do."""
     began, differ, worst = time.monotonic(), 0, 0.0
     kinds: dict[str, int] = {}
-    for number in range(asked.first, asked.first + asked.count):
-        values = drawn(asked.seed, number)
+    for number in range(first, first + count):
+        values = drawn(seed, number)
         kind = values.get("engine", {}).get("layout", "compressor" if "valves" in values.get("gas", {}) else "one")
         try:
             with warnings.catch_warnings():
@@ -210,13 +252,13 @@ def main(words: Sequence[str] | None = None) -> int:
         kinds[kind], worst = kinds.get(kind, 0) + 1, max(worst, size)
         if found:
             differ += 1
-            again = f"--seed {asked.seed} --first {number} --count 1"
+            again = f"--only chance --seed {seed} --first {number} --count 1"
             _tell(f"{again} ({kind}): {'; '.join(found[:4])}{f'; {len(found)} in all' if len(found) > 4 else ''}")
     _tell(
         f"{sum(kinds.values())} machines compared in {time.monotonic() - began:.0f} s, {differ} differ; "
         f"furthest from the bodies {worst:.2g}; {', '.join(f'{name} {n}' for name, n in sorted(kinds.items()))}"
     )
-    return min(differ, 100)
+    return differ
 
 
 def _tell(line: str) -> None:

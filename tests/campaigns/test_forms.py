@@ -18,9 +18,17 @@ FEW, MORE = (1, 3), tuple(range(4, 14))
 @pytest.mark.parametrize("numbers", [FEW, pytest.param(MORE, marks=pytest.mark.slow)], ids=len)
 def test_engines_agree_with_their_linkages_and_with_newton_and_euler(numbers, capsys):
     for number in numbers:
-        status, told = forms.main(["--first", str(number), "--count", "1"]), capsys.readouterr().out
+        status, told = forms.main(["--only", "chance", "--first", str(number), "--count", "1"]), capsys.readouterr().out
         assert status == 0, told
         assert "1 machines compared" in told
+
+
+def test_files_agree_with_their_expansions(capsys):
+    """A table of transfer functions, a calculated cycle, an approximate method, valves, a shaft with given torques."""
+    names = ["table-forward", "two-stroke-ports", "slider-crank", "compressor", "turning-strokes"]
+    status, told = forms.main(["--only", "files", "--files", *names]), capsys.readouterr().out
+    assert status == 0, told
+    assert "5 files compared" in told
 
 
 def test_the_bodies_are_those_of_a_crank_mechanism_by_hand():

@@ -82,7 +82,7 @@ def test_numbers_and_deviations_are_those_that_the_file_states() -> None:
 
 def test_what_a_linkage_does_not_have_is_told() -> None:
     text = template("whole-engine")
-    machine = crankwork.read_machine(f'friction.pins.O.moment = "1 N*m"\n{text}')
+    machine = crankwork.read_machine(f'loads = [{{ kind = "torque", link = "crank", torque = "1 N*m" }}]\n{text}')
     told = [(code, values.get("name")) for code, values in machine.notices]
     wanted = [("loaded_without", name) for name in ("bearings", "balance") if f"[{name}]" in text]
     assert wanted

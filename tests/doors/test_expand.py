@@ -6,10 +6,7 @@ import json
 import tomllib
 from pathlib import Path
 
-import pytest
-
 from crankwork.description.machine_file import template
-from each import for_each
 
 
 def test_a_file_written_out_can_be_run_and_gives_its_torque_by_the_same_name(crankwork):
@@ -29,29 +26,21 @@ def test_a_file_written_out_can_be_run_and_gives_its_torque_by_the_same_name(cra
         assert float(lines[1][-2].replace(",", ".")) > 0
 
 
-@pytest.mark.slow
-@for_each(
-    ("language", "told"),
-    [
-        ("ru", "# [cycle] записан давлениями"),
-        ("en", "# [cycle] is written out as the pressures"),
-        ("vi", "# [cycle] được ghi ra bằng các áp suất"),
-    ],
-)
-def test_what_is_written_out_otherwise_is_told_above(crankwork, language, told):
-    Path("my.toml").write_text(template("whole-engine"), "utf-8")
-    answer = crankwork("check", "my.toml", "--expand", "--lang", language)
-    assert (answer.code, answer.err) == (0, "")
-    head = answer.out.partition("\nformat")[0]
-    assert told in head
-    assert head.count("#") == 1
-
-
-def test_a_method_that_is_not_exact_can_be_set_aside(crankwork, check_refusals):
+def test_a_file_is_written_out_with_its_method_and_its_cycle(crankwork):
     Path("my.toml").write_text(template("engine").replace('"exact"', '"textbook"'), "utf-8")
-    asked = ("check", "my.toml", "--expand")
-    check_refusals([(asked, "--set method.kinematics=exact")])
-    assert crankwork(*asked, "--set", "method.kinematics=exact").code == 0
+    answer = crankwork("check", "my.toml", "--expand")
+    assert (answer.code, answer.err) == (0, "")
+    assert tomllib.loads(answer.out)["method"]["kinematics"] == "textbook"
+    Path("again.toml").write_text(answer.out, "utf-8")
+    for option in ((), ("--compare", "exact")):
+        answers = [crankwork("run", name, *option) for name in ("my.toml", "again.toml")]
+        assert [answer.code for answer in answers] == [0, 0]
+        first, second = (answer.out.partition("\n")[2] for answer in answers)
+        assert first == second
+    Path("whole.toml").write_text(template("whole-engine"), "utf-8")
+    out = crankwork("check", "whole.toml", "--expand").out
+    assert "not written out" not in out
+    assert tomllib.loads(out)["chambers"]["cylinder_1"]["cycle"]["kind"] == "petrol"
 
 
 def test_a_file_is_written_out_alone(check_refusals):

@@ -17,7 +17,7 @@ from crankwork.errors import CrankworkError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import Refusal
 from crankwork.machine import Machine
-from crankwork.method import Method
+from crankwork.method import EXACT, Method
 
 _IN_JOINTS = ("joint_force", "normal_force")
 
@@ -76,28 +76,41 @@ def analyse(
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method
     used = method or machine.method
-    # a linkage with the structure of an engine is analysed as the engine that it is
-    form = _as_engine(machine) if machine.linkage is not None and machine.chambers else None
-    if not used.is_exact and (form or machine).lengths is None:
-        raise MethodError(f"method {used.name} exists for a slider-crank only; use exact")
-    results = _analysed(machine, grid, method, progress) if form is None else _relocated(form, machine, grid, method)
+    engine = _engine_of(machine, used)
+    results = _analysed(engine or machine, grid, method, progress)
     stated = tuple(Notice(*notice) for notice in machine.notices)
-    other = partial(_in_other_form, machine, results.grid, used, is_engine=form is not None)
-    return replace(results, notices=(*stated, *results.notices), in_other_form=other)
+    other = partial(_in_other_form, machine, results.grid, used, is_engine=engine is not None)
+    results = replace(results, notices=(*stated, *results.notices), in_other_form=other)
+    return results if engine is None else _located(results, machine)
 
 
-def _as_engine(machine: Machine) -> Machine | None:
-    # few linkages are engines
-    from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+def _engine_of(machine: Machine, method: Method) -> Machine | None:
+    """Return the engine that a linkage with gas is analysed as, None for other machines.
 
-    return engine_form(machine)
+    MethodError if the method is approximate, which only engines have, and the machine is none.
+    """
+    if machine.lengths is not None or (method.is_exact and not machine.chambers):
+        return None
+    # most linkages are no engines
+    from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
+
+    form = engine_form_or_reason(machine, has_all=True)
+    if isinstance(form, Machine):
+        return form
+    if method.is_exact:
+        return None
+    raise MethodError(Refusal("method_of_engines", method=method.name, reason=form.message))
 
 
-def _relocated(form: Machine, machine: Machine, grid: CrankGrid | None, method: Method | None) -> Results:
-    """Return the results of the engine form of a linkage, with the paths of the linkage."""
+def is_engine(machine: Machine) -> bool:
+    """Return whether a machine is analysed as an engine by every method."""
+    return machine.lengths is not None or _engine_of(machine, EXACT) is not None
+
+
+def _located(results: Results, machine: Machine) -> Results:
+    """Return results of the engine that a linkage is, their inputs where the linkage states them."""
     from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
 
-    results = _analysed(form, grid, method, None)
     relocate(results.memory.values(), linkage_paths(machine))
     return results
 
@@ -110,10 +123,13 @@ def _in_other_form(machine: Machine, grid: CrankGrid, method: Method, *, is_engi
     if is_engine:
         return _analysed(machine, grid, None, None) if method.is_exact else None
     form = None if machine.other_form is None else machine.other_form(replace(machine, method=method))
-    if form is not None:
-        return _analysed(form, grid, None, None)
-    form = None if machine.linkage is None else _as_engine(machine)
-    return None if form is None else _relocated(form, machine, grid, None)
+    if form is not None or machine.linkage is None:
+        return None if form is None else _analysed(form, grid, None, None)
+    # few linkages are engines
+    from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+
+    form = engine_form(machine)
+    return None if form is None else _located(_analysed(form, grid, None, None), machine)
 
 
 def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:
@@ -154,6 +170,9 @@ def columns_only(machine: Machine) -> Results:
     """
     if machine.transfer is not None or machine.turning is not None:
         return analyse(machine)
+    engine = None if machine.method.is_exact else _engine_of(machine, machine.method)
+    if engine is not None:
+        return _located(columns_only(engine), machine)
     if machine.linkage is not None:
         from crankwork.analysis.linkage import linkage_columns  # noqa: PLC0415 - loaded where it is needed
 
@@ -168,7 +187,7 @@ def columns_only(machine: Machine) -> Results:
 
 def value_only(machine: Machine, key: str) -> Results:
     """Return results that give a single value, and maybe no others; they take a part of the time of `analyse`."""
-    if machine.linkage is None or machine.transfer is not None or machine.turning is not None:
+    if machine.linkage is None or not machine.method.is_exact:
         return analyse(machine)
     from crankwork.analysis.linkage import linkage_value  # noqa: PLC0415 - loaded where it is needed
 

@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from crankwork.formula.known import Known
 from crankwork.loads.chamber import Chamber
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.locale import Refusal
 from crankwork.machine import Gas, Machine
 from crankwork.mechanism.cells import Cell, NoCellsError
+
+if TYPE_CHECKING:
+    from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 # of the size of a value, where rounding ends
 _SAME = 1e-11
@@ -72,17 +76,11 @@ def gas_of(name: str, chamber: Chamber, cycle: float, crank_end: Chamber | None)
         ambient=chamber.ambient,
         names_ambient=chamber.names_ambient,
         back_pressure=behind,
-        calculated=_calculated(chamber),
+        calculated=cast("CalculatedPressure | None", chamber.calculated),
         factor=chamber.factor,
         factor_path=f"{path}.pressure_factor",
         path=path,
     )
-
-
-def _calculated(chamber: Chamber) -> Any:  # noqa: ANN401 - a release of heat has both protocols
-    if chamber.released is not None and not hasattr(chamber.released, "pressure"):
-        raise NoCellsError(Refusal("cells_chamber", name=type(chamber.released).__name__))
-    return chamber.released
 
 
 def is_close(value: float, other: float) -> bool:
@@ -92,7 +90,11 @@ def is_close(value: float, other: float) -> bool:
 
 def nearly_equal(value: Any, other: Any) -> bool:  # noqa: ANN401 - numbers, and records of them
     """Return whether two values are the same but for rounding, and for where each is stated."""
+    if value is other:
+        return True
     match value:
+        case Known():
+            return isinstance(other, Known) and is_close(value.value, other.value)
         case float() | int() if isinstance(other, float | int):
             return is_close(value, other)
         case np.ndarray():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from crankwork.analysis.equal_cells import equal_cells
+from crankwork.analysis.gas import cycle_values
 from crankwork.analysis.linkage_memory import speed_of, turning_of
 from crankwork.analysis.solved import SolvedLinkage
 from crankwork.dynamics.reduction import reduced_torque
@@ -65,7 +66,15 @@ def gas_summary(solved: SolvedLinkage) -> dict[str, Known]:
         found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
     if chambers:
         found["indicated_power"] = total("indicated_power", [found[f"indicated_power.{name}"] for name in chambers])
-    return found | _delivery(solved, found)
+    return found | _cycle(solved) | _delivery(solved, found)
+
+
+def _cycle(solved: SolvedLinkage) -> dict[str, Known]:
+    """Return the values of the first calculated cycle; of a crankshaft its engine form tells them."""
+    calculated = solved.filling.calculated
+    if not calculated or solved.machine.shaft is not None:
+        return {}
+    return cycle_values(next(iter(calculated.values())).memory)
 
 
 def _per_time(solved: SolvedLinkage, name: str) -> Callable[[Known], Known]:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TypeVar
 
 import numpy as np
 
 from crankwork.analysis import origins
 from crankwork.analysis.forces import COLUMNS, FORCES
-from crankwork.analysis.gas import work_of_gas
+from crankwork.analysis.gas import cycle_values, work_of_gas
 from crankwork.analysis.motion import HARMONICS, KINEMATICS
 from crankwork.analysis.reduction import REDUCTION
 from crankwork.analysis.results import Results
@@ -33,12 +32,8 @@ from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.machine import Machine
 from crankwork.method import Method
 from crankwork.quantities.renamed import MOVED
-from crankwork.working_cycle.calculated_cycle import Calculated
 
-_Value = TypeVar("_Value")
 _CHECK_STEP = 1.0
-# what a cycle is calculated with or checked by, and the rest of a summary says in its own way
-_NOT_SHOWN = ("first_law_residual", "rotational_speed")
 _MOVING = ("piston_velocity", "piston_acceleration")
 _PUSHING = ("gas_pressure", "inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
 _WRONG_FORCES = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
@@ -72,8 +67,12 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     calculated = solved.space.calculated if solved.space is not None else None
     summary = {key: known.value for key, known in found.items()}
     if calculated is not None:
-        summary |= _cycle_values(calculated.values)
-    memory = ({} if calculated is None else _cycle_memory(calculated)) | _by_own_keys(machine, solved.memory) | found
+        summary |= cycle_values(calculated.values)
+    memory = (
+        ({} if calculated is None else {**cycle_values(calculated.memory), **calculated.peak})
+        | _by_own_keys(machine, solved.memory)
+        | found
+    )
     if calculated is not None and "geometric_compression_ratio" in calculated.memory:
         # that of the closed cylinder, as the summary has it
         memory["compression_ratio"] = calculated.memory["compression_ratio"]
@@ -183,18 +182,6 @@ def _forces(solved: SolvedCylinder, over: OverCycle) -> dict[str, Known]:
                 found |= stated.passed(inlet_flow(found["induced_volume"], memory["speed"], cycle), power)
     found["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
     return found
-
-
-def _cycle_memory(calculated: Calculated) -> dict[str, Known]:
-    """Return what a calculation of the cycle remembers, with what stands behind the greatest pressure."""
-    return {**_cycle_values(calculated.memory), **calculated.peak}
-
-
-def _cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
-    """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
-    own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
-    shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
-    return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}
 
 
 def _checks(

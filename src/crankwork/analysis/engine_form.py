@@ -21,7 +21,7 @@ from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads.chamber import Chamber
 from crankwork.loads.weight import Weight
 from crankwork.locale import Refusal
-from crankwork.machine import Bearings, Cylinder, Engine, Gas, Machine, Shaft
+from crankwork.machine import Bearings, Cylinder, Drive, Engine, Gas, Machine, Shaft
 from crankwork.mechanism.cells import Cell, CrankCells, NoCellsError, Part, crank_cells
 from crankwork.mechanism.mechanism import slider_crank
 
@@ -35,16 +35,21 @@ _SAME_ANGLE = 1e-9
 def engine_form(machine: Machine) -> Machine | None:
     """Return a linkage of crank, rods and pistons as the engine that it is, None if it is another machine.
 
+    The engine is without friction and motor.
+
     The crank angle counts as in the linkage: from the axis of cylinder 1.
     """
     form = engine_form_or_reason(machine)
     return form if isinstance(form, Machine) else None
 
 
-def engine_form_or_reason(machine: Machine) -> Machine | Problem:
-    """Return a linkage as the engine that it is, or why it is none, with the key in the description that shows it."""
+def engine_form_or_reason(machine: Machine, *, has_all: bool = False) -> Machine | Problem:
+    """Return a linkage as the engine that it is, or why it is none, with the key in the description that shows it.
+
+    `has_all`: whether the engine must have everything that the linkage has, friction and motor too.
+    """
     try:
-        _check_expressible(machine)
+        _check_expressible(machine, has_all=has_all)
         crank = crank_cells(machine.mechanism)
         return _Form(machine, crank, machine.shaft or Shaft()).machine()
     except NoCellsError as error:
@@ -53,7 +58,7 @@ def engine_form_or_reason(machine: Machine) -> Machine | Problem:
         return Problem("", error.args[0])
 
 
-def _check_expressible(machine: Machine) -> None:
+def _check_expressible(machine: Machine, *, has_all: bool) -> None:
     """Raise for what an engine has no tables for."""
     if machine.linkage is None or machine.transfer is not None or machine.turning is not None:
         raise NoCellsError(Refusal("cells_driver"))
@@ -61,15 +66,18 @@ def _check_expressible(machine: Machine) -> None:
     if partial or machine.mechanism.passages:
         raise NoCellsError(Refusal("cells_turn"))
     drive = machine.drive
-    unsupported = {
-        "friction": machine.friction,
+    unsupported: dict[str, object] = {
         "charges": machine.charges,
         "links": machine.redundant,
-        "transient": machine.transient,
-        "motor": drive.motor,
-        "efficiency": drive.chain or drive.efficiency != 1,
         "loads": [load for load in machine.loads if not isinstance(load, Weight)] or len(machine.loads) > 1,
     }
+    if has_all:
+        unsupported |= {
+            "friction": machine.friction,
+            "transient": machine.transient,
+            "motor": drive.motor,
+            "efficiency": drive.chain or drive.efficiency != 1,
+        }
     for table, stated in unsupported.items():
         if stated:
             raise NoCellsError(Refusal("cells_unsaid", table=table))
@@ -115,7 +123,8 @@ class _Form:
             reciprocating_share=self._shaft.reciprocating_share,
             balance_shafts=self._shaft.balance_shafts,
         )
-        drive = replace(machine.drive, inertia=machine.drive.inertia + inertia)
+        wheel = machine.drive
+        drive = Drive(inertia=wheel.inertia + inertia, fluctuation=wheel.fluctuation, wheel=wheel.wheel)
         has_wheel = drive.wheel is not None or drive.fluctuation is not None or drive.inertia
         has_shaft = machine.shaft is not None and machine.shaft != Shaft(bore=machine.shaft.bore)
         has_shaft = has_shaft or engine.bearings != Bearings()
@@ -129,6 +138,8 @@ class _Form:
             gas=gases[0] if gases else None,
             has_gravity=bool(machine.loads),
             loads=(),
+            friction=(),
+            transient=None,
             chambers={},
             bearings=Bearings(),
             shaft=None,
@@ -395,23 +406,21 @@ class _Form:
             head, behind = self._chambers[cell.slider].head, self._chambers[cell.slider].crank_end
             if head is not None:
                 gas = gas_of(*head, layout.cycle, behind[1] if behind else None)
-                gas = replace(gas, delay=self._gas_delay(cell, head[1], place, layout.cycle))
+                gas = replace(gas, delay=self._gas_delay(head[1], place, layout.cycle))
                 gases.append(next((known for known in gases if nearly_equal(known, gas)), gas))
         return tuple(gases)
 
-    def _gas_delay(self, cell: Cell, chamber: Chamber, place: CylinderPlace, cycle: float) -> float:
+    @staticmethod
+    def _gas_delay(chamber: Chamber, place: CylinderPlace, cycle: float) -> float:
         """Return how much later than its own cycle the gas of a cylinder is. [deg]"""
         if chamber.pressure is not None:
             return 0.0
         later = chamber.delay - place.firing_angle - place.top
         later -= cycle * round(later / cycle)
-        if chamber.released is None and chamber.valves is None:
-            return later if abs(later) > _SAME_ANGLE else 0.0
-        # these begin at the nearest dead centre
-        if abs(later) > _TURN / 2:
-            key = f"shaft.firing.{cell.slider}" if cell.slider in self._shaft.firing else ""
-            raise NoCellsError(Refusal("cells_start", name=cell.slider), key)
-        return 0.0
+        if chamber.calculated is not None or chamber.valves is not None:
+            # these begin at the nearest dead centre
+            later = _TURN * round(later / _TURN) % cycle
+        return later if abs(later) > _SAME_ANGLE else 0.0
 
 
 def _two_masses(cells: Sequence[Cell]) -> CrankGearMasses:

@@ -89,6 +89,6 @@ def _is_later(first: Chamber, other: Chamber, delay: float) -> bool:
     if first.pressure is not None:
         return True
     # a release of heat or valves begin at a dead centre, of which there is one in a turn
-    if (first.valves is not None or first.released is not None) and first.cycle == _TURN:
+    if (first.valves is not None or first.calculated is not None) and first.cycle == _TURN:
         return True
     return abs(math.remainder(other.delay - first.delay - delay, first.cycle)) <= _SAME_ANGLE

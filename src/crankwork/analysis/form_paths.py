@@ -10,8 +10,10 @@ from crankwork.formula.known import Given, Known, in_order
 from crankwork.machine import Machine
 from crankwork.mechanism.cells import crank_cells
 
-# tables of an engine that a linkage does not have
-_OF_ENGINES = re.compile(r"(rod|piston|cylinder|gas|cycle|engine)[.\[]")
+# keys of an engine that a linkage does not have
+_OF_ENGINES = re.compile(r"(rod|piston|cylinder|gas|cycle|engine)[.\[]|crank\.stroke$")
+# of a key, and of the tables around it
+_ENDS = re.compile(r"(?=[.\[]|$)")
 
 
 def linkage_paths(machine: Machine) -> dict[str, str]:
@@ -58,14 +60,11 @@ def linkage_paths(machine: Machine) -> dict[str, str]:
 def _of_gas(chambers: CellChambers) -> dict[str, str]:
     paths = dict[str, str]()
     if chambers.head is not None:
-        name, chamber = chambers.head
-        head = f"chambers.{name}"
+        head = f"chambers.{chambers.head[0]}"
         paths |= {f"cylinder.{key}": f"{head}.{key}" for key in ("clearance_volume", "compression_ratio")}
         paths |= {"cylinder.bore": f"{head}.faces[1].bore", "gas.ambient": f"{head}.ambient"}
         paths |= dict.fromkeys(("gas.cycle", "cycle.cycle"), f"{head}.period")
-        paths["cycle.ambient_pressure"] = f"{head}.ambient"
-        if chamber.valves is not None:
-            paths["gas.valves"] = f"{head}.valves"
+        paths |= {"cycle.ambient_pressure": f"{head}.ambient", "gas.valves": f"{head}.valves"}
     if chambers.crank_end is not None:
         behind = f"chambers.{chambers.crank_end[0]}"
         paths |= {
@@ -80,6 +79,6 @@ def relocate(traced: Iterable[Known], paths: Mapping[str, str]) -> None:
     for known in in_order(traced):
         node = known.node
         if isinstance(node, Given) and _OF_ENGINES.match(node.path):
-            table = node.path.partition(".valves.")
-            is_of_valves = bool(table[2]) and "gas.valves" in paths
-            node.path = f"{paths['gas.valves']}.{table[2]}" if is_of_valves else paths.get(node.path, "")
+            tables = (node.path[: dot.start()] for dot in reversed([*_ENDS.finditer(node.path)]))
+            table = next((table for table in tables if table in paths), "")
+            node.path = f"{paths[table]}{node.path.removeprefix(table)}" if table else ""

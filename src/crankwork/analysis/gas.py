@@ -5,18 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import partial
+from typing import TypeVar
 
 from crankwork.analysis import origins
 from crankwork.analysis.motion import MovingCylinder
 from crankwork.analysis.solved import SolvedCylinder, WorkingSpace
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Found, Known, absent, given
+from crankwork.formula.known import Found, Known, absent, delayed, given
 from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
 from crankwork.loads.gas import gauge_pressure
 from crankwork.loads.pressure import at_angle, polytrope_origin, remembered_pressure
 from crankwork.loads.retold import DiagramInput
 from crankwork.loads.valves import StatedValves
+
+_Value = TypeVar("_Value")
+# what a cycle is calculated with or checked by, and the rest of a summary says in its own way
+_NOT_SHOWN = ("first_law_residual", "rotational_speed")
 
 
 def space_memory(solved: SolvedCylinder, moving: MovingCylinder) -> dict[str, Known]:
@@ -51,7 +56,11 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
     memory = moving.memory
     area = memory["piston_area"]
     volume = gas.cylinder_volume(memory["clearance_volume"], area, memory["piston_displacement"])
-    read = remembered_pressure(space.diagram, volume, _path(solved), _retold(solved, space, memory, volume))
+    of_cycle = remembered_pressure(space.diagram, volume, _path(solved), _retold(solved, space, memory, volume))
+    read, stated_gas = of_cycle, solved.machine.gas
+    if stated_gas is not None and stated_gas.calculated is not None:
+        # a calculated cycle begins at 0, whole turns earlier than its chamber
+        read = delayed(of_cycle, stated_gas.delay, stated_gas.cycle, of_cycle.key)
     pressure = read.named("gas_pressure")
     if space.ambient:
         pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
@@ -65,7 +74,7 @@ def gas_memory(solved: SolvedCylinder, space: WorkingSpace, moving: MovingCylind
         back = given("back_pressure", space.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
     found = {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
-    return found | _filling(solved, space, (read, volume))
+    return found | _filling(solved, space, (of_cycle, volume))
 
 
 def _filling(solved: SolvedCylinder, space: WorkingSpace, columns: tuple[Known, Known]) -> dict[str, Known]:
@@ -85,7 +94,7 @@ def _retold(
     if given_gas is None or given_gas.measured is not None:
         return None
     if given_gas.calculated is not None:
-        traced = getattr(given_gas.calculated, "traced", None)
+        traced = given_gas.calculated.traced
         return None if traced is None else partial(traced, volume, solved.stroke[1:])
     size = memory["clearance_volume"], memory["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
@@ -140,3 +149,10 @@ def _ends_of_polytropes(solved: SolvedCylinder, space: WorkingSpace, volume: Kno
                 end = gas.polytropic_pressure(p_1, V_1, V, exponent).named(f"diagram_pressure.{name}")
                 found |= {V.key: V, end.key: end}
     return found
+
+
+def cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
+    """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
+    own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
+    shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
+    return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}

@@ -107,7 +107,7 @@ class StatedChamber(NamedTuple):
     faces: tuple[tuple[str, int], ...]  # Sliding pieces and the senses in which they move
     owners: tuple[str, ...]  # What follows a key in the name of what belongs to each face
     ambient: float  # Pressure on the other side [Pa]
-    kind: str  # Where its pressure comes from: `charge`, `constant`, `valves`, `samples`, `heat` or `laws`
+    kind: str  # Where its pressure comes from: `charge`, `constant`, `valves`, `samples`, `heat`, `cycle` or `laws`
     names: Mapping[str, str]  # The `name` of the charge, the `file` of samples, or the `count` of laws
     amounts: Mapping[str, tuple[float, str]]  # Values and the units in which they are told [SI]
     factor: float = 1.0  # Of its gauge pressure
@@ -151,8 +151,9 @@ def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> StatedCham
         amounts = {"suction": (chamber.valves.suction, "MPa"), "discharge": (chamber.valves.discharge, "MPa")}
     elif chamber.measured is not None:
         kind, names = "samples", {"file": chamber.measured.file or "–"}
-    elif chamber.released is not None:
-        kind, amounts = "heat", {"cycle": (math.radians(chamber.cycle), "deg")}
+    elif chamber.calculated is not None:
+        kind = "cycle" if chamber.calculated.has_corners else "heat"
+        amounts = {"cycle": (math.radians(chamber.cycle), "deg")}
     else:
         kind, names = "laws", {"count": str(len(chamber.pieces))}
         law = machine.mechanism.driver.law

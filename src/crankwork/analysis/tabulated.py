@@ -82,7 +82,7 @@ def _memory(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str
         return Known(Table(Rows(degrees, values), "positions", operands=of), key)
 
     def part(body: TabulatedBody) -> Known:
-        path = f"transfer.bodies.{body.name}"
+        path = f"{table.of_bodies}.{body.name}"
         velocity = row(f"velocity_ratio.{body.name}", body.velocity_ratio, f"{path}.velocity")
         rotation = row(f"rotation_ratio.{body.name}", body.rotation_ratio, f"{path}.rotation")
         mass, inertia = (
@@ -113,7 +113,7 @@ def _change(table: TransferTable, grid: CrankGrid, inertia: Known, row: Callable
     """Return the derivative of the reduced inertia: of the document, by differences, or of all positions at once."""
     key = "reduced_inertia_1"
     if table.reduced_inertia_1 is not None:
-        return row(key, table.reduced_inertia_1, "transfer.reduced_inertia_1")
+        return row(key, table.reduced_inertia_1, f"{table.of_crank}.reduced_inertia_1")
     column, of = replay(inertia, grid), (inertia,)
     if table.differences == "spectral":
         return row(key, difference_derivative(grid.angle, column, "spectral"), of=of)
@@ -130,9 +130,9 @@ def _change(table: TransferTable, grid: CrankGrid, inertia: Known, row: Callable
 def _static(table: TransferTable, dynamic: Known, row: Callable[..., Known]) -> Known | None:
     """Return the static torque, given or left of the balancing torque."""
     if table.static_torque is not None:
-        return row("static_torque", table.static_torque, "transfer.static_torque")
+        return row("static_torque", table.static_torque, f"{table.of_crank}.static_torque")
     if table.balancing_torque is not None:
-        balancing = row("balancing_torque", table.balancing_torque, "transfer.balancing_torque")
+        balancing = row("balancing_torque", table.balancing_torque, f"{table.of_crank}.balancing_torque")
         left: Known = static_torque_of_balancing(balancing, dynamic)
         return left.named("static_torque")
     return None

@@ -39,7 +39,7 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
     lengths = _lengths(crank, rod, values["cylinder"], reader)
     cylinder = _cylinder(values["cylinder"])
     _check_clearance(cylinder, lengths, reader)
-    _check_inertia_ratio(method, lengths, reader)
+    check_inertia_ratio(method, lengths, reader)
     masses = _masses(values, lengths, cylinder, method, reader)
     gas = calculated.gas if calculated else build_gas(values.get("gas"), cylinder, reader, read_measured)
     table, flywheel = values["table"], values["flywheel"]
@@ -143,7 +143,8 @@ def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tu
     return radius, length, offset
 
 
-def _check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | None, reader: Reader) -> None:
+def check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | None, reader: Reader) -> None:
+    """Report a ratio for the inertia force with which a rod would not turn."""
     ratio = method.inertia_rod_ratio
     if ratio is None or method.is_exact or lengths is None:
         return

@@ -8,17 +8,23 @@ from collections.abc import Iterator, Mapping
 from crankwork.description.gas_build import ReadMeasured, build_diagram, build_valves, check_parts, with_valves
 from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values, no_effect_message
-from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfHeat
+from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfCycle
 from crankwork.locale import Refusal
 from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.linkage import Linkage
+from crankwork.mechanism.mechanism import Mechanism
 
 _OWN_PRESSURE = ("pressure", "points", "pieces", "measured", "valves", "cycle")
 _AMOUNTS = ("mean_pressure", "pressure", "mass")
 
 
 def build_chambers(
-    values: Values, linkage: Linkage | None, reader: Reader, read_measured: ReadMeasured
+    values: Values,
+    linkage: Linkage | None,
+    mechanism: Mechanism | None,
+    reader: Reader,
+    read_measured: ReadMeasured,
+    pi: float,
 ) -> tuple[dict[str, Chamber], dict[str, Charge]]:
     """Return chambers and charges by name; those with mistakes may be left out."""
     tables = {name: table for name, table in values["chambers"].items() if table is not None}
@@ -29,7 +35,12 @@ def build_chambers(
     holder = _holders(sealed, tables, reader)
     for name, charge in sealed.items():
         _check_charge(f"charges.{name}", charge, reader)
-    chambers = {}
+    chambers = dict[str, Chamber]()
+    pressures: Mapping[str, PressureOfCycle] = {}
+    if any("cycle" in table for table in tables.values()):
+        from crankwork.description.cycle_build import chamber_cycles  # noqa: PLC0415 - few chambers have one
+
+        tables, pressures = chamber_cycles(tables, mechanism, values, reader, pi)
     for name, table in tables.items():
         path = f"chambers.{name}"
         faces = tuple(_faces(path, table, sliders, reader))
@@ -50,27 +61,11 @@ def build_chambers(
             cycle=float(table["period"].split()[0]),
             delay=table.degrees("delay") or 0.0,
             factor=table["pressure_factor"],
-            released=_released(table, faces, values["crank"], path, reader),
             valves=valves,
+            calculated=pressures.get(name),
             **diagram._asdict(),
         )
     return chambers, {} if reader.problems else {name: _charge(charge) for name, charge in sealed.items()}
-
-
-def _released(
-    chamber: Values, faces: tuple[Face, ...], crank: Values, path: str, reader: Reader
-) -> PressureOfHeat | None:
-    """Return the release of heat that gives the pressure of a chamber, None without one."""
-    if "cycle" not in chamber or "speed" not in crank:
-        return None
-    from crankwork.description.cycle_build import build_heat_release  # noqa: PLC0415 - few chambers have one
-
-    if {"clearance_volume", "compression_ratio"}.isdisjoint(chamber):
-        if not reader.doubts(f"{path}.clearance_volume", f"{path}.compression_ratio"):
-            reader.complain(path, Refusal("gas_volume"))
-        return None
-    angle = float(chamber["period"].split()[0])
-    return build_heat_release(chamber["cycle"], angle, faces[0].bore, crank["speed"].value, path, reader)
 
 
 def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader) -> Iterator[Face]:

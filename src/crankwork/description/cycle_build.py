@@ -3,30 +3,41 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Mapping
 from typing import Any, Literal, NamedTuple, cast
 
 import numpy as np
 
+from crankwork.analysis.form_paths import relocate
+from crankwork.description.engine_keys import CYCLE
 from crankwork.description.kinds import MeasuredValue, Reader
 from crankwork.description.schema import Values
 from crankwork.errors import CrankworkError
+from crankwork.formula.known import given
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.extremes import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.locale import Refusal
 from crankwork.machine import Gas
+from crankwork.mechanism.cells import NoCellsError, crank_cells
+from crankwork.mechanism.mechanism import Mechanism
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, CalculatedPressure
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import FUELS, Fuel
 from crankwork.working_cycle.grinevetsky import grinevetsky
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
-from crankwork.working_cycle.pressures import CornerPressure, HeatReleasePressure
+from crankwork.working_cycle.pressures import CornerPressure, HeatReleasePressure, MisfirePressure
 from crankwork.working_cycle.rounding import Rounding, Timing
 
 _IDEAL = ("otto", "ideal-diesel", "dual")
+_TURN = 360.0
+# where a chamber states what an engine states elsewhere
+_PLACES = {
+    "cycle": "cycle", "cycle.cycle": "period", "cycle.ambient_pressure": "ambient", "cylinder.bore": "faces[1].bore",
+    "cylinder.compression_ratio": "compression_ratio",
+}  # fmt: skip
 
 
 class Cycle(NamedTuple):
@@ -36,53 +47,81 @@ class Cycle(NamedTuple):
     values: Values
 
 
+class CylinderSize(NamedTuple):
+    """What the calculation of a cycle takes from its cylinder, None or nothing where it is not known."""
+
+    ratio: float | None  # Largest over smallest volume of the closed cylinder [-]
+    speed: float  # Of the crank [rad/s]
+    cylinders: int = 1
+    bore: float | None = None  # [m]
+    stroke: float | None = None  # [m]
+    lengths: SliderCrank | None = None  # Of crank and rod, without offset, in any unit
+    chamber: str = ""  # Path of its chamber in the description, in a linkage
+
+
 def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
     """Return the gas of a calculated cycle, or None after complaints."""
-    table = values["cycle"]
+    table, cylinder = values["cycle"], values["cylinder"]
     if "kind" not in table:
         return None
-    ratio = values["cylinder"]["compression_ratio"]
-    if ratio is None:
+    if cylinder["compression_ratio"] is None:
         if not reader.doubts("cylinder.compression_ratio", "cylinder.clearance_volume"):
             reader.complain("cylinder.compression_ratio", Refusal("cycle_ratio"))
         return None
     if reader.doubts("cycle", "crank.speed") or "speed" not in values["crank"]:
         return None
+    size = CylinderSize(
+        cylinder["compression_ratio"], values["crank"]["speed"].value, int(values["engine"]["cylinders"] or 1),
+        cylinder.si("bore"), _stroke_of_piston(values), _rod_of(values),
+    )  # fmt: skip
+    pressure = calculated_pressure(table, size, pi, "cycle", reader)
+    if pressure is None:
+        return None
+    if "power" in table and isinstance(pressure, CornerPressure):
+        values = _sized(values, pressure.cycle)
+    values = values.but(cylinder=cylinder_of(values["cylinder"], pressure))
+    angle, ambient = float(table["cycle"].split()[0]), table.si("ambient_pressure")
+    return Cycle(Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure), values)
+
+
+def cylinder_of(cylinder: Values, pressure: CalculatedPressure | None) -> Values:
+    """Return the values of a cylinder or chamber, with the geometric ratio if its ports take a part of the stroke."""
+    cycle = getattr(pressure, "cycle", None)
+    if cycle is None or "geometric_compression_ratio" not in cycle.memory:
+        return cylinder
+    return cylinder.but(compression_ratio=cycle.memory["geometric_compression_ratio"].value)
+
+
+def calculated_pressure(
+    table: Values, size: CylinderSize, pi: float, path: str, reader: Reader
+) -> CornerPressure | HeatReleasePressure | None:
+    """Return the pressure of a calculated cycle, or None after complaints; `path`: of its table."""
     try:
-        return _built(values, table, float(ratio), pi)
+        return _built(table, size, pi)
     except CrankworkError as error:
-        reader.complain(_blamed(error.args[0], table), error.args[0])
+        reader.complain(_blamed(error.args[0], table, path), error.args[0])
         return None
 
 
-def _blamed(message: str, table: Values) -> str:
-    """Return the key at the beginning of a message, or the table."""
+def _blamed(message: str, table: Values, path: str) -> str:
+    """Return the path of the key at the beginning of a message, or of the table."""
     word = message.split(maxsplit=1)[0].rstrip(",:") if message else ""
-    return f"cycle.{word}" if word in table else "cycle"
+    return f"{path}.{word}" if word in table else path
 
 
-def _built(values: Values, table: Values, ratio: float, pi: float) -> Cycle:
+def _built(table: Values, size: CylinderSize, pi: float) -> CornerPressure | HeatReleasePressure:
     kind = table["kind"]
     angle = float(table["cycle"].split()[0])
-    timing = _timing(table["timing"], angle)
-    ambient = table.si("ambient_pressure")
-    pressure: CalculatedPressure
     if kind == "wiebe":
-        bore, speed = values["cylinder"].si("bore"), values["crank"]["speed"].value
-        pressure = HeatReleasePressure(heat_release_data(table, angle, bore, speed))
+        return HeatReleasePressure(heat_release_data(table, angle, size))
+    timing = _timing(table["timing"], angle)
+    if kind in _IDEAL:
+        state = {"pressure": table.si("intake_pressure"), "temperature": table.si("intake_temperature")}
+        cycle = ideal_cycle(table.made(IdealData, compression_ratio=size.ratio, **state, angle=angle))
     else:
-        if kind in _IDEAL:
-            state = {"pressure": table.si("intake_pressure"), "temperature": table.si("intake_temperature")}
-            cycle = ideal_cycle(table.made(IdealData, compression_ratio=ratio, **state, angle=angle))
-        else:
-            cycle = grinevetsky(_data(values, table, ratio, angle, timing, pi))
-            values = _sized(values, cycle) if "power" in table else values
-        if "geometric_compression_ratio" in cycle.memory:
-            geometric = cycle.memory["geometric_compression_ratio"].value
-            values = values.but(cylinder=values["cylinder"].but(compression_ratio=geometric))
-        rounds = (table["corners"] or ("rounded" if "timing" in table else "sharp")) == "rounded"
-        pressure = CornerPressure(cycle, timing if rounds else None, _rounding(table))
-    return Cycle(Gas(cycle=angle, is_absolute=True, ambient=ambient, names_ambient=True, calculated=pressure), values)
+        cycle = grinevetsky(_data(table, size, angle, timing, pi))
+    rounds = (table["corners"] or ("rounded" if "timing" in table else "sharp")) == "rounded"
+    return CornerPressure(cycle, timing if rounds else None, _rounding(table))
 
 
 def _timing(table: Values, angle: float) -> Timing:
@@ -96,26 +135,23 @@ def _rounding(table: Values) -> Rounding:
     return Rounding(school=school, peak_angle=table["timing"].degrees("peak"), peak_level=table["peak_level"])
 
 
-def _data(values: Values, table: Values, ratio: float, angle: float, timing: Timing, pi: float) -> GrinevetskyData:
+def _data(table: Values, cylinder: CylinderSize, angle: float, timing: Timing, pi: float) -> GrinevetskyData:
     """Return the data of a calculation by Grinevetsky and Mazing."""
     size: dict[str, Any] = {}
     if "power" in table:
         size["rounds_size"] = True
-    else:
-        bore, stroke = values["cylinder"].si("bore"), _stroke_of_piston(values)
-        size |= {"bore": bore, "stroke": stroke} if bore and stroke else {}
-    loss, lost = table["mechanical_loss"], table["lost_stroke"]
-    if lost is None:
-        lost = _lost_stroke(values, timing) if angle == 360 else 0.0
+    elif cylinder.bore and cylinder.stroke:
+        size |= {"bore": cylinder.bore, "stroke": cylinder.stroke}
+    loss = table["mechanical_loss"]
     return table.made(
         GrinevetskyData,
-        compression_ratio=ratio,
-        rotational_speed=values["crank"]["speed"].value * 30 / math.pi,
+        compression_ratio=cylinder.ratio,
+        rotational_speed=cylinder.speed * 30 / math.pi,
         fuel=_fuel(table["fuel"]),
         strokes=4 if angle == 720 else 2,
-        cylinders=int(values["engine"]["cylinders"] or 1),
+        cylinders=cylinder.cylinders,
         mechanical_loss=None if not loss or None in loss else (loss[0] * 1e6, loss[1] * 1e6),
-        lost_stroke=lost,
+        lost_stroke=_lost_stroke(table, cylinder.lengths, timing, angle),
         pi=pi,
         **size,
     )
@@ -160,10 +196,14 @@ def _fuel(given: object) -> Fuel | None:
     return Fuel(parts[0], parts[1], parts[2], table["molar_mass"], table.si("heating_value"))
 
 
-def _lost_stroke(values: Values, timing: Timing) -> float:
-    """Return the share of the stroke after the last port has shut, from the ratio of rod and crank."""
-    closes, lengths = max(timing.intake_closes, timing.exhaust_closes), _rod_of(values)
-    if not closes or not turns_fully(lengths):
+def _lost_stroke(table: Values, lengths: SliderCrank | None, timing: Timing, angle: float) -> float:
+    """Return the share of the stroke after the last port has shut: stated, or from the ratio of rod and crank."""
+    closes = max(timing.intake_closes, timing.exhaust_closes) if angle == _TURN else 0.0
+    if table["lost_stroke"] is not None or not closes:
+        return float(table["lost_stroke"] or 0.0)
+    if lengths is None:
+        raise CrankworkError(Refusal("cycle_lost_stroke"))
+    if not turns_fully(lengths):
         return 0.0
     bottom = dead_centres(lengths)[1]
     x = piston_motion(lengths, CrankGrid.from_degrees(np.array([bottom + closes]))).piston.position[0]
@@ -178,21 +218,7 @@ def _sized(values: Values, cycle: CalculatedCycle) -> Values:
     return values.but(crank=crank.but(radius=radius), cylinder=cylinder.but(bore=bore))
 
 
-def build_heat_release(
-    table: Values, angle: float, bore: float | None, speed: float, chamber: str, reader: Reader
-) -> HeatReleasePressure | None:
-    """Return the pressure of a chamber by a release of heat, or None after complaints.
-
-    `angle`: of its cycle [deg]; `speed`: of the crank [rad/s]; `chamber`: where the description has it.
-    """
-    try:
-        return HeatReleasePressure(replace(heat_release_data(table, angle, bore, speed), chamber=chamber))
-    except CrankworkError as error:
-        reader.complain(f"{chamber}.cycle", error.args[0])
-        return None
-
-
-def heat_release_data(table: Values, angle: float, bore: float | None, speed: float) -> HeatReleaseData:
+def heat_release_data(table: Values, angle: float, size: CylinderSize) -> HeatReleaseData:
     """Return the data of a release of heat, with defaults for missing values."""
     timing = table["timing"]
     given: dict[str, Any] = {
@@ -221,13 +247,103 @@ def heat_release_data(table: Values, angle: float, bore: float | None, speed: fl
         raise CrankworkError(Refusal("cycle_heat_twice", names=", ".join(of_fuel)))
     if given["heat"] is None and not {"fuel_mass", "heating_value"} <= set(of_fuel):
         raise CrankworkError(Refusal("cycle_heat_missing"))
-    if bore is None:
+    if size.bore is None:
         raise CrankworkError(Refusal("cycle_bore_missing"))
     return HeatReleaseData(
-        bore=bore,
-        rotational_speed=speed * 30 / math.pi,
+        bore=size.bore,
+        rotational_speed=size.speed * 30 / math.pi,
         shut_pressure=table.si("intake_pressure"),
         shut_temperature=table.si("intake_temperature"),
         cycle=angle,
+        chamber=size.chamber,
         **{name: value for name, value in given.items() if value is not None},
     )
+
+
+def chamber_cycles(
+    tables: Mapping[str, Values], mechanism: Mechanism | None, values: Values, reader: Reader, pi: float
+) -> tuple[dict[str, Values], dict[str, CalculatedPressure]]:
+    """Return the values of chambers with calculated sizes, and calculated pressures by name; equal cycles share one."""
+    crank, sized, calculated = values["crank"], dict(tables), dict[str, CalculatedPressure]()
+    if "speed" not in crank or mechanism is None:
+        return sized, calculated
+    sliders = values["shaft"]["cylinders"]
+    lengths = _lengths(mechanism)
+    for names in _equal_cycles({name: table for name, table in tables.items() if "kind" in table["cycle"]}, sliders):
+        pressure = _of_cycle(names, tables, lengths, crank["speed"].value, reader, pi)
+        if pressure is not None:
+            calculated |= {name: _in_chamber(pressure, tables[name], name) for name in names}
+            sized |= {name: cylinder_of(tables[name], pressure) for name in names}
+    return sized, calculated
+
+
+def _in_chamber(
+    pressure: CornerPressure | HeatReleasePressure, chamber: Values, name: str
+) -> CornerPressure | HeatReleasePressure | MisfirePressure:
+    """Return the pressure of a calculated cycle in a chamber, that without combustion if it is motored."""
+    motored, around = chamber["cycle"]["motored"], None
+    if motored is None:
+        return pressure
+    if motored == "ambient":
+        ambient = chamber.but(pressures="absolute").si("ambient")
+        around = given("ambient_pressure", ambient, f"chambers.{name}.ambient")
+    return MisfirePressure(pressure, float(chamber["period"].split()[0]), around)
+
+
+def _equal_cycles(tables: Mapping[str, Values], sliders: list[str]) -> list[list[str]]:
+    """Return the names of chambers whose cycles state the same, in the order of their pieces on the shaft."""
+    groups = list[tuple[object, list[str]]]()
+    place = {slider: number for number, slider in enumerate(sliders)}
+    for name in sorted(tables, key=lambda name: place.get(tables[name]["slider"], len(place))):
+        table = tables[name]
+        cycle = {key: value for key, value in table["cycle"].items() if key != "motored"}
+        states = cycle, *(table[key] for key in ("bore", "area", "compression_ratio", "period", "ambient"))
+        equal = next((names for other, names in groups if other == states), None)
+        if equal is None:
+            groups.append((states, [name]))
+        else:
+            equal.append(name)
+    return [names for _, names in groups]
+
+
+def _lengths(mechanism: Mechanism) -> dict[str, SliderCrank]:
+    """Return crank, rod and offset of each piece that a rod of the crank moves."""
+    try:
+        crank = crank_cells(mechanism)
+    except NoCellsError:
+        return {}
+    return {
+        cell.slider: SliderCrank(crank.crank.radius, cell.length, cell.offset)
+        for cell in crank.cells
+        if not cell.master
+    }
+
+
+def _of_cycle(
+    names: list[str], tables: Mapping[str, Values], lengths: Mapping[str, SliderCrank], speed: float, reader: Reader,
+    pi: float,
+) -> CornerPressure | HeatReleasePressure | None:  # fmt: skip
+    """Return the calculated pressure of chambers whose cycles state the same, or None after complaints at each."""
+    chamber, pressure = tables[names[0]], None
+    known = [lengths[tables[name]["slider"]] for name in names if tables[name]["slider"] in lengths]
+    rod = known[0] if known and turns_fully(known[0]) else None
+    size = CylinderSize(
+        chamber["compression_ratio"], speed, len(names), chamber.si("bore"), None if rod is None else rod.stroke,
+        None if rod is None else rod._replace(offset=0.0), f"chambers.{names[0]}",
+    )  # fmt: skip
+    around = {"cycle": chamber["period"], "ambient_pressure": chamber.but(pressures="absolute")["ambient"]}
+    table = Values({**chamber["cycle"], **around}, CYCLE)
+    for name in names:
+        path = f"chambers.{name}"
+        if reader.doubts(path):
+            continue
+        if chamber["compression_ratio"] is None and table["kind"] != "wiebe":
+            reader.complain(f"{path}.compression_ratio", Refusal("cycle_ratio"))
+        elif {"clearance_volume", "compression_ratio"}.isdisjoint(chamber):
+            reader.complain(path, Refusal("gas_volume"))
+        else:
+            pressure = pressure or calculated_pressure(table, size, pi, f"{path}.cycle", reader)
+    if isinstance(pressure, CornerPressure):
+        places = {key: f"{size.chamber}.{place}" for key, place in _PLACES.items()}
+        relocate((*pressure.cycle.memory.values(), *pressure.cycle.corners), places)
+    return pressure

@@ -158,26 +158,17 @@ CYCLE = TableSpec("cycle", {
     "cycle_heat": KeySpec(Quantity(("energy",), 1e-6, 1e9), only=_OF_WIEBE),
     "fuel_mass": KeySpec(Quantity(("mass",), 1e-12, 1e3), only=_OF_WIEBE),
     "heating_value": KeySpec(Quantity(("specific_energy",), 1e6, 2e8), only=_OF_WIEBE),
-    "burning_efficiency": KeySpec(Number(0.1, 1.0), default=1.0, only=_OF_WIEBE),
+    "burning_efficiency": KeySpec(Number(0.1, 1.0), default=1.0, only={**_OF_WIEBE, "fuel_mass": ()}),
     "wall_temperature": KeySpec(_TEMPERATURE, only=_OF_WIEBE),
     "motored": KeySpec(Choice(("compressed", "ambient")), default="compressed"),
     "source": KeySpec(Text()),
 })  # fmt: skip
 
-# of a chamber, which states period and ambient pressure itself
-HEAT_RELEASE = TableSpec("cycle", {
-    "kind": KeySpec(Choice(("wiebe",)), required=True),
-    **{
-        name: CYCLE.keys[name]
-        for name in (
-            "intake_pressure", "intake_temperature", "residual_pressure", "adiabatic_exponent", "timing",
-            "combustion_start", "combustion_duration", "shape", "fuel_mass", "heating_value", "wall_temperature",
-            "source",
-        )
-    },
-    "burning_efficiency": CYCLE.keys["burning_efficiency"]._replace(only={"fuel_mass": ()}),
-    # not required without combustion
-    "cycle_heat": KeySpec(Quantity(("energy",), 0.0, 1e9)),
+# of a chamber, which states period and ambient pressure itself; there is no combustion in one that states `motored`
+CHAMBER_CYCLE = CYCLE._replace(keys={
+    **{name: key for name, key in CYCLE.keys.items() if name not in ("cycle", "ambient_pressure")},
+    "cycle_heat": KeySpec(Quantity(("energy",), 0.0, 1e9), only=_OF_WIEBE),
+    "motored": CYCLE.keys["motored"]._replace(default=None),
 })  # fmt: skip
 
 # the keys of an engine that determine those of the linkage that it is, the likeliest first

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from crankwork.description.document import Description, load
+from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.kinds import Reader
 from crankwork.description.load_keys import LOADING
 from crankwork.description.locate import TomlPositions
-from crankwork.description.machine_file import file_keys, input_error, read, settings_of
+from crankwork.description.machine_file import file_keys, read, settings_of
 from crankwork.description.schema import TableSpec, Values
-from crankwork.description.shorthand import linkage_tables, linkage_values
+from crankwork.description.shorthand import given_motion_tables, linkage_tables, linkage_values
 from crankwork.description.written import key_text, toml, with_value
-from crankwork.locale import Language, Refusal, say
+from crankwork.locale import Language, say
 from crankwork.machine import Machine
 
 # tables that may be left out because all of them has a default
@@ -22,21 +23,17 @@ _ALWAYS = ("method", "table")
 
 
 def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language = "en") -> str:
-    """Return the text of a machine file with its shorthand and its defaults written out; these are marked by a comment.
-
-    InputError if the tables of a linkage cannot express it.
-    """
-    machine = read(path, overrides)
+    """Return the text of a machine file with shorthand and defaults written out; these are marked by a comment."""
+    read(path, overrides)
     description = load(path)
     for setting in settings_of(overrides):
         description[setting.key] = setting.value
-    values = description.values
-    if machine.turning is None and "chambers" not in file_keys(values).keys:
-        reader = Reader()
-        _check_expressible(machine, reader)
-        if reader.problems:
-            raise input_error(description.dump(), description.name, reader)
-        description = Description(_linkage_text(values, engine_of(description), language), description.name)
+    values, keys = description.values, file_keys(description.values)
+    if "transfer" in keys.keys:
+        columns = resolve_file_columns(values, keys, Reader(), Path(path).parent)
+        description = Description(_text(given_motion_tables(columns)), description.name)
+    elif "rod" in keys.keys:
+        description = Description(_text(linkage_tables(values, engine_of(description))), description.name)
     return _with_defaults(description, say("check.by_default", language))
 
 
@@ -53,20 +50,10 @@ def engine_of(description: Description) -> Machine:
     return Description(alone, description.name, folder=description.folder).machine()
 
 
-def _check_expressible(machine: Machine, reader: Reader) -> None:
-    """Report everything that no table of a linkage expresses."""
-    if machine.transfer is not None:
-        reader.complain("transfer", Refusal("unsaid_transfer"))
-    if machine.transfer is None and not machine.method.is_exact:
-        reader.complain("method.kinematics", Refusal("unsaid_method"))
-
-
-def _linkage_text(values: Mapping[str, Any], machine: Machine, language: Language) -> str:
-    """Return the tables of a linkage for a crank mechanism."""
-    # a release of heat is written out whole
-    is_lost = "cycle" in values and values["cycle"].get("kind") != "wiebe"
-    lines = [f"# {say('check.unsaid_cycle', language)}"] if is_lost else []
-    for key, value in linkage_tables(values, machine):
+def _text(tables: Iterable[tuple[str, Any]]) -> str:
+    """Return keys and tables as the text of a file."""
+    lines = list[str]()
+    for key, value in tables:
         for table in value if isinstance(value, list) else [value]:
             if isinstance(table, Mapping):
                 lines += ["", f"[[{key}]]" if isinstance(value, list) else f"[{key}]"]

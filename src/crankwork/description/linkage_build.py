@@ -10,7 +10,7 @@ from typing import Any
 
 from crankwork.analysis.chambers import traced_linkage
 from crankwork.analysis.reach import reachable
-from crankwork.description.build import build_method, crank_speed
+from crankwork.description.build import build_method, check_inertia_ratio, crank_speed
 from crankwork.description.chamber_build import build_chambers
 from crankwork.description.drive_build import read_drive
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
@@ -67,10 +67,8 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     for problem in problems:
         reader.complain(problem.key or "links", problem.message)
     method = build_method(values["method"], reader)
-    if not method.is_exact:
-        reader.complain("method.kinematics", Refusal("linkage_exact"))
     loads = _loads(values, linkage, reader)
-    chambers, charges = build_chambers(values, linkage, reader, read_measured)
+    chambers, charges = build_chambers(values, linkage, mechanism, reader, read_measured, method.pi)
     if "driver" in values:
         check_loads(values, reader)
         check_gas(values, reader)
@@ -112,8 +110,25 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
         stated=stated_numbers(values),
     )
     check_friction(machine, reader)
+    _check_method(machine, reader)
     moving = checked_motion(machine, crank, reader)
     return moving if moving is not None and _fits(moving, values, reader) else None
+
+
+def _check_method(machine: Machine, reader: Reader) -> None:
+    """Report an approximate method of a linkage that is no engine."""
+    method = machine.method
+    if method.is_exact:
+        return
+    # most linkages are computed exactly
+    from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
+
+    form = engine_form_or_reason(machine, has_all=True)
+    if not isinstance(form, Machine):
+        message = Refusal("method_of_engines", method=method.name, reason=form.message)
+        reader.complain("method.kinematics", message)
+    else:
+        check_inertia_ratio(method, form.lengths, reader)
 
 
 def _drive(values: Values, method: Method, reader: Reader) -> Drive:
@@ -186,23 +201,32 @@ def build_tabulated(values: Values, reader: Reader) -> Machine | None:
     drive = read_drive(values, reader)
     if reader.problems:
         return None
-    transfer = values["transfer"]
-    angles = _plain(transfer["angles"])
+    if "transfer" in values:
+        reduced = values["transfer"]
+        positions, stated_bodies, places = reduced, reduced["bodies"], ("transfer", "transfer.bodies", "transfer")
+    else:
+        reduced, positions, stated_bodies = (values[name] for name in ("crank", "table", "links"))
+        places = ("table", "links", "crank")
+    of_table, of_bodies, of_crank = places
+    angles = _plain(positions["angles"])
     count = len(angles)
     if any(after <= before for before, after in itertools.pairwise(angles)) or angles[-1] - angles[0] > _REVOLUTION:
-        reader.complain("transfer.angles", Refusal("table_rises"))
-    if not transfer["bodies"]:
-        reader.complain("transfer.bodies", Refusal("bodies_empty"))
-    bodies = [_body(name, body, count, reader) for name, body in transfer["bodies"].items()]
+        reader.complain(f"{of_table}.angles", Refusal("table_rises"))
+    if not stated_bodies:
+        reader.complain(of_bodies, Refusal("bodies_empty"))
+    bodies = [_body(name, body, f"{of_bodies}.{name}", count, reader) for name, body in stated_bodies.items()]
     optional: dict[str, tuple[float, ...] | None] = {}
     for key in ("reduced_inertia_1", "static_torque", "balancing_torque"):
-        column = tuple(_plain(transfer[key])) if key in transfer else None
+        column = tuple(_plain(reduced[key])) if key in reduced else None
         if column is not None:
-            _check_count(f"transfer.{key}", column, count, reader)
+            _check_count(f"{of_crank}.{key}", column, count, reader)
         optional[key] = column
     if reader.problems:
         return None
-    table = TransferTable(tuple(angles), tuple(bodies), differences=transfer["differences"] or "central", **optional)
+    table = TransferTable(
+        tuple(angles), tuple(bodies), differences=reduced["differences"] or "central", **optional, of_bodies=of_bodies,
+        of_crank=of_crank,
+    )  # fmt: skip
     return Machine(
         Mechanism(Crank(radius=0.0), ()),
         speed=crank_speed(values["crank"]["speed"], method),
@@ -214,13 +238,13 @@ def build_tabulated(values: Values, reader: Reader) -> Machine | None:
     )
 
 
-def _body(name: str, body: Values, count: int, reader: Reader) -> TabulatedBody:
+def _body(name: str, body: Values, path: str, count: int, reader: Reader) -> TabulatedBody:
     """Return a body of a table of transfer functions; report columns of a wrong length."""
     columns = {key: tuple(_plain(body[key])) for key in ("velocity", "rotation") if key in body}
     for key, column in columns.items():
-        _check_count(f"transfer.bodies.{name}.{key}", column, count, reader)
+        _check_count(f"{path}.{key}", column, count, reader)
     if not columns:
-        reader.complain(f"transfer.bodies.{name}", Refusal("body_still"))
+        reader.complain(path, Refusal("body_still"))
     still = (0.0,) * count
     return TabulatedBody(
         name, body.si("mass"), body.si("inertia"),

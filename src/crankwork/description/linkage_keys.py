@@ -7,7 +7,7 @@ from typing import get_args
 
 from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description import document_keys
-from crankwork.description.engine_keys import BALANCE, BEARINGS, FLYWHEEL, HEAT_RELEASE
+from crankwork.description.engine_keys import BALANCE, BEARINGS, CHAMBER_CYCLE, FLYWHEEL
 from crankwork.description.keys import (
     AMBIENT,
     DIAGRAM,
@@ -144,7 +144,7 @@ _CHAMBER = TableSpec("chamber", {
     **DIAGRAM,
     "valves": KeySpec(PIPED_VALVES, instead_of=(*DIAGRAM, "pressure", "cycle"),
                   only={"pressures": ("absolute",), "period": ("360 deg",)}),
-    "cycle": KeySpec(HEAT_RELEASE, instead_of=("points", "pieces", "measured", "pressure")),
+    "cycle": KeySpec(CHAMBER_CYCLE, instead_of=("points", "pieces", "measured", "pressure")),
     "delay": KeySpec(_TURN),
     "temperature": _TEMPERATURE,
 })  # fmt: skip
@@ -228,17 +228,21 @@ _BODY = TableSpec("body", {
     "rotation": KeySpec(ListOf(Number(-1e3, 1e3), fewest=2, from_file=True)),
 })  # fmt: skip
 _TORQUES = ListOf(TORQUE, fewest=2, from_file=True)
-_TRANSFER = TableSpec("transfer", {
-    "file": KeySpec(Text(1000)),
-    "sheet": SHEET,
-    "angles": KeySpec(ListOf(_TURN, fewest=2, from_file=True), required=True),
-    "bodies": KeySpec(MapOf(_BODY), required=True),
+_POSITIONS = KeySpec(ListOf(_TURN, fewest=2, from_file=True), required=True)
+_REDUCED = {
     "reduced_inertia_1": KeySpec(ListOf(Quantity(("inertia",), -1e9, 1e9), fewest=2, from_file=True),
                              instead_of=("differences",)),
     "differences": KeySpec(Choice(("forward", "central", "spectral")), default="central",
                        instead_of=("reduced_inertia_1",)),
     "static_torque": KeySpec(_TORQUES, instead_of=("balancing_torque",)),
     "balancing_torque": KeySpec(_TORQUES, instead_of=("static_torque",)),
+}  # fmt: skip
+_TRANSFER = TableSpec("transfer", {
+    "file": KeySpec(Text(1000)),
+    "sheet": SHEET,
+    "angles": _POSITIONS,
+    "bodies": KeySpec(MapOf(_BODY), required=True),
+    **_REDUCED,
 })  # fmt: skip
 
 TRANSFER_FILE = TableSpec("file", {
@@ -248,4 +252,12 @@ TRANSFER_FILE = TableSpec("file", {
     "transfer": KeySpec(_TRANSFER, required=True),
     "efficiency": KeySpec(EFFICIENCY),
     "method": KeySpec(METHOD),
+})  # fmt: skip
+
+# of links whose motion is given, which transfer functions as a document prints them are short for
+GIVEN_MOTION_FILE = TRANSFER_FILE._replace(keys={
+    **{name: key for name, key in TRANSFER_FILE.keys.items() if name != "transfer"},
+    "crank": KeySpec(TableSpec("transfer", {"speed": KeySpec(SPEED, required=True), **_REDUCED}), required=True),
+    "links": KeySpec(MapOf(_BODY), required=True),
+    "table": KeySpec(TableSpec("transfer", {"angles": _POSITIONS}), required=True),
 })  # fmt: skip

@@ -21,7 +21,7 @@ from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, SIZED_FILE
 from crankwork.description.kinds import Reader, is_one_line
-from crankwork.description.linkage_keys import DRIVEN_FILE, LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.linkage_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.load_keys import LOADING
 from crankwork.description.locate import locate
 from crankwork.description.measured_build import read_measured
@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 
 TEMPLATES = "description/templates"
 _ENGINES = (MACHINE_FILE, SIZED_FILE)
-_LOADED, _LINKAGES = (LOADED_FILE, LOADED_SIZED_FILE), (LINKAGE_FILE, DRIVEN_FILE, TRANSFER_FILE)
+_TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
+_LOADED, _LINKAGES = (LOADED_FILE, LOADED_SIZED_FILE), (LINKAGE_FILE, DRIVEN_FILE, *_TABULATED)
 FILES = (MACHINE_FILE, SIZED_FILE, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
@@ -174,12 +175,11 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
     notices += machine.engine.notices if machine.engine is not None else ()
-    notices += [("loaded_cycle", {"name": "cycle"})] if "cycle" in values else []
-    notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance") if name in values]
-    linkage = replace(linkage, stated=machine.stated, notices=tuple(notices))
     if "loads" in values:
         # the forces of the engine alone would be other ones
-        return linkage
+        notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance") if name in values]
+        return replace(linkage, stated=machine.stated, notices=tuple(notices))
+    linkage = replace(linkage, stated=machine.stated, notices=tuple(notices))
     return replace(linkage, other_form=functools.partial(_engine_form, linkage, machine))
 
 
@@ -201,7 +201,7 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path)
             build_tabulated,
         )
 
-        if keys is TRANSFER_FILE:
+        if keys in _TABULATED:
             return build_tabulated(read_values, reader)
         return build_linkage(read_values, reader, read_samples)
     return _solvable(build_machine(read_values, reader, read_samples), read_values, reader)
@@ -234,6 +234,8 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     """Return the keys for the kind of machine in a file: engine, linkage, tabulated linkage or shaft."""
     if "transfer" in values:
         return TRANSFER_FILE
+    if isinstance(table := values.get("table"), dict) and "angles" in table and "rod" not in values:
+        return GIVEN_MOTION_FILE
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
     if any(name in values for name in _OF_LINKAGES):
@@ -343,7 +345,7 @@ def _setting(text: str) -> Setting:
 
 def apply_override(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
     """Apply a setting to the values; return the keys that it excludes, which are removed."""
-    if setting.option == "--step" and "transfer" in values:
+    if setting.option == "--step" and file_keys(values) in _TABULATED:
         raise CrankworkError(Refusal("step_of_table"))
     *path, last = steps_of(setting.key)
     table: Any = values

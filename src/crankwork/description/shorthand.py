@@ -13,17 +13,16 @@ from crankwork.analysis.cylinders import whole_engine
 from crankwork.analysis.solved import SolvedCylinder
 from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
-from crankwork.description.engine_keys import HEAT_RELEASE, OF_LINKAGE
+from crankwork.description.engine_keys import CHAMBER_CYCLE, OF_LINKAGE
 from crankwork.description.load_keys import LOADING
+from crankwork.description.written import key_text
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.loads.indicator import DiagramPoint
 from crankwork.machine import Engine, Gas, Machine
 from crankwork.units import from_si
 from crankwork.working_cycle.pressures import MisfirePressure
 
 _DIAGRAM = ("points", "pieces", "measured", "valves")
 _COUNTED = ("pressures", "ambient")
-_OF_FUEL = ("fuel_mass", "heating_value", "burning_efficiency", "cycle_heat")
 # of sums of angles [deg]
 _ROUNDING = 1e-12
 _ALONE = CylinderPlace(number=1, axis=0.0, crankpin=0, throw=0, pin_angle=0.0, position=0.0, firing_angle=0.0)
@@ -107,7 +106,7 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     """Yield the keys of a linkage and their values, as a file states them."""
     loading = {key: values[key] for key in LOADING if key in values}
     # what is copied means what it means in its own format
-    yield "format", values.get("format", 1) if loading else 2
+    yield "format", values.get("format", 1) if loading or "cycle" in values else 2
     yield from ((key, values[key]) for key in ("title", "decimal_mark", "units") if key in values)
     if "document" in values:
         # the note of a linkage has other sections
@@ -128,17 +127,28 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     for mechanism in gears:
         yield from _chambers(values, mechanism)
     yield from loading.items()
-    if not loading:
-        # with loads of its own it is no engine whose bearings are known
+    if "loads" not in loading:
+        # with these it is no engine whose bearings are known
         yield from _of_shaft(values, machine, gears)
+    is_exact = machine.method.is_exact
     if "flywheel" in values:
         yield "flywheel", values["flywheel"]
-    method = {
-        key: value
-        for key, value in values.get("method", {}).items()
-        if key in ("kinematics", "pi", "gravity", "weights")
-    }
+    # the inertia of the rods says it of an exact method
+    method = {key: value for key, value in values.get("method", {}).items() if key != "rod" or not is_exact}
     yield from ((key, table) for key, table in (("method", method), ("table", values.get("table"))) if table)
+
+
+def given_motion_tables(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the keys of links whose motion is given, and their values, for a table of transfer functions."""
+    transfer, own = values["transfer"], ("file", "sheet", "angles", "bodies")
+    reduced = {key: value for key, value in transfer.items() if key not in own}
+    plain = {key: value for key, value in values.items() if not isinstance(value, Mapping)}
+    tables = {key: value for key, value in values.items() if key not in ("transfer", "crank", *plain)}
+    yield from {"format": values.get("format", 1), **plain}.items()
+    yield "crank", {**values["crank"], **reduced}
+    yield "table", {"angles": transfer["angles"]}
+    yield from ((f"links.{key_text(name)}", body) for name, body in transfer["bodies"].items())
+    yield from tables.items()
 
 
 def _of_shaft(
@@ -207,7 +217,9 @@ def _rod(gear: CrankMechanism, gears: list[CrankMechanism]) -> dict[str, Any]:
         return rod
     centre = masses.rod_small_end / mass * gear.length
     inertia = mass * centre * (gear.length - centre)
-    inertia += masses.rod_inertia_excess if machine.method.rod == "rigid" else 0.0
+    if machine.method.rod == "rigid" or not machine.method.is_exact:
+        # what an approximate method leaves out counts in its errors
+        inertia += masses.rod_inertia_excess
     return rod | {"mass": _unit(mass, "kg"), "centre": _place(centre), "inertia": _unit(inertia, "kg*m2")}
 
 
@@ -257,9 +269,11 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
         return
     face = {"slider": f"piston{gear.own}", "bore": _unit(cylinder.bore, "mm")}
     space: dict[str, Any] = {"sense": 1}
-    space |= {"compression_ratio": cylinder.compression_ratio} if cylinder.compression_ratio else {}
+    if cylinder.compression_ratio:
+        # that of a cylinder with ports is calculated from the stated one
+        space["compression_ratio"] = values["cylinder"].get("compression_ratio", cylinder.compression_ratio)
     space |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
-    stated = _calculated(values["cycle"], gear.solved, gas) if gas.calculated else _stated(values["gas"], gas)
+    stated = _calculated(values["cycle"], gas) if gas.calculated else _stated(values["gas"], gas)
     plain: dict[str, Any] = {key: value for key, value in stated.items() if isinstance(value, str)}
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
     if "pressure" not in stated:
@@ -284,34 +298,12 @@ def _stated(table: Mapping[str, Any], gas: Gas) -> dict[str, Any]:
     return counted | {key: value for key, value in diagram.items() if key in _DIAGRAM}
 
 
-def _calculated(stated: Mapping[str, Any], solved: SolvedCylinder, gas: Gas) -> dict[str, Any]:
-    """Return the diagram of a calculated cycle: its release of heat, or its points and laws."""
-    around = {"pressures": "absolute", "ambient": _unit(gas.ambient, "Pa")}
-    points, pieces = solved.space.calculated.drawn if solved.space and solved.space.calculated else ({}, ())
-    if not pieces:
-        released = {key: value for key, value in stated.items() if key in HEAT_RELEASE.keys}
-        if isinstance(gas.calculated, MisfirePressure):
-            released = {key: value for key, value in released.items() if key not in _OF_FUEL} | {"cycle_heat": "0 J"}
-        return around | {"cycle": released}
-    return around | {
-        "points": {name: _point(point) for name, point in points.items()},
-        "pieces": [_given(law=piece.law, points=list(piece.points), exponent=piece.exponent, reference=piece.reference)
-                   for piece in pieces],
-    }  # fmt: skip
-
-
-def _point(point: DiagramPoint) -> dict[str, Any]:
-    return _given(
-        angle=None if point.angle is None else f"{point.angle:.15g} deg",
-        stroke=point.stroke,
-        pressure=None if point.pressure is None else _unit(point.pressure, "Pa"),
-        volume=None if point.volume is None else _unit(point.volume, "cm3"),
-    )
-
-
-def _given(**values: Any) -> dict[str, Any]:  # noqa: ANN401 - as a file states them
-    """Return the values that are not None."""
-    return {key: value for key, value in values.items() if value is not None}
+def _calculated(stated: Mapping[str, Any], gas: Gas) -> dict[str, Any]:
+    """Return the cycle of a cylinder as stated, and whether it misfires."""
+    cycle = {key: value for key, value in stated.items() if key in CHAMBER_CYCLE.keys and key != "motored"}
+    if isinstance(gas.calculated, MisfirePressure):
+        cycle["motored"] = "compressed" if gas.calculated.ambient is None else "ambient"
+    return {"pressures": "absolute", "ambient": _unit(gas.ambient, "Pa"), "cycle": cycle}
 
 
 def _direction(degrees: float) -> complex:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -23,13 +23,37 @@ _TURN = 360.0
 ZERO_TOLERANCE = 1e-12
 
 
-class PressureOfHeat(Protocol):
-    """A release of heat that needs the volume of a chamber to give a pressure."""
+class CalculatedDiagram(Protocol):
+    """A diagram of a calculated cycle, in absolute pressure."""
 
-    def diagram_in(
+    @property
+    def diagram(self) -> IndicatorDiagram:
+        """The diagram."""
+
+    @property
+    def memory(self) -> Mapping[str, Known]:
+        """Single values by key, in the order of calculation."""
+
+    @property
+    def notices(self) -> tuple[tuple[str, Mapping[str, float | str]], ...]:
+        """What is to be known about it: codes and values."""
+
+
+class PressureOfCycle(Protocol):
+    """A calculation of the working cycle that needs the volume of a chamber to give a pressure."""
+
+    @property
+    def has_corners(self) -> bool:
+        """Whether its diagram has the corners of two strokes of one length, or of two pairs of them."""
+
+    def pressure(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-    ) -> tuple[IndicatorDiagram, tuple[tuple[str, Mapping[str, float | str]], ...]]:
-        """Return the diagram in absolute pressure, and notices about it."""
+    ) -> CalculatedDiagram:
+        """Return the diagram in a chamber."""
+
+    @property
+    def traced(self) -> Callable[[Known, tuple[float, float]], Known] | None:
+        """What gives the pressure as a traced column of volume and dead centres, None without formulas for it."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +71,8 @@ class Face:
 class Chamber:
     """A space whose walls move, and the gas in it. [m3], [Pa], [deg], [K]
 
-    Its pressure is constant, a diagram of points and pieces, that of valves, measured, that of a release of heat, or
-    that of a charge which is sealed in it.
+    Its pressure is constant, a diagram of points and pieces, that of valves, measured, that of a calculated
+    cycle, or that of a charge which is sealed in it.
     """
 
     faces: tuple[Face, ...]
@@ -65,7 +89,7 @@ class Chamber:
     measured: MeasuredPressure | None = None
     delay: float = 0.0  # Crank angle by which its diagram is delayed [deg]
     factor: float = 1.0  # Of the gauge pressure
-    released: PressureOfHeat | None = None  # A release of heat that gives its pressure
+    calculated: PressureOfCycle | None = None  # A calculation of the cycle that gives its pressure
     # Added to measured angles; step at which they are resampled
     angle_shift: float = 0.0
     resample: float | None = None

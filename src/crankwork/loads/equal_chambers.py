@@ -34,7 +34,8 @@ def with_equal_chambers(filling: ChamberGas, chambers: Mapping[str, Chamber], pa
             ]
     order = {name: number for number, name in enumerate(chambers)}
     forces.sort(key=lambda force: order[force.chamber])
-    return ChamberGas(_in_order(columns, chambers), _in_order(singles, chambers), tuple(forces), filling.notices)
+    columns, singles = _in_order(columns, chambers), _in_order(singles, chambers)
+    return filling._replace(columns=columns, singles=singles, forces=tuple(forces))
 
 
 def _in_order(values: Mapping[str, Known], chambers: Mapping[str, Chamber]) -> dict[str, Known]:

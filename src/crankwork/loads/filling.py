@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Found, Known, absent, given, is_known, total
+from crankwork.formula.known import Found, Known, absent, delayed, given, is_known, total
 from crankwork.formula.over_cycle import OverCycle
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -21,6 +21,7 @@ from crankwork.loads import gas
 from crankwork.loads.applied import AppliedLoads, combine_loads, force_on_slider
 from crankwork.loads.chamber import (
     ZERO_TOLERANCE,
+    CalculatedDiagram,
     Chamber,
     Charge,
     Face,
@@ -63,6 +64,7 @@ class ChamberGas(NamedTuple):
     singles: Mapping[str, Known]
     forces: tuple[GasForce, ...]
     notices: tuple[NoticeData, ...]
+    calculated: Mapping[str, CalculatedDiagram] = {}  # Calculated cycles by the names of their chambers
 
     def loads(self, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
         """Return the forces as loads, traced if the motion is traced, else as numbers."""
@@ -125,6 +127,7 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
     full_cycle = least_common(cycle_of(chambers), period)
     spaces = _spaces(chambers, motion, pi, law, period)
     pressures, works, own, all_notices = dict[str, Known](), dict[str, Known](), list[Known](), list[NoticeData]()
+    calculated = dict[str, CalculatedDiagram]()
     for name, charge in charges.items():
         pressure, values = _sealed(name, charge, chambers, spaces, period)
         own += values
@@ -134,8 +137,10 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
     works |= _works(pressures, spaces, period)
     for name, chamber in chambers.items():
         if name not in pressures:
-            pressures[name], works[name], notices = _of_its_own(name, chamber, spaces[name], full_cycle, law)
-            all_notices += notices
+            own_gas = _of_its_own(name, chamber, spaces[name], full_cycle, law)
+            pressures[name], works[name] = own_gas.pressure, own_gas.work
+            calculated |= {name: own_gas.calculated} if own_gas.calculated is not None else {}
+            all_notices += own_gas.notices
             if turning is not None and chamber.valves is not None and chamber.valves.has_pipes:
                 flow = Flow(*_rates(spaces[name]), *turning, pi)
                 piped = _behind_pipes(name, chamber, spaces[name], pressures[name], flow)
@@ -161,7 +166,7 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
         own += [*_sizes(space), works[name], mean]
     columns += [*(gas_force.force for gas_force in forces), *_rod_loads(forces)]
     once = {repr(notice): notice for notice in all_notices}
-    return ChamberGas(_by_key(columns), _by_key(own), tuple(forces), tuple(once.values()))
+    return ChamberGas(_by_key(columns), _by_key(own), tuple(forces), tuple(once.values()), calculated)
 
 
 def _rod_loads(forces: Sequence[GasForce]) -> Iterator[Known]:
@@ -308,10 +313,17 @@ def _distinct_angles(degrees: list[float], period: float) -> tuple[float, ...]:
     return tuple(angle for before, angle in itertools.pairwise([-1.0, *ordered]) if angle - before > _SAME_ANGLE)
 
 
-def _of_its_own(
-    name: str, chamber: Chamber, space: _Space, full_cycle: float, law: Law | None
-) -> tuple[Known, Known, list[NoticeData]]:
-    """Return the pressure of a chamber that is not part of a charge, its work over a cycle, and notices."""
+class _OwnGas(NamedTuple):
+    """The pressure of a chamber that is not part of a charge, its work over a cycle, and what else is known of it."""
+
+    pressure: Known
+    work: Known
+    notices: list[NoticeData]
+    calculated: CalculatedDiagram | None = None
+
+
+def _of_its_own(name: str, chamber: Chamber, space: _Space, full_cycle: float, law: Law | None) -> _OwnGas:
+    """Return the gas of a chamber that is not part of a charge."""
     key, path = f"diagram_pressure.{name}", f"chambers.{name}"
     notices: list[NoticeData] = []
     cycle = own_cycle(chamber, space.period)
@@ -319,13 +331,17 @@ def _of_its_own(
         pressure = given(key, chamber.pressure, f"{path}.pressure")
         # zero if the volume repeats
         done = chamber.factor * chamber.pressure * float(np.diff(space.volume_at(np.array([0.0, cycle])))[0])
-        return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices
+        work = Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}")
+        return _OwnGas(pressure, work, notices)
     if cycle > chamber.cycle:
         notices.append(("chamber_again", {"name": name, "cycle": chamber.cycle, "turns": round(space.period / _TURN)}))
-    # diagrams of heat or of valves begin at the nearest dead centre
-    counts = chamber.released is not None or chamber.valves is not None
-    start, bottom = _ends_of_stroke(space, chamber.delay) if counts else (0.0, 0.0)
-    begins = chamber.delay + start
+    # valves open by the volume, wherever the dead centre is
+    begins = chamber.delay if chamber.valves is None else chamber.delay + _ends_of_stroke(space, chamber.delay)[0]
+    # a calculated cycle comes later as that of a cylinder does, so that its jumps keep their sides
+    later = chamber.delay if chamber.calculated is not None else 0.0
+    volume = delayed(space.volume, -later, full_cycle, space.volume.key)
+    general_form: Callable[[], Known] | None = None
+    calculated: CalculatedDiagram | None = None
     # cycles at equal volumes share one diagram
     phases = [angle % space.period for angle in np.arange(0.0, full_cycle, chamber.cycle).tolist()]
     if chamber.measured is not None:
@@ -338,15 +354,17 @@ def _of_its_own(
         )
         notices += measured_notices
         diagrams = dict.fromkeys(phases, samples)
-    elif chamber.released is not None:
-        diagrams = {}
+    elif chamber.calculated is not None:
+        if chamber.calculated.has_corners and (len(space.dead_centres), space.period) != (2, _TURN):
+            raise DiagramError(f"{path}.cycle", Refusal("cycle_strokes", count=len(space.dead_centres)))
+        diagrams, centres = {}, _ends_of_stroke(space, begins)
         for phase in dict.fromkeys(phases):
-            diagrams[phase], heat_notices = chamber.released.diagram_in(
-                _volume_from(space, begins + phase),
-                _rate_from(space, begins + phase),
-                (0.0, (bottom - start) % space.period),
-            )
-            notices += heat_notices
+            volume_at, rate_at = _volume_from(space, begins + phase), _rate_from(space, begins + phase)
+            calculated = chamber.calculated.pressure(volume_at, rate_at, centres)
+            diagrams[phase] = calculated.diagram
+            notices += calculated.notices
+        if (traced := chamber.calculated.traced) is not None and len(diagrams) == 1:
+            general_form = partial(traced, volume, centres)
     else:
         diagrams = {phase: _solved(chamber, space, begins + phase, path) for phase in dict.fromkeys(phases)}
         notices += [
@@ -354,29 +372,26 @@ def _of_its_own(
             for phase, phase_diagram in diagrams.items()
             for point, angle, step in phase_diagram.jumps
         ]
-    diagram = _joined(diagrams, phases).later(begins)
-    stated = DiagramInput(
-        chamber.points,
-        chamber.pieces,
-        path,
-        space.volume,
-        space.clearance,
-        space.swept,
-        stated_valves(path, chamber),
-        begins,
-    )
-    retold = partial(stated.retold, diagram) if len(diagrams) == 1 and chamber.pieces else None
-    pressure = remembered_pressure(diagram, space.volume, path, retold, name)
+    diagram = _joined(diagrams, phases).later(begins - later)
+    if chamber.pieces and len(diagrams) == 1:
+        size, valves = (space.clearance, space.swept), stated_valves(path, chamber)
+        stated = DiagramInput(chamber.points, chamber.pieces, path, space.volume, *size, valves, begins)
+        general_form = partial(stated.retold, diagram)
+    pressure = delayed(remembered_pressure(diagram, volume, path, general_form, name), later, full_cycle, key)
     own_phases = phases[: round(cycle / chamber.cycle)]
     done = chamber.factor * sum(diagrams[own].work(_volume_from(space, begins + own)) for own in own_phases)
-    return pressure, Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}"), notices
+    work = Known(Found(done, "work", (pressure, space.volume)), f"indicated_work.{name}")
+    return _OwnGas(pressure, work, notices, calculated)
 
 
 def _ends_of_stroke(space: _Space, delay: float) -> tuple[float, float]:
-    """Return the nearest angle of smallest volume and that of the largest, counted from `delay`. [deg]"""
+    """Return the nearest angle of smallest volume and the next one of the largest, counted from `delay`. [deg]"""
     volumes = space.volume_at(np.array(space.dead_centres))
     least, largest = (float(space.dead_centres[index_of(volumes)]) - delay for index_of in (np.argmin, np.argmax))
-    return (least + space.period / 2) % space.period - space.period / 2, largest
+    top = (least + space.period / 2) % space.period - space.period / 2
+    # rounding would let it end the cycle
+    top = top if abs(top) > _SAME_ANGLE else 0.0
+    return top, top + (largest - least) % space.period
 
 
 def _solved(chamber: Chamber, space: _Space, start: float, path: str) -> IndicatorDiagram:
@@ -404,7 +419,8 @@ def _rate_from(space: _Space, start: float) -> VolumeAt:
 
 
 def _volume_from(space: _Space, start: float) -> VolumeAt:
-    return lambda degrees: space.volume_at(degrees + start)
+    volume = Program({"": space.volume})
+    return lambda degrees: volume(CrankGrid.from_degrees(degrees + start))[""]
 
 
 def _jump(point: str, degrees: float, step: float, law: Law | None) -> NoticeData:

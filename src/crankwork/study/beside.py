@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import PurePath
 
 from crankwork.analysis import with_method
+from crankwork.analysis.analyse import is_engine
 from crankwork.description.machine_file import read
 from crankwork.errors import CrankworkError, MethodError
 from crankwork.locale import Refusal
@@ -32,7 +33,7 @@ def comparison_machines(machine: Machine, file: str, selection: str) -> tuple[st
             compared[name] = with_method(machine, name)
         except MethodError as error:
             raise CrankworkError(Refusal("option_wrong", option="--compare", mistake=error.args[0])) from None
-    if machine.linkage is not None or machine.transfer is not None or machine.lengths is None:
+    if not is_engine(machine):
         raise CrankworkError(Refusal("compare_linkage", methods=selection.strip()))
     if machine.method.name in compared:
         raise CrankworkError(Refusal("compare_own", method=machine.method.name))

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, Protocol
 
 from crankwork.formula.known import Known, Total, Use, absent, in_order
-from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt
+from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
 
 CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual"]
 Notice = tuple[str, Mapping[str, float | str]]
-# points of a diagram and the pieces between them
-DiagramDefinition = tuple[Mapping[str, DiagramPoint], tuple[Piece, ...]]
 
 
 class Corners(NamedTuple):
@@ -65,8 +63,6 @@ class Calculated(NamedTuple):
     memory: Mapping[str, Known]
     notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # Codes and values
     theoretical: Callable[[], IndicatorDiagram] | None = None  # Gives the diagram before its corners were rounded
-    # Points and pieces that define the diagram; empty unless it has corners
-    drawn: DiagramDefinition = ({}, ())
     peak: Mapping[str, Known] = {}  # Values at the greatest pressure of a heat release, by key
 
     @property
@@ -88,5 +84,13 @@ class Calculated(NamedTuple):
 class CalculatedPressure(Protocol):
     """Calculation of the working cycle for any cylinder."""
 
+    @property
+    def has_corners(self) -> bool:
+        """Whether the diagram has the corners of two strokes of one length, or of two pairs of them."""
+
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder."""
+
+    @property
+    def traced(self) -> Callable[[Known, tuple[float, float]], Known] | None:
+        """What gives the pressure as a traced column of volume and dead centres, None without formulas for it."""

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from crankwork.loads.indicator import (
 from crankwork.loads.monotone import hermite
 from crankwork.loads.pressure import at_angle, remembered_pressure
 from crankwork.locale import Refusal
-from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners, DiagramDefinition, Notice
+from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners
 from crankwork.working_cycle.closed_gas import (
     COMPRESSION,
     EXPANSION,
@@ -83,22 +83,22 @@ class CornerPressure:
     cycle: CalculatedCycle  # The calculated cycle
     timing: Timing | None = None  # Of valves and ignition, if corners are rounded
     rounding: Rounding = field(default_factory=Rounding)  # How they are rounded
+    has_corners: ClassVar[bool] = True
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder."""
         del volume_rate_at
         cycle = self.cycle
-        drawn = theoretical_diagram(cycle.corners, cycle.angle, volume_at, dead_centres)
         # if corners are rounded, the sharp one is only looked at
-        sharp = partial(_sharp_diagram, drawn, cycle, volume_at, dead_centres)
+        sharp = partial(_sharp_diagram, cycle.corners, cycle.angle, volume_at, dead_centres)
         notices = (*cycle.notices, ("cycle_speed", {}))
         if self.timing is None:
-            return Calculated(sharp(), cycle.memory, notices, sharp, drawn)
+            return Calculated(sharp(), cycle.memory, notices, sharp)
         result = rounded_diagram(_numbers(cycle.corners), self.timing, self.rounding, volume_at, dead_centres)
         key = "filling_factor.diagram"
         memory = {**cycle.memory, key: Known(Found(result.filling_factor, "integral", cycle.corners), key)}
         rounded = _with_traced_segments(result.diagram, cycle.corners)
-        return Calculated(rounded, memory, (*notices, *result.notices), sharp, (result.points, result.pieces))
+        return Calculated(rounded, memory, (*notices, *result.notices), sharp)
 
     def traced(self, volume: Known, dead_centres: tuple[float, float]) -> Known:
         """Return the pressure over the crank angle as a traced column of the volume of a cylinder."""
@@ -115,22 +115,19 @@ class CornerPressure:
         del volume_rate_at
         theory = self.cycle.corners
         corners = theory._replace(p_z=theory.p_c, p_b=theory.p_a, n2=theory.n1, rho=absent("cut_off", 1.0))
-        if self.timing is not None:
-            numbers = _numbers(corners)
-            drawn, diagram = motored_diagram(numbers, self.timing, self.rounding, volume_at, dead_centres)
-        else:
-            drawn = theoretical_diagram(corners, self.cycle.angle, volume_at, dead_centres)
-            diagram = solve_diagram(*drawn, self.cycle.angle, volume_at, dead_centres=dead_centres)
-        return Calculated(_with_traced_segments(diagram, corners), {}, (), drawn=drawn)
+        if self.timing is None:
+            return Calculated(_sharp_diagram(corners, self.cycle.angle, volume_at, dead_centres), {}, ())
+        diagram = motored_diagram(_numbers(corners), self.timing, self.rounding, volume_at, dead_centres)
+        return Calculated(_with_traced_segments(diagram, corners), {}, ())
 
 
 def _sharp_diagram(
-    drawn: DiagramDefinition, cycle: CalculatedCycle, volume_at: VolumeAt, dead_centres: tuple[float, float]
+    corners: Corners, angle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
 ) -> IndicatorDiagram:
-    """Return the diagram of a calculated cycle in a cylinder, from its points and pieces."""
-    points, pieces = drawn
-    diagram = solve_diagram(points, pieces, cycle.angle, volume_at, dead_centres=dead_centres)
-    return _with_traced_segments(diagram, cycle.corners)
+    """Return the diagram of corners in a cylinder; `angle`: of the cycle. [deg]"""
+    points, pieces = theoretical_diagram(corners, angle, volume_at, dead_centres)
+    diagram = solve_diagram(points, pieces, angle, volume_at, dead_centres=dead_centres)
+    return _with_traced_segments(diagram, corners)
 
 
 def _theory(corners: Corners) -> dict[str, Known]:
@@ -166,6 +163,9 @@ class HeatReleasePressure:
     """The diagram of a heat release."""
 
     data: HeatReleaseData  # Combustion, gas, walls and valves
+    has_corners: ClassVar[bool] = False
+    # its pressure is integrated
+    traced: ClassVar[None] = None
 
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder."""
@@ -175,13 +175,6 @@ class HeatReleasePressure:
         """Return the diagram of a cylinder without combustion; the walls still take heat."""
         cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
         return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
-
-    def diagram_in(
-        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
-    ) -> tuple[IndicatorDiagram, tuple[Notice, ...]]:
-        """Return the diagram in a chamber, with notices."""
-        calculated = self._solved(volume_at, volume_rate_at, dead_centres).calculated
-        return calculated.diagram, calculated.notices
 
     def _solved(
         self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
@@ -203,23 +196,26 @@ class MisfirePressure:
     firing: CornerPressure | HeatReleasePressure  # The cycle of the firing cylinders
     angle: float  # Of the cycle [deg]
     ambient: Known | None = None  # Constant pressure if its valves stay open [Pa]
+    traced: ClassVar[None] = None
 
     @property
     def cycle(self) -> CalculatedCycle | None:
         """The calculated cycle of the firing cylinders."""
         return self.firing.cycle if isinstance(self.firing, CornerPressure) else None
 
+    @property
+    def has_corners(self) -> bool:
+        """Whether the diagram of the firing cylinders has corners."""
+        return self.firing.has_corners
+
     def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
         """Return the diagram in a cylinder, with the values of the cycle of the firing cylinders."""
         firing = self.firing.pressure(volume_at, volume_rate_at, dead_centres)
         if self.ambient is not None:
             diagram = IndicatorDiagram((constant_pressure(0.0, self.angle, self.ambient),), {})
-            ends = {"o": DiagramPoint(0.0, self.ambient.value), "o'": DiagramPoint(self.angle)}
-            drawn: DiagramDefinition = ends, (Piece("constant", ("o", "o'")),)
         else:
-            cold = self.firing.motored(volume_at, volume_rate_at, dead_centres)
-            diagram, drawn = cold.diagram, cold.drawn
-        return firing._replace(diagram=diagram, theoretical=None, drawn=drawn)
+            diagram = self.firing.motored(volume_at, volume_rate_at, dead_centres).diagram
+        return firing._replace(diagram=diagram, theoretical=None)
 
 
 class HeatReleaseTrace(NamedTuple):

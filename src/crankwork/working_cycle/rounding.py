@@ -24,7 +24,7 @@ from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.loads.retold import RememberedVolume
 from crankwork.locale import Refusal
-from crankwork.working_cycle.calculated_cycle import DiagramDefinition, Notice
+from crankwork.working_cycle.calculated_cycle import Notice
 from crankwork.working_cycle.gas_exchange import clip_segment, from_before_zero
 from crankwork.working_cycle.rounded_pieces import (
     DiagramPart,
@@ -103,14 +103,13 @@ def motored_diagram(
     rounding: Rounding,
     volume_at: VolumeAt,
     dead_centres: tuple[float, float],
-) -> tuple[DiagramDefinition, IndicatorDiagram]:
-    """Return the points and pieces without combustion, and their diagram; gas exchange as with combustion.
+) -> IndicatorDiagram:
+    """Return the diagram without combustion; gas exchange as with combustion.
 
     `theory`: of the rounded diagram, with expansion along the compression line [SI].
     """
     corners = corners_of(theory, replace(timing, ignition_advance=0.0), rounding, volume_at, dead_centres)
-    points, pieces, diagram = _drawn(corners._replace(kind="motored"), 1.0)
-    return (points, pieces), without_auxiliary(diagram)
+    return without_auxiliary(_drawn(corners._replace(kind="motored"), 1.0)[2])
 
 
 def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
