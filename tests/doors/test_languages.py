@@ -26,7 +26,7 @@ MISTAKES = {
                       "yoke не может скользить, потому что yoke и block", "yoke không trượt được, vì yoke và block"),
     "branch of no joint": ("four-bar", "B = 1 ", "Z = 1 ", "у Z нет ветви", "Z không có nhánh"),
     "textbook": ("four-bar", "[branch]", '[method]\nkinematics = "textbook"\n[branch]',
-                 "рычажный механизм рассчитывается точно", "cơ cấu thanh được tính chính xác"),
+                 "метод textbook есть только у кривошипов", "phương pháp textbook chỉ có ở tay quay"),
     "order repeats": ("petrol-four", ORDER, "firing_order = [1, 3, 4, 4]",
                       "1-3-4-4: цилиндр 4 назван дважды, а цилиндр 2", "1-3-4-4 ghi xylanh 4 hai lần và thiếu"),
     "order against throws": ("petrol-four", ORDER, f'{ORDER}\nthrows = ["0 deg", "0 deg", "180 deg", "180 deg"]',

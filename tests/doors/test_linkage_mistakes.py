@@ -129,9 +129,9 @@ SETTINGS = {
     ("--set", "links.coupler.length=1"): "--set links.coupler.length: 1 has no unit",
     ("--set", "links=1"): "--set links: must be a table",
     ("--set", "branch.B=2"): "--set branch.B: 2 is not possible here; write 1 or -1",
-    ("--set", "method.kinematics=textbook"): "--set method.kinematics: a linkage is computed exactly",
-    ("--method", "textbook"): "--method: a linkage is computed exactly; write exact or leave it out",
-    ("--method", "series:3"): "--method: a linkage is computed exactly; write exact or leave it out",
+    ("--set", "method.kinematics=textbook"): "--set method.kinematics: method textbook exists only for cranks with rods and pistons",
+    ("--method", "textbook"): "--method: method textbook exists only for cranks with rods and pistons",
+    ("--method", "series:3"): "--method: method series:3 exists only for cranks with rods and pistons",
 }
 
 
