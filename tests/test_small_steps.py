@@ -40,11 +40,11 @@ from crankwork.note.options import NoteOptions
 from crankwork.note.sheets.sheet import _LAYOUTS
 from crankwork.note.words import Words
 from crankwork.page import sliders
-from crankwork.report import drawing, figures
+from crankwork.report import drawing
 from crankwork.report.drawing import moving_drawing
 from crankwork.show.formats import gif
 from crankwork.show.moving_svg import _short_number, moving_svg
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Box, Text
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Box, Text
 from crankwork.show.theme import fill_colours
 from crankwork.studio import answers, sketch
 from crankwork.studio.additions import additions, with_addition
@@ -244,7 +244,7 @@ def test_a_moment_of_a_guide_that_is_rounding_beside_the_torques_is_nothing() ->
 
 
 def test_the_first_of_compared_machines_has_solid_lines() -> None:
-    assert list(figures._STYLES) == [SOLID, DASHED, DASH_DOT, DOTTED]
+    assert list(STYLES) == [SOLID, DASHED, DASH_DOT, DOTTED]
 
 
 def test_a_folder_of_a_study_that_a_full_disk_cannot_hold_is_named(tmp_path, monkeypatch) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from pathlib import Path
 
 import crankwork
 from each import for_each
@@ -24,3 +25,11 @@ def test_what_refuses_can_be_caught_by_name():
 
     kinds = {name for name, one in vars(errors).items() if isinstance(one, type) and issubclass(one, Exception)}
     assert kinds <= set(crankwork.__all__)
+
+
+def test_what_shows_results_is_named_after_subjects_not_after_kinds_of_machines():
+    """A note and a figure ask for keys of results, so that no module of theirs is of one kind of machine."""
+    kinds = ("engine", "linkage", "turning")
+    shown = [path for room in ("note", "report") for path in (Path(crankwork.__file__).parent / room).rglob("*.py")]
+    assert len(shown) > 50
+    assert [path.name for path in shown if path.stem.startswith(kinds)] == []

@@ -31,7 +31,7 @@ from crankwork.show.chart import (
 from crankwork.show.labels import label_marks, mark_point
 from crankwork.show.paper import GREY, WIDER, Canvas, fitted_lines
 from crankwork.show.place import current_layout, scaled_height
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID
+from crankwork.show.scene import DASH_DOT, DASHED, STYLES
 
 _HEIGHT, _MARGIN, _LOWEST = 340.0, 1.12, 0.55
 # rays and circle of the mean of a polar diagram, and what is as narrow as a stick
@@ -40,7 +40,6 @@ _RAYS, _RAY, _MEAN, _STICK = 30.0, "#8c8c8c", 0.7, 0.12
 _CROWDED = 10.0
 # what numbers and title take beside polar diagrams of main journals [pt]
 _LEFT_MARGIN = 60.0
-_LINES = (SOLID, DASHED, DASH_DOT, DOTTED)
 
 
 class _OverCycle(NamedTuple):
@@ -227,7 +226,7 @@ def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     rows = [
         Row(
             engine.named("crankpin_load") + (f", {engine.row_text('crankpin', pin)}" if len(sizes) > 1 else ""),
-            _LINES[index % len(_LINES)],
+            STYLES[index % len(STYLES)],
         )
         for index, pin in enumerate(sizes)
     ]
@@ -249,7 +248,7 @@ def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     graph = over_cycle(paper, box, (low, high), engine.cycle, engine.language)
     for index, (pin, values) in enumerate(sizes.items()):
         graph.curve(
-            f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), _LINES[index % len(_LINES)]
+            f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), STYLES[index % len(STYLES)]
         )
     level = float(engine.shown("crankpin_load", extremes.mean))
     graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.8)

@@ -1,4 +1,4 @@
-"""Curves of quantities over the angle or the time of what drives, one panel below the other."""
+"""Curves of quantities over the angle or the time of what drives, one panel below the other; of several results too."""
 
 from __future__ import annotations
 
@@ -6,18 +6,35 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from crankwork.analysis import Array
+from crankwork.analysis import Array, Results
+from crankwork.analysis.compare import Comparison, beside, difference
 from crankwork.errors import CrankworkError
 from crankwork.locale import say
 from crankwork.locale.numbers import number, unit_name
-from crankwork.quantities import Quantity
-from crankwork.report.gas import STYLES
+from crankwork.quantities import QUANTITIES, Language, Quantity
+from crankwork.report.comparison import shown_names
+from crankwork.report.language import displayed, in_own_units, key_unit, symbol
 from crankwork.report.look import PLAIN, Style, axis_title, displayed_values, drive_graph, math_symbol, quantity_of
-from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, legend, legend_height, limits, write_method
+from crankwork.show.chart import (
+    BOTTOM,
+    LEGEND_ROW,
+    TOP,
+    ChartBox,
+    Graph,
+    Row,
+    legend,
+    legend_height,
+    limits,
+    over_cycle,
+    round_ticks,
+    sheet,
+    write_method,
+)
 from crankwork.show.labels import mark_point
 from crankwork.show.paper import Canvas, plain
 from crankwork.show.place import current_layout, scaled_height
-from crankwork.show.scene import Drawing
+from crankwork.show.scene import STYLES, Drawing
+from crankwork.show.scene import Style as Dashes
 
 _ALONE, _PANEL, _GAP = 216.0, 126.0, 16.0
 # what a page of a note holds with its caption [pt]
@@ -28,6 +45,22 @@ _LONG = 20
 _PLACES = ("slider_displacement", "driver_displacement", "driver_angle", "link_angle", "point_x", "point_y")
 # curves nearer than this share of the range fall together in print
 _SAME, _ROUNDING = 0.003, 1e-9
+# of a comparison
+_STEP, _MOST = 1.0, 2000
+# a cycle of more has no lines at multiples of 90 degrees
+_LONG_CYCLE = 720.0
+_COLOURS = ("#000000", "#b03030", "#2f5fa8", "#3a7d44", "#8a5a9c", "#a87b1f", "#4d4d4d")
+_UPPER, _LOWER, _BETWEEN = 110.0, 62.0, 12.0
+# what a page of a note holds of it beside its caption, without axis and edges [pt]
+_TALLEST_NOTE = 540.0
+# what a figure shows: of each row the first kind that there is
+_DRAWN = (
+    ("piston_displacement", "slider_displacement", "link_angle", "turning_moment"),
+    ("piston_velocity", "slider_velocity", "link_angular_velocity", "excess_torque"),
+    ("piston_acceleration", "slider_acceleration", "link_angular_acceleration", "kinetic_energy_change"),
+    ("total_torque", "crank_torque", "driving_torque", "balancing_torque", "static_torque", "driver_force",
+     "driver_torque"),
+)  # fmt: skip
 
 
 def curves(
@@ -144,3 +177,95 @@ def _title(quantities: Sequence[Quantity], style: Style, *, has_legend: bool) ->
     signs = dict.fromkeys(math_symbol(row.symbol(style.language)) for row in quantities)
     names = ", ".join(signs) if len(quantities) < 5 else ""
     return f"{names}, {unit}" if names and unit else names or unit
+
+
+@in_own_units
+def comparison_figure(results: Results, compared: Comparison, language: Language, *, per_area: bool = False) -> Drawing:
+    """Return the figure of a comparison: quantities by each name, and below each its differences."""
+    keys = drawn_keys(compared)
+    # two machines have pistons of their own
+    per_area = per_area and compared.is_of_methods
+    cycle = results.machine.cycle
+    degrees = np.linspace(0.0, cycle, min(round(cycle / _STEP), _MOST) + 1)
+    area = results.summary["piston_area"] if per_area else None
+    columns = compared.columns_at(degrees)
+    other_names, named = compared.names[1:], shown_names(compared, language)
+    looks = zip(named, _looks(compared.names), strict=True)
+    rows = [Row(shown, style, 1.2, colour) for shown, (_, style, colour) in looks]
+    if len(other_names) == 1:
+        rows.append(Row(f"Δ: {say('report.less', language, name=named[1], other=named[0])}", width=0.0))
+    else:
+        rows.append(Row(f"Δ: {say('report.less_own', language, other=named[0])}", width=0.0))
+    room = (_TALLEST_NOTE - LEGEND_ROW * len(rows)) / len(keys) - 1.5 * _BETWEEN
+    upper, lower = (min(most, share * room) for most, share in ((_UPPER, 0.63), (_LOWER, 0.37)))
+    paper, box = sheet(len(keys) * (upper + lower + 1.5 * _BETWEEN) - _BETWEEN, rows)
+    abscissas = _across(results, degrees)
+    top = box.top
+    for key in keys:
+        scale, unit = displayed(key, 1.0, per_area=area), unit_name(key_unit(key, per_area=per_area), language)
+        sign = QUANTITIES[key.partition(".")[0]]._replace(key=key).symbol(language)
+        for names, place, tall, mark in (
+            ([(beside(key, name), name) for name in compared.names], top, upper, f"${sign}$"),
+            ([(difference(key, name), name) for name in other_names], top + upper + _BETWEEN / 2, lower, f"$Δ{sign}$"),
+        ):
+            is_last = key == keys[-1] and place > top
+            curves = {name: columns[column] * scale for column, name in names}
+            graph = _graph(
+                paper, ChartBox(box.left, place, box.width, tall), abscissas, curves, results, language, numbers=is_last
+            )
+            for name, style, colour in _looks(compared.names):
+                if name in curves:
+                    graph.curve(name, abscissas, curves[name], style, colour=colour)
+            graph.y_title(f"{mark}, {unit}" if unit else mark)
+            if is_last:
+                graph.x_title(_x_title(results, language))
+        top += upper + lower + 1.5 * _BETWEEN
+    return paper.drawing(say("figures.comparison", language), language)
+
+
+def drawn_keys(compared: Comparison) -> list[str]:
+    """Return the columns that a figure shows; of several links or sliders the last, which others move."""
+    selected = []
+    for kinds in _DRAWN:
+        keys = {key.partition(".")[0]: key for key in compared.keys if np.any(compared.columns[_own(compared, key)])}
+        selected += [keys[kind] for kind in kinds if kind in keys][:1]
+    return selected
+
+
+def _own(compared: Comparison, key: str) -> str:
+    return beside(key, compared.names[0])
+
+
+def _looks(names: tuple[str, ...]) -> list[tuple[str, Dashes, str]]:
+    return [
+        (name, STYLES[min(index, len(STYLES) - 1)], _COLOURS[index % len(_COLOURS)]) for index, name in enumerate(names)
+    ]
+
+
+def _across(results: Results, degrees: Array) -> Array:
+    return degrees * results.period / 360.0 if results.period else degrees
+
+
+def _x_title(results: Results, language: Language) -> str:
+    key = "time" if results.period else "crank_angle"
+    return f"{QUANTITIES[key].label(language)} ${symbol(key, language)}$, {unit_name(key_unit(key), language)}"
+
+
+def _graph(  # noqa: PLR0913 - place, curves and how they are told
+    paper: Canvas,
+    box: ChartBox,
+    abscissas: Array,
+    curves: Mapping[str, Array],
+    results: Results,
+    language: Language,
+    *,
+    numbers: bool,
+) -> Graph:
+    """Return a graph that holds all numbers of some curves, with its frame drawn."""
+    y = limits(*curves.values())
+    if results.period or results.machine.cycle > _LONG_CYCLE:
+        over = "time" if results.period else "crank_angle"
+        graph = Graph(paper, box, (0.0, float(abscissas[-1])), y, language, over)
+        graph.frame(round_ticks(0.0, float(abscissas[-1])), round_ticks(*y, 4), labels=(numbers, True))
+        return graph
+    return over_cycle(paper, box, y, float(abscissas[-1]), language, numbers=numbers)

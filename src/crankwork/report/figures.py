@@ -25,8 +25,7 @@ from crankwork.report.bearings import (
     main_wear,
     small_end_polar,
 )
-from crankwork.report.comparison import comparison_figure, drawn_keys
-from crankwork.report.curves import curves
+from crankwork.report.curves import comparison_figure, curves, drawn_keys
 from crankwork.report.flywheel import (
     crank_speed,
     excess_work,

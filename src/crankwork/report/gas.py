@@ -16,9 +16,8 @@ from crankwork.report.look import Drawn, axis_title, displayed_values, quantity_
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, write_method
 from crankwork.show.labels import label_marks
 from crankwork.show.paper import Canvas, plain
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
+from crankwork.show.scene import DASH_DOT, DASHED, STYLES, Drawing
 
-STYLES = (SOLID, DASHED, DASH_DOT, DOTTED)
 HEIGHT = 216.0
 _LONGEST = 16
 # a letter with an index and primes

@@ -56,6 +56,8 @@ SOLID: Style = ()
 DASHED: Style = (5.0, 2.0)
 DASH_DOT: Style = (7.0, 2.0, 1.5, 2.0)
 DOTTED: Style = (1.2, 1.6)
+# of curves beside each other, in their order
+STYLES: tuple[Style, ...] = (SOLID, DASHED, DASH_DOT, DOTTED)
 
 
 def pen_of(kind: LineKind | Pen) -> Pen:
