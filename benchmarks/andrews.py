@@ -22,13 +22,13 @@ from typing import NamedTuple
 import numpy as np
 
 import crankwork
-from crankwork.analysis.charts import chart_of
-from crankwork.analysis.loose import Loose
-from crankwork.formula.known import Known
+from crankwork.analysis.path_coordinate import path_coordinate
+from crankwork.analysis.transient_model import TransientModel
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.shaft.transient import FreeMachine, Run
+from crankwork.shaft.transient import Integrator, TransientSystem
 
 FILE = Path(__file__).parents[1] / "examples" / "andrews-squeezer.toml"
 MACHINE = crankwork.read(FILE)
@@ -67,9 +67,9 @@ class Moment(NamedTuple):
     speed: float
 
 
-def machine() -> FreeMachine:
+def machine() -> TransientSystem:
     """Return the mechanism as its crank feels it."""
-    return Loose(crankwork.analyse(MACHINE).solved, chart_of(MACHINE, None)).felt
+    return TransientModel(crankwork.analyse(MACHINE).solved, path_coordinate(MACHINE, None)).felt
 
 
 def coordinates(moment: Moment) -> tuple[Array, Array]:
@@ -102,7 +102,7 @@ def coordinates(moment: Moment) -> tuple[Array, Array]:
 
 def solution() -> Moment:
     """Return where the mechanism is at the end."""
-    course = Run(machine(), 0.0, 0.0).until(END)
+    course = Integrator(machine(), 0.0, 0.0).until(END)
     turn, speed, _ = course.at(np.array([END]))
     return Moment(float(turn[0]), float(speed[0]))
 
@@ -113,9 +113,9 @@ def kernel() -> Kernel:
     middle = np.array(list(FIELDS.values()))
     rows = [middle, *(middle * (1 + sign * 0.01 * one) for one in np.eye(2) for sign in (-1, 1))]
 
-    def memory(row: Array) -> Mapping[str, Known]:
+    def memory(row: Array) -> Mapping[str, TracedValue]:
         stated = zip(FIELDS, row.tolist(), ("N*m", "kg"), strict=True)
-        return crankwork.analyse(description.machine([f"{key}={value!r} {unit}" for key, value, unit in stated])).memory
+        return crankwork.analyse(description.machine([f"{key}={value!r} {unit}" for key, value, unit in stated])).trace
 
     memories = [memory(row) for row in rows]
     return Kernel(memories, np.array(rows), ["final_turn", "final_speed"], CrankGrid.from_degrees, cycle=360.0)

@@ -27,10 +27,10 @@ from typing import Any
 import numpy as np
 
 import crankwork
-from crankwork.formula.known import Found, Known
+from crankwork.formula.traced_value import ProcedureValue, TracedValue
 from crankwork.kernel.compiled import BatchResult, Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.machines import threaded
+from crankwork.study.variants import threaded
 
 ENGINE = """
 [crank]
@@ -129,13 +129,16 @@ def _kernel(
     for at in range(len(middle)):
         rows += [np.where(np.arange(len(middle)) == at, part * middle, middle) for part in (0.97, 1.03)]
 
-    def memory(design: np.ndarray) -> Mapping[str, Known]:
+    def memory(design: np.ndarray) -> Mapping[str, TracedValue]:
         pairs = zip(fields.items(), design, strict=True)
         settings = [f"{key}={float(value)!r} {unit}".strip() for (key, (unit, _)), value in pairs]
-        found = crankwork.analyse(description.machine(settings)).memory
+        found = crankwork.analyse(description.machine(settings)).trace
         # mains are columns of a table; their largest loads are asked for here
         mains = {key: one for key, one in found.items() if key.startswith("main_journal_load.")}
-        return found | {key.replace("load", "load_max"): Known(Found(0.0, "max", (one,))) for key, one in mains.items()}
+        return found | {
+            key.replace("load", "load_max"): TracedValue(ProcedureValue(0.0, "max", (one,)))
+            for key, one in mains.items()
+        }
 
     memories = [memory(one) for one in rows]
     return Kernel(memories, np.array(rows), keys, CrankGrid.from_degrees, cycle=cycle, steps=steps)

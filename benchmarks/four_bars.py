@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 import crankwork
-from crankwork.analysis.charts import chart_of
-from crankwork.analysis.loose import Loose
-from crankwork.shaft.transient import Run
+from crankwork.analysis.path_coordinate import path_coordinate
+from crankwork.analysis.transient_model import TransientModel
+from crankwork.shaft.transient import Integrator
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "literature"))
 from test_free_motion import four_bars, turned
@@ -32,9 +32,9 @@ def ours(count: int) -> tuple[float, float, float]:
     machine = crankwork.read_machine(four_bars(count, SECONDS))
     read = time.perf_counter() - start
     results = crankwork.analyse(machine)
-    loose = Loose(results.solved, chart_of(results.machine, None))
+    loose = TransientModel(results.solved, path_coordinate(results.machine, None))
     start = time.perf_counter()
-    course = Run(loose.felt, 0.0, -1.0).until(SECONDS)
+    course = Integrator(loose.felt, 0.0, -1.0).until(SECONDS)
     spent = time.perf_counter() - start
     return read, spent / SECONDS, abs(-course.at(np.array([SECONDS]))[0][0] - turned(count, SECONDS)[0])
 

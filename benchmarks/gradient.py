@@ -14,7 +14,7 @@ import numpy as np
 import crankwork
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.sought import numeric_field
+from crankwork.study.numeric_field import numeric_field
 
 FILE = Path(__file__).parents[1] / "tests" / "machines" / "v-two.toml"
 FIELDS = ("crank.radius", "rod.length", "crank.speed", "piston.mass", "cylinder.bore", "cylinder.compression_ratio")
@@ -35,7 +35,7 @@ def kernel(count: int) -> tuple[Kernel, np.ndarray]:
     for row in rows:
         stated = zip(FIELDS, numbers, row.tolist(), strict=True)
         machine = description.machine([f"{key}={one.written(value)}" for key, one, value in stated])
-        memories.append(crankwork.analyse(machine).memory)
+        memories.append(crankwork.analyse(machine).trace)
     found = Kernel(memories, np.array(rows), KEYS[:count], CrankGrid.from_degrees, cycle=machine.cycle, is_for_few=True)
     return found, middle
 

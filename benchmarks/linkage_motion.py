@@ -11,10 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from crankwork.kinematics.chain_solver import as_chain
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.loops import as_chain
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.kinematics.placement import place
+from crankwork.kinematics.position_analysis import place
 from crankwork.mechanism.catalog import four_bar
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import LinkPoint, Mechanism

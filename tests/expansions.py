@@ -14,7 +14,7 @@ import numpy as np
 
 from crankwork import Machine, analyse, read_machine, template, template_names
 from crankwork.analysis.results import Listing, Results
-from crankwork.description.written import key_text, toml
+from crankwork.description.toml_edit import key_text, toml
 from crankwork.quantities import QUANTITIES, base_key
 
 ROOT = Path(__file__).parents[1]

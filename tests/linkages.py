@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.kinematics.dyads import point_on_link
-from crankwork.kinematics.transfer import Transfer
+from crankwork.kinematics.kinematic_coefficients import Transfer
 from crankwork.mechanism.catalog import (
     crank_shaper,
     four_bar,
@@ -19,7 +19,7 @@ from crankwork.mechanism.catalog import (
     whitworth,
 )
 from crankwork.mechanism.decomposition import mechanism_of
-from crankwork.mechanism.description import linkage_from
+from crankwork.mechanism.table_reader import linkage_from
 
 
 def mechanism_from(tables):

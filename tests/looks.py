@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from crankwork.show.scene import Arc, Box, Circle, Drawing, Polyline, Text, arc_points, pen_of, runs, text_width
+from crankwork.show.scene import Arc, ChartBox, Circle, Drawing, Polyline, Text, arc_points, pen_of, runs, text_width
 from crankwork.show.svg import svg
 
 # letters of a reader's own font may be wider than our table has them
@@ -25,7 +25,7 @@ class Fault(NamedTuple):
     text: str
 
 
-def box_of(item: Text) -> Box:
+def box_of(item: Text) -> ChartBox:
     """Return what the letters of a text cover, wider than our table says. [mm]"""
     width, height = WIDER * item.wide * text_width(item.text, item.height), item.height
     shown = runs(item.text)
@@ -34,14 +34,14 @@ def box_of(item: Text) -> Box:
     left = {"start": 0.0, "middle": -width / 2, "end": -width}[item.anchor]
     x, y = item.place
     if abs(item.angle) == 90:
-        return Box(x - high, y + left, high - low, width)
+        return ChartBox(x - high, y + left, high - low, width)
     if item.angle == 180:
-        return Box(x - left - width, y - high, width, high - low)
+        return ChartBox(x - left - width, y - high, width, high - low)
     assert item.angle == 0, item
-    return Box(x + left, y + low, width, high - low)
+    return ChartBox(x + left, y + low, width, high - low)
 
 
-def _is_through(lines: np.ndarray, box: Box) -> np.ndarray:
+def _is_through(lines: np.ndarray, box: ChartBox) -> np.ndarray:
     """Return which straight lines, shape (n, 4), enter a box."""
     low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
     start, end = lines[:, :2], lines[:, 2:]
@@ -81,7 +81,7 @@ def _lines(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
     return np.vstack(found), np.concatenate(owners)
 
 
-def _overlap(one: Box, other: Box) -> bool:
+def _overlap(one: ChartBox, other: ChartBox) -> bool:
     return (
         min(one.right, other.right) - max(one.left, other.left) > _HAIR
         and min(one.top, other.top) - max(one.bottom, other.bottom) > _HAIR
@@ -93,7 +93,7 @@ def faults(drawing: Drawing) -> list[Fault]:
     texts = [(at, item, box_of(item)) for at, item in enumerate(drawing.items) if isinstance(item, Text)]
     lines, owners = _lines(drawing)
     grounds = [
-        (at, Box(*item.points.min(axis=0), *np.ptp(item.points, axis=0)))
+        (at, ChartBox(*item.points.min(axis=0), *np.ptp(item.points, axis=0)))
         for at, item in enumerate(drawing.items)
         if isinstance(item, Polyline) and item.fill == 1.0
     ]
@@ -115,7 +115,7 @@ def faults(drawing: Drawing) -> list[Fault]:
     return found
 
 
-def _holds(ground: Box, box: Box) -> bool:
+def _holds(ground: ChartBox, box: ChartBox) -> bool:
     """Return whether a ground holds the middle of a text, letters of our own width."""
     inner = box.inset(box.width * 0.06, box.height * 0.2, box.width * 0.06, box.height * 0.2)
     return (

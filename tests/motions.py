@@ -6,8 +6,8 @@ import pytest
 
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.traced_motion import traced_motion
 
 
 def changed(tables, key, value):
@@ -35,9 +35,9 @@ def coordinates(motion):
     return found
 
 
-def remembered(mechanism, grid):
+def traced(mechanism, grid):
     """Return the coordinates of a mechanism at some angles as they are remembered of a whole turn, and as computed."""
-    motion = remembered_motion(mechanism, linkage_motion(mechanism, CrankGrid.steps(1.0, 360.0)))
+    motion = traced_motion(mechanism, linkage_motion(mechanism, CrankGrid.steps(1.0, 360.0)))
     return Program(coordinates(motion))(grid), coordinates(linkage_motion(mechanism, grid))
 
 

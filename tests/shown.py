@@ -16,7 +16,7 @@ from crankwork.machine import Machine
 from crankwork.quantities import Language
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import drawings
-from crankwork.show.moving import Animation
+from crankwork.show.animation import Animation
 from crankwork.show.scene import Drawing
 from each import for_each
 

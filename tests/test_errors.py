@@ -14,9 +14,9 @@ import pytest
 
 import crankwork
 from crankwork.errors import Problem
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
-REFUSAL = Refusal("check_path")
+REFUSAL = ErrorMessage("check_path")
 # what the classes are made of that take more than a text
 ARGUMENTS = {
     "InputError": ([Problem("crank.radius", REFUSAL), Problem("speed", "no unit")], ["my.toml:3", "--set"]),

@@ -20,40 +20,40 @@ from PIL import Image
 import crankwork
 from crankwork import cli, files, progress, units
 from crankwork.analysis.full_turn import full_turn_bounds
-from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
-from crankwork.analysis.rounding import without_rounding
-from crankwork.analysis.stated import StatedFriction
+from crankwork.analysis.input_loads import FrictionInput
+from crankwork.analysis.rounding_noise import without_rounding
+from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.cli.__init__ import studio
 from crankwork.cli.asked import parse_count
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
 from crankwork.errors import DoubtfulError
-from crankwork.formula.known import given
+from crankwork.formula.traced_value import given
 from crankwork.kernel.grid import with_delayed_breakpoints
-from crankwork.loads import monotone, treated
+from crankwork.loads import monotone, pressure_processing
 from crankwork.locale.numbers import number
-from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.structure import _longest_loop
+from crankwork.mechanism.table_reader import linkage_from
 from crankwork.note import material
 from crankwork.note.friction import _friction_of_joint
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets.sheet import _LAYOUTS
-from crankwork.note.words import Words
+from crankwork.note.wording import Words
 from crankwork.page import sliders
 from crankwork.report import drawing
 from crankwork.report.drawing import moving_drawing
+from crankwork.show.animated_svg import _short_number, moving_svg
 from crankwork.show.formats import gif
-from crankwork.show.moving_svg import _short_number, moving_svg
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Box, Text
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, ChartBox, Text
 from crankwork.show.theme import fill_colours
-from crankwork.studio import answers, sketch
+from crankwork.studio import session, sketch
 from crankwork.studio.additions import additions, with_addition
 from crankwork.study.chunks import empty_aggregate
-from crankwork.study.found_text import found_files
 from crankwork.study.ranking import Shares
-from crankwork.study.running import ExecutionOptions, _Pool, _written
+from crankwork.study.runner import ExecutionOptions, _Pool, _written
 from crankwork.study.sliders import moved
 from crankwork.study.study_file import _flat, read_study
+from crankwork.study.study_text import found_files
 from each import failing
 
 
@@ -219,7 +219,7 @@ def test_a_port_has_at_most_five_digits() -> None:
 
 
 def test_an_archive_holds_its_files_whole() -> None:
-    packed = answers._zipped({"-sheet-1.svg": b"<svg/>", "note.pdf": b"%PDF" * 100})
+    packed = session._zipped({"-sheet-1.svg": b"<svg/>", "note.pdf": b"%PDF" * 100})
     with zipfile.ZipFile(io.BytesIO(packed)) as folder:
         assert {name: folder.read(name) for name in folder.namelist()} == {
             "sheet-1.svg": b"<svg/>",
@@ -268,18 +268,18 @@ def test_delayed_breaks_are_closed_unless_they_are_more_than_allowed() -> None:
 
 
 def test_a_bend_that_vanishes_at_the_end_of_the_range_is_found() -> None:
-    for root in (treated._FARTHEST, 1.25, -2.5):
-        assert treated._straight(lambda by, root=root: by - root) == pytest.approx(root, abs=1e-4)
-    assert treated._straight(lambda by: by * by + 1.0) is None
+    for root in (pressure_processing._FARTHEST, 1.25, -2.5):
+        assert pressure_processing._straight(lambda by, root=root: by - root) == pytest.approx(root, abs=1e-4)
+    assert pressure_processing._straight(lambda by: by * by + 1.0) is None
 
 
 def test_abscissas_that_are_remembered_are_found_as_numbers_are() -> None:
     x = np.array([0.0, 10.0, 25.0, 40.0])
-    remembered = np.empty(4, dtype=object)
+    traced = np.empty(4, dtype=object)
     for at, one in enumerate(x):
-        remembered[at] = given("crank_angle", one)
+        traced[at] = given("crank_angle", one)
     at = np.array([5.0, 12.0, 39.0])
-    assert monotone._interval(remembered, at).tolist() == monotone._interval(x, at).tolist() == [0, 1, 2]
+    assert monotone._interval(traced, at).tolist() == monotone._interval(x, at).tolist() == [0, 1, 2]
 
 
 def test_the_least_number_that_a_machine_may_have_is_one() -> None:
@@ -290,7 +290,7 @@ def test_the_least_number_that_a_machine_may_have_is_one() -> None:
 
 
 def test_a_title_of_an_axis_is_upright_beside_a_graph_or_below_its_middle() -> None:
-    box = Box(left=100.0, bottom=200.0, width=300.0, height=150.0)
+    box = ChartBox(left=100.0, bottom=200.0, width=300.0, height=150.0)
     upright = [Text((x, 275.0), "y", 9.0, angle=90.0) for x in (60.0, 110.0)]
     below = [Text((x, y), "x", 9.0) for x, y in ((250.0, 180.0), (130.0, 180.0), (250.0, 260.0))]
     assert [sliders.is_title(one, [box]) for one in (*upright, *below)] == [True, False, True, False, False]
@@ -421,7 +421,7 @@ def test_what_two_points_tell_of_the_share_of_a_field() -> None:
 
 
 def test_what_rubs_is_written_with_its_values_and_units() -> None:
-    joint = StatedFriction("B_upper", {"pin_friction": (0.08, ""), "pin_radius": (0.035, "mm")})
+    joint = FrictionInput("B_upper", {"pin_friction": (0.08, ""), "pin_radius": (0.035, "mm")})
     words = "".join(one if isinstance(one, str) else "*" for one in _friction_of_joint(joint, Words("en")))
     assert words == "B upper: * = 0.08, * = 35\N{NO-BREAK SPACE}mm"
 

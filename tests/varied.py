@@ -7,7 +7,7 @@ import numpy as np
 import crankwork
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.sought import numeric_field
+from crankwork.study.numeric_field import numeric_field
 
 
 class Varied:
@@ -21,7 +21,7 @@ class Varied:
         moved = [self.middle * (1 + sign * part * one) for one in np.eye(len(fields)) for sign in (-1, 1)]
         self.rows = np.array([self.middle, *moved])
         self.analysed = [self.results(one) for one in self.rows]
-        self.memories = [one.memory for one in self.analysed]
+        self.traces = [one.trace for one in self.analysed]
         self.summary, self.cycle = self.analysed[0].summary, self.analysed[0].machine.cycle
 
     def results(self, design):
@@ -36,4 +36,4 @@ class Varied:
 
     def kernel(self, keys, **asked):
         """Return what calculates single values of many designs."""
-        return Kernel(self.memories, self.rows, keys, CrankGrid.from_degrees, cycle=self.cycle, **asked)
+        return Kernel(self.traces, self.rows, keys, CrankGrid.from_degrees, cycle=self.cycle, **asked)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     )
     from crankwork.kinematics.crank_grid import CrankGrid
     from crankwork.kinematics.motion import Motion
-    from crankwork.loads.applied import AppliedLoads, force_at
+    from crankwork.loads.applied_loads import AppliedLoads, force_at
     from crankwork.loads.load import LoadLaw
     from crankwork.machine import Machine
     from crankwork.mechanism.catalog import (

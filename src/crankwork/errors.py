@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
 
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.resources import installable
 
 
@@ -44,9 +44,9 @@ class UnknownKeyError(CrankworkError, KeyError):
 class MissingExtraError(CrankworkError):
     """A capability whose optional dependencies are not installed, all of them at once."""
 
-    def __init__(self, capability: Refusal, *extras: str) -> None:
+    def __init__(self, capability: ErrorMessage, *extras: str) -> None:
         name = "extra_missing" if len(extras) == 1 else "extras_missing"
-        super().__init__(Refusal(name, capability=capability, what=installable(",".join(extras))))
+        super().__init__(ErrorMessage(name, capability=capability, what=installable(",".join(extras))))
 
 
 def missing_extras(modules: Mapping[str, str]) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from typing import TextIO
 
 from crankwork.errors import CrankworkError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 try:
     import fcntl
@@ -53,36 +53,36 @@ def read_text(path: str | Path, *, limit: int = MAX_MACHINE_FILE, advice: str = 
 
 def read_data(path: str | Path, *, limit: int = MAX_DATA_FILE, advice: str = "") -> bytes:
     """Return the content of a file; `advice`: what to do if there is no such file, otherwise to check the path."""
-    path, advice = Path(path), advice or Refusal("check_path")
+    path, advice = Path(path), advice or ErrorMessage("check_path")
     try:
         mode = path.stat().st_mode
         # a pipe or a device may never end, and opening it may never return
         if not stat.S_ISREG(mode):
-            raise CrankworkError(Refusal("path_folder" if stat.S_ISDIR(mode) else "path_odd", path=path))
+            raise CrankworkError(ErrorMessage("path_folder" if stat.S_ISDIR(mode) else "path_odd", path=path))
         with path.open("rb") as stream:
             data = stream.read(limit + 1)
         _inputs.add(path.resolve())
     except FileNotFoundError:
-        raise CrankworkError(Refusal("path_absent", path=path, advice=advice)) from None
+        raise CrankworkError(ErrorMessage("path_absent", path=path, advice=advice)) from None
     except (OSError, ValueError) as error:
-        raise CrankworkError(Refusal("path_unreadable", path=path, reason=_reason(error), advice=advice)) from None
+        raise CrankworkError(ErrorMessage("path_unreadable", path=path, reason=_reason(error), advice=advice)) from None
     if len(data) > limit:
         if limit >= 1 << 20:
-            raise CrankworkError(Refusal("path_large", path=path, size=limit >> 20))
-        raise CrankworkError(Refusal("path_large_kb", path=path, size=limit >> 10))
+            raise CrankworkError(ErrorMessage("path_large", path=path, size=limit >> 20))
+        raise CrankworkError(ErrorMessage("path_large_kb", path=path, size=limit >> 10))
     return data
 
 
 def _decoded(path: Path, data: bytes) -> str:
     """Return bytes as text, or raise with the line of the first invalid byte."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise CrankworkError(Refusal("path_utf_16", path=path))
+        raise CrankworkError(ErrorMessage("path_utf_16", path=path))
     if b"\0" in data:
-        raise CrankworkError(Refusal("path_binary", path=path, line=_line(data, data.index(0))))
+        raise CrankworkError(ErrorMessage("path_binary", path=path, line=_line(data, data.index(0))))
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise CrankworkError(Refusal("path_no_utf_8", path=path, line=_line(data, error.start))) from None
+        raise CrankworkError(ErrorMessage("path_no_utf_8", path=path, line=_line(data, error.start))) from None
 
 
 def _line(data: bytes, position: int) -> int:
@@ -105,9 +105,9 @@ def check_files(*paths: str | Path, overwrite: bool = False) -> None:
         _check_new(path, overwrite=overwrite)
         try:
             if not path.parent.is_dir():
-                raise CrankworkError(Refusal("folder_absent", path=path, folder=path.parent))
+                raise CrankworkError(ErrorMessage("folder_absent", path=path, folder=path.parent))
             if not os.access(path.parent, os.W_OK | os.X_OK):
-                raise CrankworkError(Refusal("place_locked", path=path, folder=path.parent))
+                raise CrankworkError(ErrorMessage("place_locked", path=path, folder=path.parent))
         except (OSError, ValueError) as error:
             raise _unwritable(path, error) from None
 
@@ -116,11 +116,11 @@ def _check_new(path: Path, *, overwrite: bool) -> None:
     """Raise if the path exists, or if it has been read."""
     try:
         if path.exists() and not path.is_file():
-            raise CrankworkError(Refusal("name_of_folder" if path.is_dir() else "name_of_odd", path=path))
+            raise CrankworkError(ErrorMessage("name_of_folder" if path.is_dir() else "name_of_odd", path=path))
         if path.resolve() in _inputs:
-            raise CrankworkError(Refusal("place_read", path=path))
+            raise CrankworkError(ErrorMessage("place_read", path=path))
         if path.exists() and not overwrite:
-            raise CrankworkError(Refusal("name_taken", path=path))
+            raise CrankworkError(ErrorMessage("name_taken", path=path))
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
 
@@ -249,9 +249,9 @@ class StudyFolder:
     def _open(self, identity: bytes, *, resume: bool) -> None:
         path = self._folder / STUDY
         if resume and not path.is_file():
-            raise CrankworkError(Refusal("study_none", path=self._folder))
+            raise CrankworkError(ErrorMessage("study_none", path=self._folder))
         if not resume and path.exists():
-            raise CrankworkError(Refusal("study_there", path=self._folder))
+            raise CrankworkError(ErrorMessage("study_there", path=self._folder))
         if not resume:
             check_folder(self._folder)
             self._parts.mkdir(parents=True, exist_ok=True)
@@ -260,7 +260,7 @@ class StudyFolder:
             try:
                 fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
-                raise CrankworkError(Refusal("study_busy", path=self._folder)) from None
+                raise CrankworkError(ErrorMessage("study_busy", path=self._folder)) from None
             except OSError:
                 # some network disks have no locks; then runs are not protected from each other
                 pass
@@ -268,7 +268,7 @@ class StudyFolder:
             os.write(self._lock, identity)
             os.fsync(self._lock)
         elif (existing := os.pread(self._lock, MAX_MACHINE_FILE, 0)) != identity:
-            raise CrankworkError(Refusal("study_other", path=self._folder, what=_differing(existing, identity)))
+            raise CrankworkError(ErrorMessage("study_other", path=self._folder, what=_differing(existing, identity)))
         for left in self._parts.glob(f"{_STAGING}*"):
             left.unlink()
 
@@ -318,16 +318,16 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
     folder = Path(folder)
     try:
         if folder.exists() and not folder.is_dir():
-            raise CrankworkError(Refusal("folder_is_file", path=folder))
+            raise CrankworkError(ErrorMessage("folder_is_file", path=folder))
         # files that a run replaces or deletes without asking
         for read in (path for path in _inputs if folder.resolve() in path.parents):
             if (own := read.relative_to(folder.resolve()).parts[0]) in (MANIFEST, MARK) or own.startswith(_STAGING):
-                raise CrankworkError(Refusal("place_read", path=read))
+                raise CrankworkError(ErrorMessage("place_read", path=read))
         if folder.is_dir() and not overwrite:
             _check_empty(folder)
         nearest = next(path for path in (folder, *folder.absolute().parents) if path.exists())
         if not nearest.is_dir() or not os.access(nearest, os.W_OK | os.X_OK):
-            raise CrankworkError(Refusal("folder_locked", path=folder, folder=nearest))
+            raise CrankworkError(ErrorMessage("folder_locked", path=folder, folder=nearest))
     except (OSError, ValueError) as error:
         raise _unwritable(folder, error) from None
 
@@ -335,7 +335,7 @@ def check_folder(folder: str | Path, *, overwrite: bool = False) -> None:
 def _check_empty(folder: Path) -> None:
     """Raise if a folder has anything but the remains of a killed run."""
     if any(not entry.name.startswith(_STAGING) and entry.name != MANIFEST for entry in folder.iterdir()):
-        raise CrankworkError(Refusal("folder_full", path=folder))
+        raise CrankworkError(ErrorMessage("folder_full", path=folder))
 
 
 @contextlib.contextmanager
@@ -421,13 +421,13 @@ def _check_place(folder: Path, name: str, hashes: list[str]) -> None:
     """Raise unless a result may be written under its name; `hashes`: of what earlier runs wrote there."""
     path = folder / name
     if (link := _link(folder, name)) is not None:
-        raise CrankworkError(Refusal("place_linked", path=link))
+        raise CrankworkError(ErrorMessage("place_linked", path=link))
     if path.is_dir():
-        raise CrankworkError(Refusal("place_folder", path=path))
+        raise CrankworkError(ErrorMessage("place_folder", path=path))
     if path.resolve() in _inputs:
-        raise CrankworkError(Refusal("place_read", path=path))
+        raise CrankworkError(ErrorMessage("place_read", path=path))
     if path.exists() and not path.is_symlink() and not _is_as_written(folder, name, hashes):
-        raise CrankworkError(Refusal("place_taken", path=path))
+        raise CrankworkError(ErrorMessage("place_taken", path=path))
 
 
 def _link(folder: Path, name: str) -> Path | None:
@@ -487,13 +487,13 @@ def _unwritable(path: Path, error: Exception) -> CrankworkError:
     if isinstance(error, PermissionError):
         # of two names the second is that of the existing file
         path = Path(error.filename2 or error.filename or path)
-        return CrankworkError(Refusal("place_held", path=path, reason=_reason(error)))
-    return CrankworkError(Refusal("place_unwritable", path=path, reason=_reason(error)))
+        return CrankworkError(ErrorMessage("place_held", path=path, reason=_reason(error)))
+    return CrankworkError(ErrorMessage("place_unwritable", path=path, reason=_reason(error)))
 
 
 def _reason(error: Exception) -> str:
     # a folder that accepts no files, as /proc, reports a missing file
     if isinstance(error, FileNotFoundError) and Path(error.filename2 or error.filename or "").parent.is_dir():
-        return Refusal("place_takes_nothing")
+        return ErrorMessage("place_takes_nothing")
     reason = getattr(error, "strerror", None)
-    return reason.lower() if reason else Refusal("path_unusable")
+    return reason.lower() if reason else ErrorMessage("path_unusable")

@@ -16,9 +16,9 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import as_slider_crank
 from crankwork.loads.chamber import Chamber, Charge, cycle_of, least_common
 from crankwork.loads.indicator import DiagramPoint, Piece
-from crankwork.loads.measured import MeasuredPressure
+from crankwork.loads.measured_pressure import MeasuredPressure
 from crankwork.loads.valves import Valves
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from crankwork.dynamics.efficiency import Series
     from crankwork.dynamics.friction import Friction
     from crankwork.dynamics.redundant import RedundantLink
-    from crankwork.dynamics.tabulated import Differences, TabulatedBody
+    from crankwork.dynamics.tabulated_inertia import Differences, TabulatedBody
+    from crankwork.kinematics.crank_range import CrankRange
     from crankwork.kinematics.slider_crank import SliderCrank
-    from crankwork.kinematics.travel import Travel
     from crankwork.loads.load import Load
     from crankwork.mechanism.linkage import Linkage
+    from crankwork.shaft.flywheel_sizing import FlywheelSpec
     from crankwork.shaft.motor import GearedMotor
-    from crankwork.shaft.torque_diagram import Turning
-    from crankwork.shaft.wheel import Wheel
+    from crankwork.shaft.torque_diagram import ShaftTorques
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
 __all__ = [
@@ -191,8 +191,8 @@ class Engine:
     """
 
     layout: Layout
-    slaves: tuple[ArticulatedRod | None, ...] = ()
-    slave_rod: CrankGearMasses | None = None
+    articulated_rods: tuple[ArticulatedRod | None, ...] = ()
+    articulated_masses: CrankGearMasses | None = None
     offsets: tuple[float, ...] = ()
     gases: tuple[Gas, ...] = ()
     misfires: tuple[int, ...] = ()
@@ -238,7 +238,7 @@ class Drive:
     rated_power: float = 0.0
     fluctuation: float | None = None
     chain: Series | None = None
-    wheel: Wheel | None = None
+    wheel: FlywheelSpec | None = None
     losses: Literal["", "drive", "machine"] = ""
 
 
@@ -378,7 +378,7 @@ class Machine:
     deviations: Mapping[str, float] = field(default_factory=dict, compare=False)
     linkage: Linkage | None = None
     transfer: TransferTable | None = None
-    turning: Turning | None = None
+    turning: ShaftTorques | None = None
     cylinder: Cylinder | None = None
     masses: CrankGearMasses | None = None
     gas: Gas | None = None
@@ -399,7 +399,7 @@ class Machine:
     engine: Engine | None = None
     notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()
     # Crank range, if the description determined it
-    way: Travel | None = field(default=None, compare=False, repr=False)
+    way: CrankRange | None = field(default=None, compare=False, repr=False)
     # The linkage that an engine is, or the engine that a linkage with friction was written as
     other_form: Callable[[Machine], Machine | None] | None = field(default=None, compare=False, repr=False)
     # The numbers of the description by path, `crank.stroke`; empty without a description
@@ -428,16 +428,16 @@ class Machine:
         for name, (value, low) in limits.items():
             if not isinstance(value, int | float) or not math.isfinite(value) or value < low:
                 kind = "object_number" if low < 0 else "object_positive"
-                raise CrankworkError(Refusal(kind, name=name, value=str(value)[:40]))
+                raise CrankworkError(ErrorMessage(kind, name=name, value=str(value)[:40]))
         for load in self.loads:
             if not hasattr(load, "forces") and not type(load).__module__.startswith("crankwork.loads."):
-                raise CrankworkError(Refusal("object_load", value=type(load).__name__))
+                raise CrankworkError(ErrorMessage("object_load", value=type(load).__name__))
 
     def driven_by(self, law: Law) -> Machine:
         """Return the machine with another law of its driver, whose segments may have a `MotionLaw` of the user."""
         driver = self.mechanism.driver
         if driver.law is None or self.linkage is None:
-            raise CrankworkError(Refusal("law_unasked"))
+            raise CrankworkError(ErrorMessage("law_unasked"))
         changed = replace(driver, law=law)
         return replace(
             self,

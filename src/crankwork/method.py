@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, Self
 
 from crankwork.errors import MethodError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 STANDARD_GRAVITY = 9.80665
 MAX_SERIES_ORDER = 200
@@ -71,7 +71,7 @@ class Method:
             return replace(self, kinematics="exact", order=0, rod="rigid")
         if name == "textbook":
             return replace(self, kinematics="textbook", order=0, rod="two-mass")
-        raise MethodError(Refusal("method_unknown", name=name[:40], most=MAX_SERIES_ORDER))
+        raise MethodError(ErrorMessage("method_unknown", name=name[:40], most=MAX_SERIES_ORDER))
 
 
 EXACT = Method()

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from contextvars import ContextVar
 from typing import Any, Literal, NamedTuple
 
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 
 class Unit(NamedTuple):
@@ -262,13 +262,13 @@ def parse(
     text = unicodedata.normalize("NFC", text) if len(text) <= _MAX_LENGTH else text
     match = (_WITH_COMMA.match(text) or _QUANTITY.match(text)) if len(text) <= _MAX_LENGTH else None
     if match is None:
-        raise ValueError(Refusal("no_quantity", text=_short(text), example=example))
+        raise ValueError(ErrorMessage("no_quantity", text=_short(text), example=example))
     number, name = match["number"].replace(",", "."), match["unit"]
     spelling = _spelling(name or "")
     notice = ""
     if spelling.lower() in _DOUBTFUL:
         if spelling.lower() != "hp" or not metric_hp:
-            raise ValueError(Refusal(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
+            raise ValueError(ErrorMessage(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
         spelling, notice = "PS", "metric_horsepower"
     unit = UNITS.get(spelling)
     is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions and "force" not in dimensions
@@ -278,18 +278,18 @@ def parse(
     if "," in match["number"] and not decimal_comma:
         point = f"{number} {name if fits else example.split()[1]}"
         if fits or name is None:
-            raise ValueError(Refusal("decimal_comma", text=_short(text), point=point))
-        raise ValueError(Refusal("decimal_comma_unit", text=_short(text), wanted=wanted, point=point, known=known))
+            raise ValueError(ErrorMessage("decimal_comma", text=_short(text), point=point))
+        raise ValueError(ErrorMessage("decimal_comma_unit", text=_short(text), wanted=wanted, point=point, known=known))
     if name is None:
-        raise ValueError(Refusal("unit_missing", text=_short(text), example=example))
+        raise ValueError(ErrorMessage("unit_missing", text=_short(text), example=example))
     if unit is None:
         raise ValueError(_unknown_unit(name, number, dimensions, wanted=wanted, known=known))
     if not fits:
         measured = _dimension(unit.dimension)
-        raise ValueError(Refusal("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
+        raise ValueError(ErrorMessage("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
     value = to_si(float(number), spelling)
     if not math.isfinite(value):
-        raise ValueError(Refusal("too_large", text=_short(text), example=example))
+        raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
     return (
         ParsedQuantity(value / KGF, "mass", "kg", "weight")
         if is_weight
@@ -297,14 +297,14 @@ def parse(
     )
 
 
-def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> Refusal:
+def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> ErrorMessage:
     rows = [names for dimension in dimensions for _, names in _SPELLINGS[dimension]]
     all_spellings = [spelling for names in rows for spelling in names.split()]
     # one or two letters are close to anything
     near = difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else []
     if near:
-        return Refusal("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **values)
-    return Refusal("unit_unknown", unit=_short(name), **values)
+        return ErrorMessage("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **values)
+    return ErrorMessage("unit_unknown", unit=_short(name), **values)
 
 
 def deviation_in_si(quantity: ParsedQuantity, deviation: str) -> float:
@@ -372,8 +372,8 @@ def coherent_unit(unit: str) -> str:
     return next((name for name, other in UNITS.items() if other.dimension == dimension and other.factor == 1.0), unit)
 
 
-def _dimension(dimension: str) -> Refusal:
-    return Refusal(f"dimension_{dimension}")
+def _dimension(dimension: str) -> ErrorMessage:
+    return ErrorMessage(f"dimension_{dimension}")
 
 
 def _short(text: str) -> str:

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.cylinders import whole_engine
-from crankwork.analysis.engine_balance import engine_balance
-from crankwork.analysis.solved import solve
+from crankwork.analysis.cylinder_balance import engine_balance
+from crankwork.analysis.cylinders import multi_cylinder_engine
+from crankwork.analysis.prepared import prepare
 from crankwork.cylinders.throw import throw_mechanism
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.dynamics.running import Running
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.mechanism.mechanism import Body, body_at
@@ -29,10 +29,10 @@ OWN = CrankGearMasses(rod_small_end=0.4, rod_big_end=0.7)
 @pytest.mark.elsewhere
 def test_free_forces_are_what_the_throw_as_a_linkage_puts_on_the_frame():
     """Bodies of the throw move alone; the fixed pivot and the walls must take what accelerates them."""
-    machine = replace(RADIAL, gas=None, engine=replace(RADIAL.engine, slave_rod=OWN, rotating_share=0.0,
+    machine = replace(RADIAL, gas=None, engine=replace(RADIAL.engine, articulated_masses=OWN, rotating_share=0.0,
                                                        reciprocating_share=0.0))  # fmt: skip
-    whole = whole_engine(solve(machine, machine.method))
-    mechanism = throw_mechanism(whole.layout, whole.master.lengths, whole.engine.slaves)
+    whole = multi_cylinder_engine(prepare(machine, machine.method))
+    mechanism = throw_mechanism(whole.layout, whole.master.lengths, whole.engine.articulated_rods)
     bodies = [body_at("crank", machine.masses.crank, 0.0, "A")]
     for number, rod in enumerate(mechanism.dyads, start=1):
         one = machine.masses if number == 1 else OWN
@@ -42,7 +42,7 @@ def test_free_forces_are_what_the_throw_as_a_linkage_puts_on_the_frame():
     grid = CrankGrid.from_degrees(np.arange(720) / 2)
     moving = replace(mechanism, bodies=tuple(bodies))
     motion = linkage_motion(moving, grid)
-    found = system_joint_forces(Running(moving, motion, whole.master.speed))
+    found = system_joint_forces(OperatingState(moving, motion, whole.master.speed))
     x, y = -found.pins["crank_pivot"].x, -found.pins["crank_pivot"].y
     for name, guide in found.guides.items():
         x, y = x + motion.frames[name].sin * guide.normal, y - motion.frames[name].cos * guide.normal

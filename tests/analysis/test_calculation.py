@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import crankwork
-from crankwork.formula.known import Arithmetic, Given, Known, Use, in_order
+from crankwork.formula.traced_value import Arithmetic, FormulaCall, Input, TracedValue, in_order
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, base_key
 from test_dimensions import dimension
@@ -35,8 +35,8 @@ EITHER = "driver_"
 
 
 @cache
-def remembered(file: Path) -> tuple[Known, ...]:
-    return tuple(in_order(crankwork.analyse(crankwork.read(file)).memory.values()))
+def traced(file: Path) -> tuple[TracedValue, ...]:
+    return tuple(in_order(crankwork.analyse(crankwork.read(file)).trace.values()))
 
 
 @cache
@@ -48,10 +48,10 @@ def measures(unit: str) -> str:
 def named_wrongly(file: Path) -> set[str]:
     """Return the values of a machine whose names have another dimension than what gives them or takes them."""
     wrong = set()
-    for known in remembered(file):
-        if isinstance(use := known.node, Use):
+    for known in traced(file):
+        if isinstance(use := known.node, FormulaCall):
             taken = zip(use.inputs, map(argument_unit, use.formula.arguments), strict=True)
-            units = [(known, use.formula.unit), *((one, unit) for one, unit in taken if isinstance(one, Known))]
+            units = [(known, use.formula.unit), *((one, unit) for one, unit in taken if isinstance(one, TracedValue))]
             for one, unit in units:
                 kind = base_key(one.key)
                 if not one.key or kind in STATED or kind.startswith(EITHER):
@@ -66,17 +66,17 @@ def test_values_have_the_dimension_of_what_gives_them_and_what_takes_them(files:
     assert {one.stem: wrong for one in files if (wrong := named_wrongly(one))} == {}
 
 
-def made_of(known: Known) -> str:
+def made_of(known: TracedValue) -> str:
     """Return what a value is made of: a formula or a procedure, with the quantities that it takes."""
     node = known.node
-    if isinstance(node, Given):
+    if isinstance(node, Input):
         return "absent" if node.is_absent else f"given at {node.path.rpartition('.')[2].partition('[')[0]}"
-    if isinstance(node, Use | Arithmetic):
-        how = node.formula.name if isinstance(node, Use) else node.function.__name__
+    if isinstance(node, FormulaCall | Arithmetic):
+        how = node.formula.name if isinstance(node, FormulaCall) else node.function.__name__
         taken: Iterable[object] = node.inputs
     else:
         how, taken = getattr(node, "word", "") or type(node).__name__, node.operands
-    names = (one.key.partition(".")[0] or "?" if isinstance(one, Known) else f"{one:.6g}" for one in taken)
+    names = (one.key.partition(".")[0] or "?" if isinstance(one, TracedValue) else f"{one:.6g}" for one in taken)
     return f"{how}({', '.join(dict.fromkeys(names))})"
 
 
@@ -84,7 +84,7 @@ def listed(files: Iterable[Path]) -> set[str]:
     """Return for each quantity of some machines what it is made of, a line each."""
     found = defaultdict(set)
     for file in files:
-        for known in remembered(file):
+        for known in traced(file):
             if known.key:
                 found[known.key.partition(".")[0]].add(made_of(known))
     return {f"{key}: {way}" for key, ways in found.items() for way in ways}

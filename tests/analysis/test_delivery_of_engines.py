@@ -79,7 +79,7 @@ def test_flow_of_a_triplex_pump_is_that_of_its_three_plungers():
     assert results.summary["inlet_flow"] == pytest.approx(3 * ONE, rel=1e-12)
     assert results.summary["inlet_flow"] * 60 == pytest.approx(0.36198, abs=5e-6)
     assert results.summary["inlet_flow.of_cylinder"] == pytest.approx(ONE, rel=1e-12)
-    assert results.memory["inlet_flow"].value == results.summary["inlet_flow"]
+    assert results.trace["inlet_flow"].value == results.summary["inlet_flow"]
 
 
 def test_flow_of_one_cylinder_needs_no_owner():

@@ -12,15 +12,15 @@ import pytest
 
 import crankwork
 from crankwork import CrankGrid, analyse, read_machine, template
-from crankwork.analysis.engine_form import engine_form, engine_form_or_reason
+from crankwork.analysis.cylinder_form import engine_form, engine_form_or_reason
 from crankwork.analysis.form_paths import linkage_paths, relocate
 from crankwork.analysis.results import Results
 from crankwork.description.expand import expanded
 from crankwork.errors import CrankworkError, InputError, Problem
-from crankwork.formula.known import Given, in_order
+from crankwork.formula.traced_value import Input, in_order
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.trace import NotCompiledError
-from crankwork.locale import LANGUAGES, told
+from crankwork.kernel.lowering import NotCompiledError
+from crankwork.locale import LANGUAGES, in_language
 from crankwork.machine import Machine
 from each import for_each
 from expansions import ROOT, differences, machine_files, mirrored, renamed, shuffled, turned, written
@@ -233,7 +233,7 @@ def test_a_calculated_cycle_of_a_drawn_chamber_is_that_of_an_engine():
         assert results["thermal_efficiency"] == pytest.approx(efficiency, rel=1e-12)
     assert linkage["indicated_work.head"] == pytest.approx(efficiency * 1e6 * mass, rel=1e-9)
     assert linkage["indicated_work"] == pytest.approx(efficiency * 1e6 * mass, rel=1e-9)
-    leaves = {known.node.path for known in in_order(linkage.memory.values()) if isinstance(known.node, Given)}
+    leaves = {known.node.path for known in in_order(linkage.trace.values()) if isinstance(known.node, Input)}
     places = {"chambers.head.cycle.heat", "chambers.head.cycle.intake_temperature", "chambers.head.compression_ratio"}
     assert places <= leaves
     assert not any(path.startswith(("cycle", "cylinder")) for path in leaves)
@@ -284,7 +284,7 @@ def test_approximate_methods_are_those_of_the_engine():
         assert results["piston_displacement"] == pytest.approx(wanted, rel=1e-12)
         exact = 0.05 * (1 - np.cos(at)) + 0.2 - np.sqrt(0.04 - (0.05 * np.sin(at)) ** 2)
         assert results["piston_displacement_error"] >= np.max(np.abs(wanted - exact))
-    leaves = {known.node.path for known in in_order(results.memory.values()) if isinstance(known.node, Given)}
+    leaves = {known.node.path for known in in_order(results.trace.values()) if isinstance(known.node, Input)}
     assert "links.rod.length" in leaves
 
 
@@ -295,8 +295,8 @@ def test_another_linkage_refuses_an_approximate_method_by_name():
         (problem,) = refusal.value.problems
         assert problem.key == "method.kinematics"
         for language in LANGUAGES:
-            assert "textbook" in told(problem.message, language)
-            assert "exact" in told(problem.message, language)
+            assert "textbook" in in_language(problem.message, language)
+            assert "exact" in in_language(problem.message, language)
 
 
 RUBBED = '[friction]\npins = { Q = { coefficient = 0.1, radius = "5 mm" } }\n'
@@ -400,11 +400,11 @@ def test_cylinders_without_a_crankshaft_are_numbered_by_their_chambers(tmp_path)
 def test_inputs_of_the_form_are_those_of_the_linkage(tmp_path, text, changes):
     machine = read_machine(linkage_of(tmp_path, with_changes(text, changes)))
     results, paths = analyse(engine_form(machine)), linkage_paths(machine)
-    relocate(results.memory.values(), paths)
-    nodes = [known.node for known in in_order(results.memory.values()) if isinstance(known.node, Given)]
+    relocate(results.trace.values(), paths)
+    nodes = [known.node for known in in_order(results.trace.values()) if isinstance(known.node, Input)]
     tables = {node.path.partition(".")[0] for node in nodes} - {"", "method", "table"}
     assert tables <= {"crank", "links", "sliders", "guides", "chambers", "shaft", "bearings", "balance", "flywheel"}
-    assert results.memory["rod_length"].node.path in {f"links.{rod}.length" for rod in ("rod", "rod_1")}
+    assert results.trace["rod_length"].node.path in {f"links.{rod}.length" for rod in ("rod", "rod_1")}
     stated = machine.stated
     assert {path for path in ("links.rod.length", "links.rod_1.length") if path in stated} <= {
         node.path for node in nodes
@@ -418,8 +418,8 @@ def test_a_study_of_a_linkage_calculates_its_engine_form_anew():
         text = DRAWN.replace('length = "200 mm"', f'length = "{length} m"')
         machine = read_machine(text)
         results = analyse(engine_form(machine))
-        relocate(results.memory.values(), linkage_paths(machine))
-        traces.append(results.memory)
+        relocate(results.trace.values(), linkage_paths(machine))
+        traces.append(results.trace)
     keys = ["piston_velocity_max", "crank_torque_max"]
     kernel = Kernel(traces, np.array(lengths)[:, None], keys[:1], CrankGrid.from_degrees, cycle=360.0)
     wanted = analyse(form_of(DRAWN.replace('length = "200 mm"', 'length = "0.21 m"'))).summary

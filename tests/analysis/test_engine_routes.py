@@ -9,7 +9,7 @@ import numpy as np
 
 import crankwork
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.formula.expression import FORMULAS, instead
+from crankwork.formula.expression import FORMULAS, replaced_formula
 
 MACHINES = Path(__file__).parents[1] / "machines"
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -45,7 +45,7 @@ def test_a_wrong_formula_of_the_chain_is_told():
     # with weight, a changing speed and a leaning cylinder every term is there
     machine, unnoticed = crankwork.read(MACHINES / "leaning-compressor.toml"), []
     for name in CHAIN:
-        with instead(FORMULAS[name], lambda *operands, own=FORMULAS[name].function: 1.001 * own(*operands)):
+        with replaced_formula(FORMULAS[name], lambda *operands, own=FORMULAS[name].function: 1.001 * own(*operands)):
             if not crankwork.analyse(machine).unmet:
                 unnoticed.append(name)
     assert unnoticed == []

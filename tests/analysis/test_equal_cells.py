@@ -10,12 +10,12 @@ import pytest
 
 import crankwork as cw
 from crankwork import CrankGrid, analyse, read_machine
-from crankwork.analysis import chambers
+from crankwork.analysis import gas_chambers
 from crankwork.analysis.equal_cells import equal_cells
-from crankwork.analysis.running import running_at
+from crankwork.analysis.operating_state import operating_state
 from crankwork.description.expand import expanded
 from crankwork.dynamics.force_system import system_joint_forces
-from crankwork.formula.known import Delayed
+from crankwork.formula.traced_value import Delayed
 from crankwork.kinematics.motion import linkage_motion
 from each import for_each
 from expansions import differences
@@ -79,7 +79,7 @@ _WITHOUT_PLACE = ("shaking_force_max_angle", "counterweight_")
 
 def each_for_itself(monkeypatch, machine):
     with monkeypatch.context() as patch:
-        patch.setattr(chambers, "equal_cells", lambda _: ())
+        patch.setattr(gas_chambers, "equal_cells", lambda _: ())
         return analyse(machine)
 
 
@@ -104,7 +104,7 @@ def test_a_twin_cylinder_has_the_results_of_each_cylinder_traced_for_itself(monk
     expected = each_for_itself(monkeypatch, machine)
     assert differing(expected, analyse(machine)) == []
     late = replace(part, delay=part.delay + 0.001)
-    monkeypatch.setattr(chambers, "equal_cells", lambda _: (late,))
+    monkeypatch.setattr(gas_chambers, "equal_cells", lambda _: (late,))
     assert len(differing(expected, analyse(machine))) > 20
 
 
@@ -112,7 +112,7 @@ def test_a_twin_cylinder_has_the_results_of_each_cylinder_traced_for_itself(monk
 def test_the_forces_of_an_equal_cell_are_those_of_one_linear_system_of_all_links():
     results = analyse(read_machine(TWIN))
     solved, grid = results.solved, CrankGrid.from_degrees(np.arange(1.5, 360.0, 7.0))
-    running = running_at(solved, linkage_motion(solved.machine.mechanism, grid))
+    running = operating_state(solved, linkage_motion(solved.machine.mechanism, grid))
     pins = system_joint_forces(running).pins
     columns = results.columns_at(grid.degrees, [key for key in results.columns if key.startswith("joint_force")])
     for own, name in {"A": "A", "B": "B", "C": "C", "D": "D", "crank_pivot": "O"}.items():
@@ -169,6 +169,6 @@ def test_a_sweep_of_one_of_several_equal_cells_is_that_of_single_analyses(field)
 
 
 def test_columns_of_an_equal_cell_follow_from_the_first():
-    memory = analyse(read_machine(TWIN)).memory
+    trace = analyse(read_machine(TWIN)).trace
     for key in ("slider_velocity.other_piston", "joint_force.D", "gas_pressure.other_head", "pressure_angle.D"):
-        assert isinstance(memory[key].node, Delayed), key
+        assert isinstance(trace[key].node, Delayed), key

@@ -18,8 +18,8 @@ from crankwork.analysis.results import Results
 from crankwork.description.expand import expanded
 from crankwork.errors import RenamedKeyWarning
 from crankwork.quantities.renamed import RENAMED
-from crankwork.study.machines import MachineVariants
-from crankwork.study.sought import numeric_field
+from crankwork.study.numeric_field import numeric_field
+from crankwork.study.variants import MachineVariants
 from each import for_each
 from expansions import ROOT, WAYS, differences, differences_as_drawn, machine_files
 from shown import in_parts

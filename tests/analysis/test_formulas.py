@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.cylinders.journal_loads import unbalance_weight
-from crankwork.dynamics import force_parts
-from crankwork.dynamics.tabulated import difference_derivative
+from crankwork.dynamics import torque_formulas
+from crankwork.dynamics.tabulated_inertia import difference_derivative
 from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.extremes import dead_centres
+from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank, rod_angle, rod_swing
 from crankwork.mechanism.structure import chain_mobility
 
@@ -82,9 +82,9 @@ def test_differences_are_those_of_the_table():
     for row in range(5):
         before, after = row - 1, (row + 1) % 5
         ahead, behind = (angle[after] - angle[row]) % math.tau, (angle[row] - angle[before]) % math.tau
-        found = force_parts.forward_difference(inertia[after], inertia[row], ahead)
+        found = torque_formulas.forward_difference(inertia[after], inertia[row], ahead)
         assert found == pytest.approx(forward[row], rel=1e-14)
-        found = force_parts.central_difference(inertia[after], inertia[before], ahead + behind)
+        found = torque_formulas.central_difference(inertia[after], inertia[before], ahead + behind)
         assert found == pytest.approx(central[row], rel=1e-14)
 
 

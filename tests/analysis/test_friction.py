@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.friction import COLUMNS
+from crankwork.analysis.joint_friction import COLUMNS
 from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.mechanism.joints import Pin, names_of_pivots
 

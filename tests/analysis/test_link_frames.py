@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.kinematics.loops import as_chain
+from crankwork.kinematics.chain_solver import as_chain
 from crankwork.kinematics.motion import linkage_motion
 from each import for_each
 from machine_texts import analysed

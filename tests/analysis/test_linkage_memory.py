@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 
 from crankwork import analyse, figures, read, read_machine, template
-from crankwork.analysis.linkage import running_at
+from crankwork.analysis.mechanism import operating_state
 from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
+from crankwork.formula.calculation_lines import Snapshot
 from crankwork.formula.expression import FORMULAS
-from crankwork.formula.known import in_order
-from crankwork.formula.lines import Moment
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import in_order
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.loads.load_curve import LoadCurve
 from crankwork.loads.process import TorqueOnLink
-from crankwork.loads.table import Table
 from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.web import web
@@ -52,16 +52,16 @@ def test_columns_and_single_values_are_those_of_the_memory_and_checks_share_no_f
     wrong = {}
     for name in NAMES:
         results = analyse(read_machine(template(name)))
-        unlisted = {key.partition(".")[0] for key in set(results.memory) ^ {*results.columns, *results.summary}}
+        unlisted = {key.partition(".")[0] for key in set(results.trace) ^ {*results.columns, *results.summary}}
         listed = {key.partition(".")[0] for one in results.listings.values() for key in one.columns}
         assert unlisted - listed <= {"mobility", "work_per_cycle", "energy_fluctuation", *_OF_BEARINGS}, name
-        again = Program({key: results.memory[key] for key in results.columns})(results.grid)
+        again = Program({key: results.trace[key] for key in results.columns})(results.grid)
         for key, column in results.columns.items():
             there = ~np.isnan(column) if key.startswith("instant_centre") else slice(None)
             if not np.array_equal(again[key][there], column[there]):
                 wrong[name, key] = again[key], column
-        assert {key: results.memory[key].value for key in results.summary} == dict(results.summary), name
-        running = running_at(results.solved, linkage_motion(results.machine.mechanism, results.grid))
+        assert {key: results.trace[key].value for key in results.summary} == dict(results.summary), name
+        running = operating_state(results.solved, linkage_motion(results.machine.mechanism, results.grid))
         forces = called(torque_by_groups, running)
         assert len(forces) >= 3, name
         wrong |= {(name, key): one for key, route in TORQUE_METHODS.items() if (one := called(route, running) & forces)}
@@ -83,7 +83,9 @@ def test_the_stroke_of_the_shaper():
 
 
 def test_a_torque_over_a_third_of_the_turn_has_a_third_of_it_as_mean():
-    torque = Table(tuple(map(math.radians, (0.0, 120.0, 120.0, 360.0))), (-300.0, -300.0, 0.0, 0.0), period=math.tau)
+    torque = LoadCurve(
+        tuple(map(math.radians, (0.0, 120.0, 120.0, 360.0))), (-300.0, -300.0, 0.0, 0.0), period=math.tau
+    )
     assert loaded(torque).summary["mean_torque"] == pytest.approx(100.0, rel=1e-12)
 
 
@@ -136,10 +138,10 @@ flywheel.fluctuation = 0.04
 
 def test_a_joint_force_is_followed_down_to_masses_and_lengths():
     results = analyse(read_machine(template("crank-shaper")))
-    force = results.memory["joint_force.B"]
+    force = results.trace["joint_force.B"]
     keys = {one.key for one in in_order([force])}
     assert {"crank_radius", "body_mass.lever", "link_length.link", "speed", "link_inertia_force.lever.x"} <= keys
-    moment = Moment(CrankGrid.from_degrees, 100.0)
+    moment = Snapshot(CrankGrid.from_degrees, 100.0)
     last = list(moment.steps([force]))[-1]
     assert last.value == pytest.approx(results["joint_force.B"][10], rel=1e-14)
 
@@ -164,10 +166,10 @@ def called(route, running):
 
 
 def test_a_machine_that_is_driven_by_gas_has_a_positive_share_of_its_work_in_motion():
-    memory = analyse(read(Path(__file__).parents[2] / "examples" / "atkinson.toml")).memory
-    assert memory["work_per_cycle"].value == pytest.approx(memory["indicated_work.cylinder"].value, rel=1e-9)
-    assert memory["energy_fluctuation"].value == pytest.approx(
-        memory["excess_work"].value / memory["work_per_cycle"].value
+    trace = analyse(read(Path(__file__).parents[2] / "examples" / "atkinson.toml")).trace
+    assert trace["work_per_cycle"].value == pytest.approx(trace["indicated_work.cylinder"].value, rel=1e-9)
+    assert trace["energy_fluctuation"].value == pytest.approx(
+        trace["excess_work"].value / trace["work_per_cycle"].value
     )
 
 

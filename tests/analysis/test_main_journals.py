@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.cylinders import whole_engine
+from crankwork.analysis.cylinders import multi_cylinder_engine
 
 RADIUS, LENGTH, CENTRE, OFFSET, GRAVITY = 0.047, 0.151, 0.043, 0.009, 9.80665
 CRANK, ROD, PISTON = 6.0, 1.13, 0.77
@@ -78,7 +78,7 @@ def test_they_bear_what_moves_the_whole_engine(engine, settings, counterweight):
     gains = 1500.0 if FASTER in settings else 0.0
     weight = GRAVITY if WEIGHTS in settings else 0.0
     wanted = momentum_rate(machine, degrees, counterweight, gains) + weight * total_mass(machine, counterweight)
-    whole, lean = whole_engine(results.solved), machine.inclination
+    whole, lean = multi_cylinder_engine(results.solved), machine.inclination
     gas, wall = (whole.each(key, degrees) for key in ("gas_force", "side_force"))
     for place, pressed, pushed in zip(machine.engine.layout.places, gas, wall, strict=True):
         wanted -= (-pressed + 1j * pushed) * np.exp(1j * axis_of(machine, place))

@@ -26,14 +26,14 @@ def test_every_column_is_the_replay_of_its_memory_and_what_does_not_vary_is_in_t
     ):
         machine = crankwork.read(EXAMPLES / f"{name}.toml")
         results = crankwork.analyse(crankwork.with_method(machine, method))
-        compared = [key for key in results.columns if key in results.memory]
+        compared = [key for key in results.columns if key in results.trace]
         assert {"crank_angle", "piston_displacement", "piston_acceleration", "rod_angle"} <= set(compared), name
         for key in compared:
-            column, again = results.columns[key], replay(results.memory[key], results.grid)
+            column, again = results.columns[key], replay(results.trace[key], results.grid)
             if not np.all(np.abs(again - column) <= 2 * np.spacing(np.abs(column))):
                 wrong[name, key] = column, again
         for key, value in results.summary.items():
-            known = results.memory.get(key)
+            known = results.trace.get(key)
             if known is not None and not known.varies and known.value != pytest.approx(value, rel=1e-12):
                 wrong[name, key] = value, known.value
     assert wrong == {}

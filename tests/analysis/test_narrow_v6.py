@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.cylinders import whole_engine
+from crankwork.analysis.cylinders import multi_cylinder_engine
 
 ROOT = Path(__file__).parents[2]
 MACHINE = crankwork.read(ROOT / "examples/narrow-v6.toml")
@@ -44,7 +44,7 @@ def test_throws_of_even_firing_stand_as_dead_centres_do():
     results = crankwork.analyse(machine)
     pins = [place.pin_angle for place in machine.engine.layout.places]
     assert pins == pytest.approx([0, 240 + 15 + 2 * OWN, 120, 120 + 15 + 2 * OWN, 240, 15 + 2 * OWN], abs=1e-9)
-    assert results.memory["firing_interval"].value == pytest.approx(np.radians(120.0), rel=1e-15)
+    assert results.trace["firing_interval"].value == pytest.approx(np.radians(120.0), rel=1e-15)
     tops = np.sort(np.degrees(results.listings["firing"].columns["top_dead_centre_angle"]))
     assert np.diff(tops) == pytest.approx(120.0, abs=1e-9)
 
@@ -106,7 +106,7 @@ def test_stated_pressures_stand_at_the_dead_centre_of_each_cylinder(tmp_path):
     (tmp_path / "measured.toml").write_text(with_gas(MEASURED + 'pressure_unit = "MPa"\n'), "utf-8")
     for machine in (crankwork.read_machine(with_gas(DIAGRAM)), crankwork.read(tmp_path / "measured.toml")):
         found = crankwork.analyse(machine)
-        whole, fine = whole_engine(found.solved), np.arange(0.0, 720.0, 0.01)
+        whole, fine = multi_cylinder_engine(found.solved), np.arange(0.0, 720.0, 0.01)
         peaks = fine[whole.each("gas_pressure", fine).argmax(axis=1)]
         order = [number - 1 for number in machine.engine.layout.firing_order]
         tops = np.degrees(found.listings["firing"].columns["top_dead_centre_angle"])
@@ -123,7 +123,7 @@ def test_one_offset_for_all_moves_no_diagram():
     machine = crankwork.read_machine(
         text.replace("offsets = []", "").replace('bore = "81 mm"', 'bore = "81 mm"\noffset = "9 mm"')
     )
-    whole, fine = whole_engine(crankwork.analyse(machine).solved), np.arange(0.0, 720.0, 0.05)
+    whole, fine = multi_cylinder_engine(crankwork.analyse(machine).solved), np.arange(0.0, 720.0, 0.05)
     assert fine[whole.each("gas_pressure", fine)[0].argmax()] == pytest.approx(370.0, abs=0.051)
 
 

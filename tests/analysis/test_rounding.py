@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.rounding import summary_without_rounding, without_rounding
-from crankwork.formula.known import breaks_of
+from crankwork.analysis.rounding_noise import summary_without_rounding, without_rounding
+from crankwork.formula.traced_value import breakpoints_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPEED = 10.0
@@ -84,7 +84,7 @@ def test_a_triangle_that_turns_as_one_body_needs_no_torque_that_changes_sign():
     results = crankwork.analyse(crankwork.read_machine(TRIANGLE))
     # rounding of J' all the way round, and none of it a change from driving to braking
     assert 0 < results.summary["dynamic_torque_max"] < 1e-9
-    assert len(breaks_of([results.memory["driving_torque"]], 360.0)) == 2
+    assert len(breakpoints_of([results.trace["driving_torque"]], 360.0)) == 2
 
 
 def test_an_extreme_that_is_nothing_beside_its_column_is_printed_as_nothing():

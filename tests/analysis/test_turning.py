@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.analysis import Results, analyse
-from crankwork.analysis.turning import turning_diagram
+from crankwork.analysis.given_torques import turning_diagram
 from crankwork.description.machine_file import read, read_machine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import LANGUAGES
@@ -154,7 +154,7 @@ def test_sampling_changes_nothing_and_every_value_can_be_explained() -> None:
         machine = read(path)
         first, *others = (analyse(machine, CrankGrid.steps(step, machine.cycle)) for step in (1.0, 7.0, 30.0))
         wrong += [path.stem for one in others if one.summary != first.summary or one.unmet]
-        at = {key: machine.cycle / 3 if first.memory[key].varies else None for key in first.keys()}  # noqa: SIM118 - of both
+        at = {key: machine.cycle / 3 if first.trace[key].varies else None for key in first.keys()}  # noqa: SIM118 - of both
         wrong += [(path.stem, key) for key, angle in at.items() if not first.explain(key, angle)]
     assert wrong == []
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.solved import solve
-from crankwork.formula.over_cycle import OverCycle
+from crankwork.analysis.prepared import prepare
+from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.mechanism.mechanism import slider_crank
 
 ROOT = Path(__file__).parents[2]
@@ -116,11 +116,11 @@ def test_a_cylinder_that_misfires_compresses_and_expands_its_charge():
 
 def test_the_work_of_each_cylinder_is_that_of_its_torque():
     for setting in ("engine.misfire=[3]", "engine.pressure_factors=[1, 0.7, 1, 1.2]"):
-        memory = crankwork.analyse(of(FOUR, setting)).memory
+        trace = crankwork.analyse(of(FOUR, setting)).trace
         keys = [f"crank_torque.{number}" for number in range(1, 5)]
-        over = OverCycle({key: memory[key] for key in keys}, crankwork.CrankGrid.from_degrees, 720.0)
+        over = CycleInterpolant({key: trace[key] for key in keys}, crankwork.CrankGrid.from_degrees, 720.0)
         found = [over.mean(key, "").value * 4 * math.pi for key in keys]
-        work = [memory[f"indicated_work.{number}"].value for number in range(1, 5)]
+        work = [trace[f"indicated_work.{number}"].value for number in range(1, 5)]
         assert found == pytest.approx(work, abs=1e-9 * abs(work[0])), setting
 
 
@@ -133,15 +133,15 @@ def test_a_factor_multiplies_work_and_gauge_pressure():
 
 
 def test_equal_cylinders_are_one_node_and_a_cylinder_that_differs_has_its_own():
-    memory = crankwork.analyse(of(FOUR, "engine.misfire=[3]")).memory
-    nodes = [memory[f"tangential_force.{number}"].node.of.node for number in (2, 3, 4)]
-    assert nodes[0] is nodes[2] is memory["tangential_force"].node
+    trace = crankwork.analyse(of(FOUR, "engine.misfire=[3]")).trace
+    nodes = [trace[f"tangential_force.{number}"].node.of.node for number in (2, 3, 4)]
+    assert nodes[0] is nodes[2] is trace["tangential_force"].node
     assert nodes[1] is not nodes[0]
 
 
 def test_an_engine_without_any_combustion_is_dragged():
     results = crankwork.analyse(of(FOUR, "engine.misfire=[1, 2, 3, 4]"))
-    assert results.memory["mean_torque"].key == "mean_driving_torque"
+    assert results.trace["mean_torque"].key == "mean_driving_torque"
     assert results.checks["phase_stars"] < 1e-9
 
 
@@ -189,7 +189,7 @@ def test_each_cylinder_may_have_a_file_of_samples(tmp_path):
         text += f'[gas.cylinders.{number}.measured]\nfile = "{number}.csv"\npressure_unit = "MPa"\n'
     machine = crankwork.read_machine(text, folder=tmp_path)
     results = crankwork.analyse(machine)
-    ratio = results.memory["indicated_work.2"].value / results.memory["indicated_work.1"].value
+    ratio = results.trace["indicated_work.2"].value / results.trace["indicated_work.1"].value
     assert ratio == pytest.approx(0.8, rel=1e-9)
     with pytest.raises(crankwork.InputError, match=r"gas\.points: no diagram for these cylinders: 2; add"):
         crankwork.read_machine(text.partition("[gas.cylinders.2")[0], folder=tmp_path)
@@ -218,4 +218,4 @@ def test_the_calculation_of_the_cycle_is_compared_with_cylinders_as_calculated_t
 
 def test_a_machine_says_what_a_cylinder_is_solved_for():
     machine = of(FOUR, "engine.misfire=[1]")
-    assert solve(machine, machine.method).space.calculated.values["effective_power"] > 50e3
+    assert prepare(machine, machine.method).space.calculated.values["effective_power"] > 50e3

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.cylinders import whole_engine
-from crankwork.description.origins import origins_of
-from crankwork.locale import LANGUAGES, say
+from crankwork.analysis.cylinders import multi_cylinder_engine
+from crankwork.description.source_locations import origins_of
+from crankwork.locale import LANGUAGES, translate
 
 PISTON, SMALL_END, GRAVITY = 1.3, 0.3 * 1.9, 9.80665
 CRANK_GEAR = """
@@ -77,12 +77,12 @@ cylinders = 5
 
 def leans(results: crankwork.Results) -> list[float]:
     """Return how far the cylinders lean, of their weights along and across the axis. [deg]"""
-    whole = whole_engine(results.solved)
+    whole = multi_cylinder_engine(results.solved)
     weight = (PISTON + SMALL_END) * GRAVITY
     found = []
     for one in whole.cylinders:
-        across = one.memory["transverse_weight"].value if "transverse_weight" in one.memory else 0.0
-        along = one.memory["weight_force"].value
+        across = one.trace["transverse_weight"].value if "transverse_weight" in one.trace else 0.0
+        along = one.trace["weight_force"].value
         assert math.hypot(along, across) == pytest.approx(weight, rel=1e-12)
         found.append(math.degrees(math.atan2(across, along)))
     return found
@@ -105,7 +105,7 @@ def test_an_engine_stands_upright(engine, wanted):
 def test_weight_along_the_axes_of_a_v():
     results = crankwork.analyse(crankwork.read_machine(CRANK_GEAR + V_SIX))
     # 1.87 kg * 9.80665 m/s2 * cos 30 deg
-    assert results.memory["weight_force"].value == pytest.approx(15.882, abs=5e-4)
+    assert results.trace["weight_force"].value == pytest.approx(15.882, abs=5e-4)
 
 
 def test_a_lean_that_is_stated_is_that_of_cylinder_1():
@@ -128,7 +128,7 @@ def test_it_is_said_how_the_engine_stands_and_where_that_follows_from():
     (notice,) = [one for one in results.notices if one.code == "upright"]
     assert notice.values == {"inclination": pytest.approx(-30.0)}
     for language in LANGUAGES:
-        assert "-30" in say("notices.upright", language, inclination=-30)
+        assert "-30" in translate("notices.upright", language, inclination=-30)
     origin = origins_of(text)("cylinder.inclination", [math.radians(-30.0)])
     line = next(at for at, one in enumerate(text.splitlines(), 1) if one.startswith("bank_angle"))
     assert (origin.kind, origin.path, origin.line) == ("follows_line", "engine.bank_angle", str(line))

@@ -11,12 +11,12 @@ import pytest
 
 import crankwork
 from crankwork.analysis import columns
-from crankwork.analysis.cylinders import whole_engine
-from crankwork.analysis.engine import own_key
-from crankwork.analysis.engine_balance import engine_balance
-from crankwork.analysis.engine_bearings import bearing_components, bearing_loads
-from crankwork.analysis.engine_torque import engine_torque
-from crankwork.analysis.whole_engine import WholeMemory
+from crankwork.analysis.all_cylinders import EngineTrace
+from crankwork.analysis.crankshaft_bearings import bearing_components, bearing_loads
+from crankwork.analysis.cylinder_balance import engine_balance
+from crankwork.analysis.cylinders import multi_cylinder_engine
+from crankwork.analysis.one_cylinder import own_key
+from crankwork.analysis.shaft_torque import engine_torque
 from crankwork.cylinders.articulated import articulated_motion
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.formula.replay import Program
@@ -51,7 +51,7 @@ def analysed(name):
 def test_a_cylinder_is_the_engine_of_one_cylinder_to_the_last_bit(name):
     machine, layout = _machine(LAYOUTS[name]), LAYOUTS[name]
     alone = crankwork.analyse(replace(machine, engine=None))
-    whole = whole_engine(replace(alone.solved, machine=machine))
+    whole = multi_cylinder_engine(replace(alone.solved, machine=machine))
     degrees = np.arange(0.0, 720.0, 7.5)
     for at, place in enumerate(layout.places):
         local = np.mod(degrees - place.firing_angle, 720.0)
@@ -85,15 +85,15 @@ def test_checks_hold():
 def test_the_torque_curve_is_the_torque_and_loads_of_a_shaft_are_in_equilibrium(name):
     """The main bearings hold what rods and throws put on the shaft, at every crank angle."""
     results, layout = analysed(name), LAYOUTS[name]
-    machine, whole = results.machine, whole_engine(results.solved)
-    torque = engine_torque(*WholeMemory.of(whole.master)[:4])
+    machine, whole = results.machine, multi_cylinder_engine(results.solved)
+    torque = engine_torque(*EngineTrace.of(whole.master)[:4])
     degrees = np.arange(3.7, 720.0, 11.31)
     found = whole.each("crank_torque", degrees)
     scale = float(np.max(np.abs(found)))
     assert torque.one(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
     assert torque.total(np.radians(degrees)) == pytest.approx(found.sum(axis=0), abs=1e-8 * scale)
     degrees = np.arange(0.0, 720.0, 15.0)
-    loads = bearing_loads(whole, Program(bearing_components(whole, results.memory))(CrankGrid.from_degrees(degrees)))
+    loads = bearing_loads(whole, Program(bearing_components(whole, results.trace))(CrankGrid.from_degrees(degrees)))
     radial, tangential = whole.each("radial_force", degrees), whole.each("tangential_force", degrees)
     r, w = whole.master.lengths.crank_radius, whole.master.speed
     total = np.zeros(len(degrees), dtype=complex)
@@ -117,7 +117,7 @@ def test_counterweights_take_the_load_off_the_main_bearings():
 
 def test_full_counterweights_and_shafts_leave_nothing_of_the_first_two_orders():
     machine = _machine(LAYOUTS["I4"], rotating_share=1.0, balance_shafts=(2,))
-    whole = whole_engine(crankwork.analyse(machine).solved)
+    whole = multi_cylinder_engine(crankwork.analyse(machine).solved)
     left = {one.order: one for one in engine_balance(whole).residual}
     single = machine.masses.reciprocating * whole.master.lengths.crank_radius * whole.master.speed**2
     assert left[1].force.largest < 1e-9 * single
@@ -128,7 +128,7 @@ def test_full_counterweights_and_shafts_leave_nothing_of_the_first_two_orders():
 def test_a_radial_engine_of_five_or_more_has_no_free_second_order():
     for cylinders in (5, 9):
         machine = _machine(radial(cylinders, master=0)[0])
-        whole = whole_engine(crankwork.analyse(machine).solved)
+        whole = multi_cylinder_engine(crankwork.analyse(machine).solved)
         free = {one.order: one.force.largest for one in engine_balance(whole).reciprocating}
         assert free[2] == 0, cylinders
         # half of every reciprocating mass turns with the crank
@@ -138,10 +138,10 @@ def test_a_radial_engine_of_five_or_more_has_no_free_second_order():
 
 def test_the_torque_of_an_articulated_cylinder_is_that_of_the_power_of_its_piston_and_its_knuckle_pin():
     results = crankwork.analyse(crankwork.read(EXAMPLES / "radial-five.toml"))
-    whole = whole_engine(results.solved)
+    whole = multi_cylinder_engine(results.solved)
     degrees = np.arange(1.0, 720.0, 9.0)
     pushed, turned = whole.each("piston_force", degrees), whole.each("crank_torque", degrees)
-    for at, (solved, rod) in enumerate(zip(whole.cylinders, whole.engine.slaves, strict=True)):
+    for at, (solved, rod) in enumerate(zip(whole.cylinders, whole.engine.articulated_rods, strict=True)):
         if rod is None:
             continue
         grid = CrankGrid.from_degrees(cylinder_angle(degrees, whole.layout.places[at], 720.0))
@@ -153,7 +153,7 @@ def test_the_torque_of_an_articulated_cylinder_is_that_of_the_power_of_its_pisto
 
 
 def test_strokes_of_articulated_cylinders_differ_from_that_of_the_master():
-    whole = whole_engine(crankwork.analyse(crankwork.read(EXAMPLES / "radial-five.toml")).solved)
+    whole = multi_cylinder_engine(crankwork.analyse(crankwork.read(EXAMPLES / "radial-five.toml")).solved)
     strokes = [one.stroke[0] for one in whole.cylinders]
     assert strokes[0] == pytest.approx(0.115)
     assert strokes[1] == pytest.approx(strokes[4], abs=1e-9)
@@ -179,7 +179,7 @@ def test_the_flywheel_gives_the_wanted_fluctuation():
 
 def test_excess_work_is_that_of_a_fine_sum():
     results = analysed("I4")
-    whole = whole_engine(results.solved)
+    whole = multi_cylinder_engine(results.solved)
     degrees = np.linspace(0.0, 720.0, 14401)
     torque = whole.each("crank_torque", degrees).sum(axis=0)
     excess = np.cumsum((torque - np.mean(torque[:-1]))[:-1]) * np.radians(0.05)
@@ -205,7 +205,7 @@ def test_crankpins_that_only_differ_in_time_are_listed_once():
 def test_weights_act_along_each_bank():
     """Weights towards the shaft are those of the lean of each bank, both from the vertical as the V stands upright."""
     machine = replace(_machine(LAYOUTS["V8"]), has_gravity=True)
-    whole = whole_engine(crankwork.analyse(machine).solved)
+    whole = multi_cylinder_engine(crankwork.analyse(machine).solved)
     found = whole.each("weight_force", np.arange(0.0, 720.0, 1.0))
     weight = machine.masses.reciprocating * machine.method.gravity
     assert found == pytest.approx(np.full_like(found, weight * np.cos(np.radians(45.0))))
@@ -231,7 +231,9 @@ def test_the_best_share_leaves_least_of_what_turns_with_the_crank(name: str) -> 
         engine = replace(
             machine.engine, rotating_share=1.0, reciprocating_share=share, counterweight=0.0, balance_shafts=()
         )
-        (first, *_) = engine_balance(whole_engine(crankwork.analyse(replace(machine, engine=engine)).solved)).residual
+        (first, *_) = engine_balance(
+            multi_cylinder_engine(crankwork.analyse(replace(machine, engine=engine)).solved)
+        ).residual
         return abs(first.force.forward) or abs(first.moment.forward)
 
     found = crankwork.analyse(machine)
@@ -241,7 +243,7 @@ def test_the_best_share_leaves_least_of_what_turns_with_the_crank(name: str) -> 
         # half of a mass that swings turns with the crank, whatever the angle of the banks
         assert best == pytest.approx(0.5, abs=1e-12)
         assert found.value("best_counterweight_moment") == pytest.approx(
-            (found["rotating_mass"] * 2 - found.memory["crank_mass"].value + found["reciprocating_mass"])
+            (found["rotating_mass"] * 2 - found.trace["crank_mass"].value + found["reciprocating_mass"])
             * found["crank_radius"]
         )
 

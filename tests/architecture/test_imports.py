@@ -53,7 +53,7 @@ def _text(node: ast.expr | None) -> str:
 
 
 COUNTED = {
-    "importlib.import_module('crankwork.analysis.engine')": ["crankwork.analysis.engine"],
+    "importlib.import_module('crankwork.analysis.one_cylinder')": ["crankwork.analysis.one_cylinder"],
     "importlib.import_module(f'crankwork.note.{kind}_note')": ["crankwork.note.*_note"],
     "importlib.import_module(name)": ["*"],
     "import_module('.loads', 'crankwork')": [".loads"],

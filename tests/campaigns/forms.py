@@ -29,7 +29,7 @@ from crankwork.analysis import Results, analyse
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import breaks_of
+from crankwork.formula.traced_value import breakpoints_of
 from expansions import ROOT, WAYS, Shares, differences, differences_as_drawn, machine_files, written
 
 smooth_engine = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible_engines.py"))["smooth_engine"]
@@ -117,7 +117,7 @@ def apart_from_bodies(values: Values, results: Results) -> Iterator[tuple[str, f
         yield key, float(np.max(np.abs(column - value))) / (size or 1.0)
     if "chambers" in values:
         yield from _of_volumes(values, bodies, found, angles)
-        breaks = np.radians(breaks_of([found.memory["static_torque"]], found.machine.cycle))
+        breaks = np.radians(breakpoints_of([found.trace["static_torque"]], found.machine.cycle))
         turning = Turning(bodies, breaks, functools.partial(pressures, results))
         yield from _of_turning(turning, found, angles)
 

@@ -97,15 +97,15 @@ def test_the_rod_angle_and_its_derivatives_belong_together(geometry, psi):
 @given(geometries())
 def test_dead_centres_are_those_of_thirty_digits(geometry):
     lengths, rod = geometry
-    slave = articulated_stroke(lengths, rod)
+    articulated_rod = articulated_stroke(lengths, rod)
     with mpmath.workdps(40):
         at, top = _top(lengths, rod)
-    assert math.radians(slave.top_angle) == pytest.approx(float(at), abs=1e-7)
-    assert slave.top == pytest.approx(float(top), rel=1e-15)
+    assert math.radians(articulated_rod.top_angle) == pytest.approx(float(at), abs=1e-7)
+    assert articulated_rod.top == pytest.approx(float(top), rel=1e-15)
     x = articulated_motion(lengths, rod, CrankGrid.from_degrees(np.arange(0, 360, 0.5))).piston.position
     assert x.min() >= -1e-15
-    assert x.max() <= slave.stroke + 1e-15
-    assert x.max() == pytest.approx(slave.stroke, rel=1e-4)
+    assert x.max() <= articulated_rod.stroke + 1e-15
+    assert x.max() == pytest.approx(articulated_rod.stroke, rel=1e-4)
 
 
 @for_each("offset", [0.0, 0.013])
@@ -161,14 +161,14 @@ def test_the_forces_are_those_of_two_rigid_rods_in_equilibrium(geometry, degrees
     crankpin = lengths.crank_radius * np.exp(1j * (math.radians(degrees)))
     knuckle = complex(motion.knuckle.x.position[0], motion.knuckle.y.position[0])
     top = articulated_stroke(lengths, rod).top
-    slave_pin = complex(top - motion.piston.position[0], rod.offset)
+    articulated_pin = complex(top - motion.piston.position[0], rod.offset)
     in_master = crankpin * np.exp(1j * lean)
     master_pin = complex(
         in_master.real + math.sqrt(lengths.rod_length**2 - (in_master.imag - lengths.offset) ** 2), lengths.offset
     ) * np.exp(-1j * lean)
     across = 1j * np.exp(-1j * lean)
     # unknown: wall of the slave (y), knuckle pin on the master rod (x, y), wall of the master, crankpin (x, y)
-    arm, lever, to_master = slave_pin - knuckle, knuckle - crankpin, master_pin - crankpin
+    arm, lever, to_master = articulated_pin - knuckle, knuckle - crankpin, master_pin - crankpin
     rows = np.array([
         [0, -1, 0, 0, 0, 0],
         [1, 0, -1, 0, 0, 0],

@@ -32,10 +32,10 @@ def test_rods_on_one_crankpin_move_like_single_cylinders():
 def test_articulated_rods_move_like_their_own_formulas():
     layout = radial(5, master=1)[0]
     lengths = SliderCrank(0.06, 0.25)
-    slaves = [None, *(ArticulatedRod(0.19, 0.055, one.axis + 1.5, one.axis) for one in layout.places[1:])]
+    articulated_rods = [None, *(ArticulatedRod(0.19, 0.055, one.axis + 1.5, one.axis) for one in layout.places[1:])]
     grid = CrankGrid.from_degrees(np.arange(0.0, 360.0, 7.0))
-    moving = linkage_motion(throw_mechanism(layout, lengths, slaves), grid)
-    for place, rod in zip(layout.places[1:], slaves[1:], strict=True):
+    moving = linkage_motion(throw_mechanism(layout, lengths, articulated_rods), grid)
+    for place, rod in zip(layout.places[1:], articulated_rods[1:], strict=True):
         own = CrankGrid.from_degrees(grid.degrees - place.axis)
         expected = articulated_motion(lengths, rod, own).piston
         found = moving.sliders[f"B{place.number}"]

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 import crankwork
 from crankwork.description.document import Description
-from crankwork.description.locate import TomlPositions
 from crankwork.description.machine_file import Setting, apply_override, template, template_names
-from crankwork.description.written import toml
+from crankwork.description.toml_edit import toml
+from crankwork.description.toml_positions import TomlPositions
 from crankwork.errors import CrankworkError, UnknownKeyError
 from each import for_each
 

@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 from crankwork import CrankGrid, analyse, read, template
-from crankwork.analysis.cylinders import whole_engine
-from crankwork.analysis.solved import solve
+from crankwork.analysis.cylinders import multi_cylinder_engine
+from crankwork.analysis.prepared import prepare
 from crankwork.description.expand import expanded
 from crankwork.errors import CrankworkError, InputError
-from crankwork.formula.known import Given, in_order
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import Input, in_order
 from each import for_each
 from expansions import ROOT, differences, machine_files, of_linkage
 from shown import in_parts
@@ -130,7 +130,7 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
     assert expanded(again) == out
     machine = read(path, settings)
     engine, linkage = analyse(machine), of_linkage(read(again))
-    whole = whole_engine(solve(machine, machine.method))
+    whole = multi_cylinder_engine(prepare(machine, machine.method))
     # beside the corners of diagrams, where one side or the other is meant
     degrees = np.arange(0.3, machine.cycle, 7.5)
 
@@ -155,12 +155,12 @@ def numbers_of_an_engine_are_those_of_its_linkage(tmp_path, text, settings=()):
                     )[""]
             for number, values in enumerate(own, start=1):
                 same(column(f"{other}{number}"), values, f"{key}.{number}")
-    for key in (one for one in engine.memory if one.startswith("crankpin_load.") and one.count(".") == 1):
+    for key in (one for one in engine.trace if one.startswith("crankpin_load.") and one.count(".") == 1):
         pin = key.replace("crankpin_load.", "A")
-        names = [one for one in linkage.memory if re.fullmatch(rf"joint_force_x\.{pin}(_rod_\d+)?", one)]
+        names = [one for one in linkage.trace if re.fullmatch(rf"joint_force_x\.{pin}(_rod_\d+)?", one)]
         x, y = (sum(column(one.replace("_x", part)) for one in names) for part in ("_x", "_y"))
         same(np.hypot(x, y), engine.columns_at(degrees, [key])[key], key)
-    whole_inertia = engine.memory.get("reduced_inertia")
+    whole_inertia = engine.trace.get("reduced_inertia")
     if whole_inertia is not None:
         same(column("reduced_inertia"), Program({"": whole_inertia})(CrankGrid.from_degrees(degrees))[""], "inertia")
     assert linkage.summary["mean_torque"] == pytest.approx(work_per_angle(engine, machine), rel=1e-9)
@@ -284,7 +284,7 @@ def test_links_with_given_motion_are_reduced_to_the_crank(tmp_path):
     assert results["reduced_inertia"] == pytest.approx([2 * 0.01 + 0.5 * 0.16, 2 * 0.04 + 0.5 * 0.36])
     # w^2 / 2 is 50
     assert results["balancing_torque"] == pytest.approx([3 + 50 * 0.02, 4 - 50 * 0.02])
-    leaves = {known.node.path for known in in_order(results.memory.values()) if isinstance(known.node, Given)}
+    leaves = {known.node.path for known in in_order(results.trace.values()) if isinstance(known.node, Input)}
     assert {"crank.speed", "links.arm.mass", "links.arm.inertia"} <= leaves
     assert "static_torque" in results.explain("static_torque", 180.0)
     mistakes = {

@@ -10,10 +10,10 @@ import tomllib
 import jsonschema
 import pytest
 
-from crankwork.description.engine_keys import CYCLE
-from crankwork.description.kinds import MeasuredValue, Quantity, Reader
+from crankwork.description.cylinder_keys import CYCLE
 from crankwork.description.machine_file import FILES, json_schema, read_machine, template
 from crankwork.description.schema import DefaultBy, TableSpec, Values
+from crankwork.description.value_types import MeasuredValue, Quantity, Reader
 from crankwork.errors import InputError
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.heat_data import HeatReleaseData

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork import units
-from crankwork.description.kinds import MeasuredValue, Number, Quantity, Reader
 from crankwork.description.machine_file import FILES
 from crankwork.description.schema import NumberOr, TableSpec
+from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader
 from each import for_each
 
 LIMITS = [(1e-6, 30000.0), (1 / 3, 200 / 7), (1e-4, 123456.7)]

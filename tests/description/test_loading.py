@@ -6,9 +6,9 @@ import pytest
 
 import crankwork
 from crankwork.description.machine_file import template
-from crankwork.description.origins import origins_of
+from crankwork.description.source_locations import origins_of
 from crankwork.errors import InputError
-from crankwork.formula.known import Given, in_order
+from crankwork.formula.traced_value import Input, in_order
 from each import for_each
 
 GEAR = """
@@ -58,7 +58,7 @@ def test_every_number_of_the_calculation_is_from_a_line_of_the_file_or_a_default
     results = crankwork.analyse(crankwork.read_machine(GEAR))
     origin = origins_of(GEAR)
     leaves = {
-        known.node.path: known.node for known in in_order(results.memory.values()) if isinstance(known.node, Given)
+        known.node.path: known.node for known in in_order(results.trace.values()) if isinstance(known.node, Input)
     }
     places = {path: origin(path, (node.value,)) for path, node in leaves.items() if path}
     expected = {

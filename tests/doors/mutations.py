@@ -19,9 +19,9 @@ from pathlib import Path
 from typing import Any
 
 from crankwork import units
-from crankwork.description import kinds, schema
+from crankwork.description import schema, value_types
 from crankwork.description.keys import SIZED_FILE
-from crankwork.description.linkage_keys import LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.links_keys import LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.machine_file import template, template_names
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -69,7 +69,7 @@ def _places(value: Any, place: Place = ()) -> Iterator[tuple[Place, Any]]:
         yield from _places(one, (*place, name))
 
 
-def _keys(table: schema.TableSpec, place: Place) -> Iterator[tuple[Place, kinds.ValueType]]:
+def _keys(table: schema.TableSpec, place: Place) -> Iterator[tuple[Place, value_types.ValueType]]:
     """Every key that a file can have; names of the user's own are `a`."""
     for name, key in table.keys.items():
         here, kind = (*place, name), key.kind
@@ -81,10 +81,10 @@ def _keys(table: schema.TableSpec, place: Place) -> Iterator[tuple[Place, kinds.
             yield from _keys(kind, here)
 
 
-def _fitting(kind: kinds.ValueType | None) -> list[Any]:  # noqa: C901 - one case for each kind
+def _fitting(kind: value_types.ValueType | None) -> list[Any]:  # noqa: C901 - one case for each kind
     """Values that a key accepts, its limits first."""
     match kind:
-        case kinds.Quantity():
+        case value_types.Quantity():
             found = []
             for dimension in kind.dimensions:
                 unit = units.EXAMPLES[dimension].split()[1]
@@ -92,15 +92,15 @@ def _fitting(kind: kinds.ValueType | None) -> list[Any]:  # noqa: C901 - one cas
                 inside = [one for one in sorted(near | USUAL) if kind.low <= one <= kind.high]
                 found += [f"{units.from_si(one, unit)!r} {unit}" for one in inside]
             return found
-        case kinds.Number(low=low, high=high, whole=True):
+        case value_types.Number(low=low, high=high, whole=True):
             return [int(low), int(high), (int(low) + int(high)) // 2]
-        case kinds.Number(low=low, high=high):
+        case value_types.Number(low=low, high=high):
             return [low, high, (low + high) / 2, low + 1e-9, high - 1e-9, 0.25]
-        case kinds.Choice():
+        case value_types.Choice():
             return list(kind.options)
-        case kinds.Flag():
+        case value_types.Flag():
             return [True, False]
-        case kinds.Text():
+        case value_types.Text():
             return ["textbook", "series:3", "A", "a"]
         case schema.ListOf():
             few = [_fitting(kind.entry)[:count] for count in (1, 2, 3, kind.fewest)]
@@ -237,7 +237,7 @@ def _stretch(draw: random.Random, values: Values) -> None:
         _put(values, place, draw.choice(fitting))
 
 
-def _kind_at(kind: kinds.ValueType, place: Place) -> kinds.ValueType | None:
+def _kind_at(kind: value_types.ValueType, place: Place) -> value_types.ValueType | None:
     """What a place of a file holds."""
     for name in place:
         kind = kind.other if isinstance(kind, schema.NameOr) else kind

@@ -6,7 +6,7 @@ import re
 import pytest
 
 import crankwork
-from crankwork.locale import LANGUAGES, told
+from crankwork.locale import LANGUAGES, in_language
 from each import for_each
 
 BOOM = """
@@ -138,7 +138,7 @@ def test_a_mistake_is_told_at_its_line(text, old, new, key, advice):
     assert problem is not None, caught.value
     assert advice in str(problem.message), problem.message
     for language in LANGUAGES:
-        assert not re.search(r"[{}]", told(problem.message, language))
+        assert not re.search(r"[{}]", in_language(problem.message, language))
 
 
 def test_a_group_without_positions_asks_for_those_of_its_joints():

@@ -129,7 +129,10 @@ SETTINGS = {
     ("--set", "links.coupler.length=1"): "--set links.coupler.length: 1 has no unit",
     ("--set", "links=1"): "--set links: must be a table",
     ("--set", "branch.B=2"): "--set branch.B: 2 is not possible here; write 1 or -1",
-    ("--set", "method.kinematics=textbook"): "--set method.kinematics: method textbook exists only for cranks with rods and pistons",
+    (
+        "--set",
+        "method.kinematics=textbook",
+    ): "--set method.kinematics: method textbook exists only for cranks with rods and pistons",
     ("--method", "textbook"): "--method: method textbook exists only for cranks with rods and pistons",
     ("--method", "series:3"): "--method: method series:3 exists only for cranks with rods and pistons",
 }

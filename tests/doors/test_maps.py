@@ -12,7 +12,7 @@ import pytest
 
 from crankwork.description.document import Description
 from crankwork.description.machine_file import template
-from crankwork.study import mapped as mapping
+from crankwork.study import parameter_map as mapping
 
 OVER = ("--over", "crank.speed=1000..3000rpm:2")
 WRONG = [

@@ -5,7 +5,7 @@ import re
 import pytest
 
 import crankwork
-from crankwork.locale import LANGUAGES, told
+from crankwork.locale import LANGUAGES, in_language
 from each import for_each
 
 ENGINE = """
@@ -93,7 +93,7 @@ def test_a_mistake_is_told_at_its_line(text, old, new, key, message):
     assert message in problems[key]
     for line in str(refused.value).splitlines():
         assert re.match(r"shaft\.toml:\d+: ", line)
-    assert all(told(one, language) for one in problems.values() for language in LANGUAGES)
+    assert all(in_language(one, language) for one in problems.values() for language in LANGUAGES)
 
 
 def test_an_order_that_does_not_close_names_a_period():

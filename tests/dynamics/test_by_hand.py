@@ -6,8 +6,8 @@ from collections.abc import Callable
 import pytest
 
 from crankwork.cylinders import articulated, load_vectors
-from crankwork.dynamics import force_parts, piston_forces
-from crankwork.kinematics import motion_laws, piston, plane_motion, slider_crank, transfer
+from crankwork.dynamics import piston_forces, torque_formulas
+from crankwork.kinematics import kinematic_coefficients, motion_laws, piston, plane_motion, slider_crank
 from crankwork.loads import gas
 from crankwork.shaft import flywheel
 from each import for_each
@@ -32,21 +32,21 @@ CASES = (
     (articulated.articulated_rod_cosine, (0.6, 4, 1, 5), 0.8),
     # a direction in the second quadrant lies a half turn from the arc tangent of its slope
     (plane_motion.direction_of_slope, (0.6, -0.8, 1), math.atan2(0.6, -0.8)),
-    (transfer.link_angular_velocity, (0.3, 20), 6),
-    (transfer.slider_velocity, (0.04, 50), 2),
-    (transfer.slider_acceleration, (0.03, 20, 0.05, 40), 14),
-    (transfer.point_velocity_x, (0.03, 20), 0.6),
-    (transfer.point_velocity_y, (0.04, 20), 0.8),
-    (transfer.point_velocity, (0.6, 0.8), 1),
-    (transfer.point_acceleration_x, (0.02, 10, 0.05, 20), 3),
-    (transfer.point_acceleration_y, (0.03, 10, 0.05, 20), 4),
-    (transfer.point_acceleration, (3, 4), 5),
-    (transfer.coriolis_acceleration, (3, -0.5), -3),
+    (kinematic_coefficients.link_angular_velocity, (0.3, 20), 6),
+    (kinematic_coefficients.slider_velocity, (0.04, 50), 2),
+    (kinematic_coefficients.slider_acceleration, (0.03, 20, 0.05, 40), 14),
+    (kinematic_coefficients.point_velocity_x, (0.03, 20), 0.6),
+    (kinematic_coefficients.point_velocity_y, (0.04, 20), 0.8),
+    (kinematic_coefficients.point_velocity, (0.6, 0.8), 1),
+    (kinematic_coefficients.point_acceleration_x, (0.02, 10, 0.05, 20), 3),
+    (kinematic_coefficients.point_acceleration_y, (0.03, 10, 0.05, 20), 4),
+    (kinematic_coefficients.point_acceleration, (3, 4), 5),
+    (kinematic_coefficients.coriolis_acceleration, (3, -0.5), -3),
     (load_vectors.turned_along, (2, 3, 0.6, 0.8), -0.2),
     (load_vectors.turned_across, (2, 3, 0.6, 0.8), 3.6),
     (piston_forces.transverse_weight, (3, 9.81, 0.5), 14.715),
-    (force_parts.balancing_torque_of_parts, (30, 12), 42),
-    (force_parts.efficiency_share, (0.25, 0.8), 0.2),
+    (torque_formulas.balancing_torque_of_parts, (30, 12), 42),
+    (torque_formulas.efficiency_share, (0.25, 0.8), 0.2),
     (flywheel.work_of_mean_torque, (25, 12), 300),
     (flywheel.flywheel_beside_machine, (5, 1.5), 3.5),
     (gas.gauge_pressure, (1.6e5, 1e5), 6e4),

@@ -9,13 +9,13 @@ import pytest
 import driven
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_wrenches
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
-from crankwork.dynamics.running import Running
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import remembered_motion, traced_mechanism
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.motion_laws import law_at
+from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
 from crankwork.loads.load import applied_loads
 from crankwork.loads.process import ForceOnPoint, TorqueOnLink
 from crankwork.loads.weight import Weight
@@ -66,7 +66,7 @@ def running(mechanism, link, grid=GRID):
     motion = linkage_motion(mechanism, grid)
     _, rate, second = law_at(mechanism.driver.law, grid)
     loads = applied_loads(mechanism, motion, (Weight(9.81), TorqueOnLink(link, 3.0)))
-    return Running(mechanism, motion, rate, loads, second)
+    return OperatingState(mechanism, motion, rate, loads, second)
 
 
 @for_each(("mechanism", "link"), EVERY.values(), ids=EVERY)
@@ -79,14 +79,14 @@ def test_every_route_gives_the_same(mechanism, link):
 
 @for_each(("mechanism", "link"), EVERY.values(), ids=EVERY)
 def test_the_memory_replayed_is_the_number(mechanism, link):
-    motion = remembered_motion(mechanism, linkage_motion(mechanism, DENSE))
+    motion = traced_motion(mechanism, linkage_motion(mechanism, DENSE))
     own = traced_mechanism(mechanism)
     _, rate, second = motion.driver
     loads = applied_loads(own, motion, (Weight(9.81), TorqueOnLink(link, 3.0)))
-    remembered = joint_forces(Running(own, motion, rate, loads, second))
+    traced = joint_forces(OperatingState(own, motion, rate, loads, second))
     expected = joint_forces(running(mechanism, link))
-    columns = {"driven": remembered.balancing_torque} | {name: pin.x for name, pin in remembered.pins.items()}
-    columns |= {name: guide.normal for name, guide in remembered.guides.items()}
+    columns = {"driven": traced.balancing_torque} | {name: pin.x for name, pin in traced.pins.items()}
+    columns |= {name: guide.normal for name, guide in traced.guides.items()}
     numbers = {"driven": expected.balancing_torque} | {name: pin.x for name, pin in expected.pins.items()}
     numbers |= {name: guide.normal for name, guide in expected.guides.items()}
     assert columns.keys() == numbers.keys()
@@ -98,7 +98,7 @@ def test_a_cylinder_under_a_boom_by_hand():
     # weight of the boom times its lever, over the lever of the cylinder, moving slowly
     motion = linkage_motion(BOOM, GRID)
     loads = applied_loads(BOOM, motion, (ForceOnPoint("T", 0.0, -1000.0),))
-    found = joint_forces(Running(BOOM, motion, 0.0, loads)).balancing_torque
+    found = joint_forces(OperatingState(BOOM, motion, 0.0, loads)).balancing_torque
     (ox, oy), (ax, ay) = BOOM.ground["O"], BOOM.ground["A"]
     q = law_at(BOOM.driver.law, GRID).position
     base, arm = math.hypot(ax - ox, ay - oy), 0.9

@@ -7,7 +7,7 @@ from crankwork.dynamics import friction_equations as module
 from crankwork.dynamics.friction import GuideFriction, PinFriction, friction_forces
 from crankwork.dynamics.friction_equations import CONVERGED, NOT_CONVERGED, SELF_LOCKING
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.running import Running
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.errors import MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
@@ -25,7 +25,7 @@ GRID = CrankGrid.from_degrees(np.arange(2.5, 360, 5))
 
 def running_of(mechanism, *loads, speed=10.0, grid=GRID):
     moved = linkage_motion(mechanism, grid)
-    return Running(mechanism, moved, speed, applied_loads(mechanism, moved, loads))
+    return OperatingState(mechanism, moved, speed, applied_loads(mechanism, moved, loads))
 
 
 def everywhere(mechanism, coefficient):

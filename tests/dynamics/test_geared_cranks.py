@@ -9,10 +9,10 @@ import pytest
 import crankwork
 from crankwork.formula.replay import Program
 from crankwork.kinematics.circuits import circuit_through
-from crankwork.kinematics.coordinates import driver_coordinate, link_angle
+from crankwork.kinematics.configuration_coordinates import driver_coordinate, link_angle
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.traced_motion import traced_motion
 from each import for_each
 from machine_texts import FIVE_BAR, analysed
 
@@ -39,7 +39,7 @@ def test_the_second_crank_turns_twice_as_fast_the_other_way():
 def test_one_turn_of_a_crank_of_a_ratio_of_two_closes():
     assert RESULTS.value("point_x.C", 360.0) == pytest.approx(RESULTS.value("point_x.C", 0.0), rel=1e-12)
     assert not RESULTS.unmet
-    assert RESULTS.memory["mobility"].value == 1
+    assert RESULTS.trace["mobility"].value == 1
 
 
 def test_pivots_have_the_names_of_their_points():
@@ -55,7 +55,7 @@ def test_a_load_on_the_geared_crank_alone_comes_by_the_ratio():
 def test_the_memory_replayed_is_the_motion():
     machine = RESULTS.machine
     moved = linkage_motion(machine.mechanism, CrankGrid.steps(1.0, 360.0))
-    motion = remembered_motion(machine.mechanism, moved, machine.linkage)
+    motion = traced_motion(machine.mechanism, moved, machine.linkage)
     grid = CrankGrid.from_degrees(DEGREES)
     expected = linkage_motion(machine.mechanism, grid)
     columns = {"angle": motion.links["second"].position, "x": motion.points["D"].x.position_2}

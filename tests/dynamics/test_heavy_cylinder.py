@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.chambers import solve_linkage
-from crankwork.analysis.linkage import running_at
+from crankwork.analysis.gas_chambers import solve_linkage
+from crankwork.analysis.mechanism import operating_state
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.traced_motion import traced_motion
 from each import for_each
 
 MACHINES = Path(__file__).parents[1] / "machines"
@@ -81,8 +81,8 @@ def test_more_routes_agree_whichever_end_has_the_barrel(ends, parts):
 def test_all_joint_forces_are_those_of_one_system_of_two_links_more(heavy):
     results, _ = heavy
     one, grid = results.machine, crankwork.CrankGrid.from_degrees(DEGREES)
-    solved = solve_linkage(one, remembered_motion(one.mechanism, linkage_motion(one.mechanism, grid), one.linkage))
-    running = running_at(solved, linkage_motion(one.mechanism, grid))
+    solved = solve_linkage(one, traced_motion(one.mechanism, linkage_motion(one.mechanism, grid), one.linkage))
+    running = operating_state(solved, linkage_motion(one.mechanism, grid))
     groups, system = joint_forces(running), system_joint_forces(running)
     largest = float(np.max(np.abs(system.balancing_torque)))
     assert groups.balancing_torque == pytest.approx(system.balancing_torque, abs=1e-12 * largest)

@@ -5,7 +5,7 @@ import pytest
 
 from crankwork.dynamics.force_system import solve_positions
 from crankwork.dynamics.joint_forces import joint_forces
-from crankwork.dynamics.running import Running
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import ForceOnPoint, ProcessForce, TorqueOnLink, applied_loads
@@ -20,7 +20,7 @@ GRID = CrankGrid.from_degrees(np.arange(7.0, 360, 10))
 
 def at_rest(mechanism, *loads, grid=GRID):
     moved = linkage_motion(mechanism, grid)
-    return Running(mechanism, moved, loads=applied_loads(mechanism, moved, loads))
+    return OperatingState(mechanism, moved, loads=applied_loads(mechanism, moved, loads))
 
 
 def test_piston_force_divides_into_rod_force_and_side_force():
@@ -38,14 +38,14 @@ def test_piston_force_divides_into_rod_force_and_side_force():
 def test_inertia_of_a_piston_is_minus_mass_times_acceleration():
     engine = replace(slider_crank(0.05, 0.2), bodies=(body_at("piston_pin", 2.0, 0.0, "piston_pin"),))
     moved = linkage_motion(engine, GRID)
-    found = joint_forces(Running(engine, moved, 100.0, angular_acceleration=50.0))
+    found = joint_forces(OperatingState(engine, moved, 100.0, angular_acceleration=50.0))
     _, first, second = moved.sliders["piston_pin"]
     assert found.pins["piston_pin"].y == pytest.approx(2 * (second * 100**2 + first * 50), rel=1e-12)
 
 
 def test_rotating_mass_pulls_at_the_pivot():
     crank = Mechanism(Crank(0.1), (), (body_at("crank", 3.0, 0.2, "crank_pin"),))
-    found = joint_forces(Running(crank, linkage_motion(crank, GRID), 20.0, angular_acceleration=4.0))
+    found = joint_forces(OperatingState(crank, linkage_motion(crank, GRID), 20.0, angular_acceleration=4.0))
     pivot = found.pins["crank_pivot"]
     assert pivot.resultant == pytest.approx(3 * 0.1 * np.hypot(20**2, 4))
     assert found.balancing_torque == pytest.approx(4 * (0.2 + 3 * 0.1**2))

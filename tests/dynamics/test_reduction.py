@@ -3,12 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reduction import crank_torque, kinetic_energy, reduced_inertia, reduced_torque
-from crankwork.dynamics.running import Running
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.loads.applied import NO_LOADS
+from crankwork.loads.applied_loads import NO_LOADS
 from crankwork.loads.load import ForceOnPoint, TorqueOnLink, Weight, applied_loads
 from crankwork.mechanism.catalog import four_bar, scotch_yoke, slotted_press, watt_six_bar
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
@@ -86,7 +86,7 @@ def test_crank_torque_of_a_mass_on_the_crank():
     crank = Mechanism(Crank(0.5), (), (body_at("crank", 2.0, 0.0, "crank_pin"),))
     moved = linkage_motion(crank, GRID)
     loads = applied_loads(crank, moved, [ForceOnPoint("crank_pin", 0.0, -10.0)])
-    found = crank_torque(Running(crank, moved, 7.0, loads, 3.0))
+    found = crank_torque(OperatingState(crank, moved, 7.0, loads, 3.0))
     assert found.static == pytest.approx(5 * GRID.cos, abs=1e-12)
     assert found.dynamic == pytest.approx(0.5 * 3.0, abs=1e-12)
     assert found.driving == pytest.approx(found.static + found.dynamic)
@@ -94,7 +94,7 @@ def test_crank_torque_of_a_mass_on_the_crank():
 
 def test_the_inertia_does_no_net_work(six_bar):
     moved = linkage_motion(six_bar, GRID)
-    found = crank_torque(Running(six_bar, moved, 30.0))
+    found = crank_torque(OperatingState(six_bar, moved, 30.0))
     assert np.mean(found.dynamic) == pytest.approx(0, abs=1e-12 * np.max(np.abs(found.dynamic)))
 
 

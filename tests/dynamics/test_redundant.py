@@ -8,7 +8,7 @@ import pytest
 
 import crankwork
 from crankwork.errors import CrankworkError
-from crankwork.locale import LANGUAGES, told
+from crankwork.locale import LANGUAGES, in_language
 from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.web import web
@@ -184,7 +184,7 @@ def test_what_cannot_be_shared_is_told(old, new, key, advice):
         crankwork.read_machine(WHEELS.replace(old, new, 1).replace("SHARE", "0.5"))
     problem = next(one for one in caught.value.problems if one.key == key)
     assert advice in problem.message
-    assert all(told(problem.message, language) for language in LANGUAGES)
+    assert all(in_language(problem.message, language) for language in LANGUAGES)
 
 
 def test_a_link_that_is_needed_has_no_share():

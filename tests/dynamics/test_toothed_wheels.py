@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.chambers import solve_linkage
-from crankwork.analysis.linkage import running_at
+from crankwork.analysis.gas_chambers import solve_linkage
+from crankwork.analysis.mechanism import operating_state
 from crankwork.dynamics.force_system import system_joint_forces
-from crankwork.kinematics.memory import remembered_motion
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.traced_motion import traced_motion
 from each import for_each
 from machine_texts import FIVE_BAR, analysed
 
@@ -46,9 +46,9 @@ def test_the_pivots_bear_what_one_system_of_all_links_gives(ratio):
     one, grid = lifted(ratio), crankwork.CrankGrid.from_degrees(DEGREES)
     results, moved = crankwork.analyse(one), linkage_motion(one.mechanism, crankwork.CrankGrid.from_degrees(DEGREES))
     assert max(results.checks.values()) < 1e-12
-    solved = solve_linkage(one, remembered_motion(one.mechanism, moved, one.linkage))
+    solved = solve_linkage(one, traced_motion(one.mechanism, moved, one.linkage))
     system, found = (
-        system_joint_forces(running_at(solved, linkage_motion(one.mechanism, grid))),
+        system_joint_forces(operating_state(solved, linkage_motion(one.mechanism, grid))),
         results.columns_at(DEGREES),
     )
     largest = np.max(found["joint_force.O"])

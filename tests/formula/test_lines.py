@@ -6,22 +6,22 @@ import pytest
 
 from crankwork.dynamics.efficiency import driving_torque_as_motor
 from crankwork.dynamics.piston_forces import crank_torque, piston_force, tangential_force
-from crankwork.formula.expression import Expression, Number, Operation, Symbol, evaluate, fold, record, text
-from crankwork.formula.known import Known, OfAngle, Pieces, absent, delayed, given, total
-from crankwork.formula.lines import DelayedLine, FormulaLine, Moment, SumLine, without_noise
+from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Snapshot, SumLine, without_noise
+from crankwork.formula.expression import Expression, Number, Operation, Symbol, evaluate, record, simplify, text
+from crankwork.formula.traced_value import AngleFunction, Piecewise, TracedValue, absent, delayed, given, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.series import series_transfer_2_term
 from crankwork.loads.gas import gas_force, polytropic_pressure
 from each import for_each
 
-SIN = Known(OfAngle("sin"), "crank_angle")
+SIN = TracedValue(AngleFunction("sin"), "crank_angle")
 
 
-def at(degrees: float) -> Moment:
-    return Moment(CrankGrid.from_degrees, degrees)
+def at(degrees: float) -> Snapshot:
+    return Snapshot(CrankGrid.from_degrees, degrees)
 
 
-def lines(known: Known, degrees: float = 30.0) -> list[object]:
+def lines(known: TracedValue, degrees: float = 30.0) -> list[object]:
     return list(at(degrees).steps([known]))
 
 
@@ -61,7 +61,7 @@ def test_an_operand_of_several_goes_by_its_own_name():
 def test_of_pieces_the_law_of_the_angle_is_shown():
     volume = given("clearance_volume", 2.0) + SIN
     law = polytropic_pressure(given("p", 1e5), given("V", 1.0), volume, given("n", 1.3))
-    pressure = Known(Pieces([90.0, 360.0], (law, given("p", 7.0))), "gas_pressure")
+    pressure = TracedValue(Piecewise([90.0, 360.0], (law, given("p", 7.0))), "gas_pressure")
     force = gas_force(pressure, given("piston_area", 2.0), absent(""), absent(""))
     assert [one.key for one in lines(force, 30.0)] == ["gas_pressure", "gas_force"]
     assert [(one.key, one.value) for one in lines(force, 200.0)] == [("gas_pressure", 7.0), ("gas_force", 14.0)]
@@ -74,19 +74,19 @@ def test_a_delay_shows_which_value_came_earlier():
 
 def test_a_mark_tells_whose_values_vary():
     force = tangential_force(
-        SIN.named("piston_force"), Known(OfAngle("sin")), given("rod_cosine", 0.5), absent(""), 1.0
+        SIN.named("piston_force"), TracedValue(AngleFunction("sin")), given("rod_cosine", 0.5), absent(""), 1.0
     )
     own = crank_torque(force, given("crank_radius", 0.05), absent("rotating_torque"))
-    found = list(Moment(CrankGrid.from_degrees, 30.0, "2").steps([own]))
+    found = list(Snapshot(CrankGrid.from_degrees, 30.0, "2").steps([own]))
     assert [one.key for one in found] == ["tangential_force.2", "crank_torque.2"]
     assert dict(found[0].named) == {"P": "piston_force.2", "sin_phi_beta": "crank_sin.2"}
     assert dict(found[1].named) == {"T": "tangential_force.2"}
 
 
 def test_the_angle_of_cylinder_1_has_no_mark():
-    of_first = Known(OfAngle("sin", shift=90.0), "crank_sin")
+    of_first = TracedValue(AngleFunction("sin", shift=90.0), "crank_sin")
     force = tangential_force(given("piston_force", 5.0), of_first, 1.0, absent(""), 1.0)
-    (line,) = Moment(CrankGrid.from_degrees, 0.0, "2").steps([force])
+    (line,) = Snapshot(CrankGrid.from_degrees, 0.0, "2").steps([force])
     assert line.value == pytest.approx(5.0)
     assert dict(line.named) == {"sin_phi_beta": "crank_sin"}
 
@@ -108,7 +108,7 @@ def test_a_line_evaluates_to_its_value():
 
 @for_each(("order", "shown"), [(1, "a_k·cos φ"), (2, "a_k·cos 2φ"), (3, "a_k·cos kφ")])
 def test_the_first_two_orders_are_written_out(order, shown):
-    cosine = Known(OfAngle("cos", order))
+    cosine = TracedValue(AngleFunction("cos", order))
     (line,) = lines(series_transfer_2_term(2.0, cosine, absent(""), absent("")))
     assert text(line.expression) == shown
 
@@ -122,7 +122,7 @@ def test_what_rounding_has_left_of_larger_terms_is_printed_as_zero():
 
 
 def test_an_operand_that_is_noise_is_printed_as_zero():
-    cosine = Known(OfAngle("cos"), "crank_cos")
+    cosine = TracedValue(AngleFunction("cos"), "crank_cos")
     step = at(90 + 2e-11).step((given("crank_radius", 0.05) * cosine).named("arm_x.A"))
     assert 0 < abs(step.value) < 1e-12
     shown = without_noise(step)
@@ -131,7 +131,7 @@ def test_an_operand_that_is_noise_is_printed_as_zero():
 
 def test_folding_keeps_the_numbers_of_a_formula():
     tree = record(lambda r, l: 2 * r - 0.5 * l)  # noqa: E741
-    assert fold(tree) == tree
+    assert simplify(tree) == tree
 
 
 @for_each(("couple", "shown"), [(12.0, "(M_st + M_dyn)/η"), (None, "M_st/η")], ids=["given", "absent"])
@@ -147,8 +147,8 @@ def test_a_step_leaves_out_what_nobody_stated(couple, shown):
 def test_a_difference_of_equals_and_a_quotient_by_infinity_fold_away():
     tree = record(lambda r, l, e: r * (1 - l) + 1 / e)  # noqa: E741
     one, infinite = Number(1.0), Number(math.inf)
-    assert text(fold(replaced(tree, {"l": one}))) == "1/e"
-    assert text(fold(replaced(tree, {"e": infinite}))) == "r·(1 − l)"
+    assert text(simplify(replaced(tree, {"l": one}))) == "1/e"
+    assert text(simplify(replaced(tree, {"e": infinite}))) == "r·(1 − l)"
 
 
 def replaced(tree: Expression, numbers: dict[str, Number]) -> Expression:

@@ -1,15 +1,15 @@
 """Ranges of formulas: what is put in from outside is told once, at its farthest."""
 
-from crankwork.formula.known import Known, OfAngle, given
-from crankwork.formula.ranges import range_notices
+from crankwork.formula.traced_value import AngleFunction, TracedValue, given
+from crankwork.formula.validity_ranges import range_notices
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.report.notices import notice_text
 from crankwork.working_cycle.heat_capacities import air_heat, mixture_heat
 
-SIN = Known(OfAngle("sin"), "crank_angle")
+SIN = TracedValue(AngleFunction("sin"), "crank_angle")
 
 
-def _heat(celsius: float) -> Known:
+def _heat(celsius: float) -> TracedValue:
     return air_heat(given("compression_celsius", celsius))
 
 

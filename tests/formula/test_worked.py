@@ -5,16 +5,16 @@ import math
 import pytest
 
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import given
-from crankwork.formula.worked import Worked
+from crankwork.formula.calculation import Calculation
+from crankwork.formula.traced_value import given
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import clearance_volume, polytropic_pressure
-from crankwork.locale import told
+from crankwork.locale import in_language
 from each import for_each
 
 
-def _speeds() -> Worked:
-    worked = Worked()
+def _speeds() -> Calculation:
+    worked = Calculation()
     worked.given("stroke", 0.08, "crank.stroke")
     worked.given("rotational_speed", 3000.0)
     return worked
@@ -48,18 +48,18 @@ def test_what_is_worked_again_later_is_marked_and_leaves_the_first_calculation_a
 
 @for_each("ratio", [1.0, math.nan], ids=["division by zero", "no number"])
 def test_where_no_number_follows_the_operands_are_told(ratio):
-    worked = Worked()
+    worked = Calculation()
     worked.given("swept_volume", 0.0005)
     worked.given("compression_ratio", ratio)
     with pytest.raises(
         CrankworkError, match=f"no clearance volume follows from swept volume 0.0005 and compression ratio {ratio:g}"
     ) as caught:
         worked(clearance_volume)
-    russian = told(caught.value.args[0], "ru")
+    russian = in_language(caught.value.args[0], "ru")
     assert russian.startswith("объём камеры сжатия: величина не определяется, если рабочий объём")
     assert f" 0,0005 и степень сжатия {ratio:g};" in russian
 
 
 def test_what_is_not_known_is_named():
     with pytest.raises(KeyError, match="diagram_pressure"):
-        Worked()(polytropic_pressure)
+        Calculation()(polytropic_pressure)

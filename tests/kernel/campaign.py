@@ -25,14 +25,14 @@ from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Arithmetic, Found, Known, Total, Use
-from crankwork.formula.over_cycle import BEYOND
+from crankwork.formula.cycle_interpolant import BEYOND
 from crankwork.formula.replay import replay
+from crankwork.formula.traced_value import Arithmetic, FormulaCall, ProcedureValue, Sum, TracedValue
 from crankwork.kernel import compiled
 from crankwork.kernel.compiled import CONVERGED, Kernel
-from crankwork.kernel.trace import DesignTraces, Lowering, NotCompiledError
+from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.sought import NumericField, numeric_field
+from crankwork.study.numeric_field import NumericField, numeric_field
 
 plausible_file = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible.py"))["plausible_file"]
 # how many numbers are varied, by how much of what they are, and how many designs are compared
@@ -130,21 +130,21 @@ def compared(name: str, text: str, seed: int = 1, named: Sequence[str] = ()) -> 
         return Comparison(name, absent="no number that may vary")
     if any("crank_range" in one.summary for one in machine.traced):
         return Comparison(name, absent="turns back")
-    memories, reasons = [one.memory for one in machine.traced], dict[str, str]()
+    traces, reasons = [one.trace for one in machine.traced], dict[str, str]()
     cycle, looked = machine.stated.machine.cycle, np.arange(0.5, 360, 7.0)
-    designs = DesignTraces(memories, machine.rows, ())
+    designs = DesignTraces(traces, machine.rows, ())
     trace = Lowering(designs, CrankGrid.from_degrees, looked, is_shifted=True)
     for key in machine.stated.summary:
         try:
             designs.add(key)
-            trace.value(memories[0][key])
+            trace.value(traces[0][key])
         except NotCompiledError as error:
             reasons[key] = f"{error.reason}: {error.key}"
     keys = [key for key in machine.stated.summary if key not in reasons]
     if not keys:
         return Comparison(name, reasons=reasons)
     try:
-        kernel = Kernel(memories, machine.rows, keys, CrankGrid.from_degrees, cycle=cycle)
+        kernel = Kernel(traces, machine.rows, keys, CrankGrid.from_degrees, cycle=cycle)
     except NotCompiledError as error:
         # such designs are analysed one by one
         return Comparison(name, reasons=reasons | dict.fromkeys(keys, f"{error.reason}: {error.key}"))
@@ -172,8 +172,8 @@ def _worst(found: Comparison, machine: Machine, kernel: Kernel, draw: np.random.
             apart, size = abs(value - summary.get(key, np.nan)), _size(key, summary)
             if not apart <= LIMITS[kind] * size:
                 # of a small difference of large numbers rounding is left, and analyses stand a little behind a jump
-                size = max(size, _size_of(results.memory[key], results))
-                apart = max(apart - _behind_a_jump(results.memory[key]), 0.0)
+                size = max(size, _size_of(results.trace[key], results))
+                apart = max(apart - _behind_a_jump(results.trace[key]), 0.0)
             apart /= size
             if kind == "angle" and "ratio" not in key and not apart <= LIMITS[kind]:
                 apart = _missed(key, value, results)
@@ -190,32 +190,32 @@ def _from_dead_position(summary: Mapping[str, float]) -> float:
     return min(away, default=math.inf)
 
 
-def _size_of(known: Known, results: Results) -> float:
+def _size_of(known: TracedValue, results: Results) -> float:
     """Return the size of the numbers that a single value is the sum or difference of: what rounding goes by."""
     node = known.node
     match node:
-        case Found(operands=operands) if any(one.varies for one in operands):
+        case ProcedureValue(operands=operands) if any(one.varies for one in operands):
             return math.prod(
                 float(np.max(np.abs(replay(one, results.grid) if one.varies else one.value))) for one in operands
             )
-        case Use() | Arithmetic():
-            function = node.formula.function if isinstance(node, Use) else node.function
-            inputs = [one.value if isinstance(one, Known) else one for one in node.inputs]
+        case FormulaCall() | Arithmetic():
+            function = node.formula.function if isinstance(node, FormulaCall) else node.function
+            inputs = [one.value if isinstance(one, TracedValue) else one for one in node.inputs]
             found = abs(known.value)
             for at, one in enumerate(node.inputs):
-                if isinstance(one, Known):
+                if isinstance(one, TracedValue):
                     beside = [value + 1e-30j * (at == place) for place, value in enumerate(inputs)]
                     found += abs(np.imag(function(*beside)) / 1e-30) * _size_of(one, results)
             return float(found)
-        case Total(operands=operands):
+        case Sum(operands=operands):
             return sum(_size_of(one, results) for one in operands)
     return 0.0 if known.varies else abs(known.value)
 
 
-def _behind_a_jump(known: Known) -> float:
+def _behind_a_jump(known: TracedValue) -> float:
     """Return by how much an extreme may change where an analysis stands behind the angle at which a law begins."""
     node = known.node
-    if not isinstance(node, Found) or node.at is None or node.word not in ("max", "min"):
+    if not isinstance(node, ProcedureValue) or node.at is None or node.word not in ("max", "min"):
         return 0.0
     one, other = replay(node.operands[0], CrankGrid.from_degrees([node.at, node.at + _STEP])).tolist()
     return abs(other - one) / _STEP * 2 * BEYOND

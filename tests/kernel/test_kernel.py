@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from crankwork import Description, sweep, template
-from crankwork.formula.known import Found, Known, OfAngle, Pieces, given
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import AngleFunction, Piecewise, ProcedureValue, TracedValue, given
 from crankwork.kernel import compiled as compiled_kernels
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.derivative import PARTIALS, ByAngle
 from crankwork.kernel.graph import COMPUTE, KernelGraph, number
 from crankwork.kernel.graph import in_order as values_in_order
-from crankwork.kernel.plan import shared
-from crankwork.kernel.trace import DesignTraces, Lowering, NotCompiledError
+from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
+from crankwork.kernel.schedule import shared
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads.gas import polytropic_pressure
 from varied import Varied
@@ -59,9 +59,9 @@ def by_arrays(monkeypatch):
 
 def refusals(study):
     """Return why values do not compile, by their keys."""
-    designs, found = DesignTraces(study.memories, study.rows, ()), {}
+    designs, found = DesignTraces(study.traces, study.rows, ()), {}
     trace = Lowering(designs, CrankGrid.from_degrees, np.arange(0, 360, 7.0), is_shifted=False)
-    for key, known in study.memories[0].items():
+    for key, known in study.traces[0].items():
         try:
             designs.add(key)
             trace.value(known)
@@ -74,7 +74,7 @@ def sizes(study, keys):
     """Return the size beside which each value is judged: that of the largest torque, force and so on, or a turn."""
     results = study.analysed[0]
     degrees = np.arange(0.0, study.cycle, 5.0)
-    columns = results.columns_at(degrees, [key for key, known in results.memory.items() if known.varies])
+    columns = results.columns_at(degrees, [key for key, known in results.trace.items() if known.varies])
     largest = {key: float(np.max(np.abs(column))) for key, column in columns.items()}
     largest |= {key: abs(value) for key, value in results.summary.items() if "angle" not in key}
     found = []
@@ -106,16 +106,16 @@ def test_values_and_columns_are_those_of_analyses_and_others_say_why_not(name, b
     reasons = {key: error.reason for key, error in told.items() if key in study.summary}
     assert set(reasons.values()) <= {"procedure", "table", "ways", "solved"}
     assert reasons or name != "V8"
-    keys = [key for key in study.summary if key in study.memories[0] and key not in told]
+    keys = [key for key in study.summary if key in study.traces[0] and key not in told]
     assert len(keys) > len(study.summary) / 2
     assert wrong_values(study.kernel(keys), study, study.drawn(5)) == {}
     # every operation is one of a formula: the graph played as it is gives the columns that the memory gives
-    keys = [key for key, known in study.memories[0].items() if known.varies and key not in told]
+    keys = [key for key, known in study.traces[0].items() if known.varies and key not in told]
     degrees, design = np.linspace(1.3, study.cycle - 2.2, 60), study.drawn(1)[:, 0]
-    memory = study.results(design).memory
-    trace = Lowering(DesignTraces(study.memories, study.rows, keys), CrankGrid.from_degrees, degrees, is_shifted=True)
-    expected = Program({key: memory[key] for key in keys})(CrankGrid.from_degrees(degrees))
-    found = played([trace.value(study.memories[0][key]) for key in keys], design, degrees, study.cycle)
+    trace = study.results(design).trace
+    trace = Lowering(DesignTraces(study.traces, study.rows, keys), CrankGrid.from_degrees, degrees, is_shifted=True)
+    expected = Program({key: trace[key] for key in keys})(CrankGrid.from_degrees(degrees))
+    found = played([trace.value(study.traces[0][key]) for key in keys], design, degrees, study.cycle)
     apart = {key: np.max(np.abs(one - expected[key])) for key, one in zip(keys, found, strict=True)}
     assert {key for key, one in apart.items() if not one <= 1e-12 * max(np.max(np.abs(expected[key])), 1e-9)} == set()
 
@@ -126,7 +126,7 @@ def test_compiled_loops_give_what_analyses_and_arrays_give(name, monkeypatch):
     """Of seventy designs, because 64 are calculated at once."""
     study = Varied(*MACHINES[name])
     told, designs = refusals(study), study.drawn(70)
-    kernel = study.kernel([key for key in study.summary if key in study.memories[0] and key not in told])
+    kernel = study.kernel([key for key in study.summary if key in study.traces[0] and key not in told])
     assert wrong_values(kernel, study, designs[:, :5]) == {}
     found = kernel(designs).values
     few = [*[key for key in kernel.keys if key.endswith("_max")][:4], *({"excess_work"} & set(kernel.keys))]
@@ -201,20 +201,20 @@ def test_engines_are_as_an_engineer_writes_them_with_numpy(by_arrays):
 
 
 def test_fields_that_are_followed_crookedly_are_refused():
-    memories = [{"y": given("y", value, "a.field") * Known(OfAngle("sin"))} for value in (4.0, 1.0, 9.0)]
-    for one in memories:
-        one["y_max"] = Known(Found(0.0, "max", (one["y"],)), "y_max")
+    traces = [{"y": given("y", value, "a.field") * TracedValue(AngleFunction("sin"))} for value in (4.0, 1.0, 9.0)]
+    for one in traces:
+        one["y_max"] = TracedValue(ProcedureValue(0.0, "max", (one["y"],)), "y_max")
     with pytest.raises(NotCompiledError, match="curved_field"):
-        Kernel(memories, np.array([[2.0], [1.0], [3.0]]), ["y_max"], CrankGrid.from_degrees, cycle=360.0)
+        Kernel(traces, np.array([[2.0], [1.0], [3.0]]), ["y_max"], CrankGrid.from_degrees, cycle=360.0)
 
 
 def test_laws_that_end_elsewhere_are_refused():
-    memories = [
-        {"y": Known(Pieces([end, 360.0], (given("p", 1.0), given("p", 2.0)))) * given("a", one)}
+    traces = [
+        {"y": TracedValue(Piecewise([end, 360.0], (given("p", 1.0), given("p", 2.0)))) * given("a", one)}
         for end, one in ((90.0, 1.0), (91.0, 1.1), (92.0, 1.2))
     ]
     with pytest.raises(NotCompiledError, match="ways"):
-        DesignTraces(memories, np.array([[1.0], [1.1], [1.2]]), ["y"])
+        DesignTraces(traces, np.array([[1.0], [1.1], [1.2]]), ["y"])
 
 
 def test_of_two_extremes_the_worse_one_is_chosen_for_each_design(by_arrays):

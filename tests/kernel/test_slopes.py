@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from crankwork.cylinders.load_vectors import bearing_load
-from crankwork.formula.known import Found, Known, OfAngle, Pieces, given
+from crankwork.formula.traced_value import AngleFunction, Piecewise, ProcedureValue, TracedValue, given
 from crankwork.kernel.compiled import Kernel
-from crankwork.kernel.slopes import part_key
+from crankwork.kernel.reduction_adjoints import part_key
 from crankwork.kinematics.crank_grid import CrankGrid
 from varied import Varied
 
@@ -34,10 +34,10 @@ def kernel(file, fields, keys, **asked):
     return varied.kernel(keys, is_for_few=True, **asked), varied.middle
 
 
-def of_known(memory, rows, keys):
+def of_known(trace, rows, keys):
     """Return a kernel of numbers that are given."""
-    memories = [memory(*one) for one in rows]
-    return Kernel(memories, np.array(rows), keys, CrankGrid.from_degrees, cycle=360.0, is_for_few=True)
+    traces = [trace(*one) for one in rows]
+    return Kernel(traces, np.array(rows), keys, CrankGrid.from_degrees, cycle=360.0, is_for_few=True)
 
 
 def slopes(of, design):
@@ -81,16 +81,16 @@ def test_extremes_and_their_angles_change_as_with_forty_digits():
 def test_a_mean_and_how_far_an_integral_goes_change_as_with_forty_digits():
     """Columns of two numbers given: a sin phi (2 + cos phi) + b sin^2 phi, and a vector that vanishes once."""
 
-    def memory(a, b):
-        sin, cos = Known(OfAngle("sin")), Known(OfAngle("cos"))
+    def trace(a, b):
+        sin, cos = TracedValue(AngleFunction("sin")), TracedValue(AngleFunction("cos"))
         a, b = given("a", a, "a"), given("b", b, "b")
         column = a * sin * (cos + 2.0) + b * sin * sin
-        found = {word: Known(Found(1.0, word, (column,)), word) for word in ("mean", "range")}
+        found = {word: TracedValue(ProcedureValue(1.0, word, (column,)), word) for word in ("mean", "range")}
         length = bearing_load(a * sin, b * (cos + 1.0))
-        return found | {"length": Known(Found(1.0, "mean", (length,)), "length")}
+        return found | {"length": TracedValue(ProcedureValue(1.0, "mean", (length,)), "length")}
 
     rows = [(2.0, 1.0), (1.9, 1.0), (2.1, 1.0), (2.0, 0.9), (2.0, 1.1)]
-    of = of_known(memory, rows, ["mean", "range", "length"])
+    of = of_known(trace, rows, ["mean", "range", "length"])
     found, by = slopes(of, np.array([2.0, 1.0]))
 
     def excess(a, b):
@@ -158,14 +158,14 @@ def test_the_largest_of_parts_is_that_of_the_cycle_and_changes_as_it():
 def test_a_peak_at_the_end_of_a_law_goes_with_it():
     """A slope that is cut off at an angle b: its top a sin b, its mean a (1 - cos b) / 2 pi."""
 
-    def memory(a, b):
-        laws = given("a", a, "a") * Known(OfAngle("sin")), given("none", 0.0)
+    def trace(a, b):
+        laws = given("a", a, "a") * TracedValue(AngleFunction("sin")), given("none", 0.0)
         end = given("b", b, "b")
-        y = Known(Pieces([end, 360.0], laws), "y")
-        return {word: Known(Found(1.0, word, (y,)), word) for word in ("max", "max_angle", "mean")}
+        y = TracedValue(Piecewise([end, 360.0], laws), "y")
+        return {word: TracedValue(ProcedureValue(1.0, word, (y,)), word) for word in ("max", "max_angle", "mean")}
 
     rows = [(2.0, 60.0), (1.9, 60.0), (2.1, 60.0), (2.0, 59.0), (2.0, 61.0)]
-    of = of_known(memory, rows, ["max", "max_angle", "mean"])
+    of = of_known(trace, rows, ["max", "max_angle", "mean"])
     sin, cos, degree = np.sqrt(0.75), 0.5, np.pi / 180
     _, found = slopes(of, np.array([2.0, 60.0]))
     assert found["max"] == pytest.approx([sin, 2 * cos * degree], rel=1e-12)

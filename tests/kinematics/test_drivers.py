@@ -14,7 +14,7 @@ from crankwork.mechanism.dyads import RRP, RRR, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism
 from driven import BOOM, ELBOW, there_and_back
 from each import for_each
-from motions import coordinates, not_alike, remembered
+from motions import coordinates, not_alike, traced
 
 pytestmark = pytest.mark.elsewhere
 GRID = CrankGrid.from_degrees(np.linspace(3.0, 350.0, 41))
@@ -151,7 +151,7 @@ def test_a_cylinder_in_a_chain_is_the_one_in_a_dyad():
 
 @for_each("mechanism", [BOOM, as_chain(BOOM), SLIDING_CYLINDER, ELBOW], ids=["boom", "chain", "slider", "elbow"])
 def test_the_memory_replayed_is_the_motion(mechanism):
-    assert not_alike(*remembered(mechanism, GRID), rel=1e-13, abs=1e-13) == []
+    assert not_alike(*traced(mechanism, GRID), rel=1e-13, abs=1e-13) == []
 
 
 def test_a_crank_that_follows_a_law_is_the_crank_at_that_angle():
@@ -161,7 +161,7 @@ def test_a_crank_that_follows_a_law_is_the_crank_at_that_angle():
                     for one in (None, law))  # fmt: skip
     q = law_at(law, GRID).position
     expected = coordinates(linkage_motion(still, CrankGrid.from_radians(q)))
-    replayed, found = remembered(swung, GRID)
+    replayed, found = traced(swung, GRID)
     assert not_alike(found, expected, rel=1e-14, abs=1e-15) == []
     assert not_alike(replayed, expected, rel=1e-13, abs=1e-14) == []
 
@@ -200,4 +200,4 @@ def test_links_with_a_motor_between_them_pass_the_line(is_swapped, branch):
             grown = (ahead.links[name][order] - behind.links[name][order]) / (2 * step)
             expected = motion.links[name][order + 1][1:-1] * rate
             assert grown[smooth] == pytest.approx(expected[smooth], rel=2e-5, abs=2e-6)
-    assert not_alike(*remembered(motor, grid), rel=1e-12, abs=1e-12) == []
+    assert not_alike(*traced(motor, grid), rel=1e-12, abs=1e-12) == []

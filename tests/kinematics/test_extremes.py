@@ -8,10 +8,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from crankwork.formula.known import KnownAngle, given
-from crankwork.formula.over_cycle import Extreme, OverCycle
+from crankwork.formula.cycle_interpolant import CycleInterpolant, Extreme
+from crankwork.formula.traced_value import TracedAngle, given
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.extremes import dead_centres
+from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.method import EXACT, TEXTBOOK, Method
@@ -25,10 +25,10 @@ RATIOS = [0.05, 0.2, 0.25, 0.28, 0.34, 0.5, 0.8, 0.99]
 def _largest_and_least(machine: SliderCrank, order: int, method: Method = EXACT) -> tuple[Extreme, Extreme]:
     """Return the extremes of dx/dphi (order 1) or d2x/dphi2 (order 2) over a turn."""
     lengths = SliderCrank(*(given(key, value) for key, value in zip(SliderCrank._fields, machine, strict=True)))
-    angle: Any = KnownAngle()
+    angle: Any = TracedAngle()
     moving = piston_motion(lengths, angle, method).piston
-    over = OverCycle({"": moving[order]}, CrankGrid.from_degrees, 360.0)
-    return over.largest_and_least[""]
+    over = CycleInterpolant({"": moving[order]}, CrankGrid.from_degrees, 360.0)
+    return over.extreme_points[""]
 
 
 def _displacement(machine: SliderCrank) -> Callable[[Any], Any]:

@@ -7,13 +7,13 @@ import pytest
 
 import linkages
 from crankwork.errors import GeometryError
-from crankwork.kinematics import loops
-from crankwork.kinematics.coordinates import driver_coordinate
+from crankwork.kinematics import chain_solver
+from crankwork.kinematics.chain_solver import as_chain
+from crankwork.kinematics.configuration_coordinates import driver_coordinate
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.loops import as_chain
+from crankwork.kinematics.crank_range import find_crank_range
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.kinematics.placement import ChainRoot, place
-from crankwork.kinematics.travel import travel
+from crankwork.kinematics.position_analysis import ChainRoot, place
 from crankwork.mechanism.chain import Chain, ChainLink
 from linkages import mechanism_from
 from motions import changed
@@ -59,7 +59,7 @@ def test_a_group_of_class_iii_keeps_its_branch_up_to_its_dead_positions():
     """Positions follow the circuit, which goes by its arc and knows no dead position."""
     mechanism, problems = mechanism_from(NEARLY_DEAD)
     assert problems == []
-    found = travel(mechanism)
+    found = find_crank_range(mechanism)
     arc = np.linspace(found.branch.start, found.branch.end, 402)[1:-1]
     there = found.circuit.stretch(arc)
     cranks = found.circuit.values(driver_coordinate(mechanism), arc)
@@ -128,8 +128,8 @@ def test_a_chain_is_followed_on_from_where_it_was(triad, monkeypatch):
     """Asked for a little more it does not start again, and it gets where it gets when all is asked for at once."""
     index = next(at for at, group in enumerate(triad.dyads) if isinstance(group, Chain))
     starts = []
-    begun = loops._start
-    monkeypatch.setattr(loops, "_start", lambda *what: starts.append(1) or begun(*what))
+    begun = chain_solver._start
+    monkeypatch.setattr(chain_solver, "_start", lambda *what: starts.append(1) or begun(*what))
     root = ChainRoot(triad, index)
     for degrees in (10.0, 60.0, 200.0, -30.0, 350.0):
         root(CrankGrid.from_degrees([0.0, degrees]))

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from crankwork.analysis.engine import analyse_engine
+from crankwork.analysis.one_cylinder import analyse_engine
 from crankwork.errors import GeometryError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion

@@ -7,10 +7,10 @@ import pytest
 
 from crankwork import analyse, read
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import breaks_of
-from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.traced_value import breakpoints_of
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.motion_laws import clock, extent, law_at, remembered_law
+from crankwork.kinematics.motion_laws import clock, extent, law_at, traced_law
 from crankwork.mechanism.driver import Law, Segment
 from each import for_each
 
@@ -35,7 +35,7 @@ def at(law, degrees):
 @for_each("law", LAWS, ids=[*KINDS, "table", "one way"])
 def test_rates_are_derivatives_by_time(law):
     degrees = np.random.default_rng(3).uniform(1.0, 359.0, 400)
-    edges = breaks_of(remembered_law(law, turns=False), 360.0)
+    edges = breakpoints_of(traced_law(law, turns=False), 360.0)
     degrees = degrees[np.min(np.abs(degrees[:, None] - edges), axis=1) > 0.1]
     step = 1e-3
     per_second = law.period / 360.0
@@ -57,7 +57,7 @@ def test_segments_end_where_they_are_sent(kind):
 @for_each("kind", [one for one in KINDS if one != "constant"])
 def test_rates_have_no_jumps(kind):
     law = THERE_AND_BACK[kind]
-    edges = breaks_of(remembered_law(law, turns=False), 360.0)[1:-1]
+    edges = breakpoints_of(traced_law(law, turns=False), 360.0)[1:-1]
     before, after = (at(law, edges + d) for d in (-1e-9, 1e-9))
     assert before.position_1 == pytest.approx(after.position_1, abs=1e-9)
     if kind not in ("parabolic", "trapezoidal", "cubic", "harmonic"):
@@ -78,9 +78,9 @@ def test_a_table_is_smooth_through_its_points():
 
 def test_extremes_and_time_of_a_law():
     law = THERE_AND_BACK["3-4-5"]
-    q, velocity, acceleration = remembered_law(law, turns=True)
-    over = OverCycle({"q": q, "v": velocity, "a": acceleration, "t": clock(law)}, CrankGrid.from_degrees, 360.0)
-    found = over.largest_and_least
+    q, velocity, acceleration = traced_law(law, turns=True)
+    over = CycleInterpolant({"q": q, "v": velocity, "a": acceleration, "t": clock(law)}, CrankGrid.from_degrees, 360.0)
+    found = over.extreme_points
     # the rise takes 1 s and 250 mm, the return 1.25 s
     assert found["v"][0].value == pytest.approx(1.875 * 0.25, rel=1e-12)
     assert found["v"][1].value == pytest.approx(-1.875 * 0.25 / 1.25, rel=1e-12)

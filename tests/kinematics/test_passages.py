@@ -7,9 +7,9 @@ import pytest
 
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import remembered_motion
+from crankwork.kinematics.crank_range import find_crank_range, pass_change_points
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.kinematics.travel import travel, way_through
+from crankwork.kinematics.traced_motion import traced_motion
 from crankwork.mechanism.catalog import four_bar
 from crankwork.mechanism.dyads import RPR, RRR
 from crankwork.mechanism.mechanism import Crank, Mechanism, slider_crank
@@ -25,7 +25,7 @@ PARALLELOGRAM = four_bar(0.3, 1.0, 0.3, 1.0)
 
 
 def _passing(mechanism):
-    return way_through(mechanism)[0]
+    return pass_change_points(mechanism)[0]
 
 
 def same(found, expected, within=1e-12):
@@ -55,7 +55,7 @@ def test_a_crank_that_goes_on_for_turns_passes_every_time():
 def test_what_is_remembered_passes_as_well():
     mechanism = _passing(PARALLELOGRAM)
     moved = linkage_motion(mechanism, CrankGrid.steps(1.0, 360.0))
-    motion = remembered_motion(mechanism, moved)
+    motion = traced_motion(mechanism, moved)
     pin = motion.points["coupler_pin"]
     found = Program({"x": pin.x[0], "x_1": pin.x[1], "x_2": pin.x[2], "turn": motion.links["rocker"][0]})(GRID)
     same((found["x"], found["x_1"], found["x_2"]), (1 + 0.3 * GRID.cos, -0.3 * GRID.sin, -0.3 * GRID.cos))
@@ -75,7 +75,7 @@ def test_the_crossed_branch_goes_on_crossed(crank, ground):
 
 def test_a_kite_needs_two_turns():
     mechanism = four_bar(1.0, math.sqrt(2), math.sqrt(2), 1.0)
-    assert travel(mechanism).turns == 2
+    assert find_crank_range(mechanism).turns == 2
     grid = CrankGrid.from_degrees(np.arange(0.0, 720.5, 0.5))
     pin = linkage_motion(_passing(mechanism), grid).points["coupler_pin"]
     half = grid.angle / 2
@@ -101,7 +101,7 @@ def test_coupled_wheels_keep_in_step():
 
 def test_a_slotted_lever_whose_pin_passes_the_pivot_turns_half_as_fast():
     lever = Mechanism(Crank(0.05), (RPR("crank_pin", "P", "lever", "block"),), ground={"P": (0.0, -0.05)})
-    assert travel(lever).turns == 2
+    assert find_crank_range(lever).turns == 2
     turned = linkage_motion(_passing(lever), CrankGrid.from_degrees(np.arange(0.0, 720.0, 2.5))).links["lever"]
     same(turned[1:], (0.5 * np.ones(288), np.zeros(288)))
 
@@ -113,6 +113,6 @@ def test_a_crank_that_turns_fully_or_back_passes_nothing():
 
 def test_a_crank_gets_as_far_as_its_dead_positions():
     half = math.degrees(math.acos((3**2 + 7**2 - 9**2) / (2 * 3 * 7)))
-    found = travel(four_bar(3, 4, 5, 7))
+    found = find_crank_range(four_bar(3, 4, 5, 7))
     assert (found.start, found.end) == pytest.approx((-half, half), abs=1e-9)
     assert not found.is_whole

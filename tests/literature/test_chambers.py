@@ -179,7 +179,7 @@ class TestRajput13:
 
     def test_volumetric_efficiency(self, results):
         """What is drawn in, and how much free air at 1.03 bar and 293 K that is of air at 1 bar and 298 K."""
-        pressure = results.memory["diagram_pressure.head"]
+        pressure = results.trace["diagram_pressure.head"]
         expanded = pressure.node.ends[0]
         full, left = (results.value("cylinder_volume.head", one) for one in (180.0, expanded))
         drawn = (full - left) / results["swept_volume.head"]

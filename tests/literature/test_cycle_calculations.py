@@ -15,8 +15,8 @@ Internal_Combustion_Engine_by_M._l._Mathur_and_R._P._Sharma/ch2_2.ipynb, and sec
 import pytest
 
 from crankwork.analysis import Results
-from crankwork.formula.known import given
-from crankwork.formula.worked import Worked
+from crankwork.formula.calculation import Calculation
+from crankwork.formula.traced_value import given
 from crankwork.working_cycle.charge import compression_pressure, compression_temperature
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.grinevetsky import grinevetsky
@@ -33,7 +33,7 @@ def test_end_of_compression_of_a_course_work() -> None:
     temperature = compression_temperature(340.6, 8.2, 1.37)
     assert round(pressure / 1e6, 3) == 1.595
     assert temperature == pytest.approx(741.918, abs=5.001e-4)
-    assert round(fresh_heat(Worked(), "linear", given("compression_temperature", temperature)).value, 2) == 21.45
+    assert round(fresh_heat(Calculation(), "linear", given("compression_temperature", temperature)).value, 2) == 21.45
 
 
 KD = GrinevetskyData(

@@ -12,7 +12,7 @@ import math
 
 import pytest
 
-from crankwork.analysis.engine import analyse_engine
+from crankwork.analysis.one_cylinder import analyse_engine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank

@@ -13,8 +13,8 @@ import pytest
 
 from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reduction import crank_torque
-from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import Weight, applied_loads
@@ -34,8 +34,8 @@ GRID = CrankGrid.from_degrees(np.array([30.0]))
 EXACT = 3415.7234
 
 
-def engine(speed: float) -> Running:
-    return Running(ENGINE, linkage_motion(ENGINE, GRID), speed)
+def engine(speed: float) -> OperatingState:
+    return OperatingState(ENGINE, linkage_motion(ENGINE, GRID), speed)
 
 
 def test_inertia_torque():

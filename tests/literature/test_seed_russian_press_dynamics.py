@@ -12,7 +12,7 @@ import pytest
 
 from crankwork.dynamics.efficiency import Parallel, Series, driving_torque_as_brake, driving_torque_as_motor, efficiency
 from crankwork.dynamics.reduction import dynamic_torque
-from crankwork.dynamics.tabulated import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
+from crankwork.dynamics.tabulated_inertia import TabulatedBody, difference_derivative, reduced_inertia_of_ratios
 
 HALF_SQUARE_OF_SPEED = 107.3113
 ROD_CENTRE = (0.025, 0.032, 0.046, 0.05, 0.043, 0.031, 0.025, 0.037, 0.045, 0.05, 0.046, 0.036)

@@ -11,10 +11,10 @@ from scipy.optimize import brentq, minimize_scalar
 from crankwork.dynamics.reduction import reduced_torque
 from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.memory import remembered_motion, traced_mechanism
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face
-from crankwork.loads.filling import solve_chambers
+from crankwork.loads.chamber_gas import solve_chambers
 from crankwork.loads.indicator import DiagramError, DiagramPoint, Piece
 from crankwork.mechanism.dyads import RPP, RPR, RRP, Guide
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, slider_crank
@@ -30,9 +30,7 @@ AREA, LESS = math.pi * BORE**2 / 4, math.pi * ROD**2 / 4
 
 
 def fill(mechanism, chambers, charges=None):
-    return solve_chambers(
-        chambers, charges or {}, remembered_motion(mechanism, linkage_motion(mechanism, TURN)), math.pi
-    )
+    return solve_chambers(chambers, charges or {}, traced_motion(mechanism, linkage_motion(mechanism, TURN)), math.pi)
 
 
 def columns(filling, grid=GRID):
@@ -129,10 +127,10 @@ class TestDoubleActing:
     def test_remembered_loads_are_those_in_numbers(self, steam):
         mechanism = slider_crank(RADIUS, LENGTH)
         motion = linkage_motion(mechanism, GRID)
-        knowns = remembered_motion(mechanism, linkage_motion(mechanism, TURN))
-        remembered = steam.loads(traced_mechanism(mechanism), knowns).forces
-        assert [one.x.key for one in remembered] == ["load_x.piston_pin.head", "load_x.piston_pin.crank"]
-        for one, other in zip(remembered, steam.loads(mechanism, motion).forces, strict=True):
+        knowns = traced_motion(mechanism, linkage_motion(mechanism, TURN))
+        traced = steam.loads(traced_mechanism(mechanism), knowns).forces
+        assert [one.x.key for one in traced] == ["load_x.piston_pin.head", "load_x.piston_pin.crank"]
+        for one, other in zip(traced, steam.loads(mechanism, motion).forces, strict=True):
             assert Program({"": one.x})(GRID)[""] == pytest.approx(other.x, rel=1e-14)
 
     def test_a_shorter_period_is_passed_twice(self):

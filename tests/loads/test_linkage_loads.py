@@ -21,7 +21,7 @@ from crankwork.loads.load import (
     Weight,
     applied_loads,
 )
-from crankwork.loads.table import Table
+from crankwork.loads.load_curve import LoadCurve
 from crankwork.mechanism.catalog import crank_shaper, four_bar, slotted_press
 from crankwork.mechanism.mechanism import Crank, Mechanism, body_at
 from each import for_each
@@ -49,23 +49,23 @@ class TestTable:
     def test_passes_its_points_and_is_zero_outside(self):
         at, values = (0.0, 0.1, 0.4), (0.0, 5.0, 3.0)
         for interpolation in ("linear", "monotone"):
-            table = Table(at, values, interpolation)
+            table = LoadCurve(at, values, interpolation)
             assert table(np.array(at)) == pytest.approx(values)
             assert table(np.array([-0.01, 0.41])).tolist() == [0, 0]
 
     def test_straight_between_points(self):
-        assert Table((0.0, 2.0), (1.0, 5.0))(np.array([0.5])) == pytest.approx([2.0])
+        assert LoadCurve((0.0, 2.0), (1.0, 5.0))(np.array([0.5])) == pytest.approx([2.0])
 
     def test_smooth_without_overshoot(self):
-        values = Table((0.0, 1.0, 2.0, 3.0), (0.0, 0.0, 1.0, 1.0), "monotone")(np.linspace(0, 3, 301))
+        values = LoadCurve((0.0, 1.0, 2.0, 3.0), (0.0, 0.0, 1.0, 1.0), "monotone")(np.linspace(0, 3, 301))
         assert values.min() == 0
         assert values.max() == 1
         assert np.all(np.diff(values) >= -1e-15)
 
     @for_each("interpolation", ["linear", "monotone"])
     def test_a_period_closes_the_curve(self, interpolation):
-        open_end = Table((0.0, 1.0, 2.0), (1.0, 4.0, 2.0), interpolation, period=3.0)
-        closed = Table((0.0, 1.0, 2.0, 3.0), (1.0, 4.0, 2.0, 1.0), interpolation, period=3.0)
+        open_end = LoadCurve((0.0, 1.0, 2.0), (1.0, 4.0, 2.0), interpolation, period=3.0)
+        closed = LoadCurve((0.0, 1.0, 2.0, 3.0), (1.0, 4.0, 2.0, 1.0), interpolation, period=3.0)
         at = np.linspace(-3, 6, 50)
         assert open_end(at) == pytest.approx(closed(at))
         assert open_end(at) == pytest.approx(open_end(at + 3))
@@ -82,7 +82,7 @@ class TestTable:
     )
     def test_refuses_what_is_no_table(self, at, values, period, message):
         with pytest.raises(ValueError, match=message):
-            Table(at, values, period=period)
+            LoadCurve(at, values, period=period)
 
 
 class TestProcess:
@@ -105,7 +105,7 @@ class TestProcess:
     def test_counts_the_stroke_from_its_start(self, shaper):
         mechanism, moved = shaper
         position = moved.sliders["ram"].position
-        table = Table((0.0, 1.0), (0.0, 1000.0))
+        table = LoadCurve((0.0, 1.0), (0.0, 1000.0))
         load = ProcessForce("ram", table, forward=-1, start=float(position.max()), acts="both")
         (force,) = applied_loads(mechanism, moved, [load]).forces
         assert force.x == pytest.approx(1000 * (position.max() - position), abs=1e-9)
@@ -121,7 +121,7 @@ class TestProcess:
         fine = CrankGrid.from_degrees(np.arange(0.0, 360, 0.05))
         moved = linkage_motion(mechanism, fine)
         ram = moved.sliders["ram"].position
-        load = ProcessForce("ram", Table((0.02, 0.05), (800.0, 200.0)), start=float(ram.min()))
+        load = ProcessForce("ram", LoadCurve((0.02, 0.05), (800.0, 200.0)), start=float(ram.min()))
         torque = reduced_torque(moved, applied_loads(mechanism, moved, [load]))
         assert np.mean(torque) * 2 * np.pi == pytest.approx(-500 * 0.03, rel=2e-3)
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads import treated
+from crankwork.loads import pressure_processing
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram
-from crankwork.loads.measured import MeasuredPressure, Preprocessing, recorded_cycles, wrap_is_rough
+from crankwork.loads.measured_pressure import MeasuredPressure, Preprocessing, recorded_cycles, wrap_is_rough
 from each import for_each
 
 CYCLE = 720.0
@@ -29,8 +29,8 @@ def measured_diagram(
     measured: MeasuredPressure, cycle: float, *, shift: float = 0.0, step: float | None = None
 ) -> tuple[IndicatorDiagram, int, float]:
     """Return the diagram of a recording, its cycles, and the step from their end to their start."""
-    around = treated.PressureReference(lambda degrees: 2 - np.cos(np.radians(degrees)))
-    diagram, _ = treated.measured_diagram(measured, cycle, around, shift=shift, step=step, path="gas")
+    around = pressure_processing.PressureReference(lambda degrees: 2 - np.cos(np.radians(degrees)))
+    diagram, _ = pressure_processing.measured_diagram(measured, cycle, around, shift=shift, step=step, path="gas")
     recorded = recorded_cycles(measured, cycle, step=step, path="gas")
     return diagram, len(recorded.cycles), recorded.wrap
 

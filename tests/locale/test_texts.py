@@ -9,7 +9,7 @@ import unicodedata
 from pathlib import Path
 
 import crankwork
-from crankwork.locale import LANGUAGES, say, texts
+from crankwork.locale import LANGUAGES, texts, translate
 from each import for_each
 
 FOLDER = Path(crankwork.__file__).parent / "locale"
@@ -37,8 +37,8 @@ def test_what_is_put_in_is_the_same_in_every_language():
     wrong = {
         key: language
         for key, language in EVERY
-        if placeholders(say(key, language)) != placeholders(say(key, "en"))
-        or not all(one.isidentifier() for one, _ in placeholders(say(key, language)))
+        if placeholders(translate(key, language)) != placeholders(translate(key, "en"))
+        or not all(one.isidentifier() for one, _ in placeholders(translate(key, language)))
     }
     assert wrong == {}
 
@@ -47,7 +47,7 @@ def test_texts_are_tidy():
     wrong = [
         (key, language)
         for key, language in EVERY
-        if not (said := say(key, language))
+        if not (said := translate(key, language))
         or said != said.strip()
         or said != unicodedata.normalize("NFC", said)
         or "  " in said
@@ -61,7 +61,7 @@ def test_no_word_mixes_letters_of_two_alphabets():
         (key, language, word)
         for key, language in EVERY
         if not key.startswith(("symbols.", "marks."))
-        for word in re.findall(r"[^\W\d_²³]{2,}", re.sub(r"\{\w+(:[.\w]+)?\}", "", say(key, language)))
+        for word in re.findall(r"[^\W\d_²³]{2,}", re.sub(r"\{\w+(:[.\w]+)?\}", "", translate(key, language)))
         if len({unicodedata.name(letter).split()[0] for letter in word} - {"GREEK", "MODIFIER", "SUPERSCRIPT"}) > 1
         or (language == "vi" and re.search("[а-яё]", word.lower()))
         or (language == "en" and re.search("[^A-Za-zΑ-ω]", word))
@@ -69,6 +69,6 @@ def test_no_word_mixes_letters_of_two_alphabets():
     wrong += [
         (key, language, found[0])
         for key, language in EVERY
-        if language == "ru" and (found := re.search(r"(?<![\w/=(])[aceokBCKO] (?=[а-яё]{3})", say(key, language)))
+        if language == "ru" and (found := re.search(r"(?<![\w/=(])[aceokBCKO] (?=[а-яё]{3})", translate(key, language)))
     ]
     assert wrong == []

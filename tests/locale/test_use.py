@@ -17,8 +17,8 @@ from crankwork.cli import commands
 from crankwork.cli.options import option_key, stand_in_key
 from crankwork.description import machine_file
 from crankwork.description.schema import TableSpec
-from crankwork.kernel.trace import Reason
-from crankwork.locale import LANGUAGES, Refusal, has_text, say, texts, told
+from crankwork.kernel.lowering import Reason
+from crankwork.locale import LANGUAGES, ErrorMessage, has_text, in_language, texts, translate
 from crankwork.mechanism import dyads
 from crankwork.notation import ARGUMENTS
 from crankwork.note.captions import _PLACE, _SAME
@@ -186,7 +186,9 @@ def test_every_command_option_and_stand_in_of_the_help_has_its_text():
 @for_each("language", LANGUAGES)
 def test_every_notice_can_be_told(language):
     for code in texts("notices", "en"):
-        values: dict[str, float | str] = dict.fromkeys(re.findall(r"\{(\w+)\}", say(f"notices.{code}", "en")), 1.0)
+        values: dict[str, float | str] = dict.fromkeys(
+            re.findall(r"\{(\w+)\}", translate(f"notices.{code}", "en")), 1.0
+        )
         values |= {name: "fuel" for name in values if name in ("name", "names", "message")}
         values |= {
             name: one
@@ -199,11 +201,11 @@ def test_every_notice_can_be_told(language):
 
 
 def test_a_refusal_says_the_same_in_every_language():
-    refusal = Refusal("missing", advice=(Refusal("a_table", key="rod"), "[rod]"))
+    refusal = ErrorMessage("missing", advice=(ErrorMessage("a_table", key="rod"), "[rod]"))
     assert refusal == "is missing; write a table [rod] or [rod]"
-    assert [told(refusal, language) for language in LANGUAGES] == [
+    assert [in_language(refusal, language) for language in LANGUAGES] == [
         str(refusal), "отсутствует; запишите таблицу [rod] или [rod]", "còn thiếu; hãy ghi bảng [rod] hoặc [rod]",
     ]  # fmt: skip
-    assert told(pickle.loads(pickle.dumps(refusal)), "ru") == told(refusal, "ru")  # noqa: S301 - our own
-    assert told(refusal.cleaned(str.upper), "en") == "is missing; write a table [ROD] or [ROD]"
-    assert told("said by somebody else", "ru") == "said by somebody else"
+    assert in_language(pickle.loads(pickle.dumps(refusal)), "ru") == in_language(refusal, "ru")  # noqa: S301 - our own
+    assert in_language(refusal.cleaned(str.upper), "en") == "is missing; write a table [ROD] or [ROD]"
+    assert in_language("said by somebody else", "ru") == "said by somebody else"

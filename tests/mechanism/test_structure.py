@@ -9,9 +9,9 @@ import linkages
 from crankwork.description.machine_file import read
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.structure import mobility, structure
+from crankwork.mechanism.table_reader import linkage_from
 from each import for_each
 from linkages import SHAPER, mechanism_from
 from motions import changed

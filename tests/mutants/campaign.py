@@ -32,7 +32,7 @@ import hypothesis
 import pytest
 from _pytest.runner import runtestprotocol
 
-from crankwork.formula.expression import FORMULAS, Formula, instead
+from crankwork.formula.expression import FORMULAS, Formula, replaced_formula
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
@@ -81,7 +81,7 @@ def _failed(item: pytest.Item) -> Callable[[], bool]:
 def tried(mutant: Any, witnesses: Sequence[Witness]) -> Verdict:
     """Return who notices a mutant first; who fails without it too does not notice it."""
     for witness in witnesses:
-        with instead(mutant.formula, mutant.function):
+        with replaced_formula(mutant.formula, mutant.function):
             try:
                 noticed = witness.notices()
             except Exception:  # noqa: BLE001 - a mutant that cannot be computed is noticed

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from crankwork.formula.expression import FORMULAS, Formula, instead, record, text
-from crankwork.formula.known import given
+from crankwork.formula.expression import FORMULAS, Formula, record, replaced_formula, text
+from crankwork.formula.traced_value import given
 from crankwork.loads.gas import clearance_volume, piston_area
 
 HERE = Path(__file__).parent
@@ -45,7 +45,7 @@ def test_an_operator_is_swapped_where_a_formula_has_one() -> None:
 
 def test_a_mutant_is_in_place_for_numbers_and_for_what_is_remembered_only_while_it_is_wanted() -> None:
     bore = given("bore", 2.0)
-    with instead(FORMULAS["piston_area"], lambda pi, bore: pi + bore):
+    with replaced_formula(FORMULAS["piston_area"], lambda pi, bore: pi + bore):
         assert piston_area(3.0, 2.0) == 5.0
         assert piston_area(3.0, bore).value == 5.0
     assert piston_area(3.0, 2.0) == 3.0

@@ -14,7 +14,7 @@ import crankwork
 import notes
 from crankwork.cylinders.engines import boxer, inline, radial, vee
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Known
+from crankwork.formula.traced_value import TracedValue
 from crankwork.machine import Bearings, Drive, Engine
 from crankwork.note.contents import note_of
 from crankwork.note.document import Note
@@ -175,13 +175,13 @@ def note(case: str, language: Language = "en") -> Note:
 
 def key_of(shown: crankwork.Results, name: str) -> str:
     """Return the key in results of a value that has a name in lines: of an engine that of cylinder 1 or of all."""
-    keys = [key for key, known in shown.memory.items() if known.key == name and key in {*shown.summary, *shown.columns}]
+    keys = [key for key, known in shown.trace.items() if known.key == name and key in {*shown.summary, *shown.columns}]
     return name if name in keys or not keys else keys[0]
 
 
-def remembered(shown: crankwork.Results) -> Iterator[Known]:
+def traced(shown: crankwork.Results) -> Iterator[TracedValue]:
     """Yield everything that results remember under each of its names."""
-    stack, seen = [one for key, known in shown.memory.items() for one in (known.named(key), known)], set()
+    stack, seen = [one for key, known in shown.trace.items() for one in (known.named(key), known)], set()
     while stack:
         one = stack.pop()
         if (id(one.node), one.key) not in seen:

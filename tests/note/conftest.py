@@ -13,9 +13,9 @@ import pytest
 import crankwork
 from crankwork.dynamics import piston_forces as forces
 from crankwork.errors import CrankworkError
+from crankwork.formula.calculation_lines import FormulaLine, Snapshot
 from crankwork.formula.expression import FORMULAS, record
-from crankwork.formula.known import given, total
-from crankwork.formula.lines import FormulaLine, Moment
+from crankwork.formula.traced_value import given, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
@@ -84,7 +84,7 @@ def steps(formulas) -> list[FormulaLine]:
 
 def sample(language: Language) -> Note:
     """Return a note with every kind of block and text that every format could take for its own."""
-    line = Moment(CrankGrid.from_degrees, 0.0).step
+    line = Snapshot(CrankGrid.from_degrees, 0.0).step
     area = line(gas.piston_area(math.pi, given("bore", 0.1058)))
     speed = line(mean_piston_speed(given("stroke", 0.1058), given("", 2300.0)))
     mass = line(total("reciprocating_mass", [given("piston_mass", 0.1395), given("rod_small_end_mass", 0.065)]))

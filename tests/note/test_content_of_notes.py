@@ -9,9 +9,9 @@ from itertools import pairwise
 
 import pytest
 
+from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, ValueLine
 from crankwork.formula.expression import evaluate
-from crankwork.formula.lines import DelayedLine, FormulaLine, ValueLine
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.machine import Document
 from crankwork.note.document import Equation, Figure, ItemList, Math, Note, Paragraph, Reference, Table
 from crankwork.note.equations import line_parts
@@ -265,7 +265,7 @@ def test_the_acceleration_of_an_inertia_force_stands_before_it():
 
 def test_only_a_note_that_computes_the_motion_says_so():
     for language in LANGUAGES:
-        computed = say("sentences.linkage_computed", language)
+        computed = translate("sentences.linkage_computed", language)
         told = {name: computed in " ".join(words(note(name, language))) for name in ("press", "press-geometry")}
         assert told == {"press": False, "press-geometry": True}
         page = cover(Document(author=("", " "), supervisor=" ", group="M-31"), language, "note")

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from crankwork.dynamics import piston_forces as forces
 from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.formula import known
+from crankwork.formula import traced_value
+from crankwork.formula.calculation_lines import DelayedLine, Snapshot, ValueLine
 from crankwork.formula.expression import FORMULAS
-from crankwork.formula.lines import DelayedLine, Moment, ValueLine
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas
@@ -35,11 +35,11 @@ from each import for_each
 
 
 def line(value):
-    return Moment(CrankGrid.from_degrees, 0.0).step(value)
+    return Snapshot(CrankGrid.from_degrees, 0.0).step(value)
 
 
 def number(value, key=""):
-    return known.given(key, value)
+    return traced_value.given(key, value)
 
 
 STEP = line(mean_piston_speed(number(0.09), number(3000.0)))
@@ -135,7 +135,7 @@ def signs(box):
 
 def test_what_adds_up_prints_its_terms():
     terms = [number(1.5, "piston_mass"), number(-0.5, "rod_small_end_mass")]
-    shown = printed_equation(Equation(line(known.total("reciprocating_mass", terms))), "en")
+    shown = printed_equation(Equation(line(traced_value.total("reciprocating_mass", terms))), "en")
     assert shown.text == "m_rec = m_p + m_1 = 1.5 + (−0.5) = 1\u00a0kg"
     assert [one for line in shown.lines for one in signs(line)] == ["=", "+", "=", "+", "−", "="]
     product = line((number(0.5, "efficiency.1") * number(0.5, "efficiency.2")).named("efficiency"))

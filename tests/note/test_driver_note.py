@@ -4,15 +4,15 @@ import re
 
 import pytest
 
-from crankwork.analysis.moving import moving
-from crankwork.analysis.plans import accelerations, driver_rates, velocities
+from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.analysis.vector_polygons import accelerations, driver_rates, velocities
 from crankwork.errors import CrankworkError
 from crankwork.note.document import Table
 from crankwork.note.web import web
 from crankwork.report.drawing import moving_drawing
 from crankwork.report.figures import figures
 from crankwork.report.summary import description_text, summary_text
-from crankwork.show.moving_svg import moving_svg
+from crankwork.show.animated_svg import moving_svg
 from notes import blocks, note, results, sheets
 
 # how the driver moves: a cylinder on the frame, a slider, an angle at a joint, a table, a cylinder between two links
@@ -70,7 +70,7 @@ def test_explanations_are_at_times():
 def test_the_rod_of_a_cylinder_slides_on_its_barrel_in_the_plans():
     one, at = results("boom"), [25.0, 300.0]
     mechanism, known = one.machine.mechanism, one.columns_at(at)
-    moved, rates = moving(mechanism, at), driver_rates(one, known)
+    moved, rates = sample_motion(mechanism, at), driver_rates(one, known)
     for i in range(2):
         rate, second = float(rates.first[i]), float(rates.second[i])
         turning = known["link_angular_velocity.cylinder"][i]

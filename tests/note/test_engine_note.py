@@ -16,7 +16,7 @@ from crankwork.note.contents import note_of
 from crankwork.note.document import Bibliography, Equation, Heading, Paragraph
 from crankwork.note.equations import printed_equation
 from crankwork.note.options import NoteOptions
-from crankwork.note.words import Words
+from crankwork.note.wording import Words
 from crankwork.quantities import LANGUAGES
 from crankwork.report.figures import figures as drawn_figures
 from each import for_each

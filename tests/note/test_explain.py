@@ -58,7 +58,7 @@ def wrong_explanations(case: str, seen: set[str]) -> list[str]:
     at = float(found.grid.degrees[len(found.grid) // 3])
     at = at * found.period / 360 if found.period else at
     for key in (*found.columns, *found.summary):
-        wrong += [] if key in found.memory else [f"{key} is not remembered"]
+        wrong += [] if key in found.trace else [f"{key} is not remembered"]
         kind = re.sub(r"_(max|min)(_angle)?(?=\.|$)", "_max", key).partition(".")[0]
         if kind in seen:
             continue

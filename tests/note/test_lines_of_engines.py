@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.cylinders import whole_engine
-from crankwork.analysis.engine_balance import engine_balance
-from crankwork.formula.lines import SumLine, ValueLine
+from crankwork.analysis.cylinder_balance import engine_balance
+from crankwork.analysis.cylinders import multi_cylinder_engine
+from crankwork.formula.calculation_lines import SumLine, ValueLine
 from crankwork.formula.replay import replay
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.lines import lines_of
@@ -79,7 +79,7 @@ def wrong_balance(name):
     """Return the free forces and moments by formulas that are not the sums of the vectors."""
     listing, wrong = results(name).listings.get("balance"), []
     if listing:
-        rows = engine_balance(whole_engine(results(name).solved)).rows.values()
+        rows = engine_balance(multi_cylinder_engine(results(name).solved)).rows.values()
         for kind in ("force", "moment"):
             expected = [getattr(one, kind).largest for one in rows]
             found = listing.columns.get(f"free_{kind}", np.zeros(len(expected)))
@@ -97,7 +97,7 @@ def test_what_formulas_leave_free_is_the_sum_of_the_vectors(cases):
 def wrong_harmonics(name):
     """Return the harmonics that are shown where they are not those in which all cylinders pull together."""
     found, shown = results(name), list(lines(name, "torque_harmonics"))
-    uniform = len(set(map(id, whole_engine(found.solved).cylinders))) == 1
+    uniform = len(set(map(id, multi_cylinder_engine(found.solved).cylinders))) == 1
     if not (uniform and "crank_torque" in found.columns):
         return shown
     count, columns = len(machine(name).engine.layout.places), found.listings["torque_harmonics"].columns
@@ -116,12 +116,12 @@ def test_the_harmonics_shown_are_those_in_which_all_cylinders_pull_together(case
     [("radial with weights", (250.7,)), pytest.param("radial-five", (10.0, 463.0), marks=pytest.mark.slow)],
 )
 def test_the_articulated_rod_is_that_of_the_second_cylinder(name, angles):
-    whole = whole_engine(results(name).solved)
+    whole = multi_cylinder_engine(results(name).solved)
     own_keys = (
         "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force", "side_force",
         "rod_force", "knuckle_couple", "knuckle_side_force",
     )  # fmt: skip
-    (x, y), mass = whole.cylinders[1].moving.slave.knuckle, whole.cylinders[1].machine.masses.rod_big_end
+    (x, y), mass = whole.cylinders[1].moving.articulated_rod.knuckle, whole.cylinders[1].machine.masses.rod_big_end
     for angle in angles:
         steps = {key: step.value for key, step in lines(name, "articulated", 30.0, angle).items()}
         for key in own_keys:
@@ -170,7 +170,7 @@ def test_even_and_uneven_firing():
 
 
 def test_the_mean_torque_is_that_of_all_works():
-    cylinders = whole_engine(results("radial with weights").solved).cylinders
+    cylinders = multi_cylinder_engine(results("radial with weights").solved).cylinders
     steps = lines("radial with weights", "uniformity")
     step = steps["mean_torque.indicated"]
     assert isinstance(step, SumLine)

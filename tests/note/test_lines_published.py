@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from crankwork.formula.calculation_lines import FormulaLine, SumLine
 from crankwork.formula.expression import text
-from crankwork.formula.lines import FormulaLine, SumLine
 from note.built import broken, lines
 
 # Расчет привода и поршневого двигателя автомобиля, course note at www.transporank.ru, worked lines above its table 2:

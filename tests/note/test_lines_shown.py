@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.forces import columns, force_functions
-from crankwork.dynamics.efficiency import Parallel, Series, efficiency, remembered_efficiency
+from crankwork.analysis.cylinder_forces import columns, force_functions
+from crankwork.dynamics.efficiency import Parallel, Series, efficiency, traced_efficiency
 from crankwork.errors import MethodError
+from crankwork.formula.calculation_lines import FormulaLine, Snapshot, SumLine, ValueLine
 from crankwork.formula.expression import evaluate
-from crankwork.formula.known import Given
-from crankwork.formula.lines import FormulaLine, Moment, SumLine, ValueLine
+from crankwork.formula.traced_value import Input
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.loads.measured import MeasuredPressure
+from crankwork.loads.measured_pressure import MeasuredPressure
 from crankwork.locale import has_text
 from crankwork.note.lines import lines_of
 from crankwork.quantities import QUANTITIES, base_key
@@ -137,12 +137,12 @@ def without_step(case):
     """Return the values that are neither shown nor given nor solved for."""
     found, given = results(case), getattr(results(case).machine, "loads", True)
     told = {step.key for group in groups(case) for step in group.lines}
-    shown = {key for key, known in found.memory.items() if known.key in told} | told
+    shown = {key for key, known in found.trace.items() if known.key in told} | told
     left = {key for key in {*found.summary, *found.columns} - shown - NO_FORMULA if base_key(key) in QUANTITIES}
     kinds = {key: key.partition(".")[0] for key in left}
     left = {key for key in left if not kinds[key].startswith(SOLVED_KINDS)}
     left = {key for key in left if not kinds[key].endswith(OVER_THE_REVOLUTION)}
-    left = {key for key in left if not isinstance(found.memory[key].node, Given)}
+    left = {key for key in left if not isinstance(found.trace[key].node, Input)}
     if not given:
         left -= {"static_torque"}
     if (space := getattr(found.solved, "space", None)) is not None and space.calculated is not None:
@@ -225,9 +225,9 @@ def test_torques_of_a_linkage_are_shown_where_asked():
 
 def test_a_chain_of_efficiencies_multiplies_to_that_of_the_chain():
     chain = Series((Parallel((0.98, 0.98)), 0.98, 0.99, Parallel((0.9, Series((0.95, 0.8)), 0.7), (0.5, 0.3, 0.2))))
-    found = remembered_efficiency(chain)
+    found = traced_efficiency(chain)
     assert found.value == 0.98 * 0.98 * 0.99 * (0.5 * 0.9 + 0.3 * (0.95 * 0.8) + 0.2 * 0.7)
-    line = Moment(CrankGrid.from_degrees, 0.0).step(found)
+    line = Snapshot(CrankGrid.from_degrees, 0.0).step(found)
     assert [key for _, key in line.named] == [f"efficiency.{i}" for i in range(1, 5)]
     assert efficiency(0.9) == 0.9
 

@@ -13,17 +13,17 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.analysis.linkage import differences
+from crankwork.analysis.mechanism import differences
 from crankwork.description.machine_file import read_machine, template
 from crankwork.dynamics.efficiency import Parallel, Series
+from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import evaluate
-from crankwork.formula.lines import FormulaLine
-from crankwork.locale import say, texts
+from crankwork.locale import texts, translate
 from crankwork.note.contents import WRITERS, note_of, sheets_of
 from crankwork.note.document import Equation, Figure, ItemList, Math, Table
 from crankwork.note.options import NoteOptions
 from crankwork.note.symbols import subscript
-from crankwork.note.words import Words
+from crankwork.note.wording import Words
 from crankwork.quantities import LANGUAGES
 from each import for_each
 from notes import blocks, column, figures, headings, note, printed, results, tables, words, worked
@@ -196,7 +196,7 @@ def test_a_note_without_a_title_has_one_of_its_kind():
         whole = results(name)
         bare = replace(whole, solved=replace(whole.solved, machine=replace(whole.machine, title="")))
         found = note_from(bare, language, author="А. Б.")
-        assert (found.title, found.authors) == (say(f"headings.{kind}", language), ("А. Б.",))
+        assert (found.title, found.authors) == (translate(f"headings.{kind}", language), ("А. Б.",))
     assert note("press", title="Пресс").title == "Пресс"
 
 
@@ -222,10 +222,10 @@ def test_a_linkage_that_does_not_turn_fully_says_what_it_reaches(partial):
 )
 def test_a_linkage_between_dead_positions_is_not_said_to_turn(partial, language, whole):
     found = note_from(partial, language, figures=True)
-    assert say("sentences.task_partial", language) in " ".join(words(found))
-    assert say("headings.appendix_partial", language) in headings(found)
+    assert translate("sentences.task_partial", language) in " ".join(words(found))
+    assert translate("headings.appendix_partial", language) in headings(found)
     captions = [one.caption for one in tables(found).values()]
-    assert any(one.startswith(say("captions.reactions_partial", language)) for one in captions)
+    assert any(one.startswith(translate("captions.reactions_partial", language)) for one in captions)
     assert [one for one in words(found) if re.search(whole, one)] == []
 
 

@@ -13,19 +13,19 @@ import numpy as np
 import pytest
 
 from crankwork.analysis import Results
-from crankwork.analysis.whole_engine import as_engine
-from crankwork.formula.known import Found, Pieces, in_order
-from crankwork.formula.lines import FormulaLine, Moment
+from crankwork.analysis.all_cylinders import with_engine_results
+from crankwork.formula.calculation_lines import FormulaLine, Snapshot
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import Piecewise, ProcedureValue, in_order
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.document import Equation, Note, Table
 from crankwork.note.material import Material
 from crankwork.note.options import NoteOptions
 from crankwork.note.tables import folded
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.report.language import key_unit, reader_units
+from crankwork.report.display import key_unit, reader_units
 from crankwork.units import from_si, use_units
-from note.built import broken, every_machine, note, remembered, results, schools
+from note.built import broken, every_machine, note, results, schools, traced
 
 NUMBER = re.compile(r"[-−]?\d+([.,]\d+)?(·10\^?\{?[-−]?\d+\}?|[eE][-+−]?\d+)?")
 # numbers of rows, that is of positions and cylinders, and columns too short to tell one from another
@@ -77,8 +77,8 @@ class Held:
     """Everything that results hold: columns at the crank angles of tables, and single values."""
 
     def __init__(self, results: Results) -> None:
-        area = results.memory["piston_area"].value if "piston_area" in results.memory else None
-        known = {one.key: one for one in in_order(results.memory.values())} | dict(results.memory)
+        area = results.trace["piston_area"].value if "piston_area" in results.trace else None
+        known = {one.key: one for one in in_order(results.trace.values())} | dict(results.trace)
         varying = {key: one for key, one in known.items() if one.varies and key.partition(".")[0] in QUANTITIES}
         listed = [one for listing in results.listings.values() for one in listing.columns.items()]
         listed += results.columns.items()
@@ -97,11 +97,11 @@ class Held:
         # one below the other, with where each ends
         self.column, sizes = np.concatenate(columns), [one.size for one in columns]
         self.ends = np.repeat(np.cumsum(sizes), sizes)
-        every = list(in_order(results.memory.values()))
+        every = list(in_order(results.trace.values()))
         single = [(one.key, one.value) for one in every if not one.varies]
-        reached = [one.node.at for one in every if isinstance(one.node, Found)]
+        reached = [one.node.at for one in every if isinstance(one.node, ProcedureValue)]
         single += [("", at) for at in reached if at is not None]
-        laws = [one.node for one in every if isinstance(one.node, Pieces)]
+        laws = [one.node for one in every if isinstance(one.node, Piecewise)]
         single += [("", end) for law in laws for end in (0.0, *law.ends.tolist(), results.machine.cycle)]
         single += [*results.summary.items(), *results.checks.items()]
         single += [("", 100 * one) for key, one in results.summary.items() if key.startswith("heat_share")]
@@ -127,7 +127,7 @@ def not_held_in_tables(case: str) -> list[tuple]:
     """Return the columns of tables that the results do not hold, as two schools have them."""
     found = results(case)
     with use_units(reader_units(found)):
-        held, unknown, label = Held(as_engine(found)), set(), ""
+        held, unknown, label = Held(with_engine_results(found)), set(), ""
     for language in schools(case):
         for table in note(case, language).blocks:
             # a table that goes on has no label of its own
@@ -143,14 +143,14 @@ def test_the_numbers_of_tables_are_those_of_the_results(cases):
     assert broken(not_held_in_tables, cases) == {}
 
 
-def moments(results: Results) -> list[Moment]:
+def moments(results: Results) -> list[Snapshot]:
     """Return the crank angles at which a note works something; of a table all of its positions."""
     if results.has_positions:
         degrees = results.grid.degrees.tolist()
     else:
         groups = Material(results, NoteOptions(figures=False)).groups.values()
         degrees = {one.degrees for one in groups if one.degrees is not None}
-    return [Moment(CrankGrid.from_degrees, one) for one in degrees] or [Moment(CrankGrid.from_degrees, 0.0)]
+    return [Snapshot(CrankGrid.from_degrees, one) for one in degrees] or [Snapshot(CrankGrid.from_degrees, 0.0)]
 
 
 def is_same(value: float, step: FormulaLine) -> bool:
@@ -163,7 +163,7 @@ def is_same(value: float, step: FormulaLine) -> bool:
 def not_held(results: Results, note: Note) -> set[str]:
     """Return the quantities of which an equation prints a number that the results do not hold."""
     at, known, found = moments(results), defaultdict(list), set()
-    for one in remembered(results):
+    for one in traced(results):
         known[one.key].append(one)
     rows = defaultdict(list)
     for listing in results.listings.values():
@@ -184,7 +184,7 @@ def not_held(results: Results, note: Note) -> set[str]:
 
 
 def not_held_in_equations(case: str) -> set[str]:
-    return not_held(as_engine(results(case)), note(case))
+    return not_held(with_engine_results(results(case)), note(case))
 
 
 @pytest.mark.slow
@@ -201,7 +201,7 @@ def test_a_number_that_nobody_holds_is_found():
         for one in note("slider-crank").blocks
     ]
     wrong = replace(note("slider-crank"), blocks=tuple(blocks))
-    assert not_held(as_engine(results("slider-crank")), wrong) == {"piston_velocity"}
+    assert not_held(with_engine_results(results("slider-crank")), wrong) == {"piston_velocity"}
 
 
 def test_a_long_narrow_table_stands_side_by_side_and_loses_nothing():

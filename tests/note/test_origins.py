@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.description.origins import origins
-from crankwork.formula.known import Given, Known, OfAngle, Table, in_order
-from crankwork.formula.lines import ValueLine
+from crankwork.description.source_locations import origins
+from crankwork.formula.calculation_lines import ValueLine
 from crankwork.formula.replay import replay
+from crankwork.formula.traced_value import AngleFunction, Input, Tabulated, TracedValue, in_order
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.equations import shown_values
 from crankwork.quantities import QUANTITIES, base_key
@@ -37,13 +37,13 @@ CONSTANTS = {
 
 
 @cache
-def remembered(case: str) -> tuple[crankwork.Results, list[Known]]:
+def traced(case: str) -> tuple[crankwork.Results, list[TracedValue]]:
     name, _, method = case.partition(": ")
     found = crankwork.analyse(crankwork.read(NAMES[name], [f"method.kinematics={method}"] if method else []))
-    return found, list(in_order(found.memory.values()))
+    return found, list(in_order(found.trace.values()))
 
 
-def numbers_of(known: Known) -> list[float]:
+def numbers_of(known: TracedValue) -> list[float]:
     """Return the number of a leaf in SI, and as it may be printed without a unit."""
     unit = known.node.unit
     if unit:
@@ -63,7 +63,7 @@ def misstated(case: str) -> list[str]:
     file = NAMES[case.partition(": ")[0]]
     source = file.read_text(encoding="utf-8")
     values, lines, origin, wrong = tomllib.loads(source), source.splitlines(), origins(file), []
-    for known in (one for one in remembered(case)[1] if isinstance(one.node, Given) and not one.is_absent):
+    for known in (one for one in traced(case)[1] if isinstance(one.node, Input) and not one.is_absent):
         key, path, numbers = known.key, known.node.path, numbers_of(known)
         if base_key(key) not in QUANTITIES:
             wrong.append(f"{path or known.value}: no quantity is called {key!r}")
@@ -93,13 +93,13 @@ def test_a_given_value_is_what_the_file_states(cases):
 
 def wrong_curves(case: str) -> Iterator[str]:
     """Yield the values of curves that are not those between their points."""
-    results, every = remembered(case)
+    results, every = traced(case)
     for node in (one.node for one in every):
-        if not isinstance(node, Table) or node.by is not None or not hasattr(node.function, "between"):
+        if not isinstance(node, Tabulated) or node.by is not None or not hasattr(node.function, "between"):
             continue
         inside = [one for one in results.grid.degrees if not node.knots or node.knots[0] <= one <= node.knots[-1]]
         for degrees in map(float, (*inside[::7], *node.knots[:3])):
-            spelt = node.function.between(degrees, Known(OfAngle("angle"), "crank_angle"))
+            spelt = node.function.between(degrees, TracedValue(AngleFunction("angle"), "crank_angle"))
             table = float(node.function(np.array([degrees]))[0])
             if float(replay(spelt, CrankGrid.from_degrees([degrees]))[0]) != pytest.approx(table, rel=1e-9):
                 yield f"{node} at {degrees:g}"

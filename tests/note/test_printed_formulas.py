@@ -8,14 +8,14 @@ import re
 import numpy as np
 import pytest
 
-from crankwork.formula.explained import Explanation
+from crankwork.formula.calculation_lines import FormulaLine, Snapshot, ValueLine, symbols_of, without_noise
+from crankwork.formula.explanation import Explanation
 from crankwork.formula.expression import FORMULAS, Operation, evaluate, record, symbol, text
-from crankwork.formula.known import Arithmetic, Total, Use, given, total
-from crankwork.formula.lines import FormulaLine, Moment, ValueLine, symbols_of, without_noise
+from crankwork.formula.traced_value import Arithmetic, FormulaCall, Sum, given, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.note.equations import distinct_values, line_parts, value_symbol
 from crankwork.note.math import enough_digits
-from note.built import broken, every_machine, groups, remembered, results
+from note.built import broken, every_machine, groups, results, traced
 
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 # a number, a power, or a parenthesis
@@ -159,10 +159,10 @@ def terms_of(printed: str) -> list[str]:
 def misread_formulas(case: str) -> list[str]:
     """Return what is wrong with the formulas that results remember, between the crank angles of their tables."""
     degrees = results(case).grid.degrees
-    at = Moment(CrankGrid.from_degrees, float(degrees[len(degrees) // 3]) + 7.3)
+    at = Snapshot(CrankGrid.from_degrees, float(degrees[len(degrees) // 3]) + 7.3)
     wrong, seen = set(), set()
-    for one in remembered(results(case)):
-        if not (isinstance(one.node, Use) or (isinstance(one.node, Arithmetic) and one.key)):
+    for one in traced(results(case)):
+        if not (isinstance(one.node, FormulaCall) or (isinstance(one.node, Arithmetic) and one.key)):
             continue
         step = without_noise(at.step(one))
         wrong.add(missed(step))
@@ -184,11 +184,13 @@ def missed_lines(case: str) -> list[str]:
     """Return the lines of a note, and of explanations at three crank angles, whose numbers do not give the value."""
     steps = [without_noise(one) for group in groups(case) for one in group.lines if not isinstance(one, ValueLine)]
     assert steps
-    memory, degrees = results(case).memory, results(case).grid.degrees
-    for key in {"crank_torque", "gas_pressure", "driving_torque", "point_x.B"} & memory.keys():
+    trace, degrees = results(case).trace, results(case).grid.degrees
+    for key in {"crank_torque", "gas_pressure", "driving_torque", "point_x.B"} & trace.keys():
         for at in degrees[[1, len(degrees) // 3, len(degrees) // 2]].tolist():
-            told = Explanation(memory[key], at, CrankGrid.from_degrees)
-            worked = (one for one in told if not one.residual and isinstance(one.known.node, Use | Arithmetic | Total))
+            told = Explanation(trace[key], at, CrankGrid.from_degrees)
+            worked = (
+                one for one in told if not one.residual and isinstance(one.known.node, FormulaCall | Arithmetic | Sum)
+            )
             steps += [without_noise(told.moment(one.degrees).step(one.known)) for one in worked]
     return [f"{step.key}: {said}" for step in steps if (said := missed(step))]
 
@@ -200,7 +202,7 @@ def test_every_line_can_be_followed_with_a_calculator(cases):
 
 def test_a_difference_of_near_numbers_gets_more_digits_and_a_product_six():
     terms = [given("piston_mass", 1234.56789), given("rod_small_end_mass", -1234.56111)]
-    line = Moment(CrankGrid.from_degrees, 0.0).step(total("reciprocating_mass", terms))
+    line = Snapshot(CrankGrid.from_degrees, 0.0).step(total("reciprocating_mass", terms))
     assert enough_digits(line) == 9
     assert line_parts(line, "en")[1:] == ["1234.56789 + (−1234.56111)", "0.00678\u00a0kg"]
     formula, values = FORMULAS["piston_area"], {"pi": math.pi, "D": 0.0789123456}

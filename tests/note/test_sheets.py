@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crankwork.analysis import analyse
-from crankwork.analysis.diagrams import brix_points
+from crankwork.analysis.constructions import brix_points
 from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.piston import textbook_displacement
@@ -25,8 +25,8 @@ from crankwork.note.sheets.table import text_block
 from crankwork.quantities import LANGUAGES
 from crankwork.report.figures import drawings
 from crankwork.report.look import drawn_of
-from crankwork.show.place import FINE, round_scale
-from crankwork.show.scene import Box, Hatch, Polyline, extent, hatch_lines, text_width
+from crankwork.show.chart_layout import FINE, round_scale
+from crankwork.show.scene import ChartBox, Hatch, Polyline, extent, hatch_lines, text_width
 from each import failing, for_each
 from looks import Fault, box_of, faults
 from notes import SIGNED, lines, results, scale, sheets, texts
@@ -288,8 +288,8 @@ def test_a_small_engine_has_room():
 def test_form_1_of_gost_has_its_size_and_its_cells():
     """GOST 2.104, form 1: 185 x 55 mm in the lower right corner of a frame 20 mm from the left edge, 5 mm elsewhere."""
     first, second = ([one.text for one in texts(sheet)] for sheet in sheets("spark-engine", "ru")[:2])
-    assert SIGNED.reserved == Box(841 - 5 - 185, 5, 185, 55)
-    assert SIGNED.frame == Box(20, 5, 816, 584)
+    assert SIGNED.reserved == ChartBox(841 - 5 - 185, 5, 185, 55)
+    assert SIGNED.frame == ChartBox(20, 5, 816, 584)
     designation = SIGNED.block.designation
     assert {"Изм.", "Разраб.", "Nguyễn Văn Đức", "Щербаков Ю. Ё.", designation, "Лист 1"} <= set(first)
     assert "Лист 2" in second
@@ -317,13 +317,13 @@ def test_a_title_block_says_what_the_document_is_in_its_cells(form, text):
     inside = [one for one in texts(sheet) if overlap(extent(one), room)]
     assert clashes(inside) == []
     sides = [one.points for one in sheet.items if isinstance(one, Polyline) and one.closed and len(one.points) == 4]
-    around = [Box(*one.min(axis=0), *np.ptp(one, axis=0)) for one in sides]
+    around = [ChartBox(*one.min(axis=0), *np.ptp(one, axis=0)) for one in sides]
     for one in inside:
         # letters below the line hang into the next cell
         box = box_of(one)._replace(bottom=one.place[1], height=one.height) if not one.angle else box_of(one)
         assert within(box, room), one
         # what holds its middle holds all of it
-        middle = Box(box.left + box.width / 2, box.bottom + box.height / 2, 0, 0)
+        middle = ChartBox(box.left + box.width / 2, box.bottom + box.height / 2, 0, 0)
         holding = [cell for cell in around if within(middle, cell) and within(cell, room)]
         assert within(box, min(holding, key=lambda cell: cell.width * cell.height), 0.3), one
     said = " ".join(one.text for one in inside)

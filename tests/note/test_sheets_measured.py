@@ -9,14 +9,14 @@ import re
 import numpy as np
 import pytest
 
-from crankwork.analysis.whole_engine import as_engine
+from crankwork.analysis.all_cylinders import with_engine_results
 from each import for_each
 from notes import lines, results, scale, sheets, texts
 
 
 @functools.cache
 def engine(name):
-    return as_engine(results(name))
+    return with_engine_results(results(name))
 
 
 @functools.cache

@@ -8,15 +8,15 @@ from dataclasses import replace
 
 import pytest
 
+from crankwork.formula.calculation_lines import FormulaLine, symbols_of
 from crankwork.formula.expression import Formula, symbol
-from crankwork.formula.lines import FormulaLine, symbols_of
 from crankwork.notation import ARGUMENTS
 from crankwork.note.document import Equation, Math, Note, Table
 from crankwork.note.equations import equation_symbol, own_key, printed_equation, value_symbol
 from crankwork.note.layout import Upright
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import LANGUAGES, QUANTITIES
-from crankwork.report.language import symbol as key_symbol
+from crankwork.report.display import symbol as key_symbol
 from note.built import SOME, broken, looked_at, note, schools, source
 from notes import blocks, printed, tables
 

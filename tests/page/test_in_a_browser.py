@@ -11,7 +11,7 @@ from functools import cache
 import pytest
 
 import crankwork
-from crankwork.report.language import displayed
+from crankwork.report.display import displayed
 from crankwork.report.tables import csv_of_sheet, sheets
 from page.slid import EXAMPLES, rules_broken
 

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 import crankwork
 from crankwork.locale.numbers import number
-from crankwork.note.live import packed
+from crankwork.note.interactive import packed
 from crankwork.page.document import page
-from crankwork.report.language import displayed, displayed_column
+from crankwork.report.display import displayed, displayed_column
 from page.slid import EXAMPLES
 
 # an engine, and a linkage whose crank turns as a table says
@@ -59,8 +59,8 @@ def stored_wrongly(data: dict[str, Any], results: crankwork.Results) -> list[str
         apart = np.abs(unpacked(column) - wanted)
         if np.nanmax(apart) > max(1e-4 * np.nanmax(np.abs(wanted)), 1e-9):
             failures.append(f"column {key}")
-    memories = data["memories"]
-    nodes, rows = memories["nodes"], len(memories["rows"])
+    traces = data["memories"]
+    nodes, rows = traces["nodes"], len(traces["rows"])
     for at, node in enumerate(nodes):
         parts = [*node.get("o", ()), *(law for _, law in node.get("p", ())), *node.get("y", ())[:1]]
         if not (
@@ -69,14 +69,14 @@ def stored_wrongly(data: dict[str, Any], results: crankwork.Results) -> list[str
             and ("t" in node or "k" in node or len(node["c"]["v"].split(" ")) == rows)
             and all(0 <= row < rows for row, _ in node.get("e", ()))
             and all(0 <= one < len(nodes) for one in parts)
-            and node.get("f", 0) < max(len(memories["formulas"]), 1)
+            and node.get("f", 0) < max(len(traces["formulas"]), 1)
         ):
             failures.append(f"node {at}: {node}")
-    shown = {*results.summary, *(key for keys in results.tables.values() for key in keys)} & set(results.memory)
-    failures += [f"no {key}" for key in shown - set(memories["keys"])]
+    shown = {*results.summary, *(key for keys in results.tables.values() for key in keys)} & set(results.trace)
+    failures += [f"no {key}" for key in shown - set(traces["keys"])]
     # what tables have is stored once in their units
-    columns = [key for key in data["columns"] if key in memories["keys"] and results.memory[key].varies]
-    listed = [key for key in columns if nodes[memories["keys"][key]].get("k") == key]
+    columns = [key for key in data["columns"] if key in traces["keys"] and results.trace[key].varies]
+    listed = [key for key in columns if nodes[traces["keys"][key]].get("k") == key]
     return failures + (columns if len(listed) < 0.9 * len(columns) else [])
 
 

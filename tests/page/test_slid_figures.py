@@ -9,8 +9,8 @@ import pytest
 
 import crankwork
 from crankwork.page.sliders import LivePage
+from crankwork.report.display import displayed
 from crankwork.report.figures import drawings
-from crankwork.report.language import displayed
 from crankwork.study.sliders import moved
 from page.slid import design, document, live, move, results
 
@@ -32,7 +32,7 @@ def test_columns_and_values_of_another_design_make_its_curves(stored):
                     angles = type(expected.grid).from_degrees(graph.angles.get(curve, places["x"]))
                     for axis, (key, factor) in made.items():
                         column = (
-                            expected.memory[key].value if axis == "level" else expected.columns_at(angles, [key])[key]
+                            expected.trace[key].value if axis == "level" else expected.columns_at(angles, [key])[key]
                         )
                         wanted = np.ma.masked_invalid(places.get(axis, places["y"]))
                         is_right = np.ma.allclose(factor * column, wanted, rtol=1e-9, atol=1e-9)

@@ -11,7 +11,7 @@ import pytest
 import crankwork
 from crankwork.locale.numbers import number
 from crankwork.page.document import page as written
-from crankwork.report.language import displayed
+from crankwork.report.display import displayed
 from crankwork.study.sliders import moved
 from crankwork.units import to_si
 from page.slid import EXAMPLES, described, design, document, live, move, results, rules_broken

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from crankwork.dynamics.reduction import kinetic_energy
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fitted import fitted
 from crankwork.shaft.fluctuation import excess_work, true_speed
-from crankwork.shaft.flywheel import WAYS, flywheel
-from crankwork.shaft.speed import ReducedMachine, steady_speed
-from crankwork.shaft.transient import FreeMachine, Run
+from crankwork.shaft.flywheel import FLYWHEEL_METHODS, flywheel
+from crankwork.shaft.piecewise_fit import fit_piecewise
+from crankwork.shaft.steady_speed import ReducedMachine, steady_speed
+from crankwork.shaft.transient import Integrator, TransientSystem
 from motors import LinearMotor, missed
 
 TURN = 2 * math.pi
@@ -58,7 +58,7 @@ def test_the_exact_flywheel_gives_the_fluctuation_asked_for(inertia, torque, del
 @MANY
 @given(st.floats(0.0, 5.0), torques(), fluctuations)
 def test_constant_inertia_makes_all_ways_the_same(inertia, torque, delta):
-    found = [flywheel(Curve.constant(inertia), torque, 10.0, delta, way) for way in WAYS]
+    found = [flywheel(Curve.constant(inertia), torque, 10.0, delta, way) for way in FLYWHEEL_METHODS]
     assert [one.inertia for one in found] == pytest.approx([found[0].inertia] * 4, rel=1e-9, abs=1e-9)
 
 
@@ -66,7 +66,7 @@ def test_constant_inertia_makes_all_ways_the_same(inertia, torque, delta):
 @given(inertias(), torques())
 def test_the_other_ways_tend_to_the_exact_one(inertia, torque):
     delta, speed = 1e-4, 10.0
-    mertsalov, wittenbauer, exact = (flywheel(inertia, torque, speed, delta, way) for way in WAYS[1:])
+    mertsalov, wittenbauer, exact = (flywheel(inertia, torque, speed, delta, way) for way in FLYWHEEL_METHODS[1:])
     swing = inertia.extremes().largest
     assert abs(mertsalov.inertia - exact.inertia) <= 2 * swing
     assert abs(wittenbauer.inertia - exact.inertia) <= delta * swing
@@ -111,8 +111,8 @@ def test_run_down_takes_the_time_of_the_closed_form(inertia, dry, viscous, speed
     assume(inertia * speed**2 / dry < 5000)
     closed = inertia * speed / dry if viscous == 0 else inertia / viscous * math.log1p(viscous * speed / dry)
     rows = np.array([inertia, 0.0, -dry, dry, viscous, 1.0, 0.0, 0.0])[:, None]
-    reduced = fitted(lambda q: rows + 0 * q, np.array([0.0, TURN]), 1.0, TURN, groups=range(8))
-    course = Run(FreeMachine(reduced, (0.0, TURN)), 0.3, -speed).until(2 * closed)
+    reduced = fit_piecewise(lambda q: rows + 0 * q, np.array([0.0, TURN]), 1.0, TURN, groups=range(8))
+    course = Integrator(TransientSystem(reduced, (0.0, TURN)), 0.3, -speed).until(2 * closed)
     (rested,) = course.events
     assert rested.word == "comes_to_rest"
     assert rested.time == pytest.approx(closed, rel=1e-9)

@@ -13,12 +13,12 @@ from crankwork.dynamics.force_system import system_joint_forces
 from crankwork.dynamics.friction import GuideFriction, PinFriction, friction_forces
 from crankwork.dynamics.friction_equations import CONVERGED, NOT_CONVERGED
 from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import JointForces
 from crankwork.dynamics.reduction import crank_torque
 from crankwork.dynamics.routes import virtual_work_torque, zhukovsky_torque
-from crankwork.dynamics.running import Running
+from crankwork.kinematics.chain_solver import as_chain
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.loops import as_chain
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.loads.load import (
     ForceOnPoint,
@@ -30,7 +30,7 @@ from crankwork.loads.load import (
     Weight,
     applied_loads,
 )
-from crankwork.loads.table import Table
+from crankwork.loads.load_curve import LoadCurve
 from crankwork.mechanism.catalog import (
     crank_shaper,
     four_bar,
@@ -108,7 +108,7 @@ MECHANISMS = {
 }
 
 
-def working(mechanism: Mechanism, seed: int = 1) -> Running:
+def working(mechanism: Mechanism, seed: int = 1) -> OperatingState:
     """Return a mechanism with a mass, a force and a torque on every link, springs and a process force."""
     chance = np.random.default_rng(seed)
     links = [mechanism.crank.link, *(link for group in mechanism.dyads for link in group_links(group))]
@@ -116,7 +116,7 @@ def working(mechanism: Mechanism, seed: int = 1) -> Running:
     bodies = tuple(body_at(link, chance.uniform(1, 5), chance.uniform(0.01, 0.1), f"centre_{link}") for link in links)
     mechanism = replace(mechanism, points=mechanism.points + centres, bodies=bodies)
     sliders = [joint.link for joint in joints(mechanism) if isinstance(joint, SlidingJoint)]
-    resistance = Table((-2.0, 0.0, 0.01, 2.0), (50.0, 100.0, 200.0, 300.0), "monotone")
+    resistance = LoadCurve((-2.0, 0.0, 0.01, 2.0), (50.0, 100.0, 200.0, 300.0), "monotone")
     loads: list[Load] = [
         Weight(),
         Spring(f"centre_{links[0]}", f"centre_{links[-1]}", 2000.0, 0.1, 10.0),
@@ -126,7 +126,7 @@ def working(mechanism: Mechanism, seed: int = 1) -> Running:
         *(ProcessForce(slider, resistance) for slider in sliders),
     ]
     moved = linkage_motion(mechanism, GRID)
-    return Running(mechanism, moved, 30.0, applied_loads(mechanism, moved, loads), 15.0)
+    return OperatingState(mechanism, moved, 30.0, applied_loads(mechanism, moved, loads), 15.0)
 
 
 def columns_of(found: JointForces) -> dict[str, np.ndarray]:
@@ -138,7 +138,7 @@ def columns_of(found: JointForces) -> dict[str, np.ndarray]:
     return {**pins, **guides, "balancing_torque": found.balancing_torque}
 
 
-def check_routes(running: Running) -> None:
+def check_routes(running: OperatingState) -> None:
     """Check that all routes agree to 1e-10 of the largest torque, and both solutions in all joint forces."""
     groups, system = joint_forces(running), system_joint_forces(running)
     expected = crank_torque(running).driving

@@ -17,18 +17,18 @@ import pytest
 from PIL import Image
 
 from crankwork import analyse
-from crankwork.analysis.cylinders import whole_engine
+from crankwork.analysis.cylinders import multi_cylinder_engine
 from crankwork.description.machine_file import read
 from crankwork.errors import CrankworkError
 from crankwork.machine import Cylinder, Machine
 from crankwork.mechanism.mechanism import RRP, Crank, Mechanism, slider_crank
 from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import moving_drawing
+from crankwork.show.animated_svg import moving_svg
+from crankwork.show.animation import data
 from crankwork.show.formats import FORMATS, gif, mp4
 from crankwork.show.inline import inline_film
-from crankwork.show.moving import data
-from crankwork.show.moving_svg import moving_svg
-from crankwork.show.scene import Box, Circle, Drawing, Polyline, Text, extent, rectangle
+from crankwork.show.scene import ChartBox, Circle, Drawing, Polyline, Text, extent, rectangle
 from crankwork.show.svg import svg
 from each import for_each
 from shown import FILES, film_of_file, in_parts, machine_of, results_of
@@ -77,7 +77,7 @@ def _column(results, key, degrees):
     """Return a column of every cylinder, from the formulas of one cylinder at its own crank angle."""
     if results.machine.engine is None:
         return results.columns_at(degrees, [key])[key][None]
-    return whole_engine(results.solved).each(key, degrees)
+    return multi_cylinder_engine(results.solved).each(key, degrees)
 
 
 def _scale(film):
@@ -113,14 +113,14 @@ def test_rods_reach_from_their_crankpin_to_their_piston_pin(name):
     scale, whole = _scale(film), results.machine.engine
     for at, place in enumerate(_places(results)):
         rod, piston = _part(film, f"side.rod.{at + 1}"), _part(film, f"side.piston.{at + 1}")
-        slave = whole.slaves[at] if whole and whole.slaves else None
-        length = slave.length if slave else results.machine.lengths.rod_length
+        articulated_rod = whole.articulated_rods[at] if whole and whole.articulated_rods else None
+        length = articulated_rod.length if articulated_rod else results.machine.lengths.rod_length
         np.testing.assert_allclose(np.hypot(*(piston.shift - rod.shift).T), scale * length, rtol=1e-9)
         crank = _part(film, f"side.crank.{place.crankpin + 1 if place else 1}")
         for frame in (0, 13, 31, 55):
             eyes = [one.centre for one in rod.at(frame) if isinstance(one, Circle)]
             assert np.hypot(*(np.array(eyes) - piston.shift[frame]).T).min() < 1e-6
-            carrier = _part(film, f"side.rod.{place.master}") if slave else crank
+            carrier = _part(film, f"side.rod.{place.master}") if articulated_rod else crank
             pins = np.array([one.centre for one in carrier.at(frame) if isinstance(one, Circle)])
             assert np.hypot(*(pins - rod.shift[frame]).T).min() < 1e-6
 
@@ -135,7 +135,7 @@ def test_gas_fills_the_cylinder_as_high_as_its_volume(name):
     assert {int(one.name.rpartition(".")[2]) for one in seen} >= {1, len(_places(results))}
     for one in seen:
         at = int(one.name.rpartition(".")[2]) - 1
-        if not (results.machine.engine and results.machine.engine.slaves):
+        if not (results.machine.engine and results.machine.engine.articulated_rods):
             np.testing.assert_allclose(one.stretch, scale * volume[at] / area, rtol=2e-3)
         assert one.stretch.min() > 0
         # a row of equal pressures has no order
@@ -401,7 +401,7 @@ def test_where_nothing_burns_nothing_flashes():
 
 
 def test_what_is_filled_hides_outlines_beneath_it():
-    boxes = [rectangle(Box(at, 0.0, 4.0, 4.0), "medium", 1.0) for at in (0.0, 2.0)]
+    boxes = [rectangle(ChartBox(at, 0.0, 4.0, 4.0), "medium", 1.0) for at in (0.0, 2.0)]
     text = svg(Drawing("t", "en", 10.0, 10.0, tuple(boxes))).decode()
     assert text.count("<path") == 2
 

@@ -12,11 +12,11 @@ from crankwork.analysis.skeleton import skeleton
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.machine import Machine
-from crankwork.mechanism.description import linkage_from
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.mechanism.structure import structure
+from crankwork.mechanism.table_reader import linkage_from
 from crankwork.report.drawing import moving_drawing
-from crankwork.show.moving_svg import moving_svg
+from crankwork.show.animated_svg import moving_svg
 from crankwork.show.scene import Polyline, extent
 from each import for_each
 from linkages import LINKAGES, SHAPER

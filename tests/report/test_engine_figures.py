@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from crankwork.analysis import Results, analyse
-from crankwork.analysis.diagrams import brix_points, tangent_ends, tolle_points
+from crankwork.analysis.constructions import brix_points, tangent_ends, tolle_points
 from crankwork.cylinders.engines import inline, radial, vee
 from crankwork.cylinders.torque_harmonics import phase_star
 from crankwork.kinematics.slider_crank import SliderCrank
@@ -18,9 +18,9 @@ from crankwork.machine import Bearings, Drive, Engine
 from crankwork.report.figures import diagrams
 from crankwork.report.gas import _short
 from crankwork.report.look import Drawn, drawn_of
+from crankwork.show.canvas import Canvas, fitted_lines, text_width
 from crankwork.show.chart import round_ticks
-from crankwork.show.labels import label_marks
-from crankwork.show.paper import Canvas, fitted_lines, text_width
+from crankwork.show.label_placement import label_marks
 from crankwork.show.svg import svg
 from each import for_each
 from shown import machine_of, results_of

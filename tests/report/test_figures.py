@@ -17,7 +17,7 @@ from crankwork.quantities import LANGUAGES
 from crankwork.report.figures import drawings, figure_names, figures
 from crankwork.report.look import drawn_of, figure_title
 from crankwork.report.tables import sheets
-from crankwork.show.alt import alt_text
+from crankwork.show.alt_text import alt_text
 from crankwork.show.scene import printable
 from crankwork.show.svg import svg
 from each import for_each

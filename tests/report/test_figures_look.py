@@ -13,12 +13,12 @@ from crankwork.note.sheets import drawn_sheets
 from crankwork.quantities import LANGUAGES
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
-from crankwork.report.notices import not_drawn
+from crankwork.report.notices import skipped_figure_notes
 from crankwork.show.chart import Graph, round_ticks, sheet
-from crankwork.show.labels import mark_point
+from crankwork.show.chart_layout import ChartLayout, use_layout
+from crankwork.show.label_placement import mark_point
 from crankwork.show.pdf import png
-from crankwork.show.place import ChartLayout, use_layout
-from crankwork.show.scene import Box, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
+from crankwork.show.scene import ChartBox, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
 from crankwork.show.svg import svg
 from each import for_each
 from looks import box_of, faults
@@ -44,7 +44,7 @@ def test_faults_are_seen():
         return [one.kind for one in faults(Drawing("t", "en", 100.0, 50.0, items))]
 
     over, under = line((0.0, 11.0), (60.0, 12.0), "medium"), Text((10.0, 10.0), "word")
-    ground = rectangle(Box(8.0, 8.0, 20.0, 8.0), Pen(0.0), fill=1.0)
+    ground = rectangle(ChartBox(8.0, 8.0, 20.0, 8.0), Pen(0.0), fill=1.0)
     assert kinds(under) == []
     assert kinds(over, under) == kinds(under, over) == ["crossed"]
     assert kinds(over, ground, under) == []
@@ -184,6 +184,6 @@ def test_letters_without_a_glyph_are_boxes_in_a_picture_and_not_lost():
 
 
 def test_what_is_not_drawn_is_told():
-    told = [*not_drawn(results_of("parallelogram"), "en")]
+    told = [*skipped_figure_notes(results_of("parallelogram"), "en")]
     assert told == ["not drawn, because zero throughout: static torque"]
-    assert next(iter(not_drawn(results_of("excavator-boom"), "ru"))).startswith("планы сил не построены")
+    assert next(iter(skipped_figure_notes(results_of("excavator-boom"), "ru"))).startswith("планы сил не построены")

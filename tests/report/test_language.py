@@ -6,7 +6,7 @@ import pytest
 
 from crankwork.locale.numbers import number
 from crankwork.quantities import QUANTITIES
-from crankwork.report.language import displayed, label
+from crankwork.report.display import displayed, label
 from crankwork.units import to_si
 from each import for_each
 

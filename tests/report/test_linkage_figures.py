@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from crankwork import analyse, read_machine, template
-from crankwork.analysis.diagrams import Fluctuation, tangents
-from crankwork.analysis.moving import moving
+from crankwork.analysis.constructions import Fluctuation, tangents
+from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.quantities import LANGUAGES, QUANTITIES
@@ -20,8 +20,8 @@ from crankwork.report.curves import curves
 from crankwork.report.figures import drawings
 from crankwork.report.look import angle_ticks, axis_title, math_symbol
 from crankwork.report.motion import instant_centres
-from crankwork.show.paper import plain
-from crankwork.show.place import ChartLayout, use_layout
+from crankwork.show.canvas import plain
+from crankwork.show.chart_layout import ChartLayout, use_layout
 from crankwork.show.scene import Polyline, extent
 from crankwork.show.scene import Text as SceneText
 from crankwork.show.svg import svg
@@ -131,7 +131,7 @@ def test_the_moving_centrode_rolls_on_the_fixed_one():
     """They touch at the instant centre, and where they go together their ways are as long."""
     results = results_of("template four-bar")
     degrees = np.linspace(20.0, 60.0, 401)
-    moved = moving(results.machine.mechanism, degrees)
+    moved = sample_motion(results.machine.mechanism, degrees)
     fixed, rolling = instant_centres(moved.frames["coupler"], 100)
     columns = results.columns_at(degrees[100:101])
     place = [float(columns[f"instant_centre_{axis}.coupler"][0]) for axis in "xy"]

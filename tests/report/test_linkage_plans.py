@@ -9,10 +9,10 @@ import pytest
 
 from crankwork import analyse, read_machine
 from crankwork.analysis.force_plans import force_plans
-from crankwork.analysis.lever import zhukovsky_lever
-from crankwork.analysis.moving import moving
-from crankwork.analysis.plans import accelerations, velocities
+from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.skeleton import skeleton
+from crankwork.analysis.vector_polygons import accelerations, velocities
+from crankwork.analysis.zhukovsky_lever import zhukovsky_lever
 from crankwork.report import plans, positions
 from crankwork.report.figures import drawings
 from crankwork.report.look import Style
@@ -30,7 +30,7 @@ from shown import figures_of, in_parts, results_of
 @for_each("degrees", [20.0, 100.0, 215.0, 340.0])
 def test_plans_close(name, degrees):
     linkage = LINKAGES[name]
-    moved = moving(linkage, [degrees])
+    moved = sample_motion(linkage, [degrees])
     speed, second = 12.0, -35.0
     plans = velocities(linkage, moved, 0, speed), accelerations(linkage, moved, 0, speed, second)
     for plan in plans:
@@ -74,7 +74,7 @@ def _place(moved, shape, name):
 
 def test_sliding_goes_along_the_slot_and_coriolis_across():
     linkage = LINKAGES["shaper"]
-    moved = moving(linkage, [60.0])
+    moved = sample_motion(linkage, [60.0])
     lever = moved.frames["lever"]
     along = lever.along[0]
     plan = accelerations(linkage, moved, 0, 10.0, 5.0)
@@ -87,7 +87,7 @@ def test_sliding_goes_along_the_slot_and_coriolis_across():
 
 
 def test_crank_pin_moves_with_the_rotation():
-    plan = velocities(FIRST, moving(FIRST, [30.0]), 0, 10.0)
+    plan = velocities(FIRST, sample_motion(FIRST, [30.0]), 0, 10.0)
     np.testing.assert_allclose(plan.nodes["A"], 0.5 * np.array([-0.5, np.sqrt(0.75)]), atol=1e-12)
 
 
@@ -107,7 +107,7 @@ def test_a_pole_has_a_letter_of_its_own(monkeypatch):
     seen = _labelled(monkeypatch, plans)
     known = {**SHAPER, "links": {**SHAPER["links"], "link": {**SHAPER["links"]["link"], "points": {"P": [0.1, 0.02]}}}}
     mechanism = mechanism_from(known)[0]
-    velocity_plan(mechanism, moving(mechanism, np.arange(0.0, 361.0, 30.0)), 1, 10.0)
+    velocity_plan(mechanism, sample_motion(mechanism, np.arange(0.0, 361.0, 30.0)), 1, 10.0)
     (names,) = seen
     assert names[0] == "o"
     assert "p" in names

@@ -8,8 +8,8 @@ import pytest
 from crankwork.errors import MethodError
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import excess_work, fluctuation_of_inertia, true_speed
-from crankwork.shaft.flywheel import WAYS, flywheel, inertia_on_other_shaft
-from crankwork.shaft.wheel import inertia_of_wheel, rim_speed_of_stress
+from crankwork.shaft.flywheel import FLYWHEEL_METHODS, flywheel, inertia_on_other_shaft
+from crankwork.shaft.flywheel_sizing import inertia_of_wheel, rim_speed_of_stress
 from each import for_each
 
 pytestmark = pytest.mark.elsewhere
@@ -55,7 +55,7 @@ def test_the_exact_flywheel_gives_the_fluctuation_asked_for(fluctuation):
 
 
 def test_the_ways_agree_where_the_inertia_is_constant():
-    found = [flywheel(Curve.constant(0.5), LOAD, 10.0, 0.05, way) for way in WAYS]
+    found = [flywheel(Curve.constant(0.5), LOAD, 10.0, 0.05, way) for way in FLYWHEEL_METHODS]
     assert [one.inertia for one in found] == pytest.approx([found[0].inertia] * 4, rel=1e-13)
     assert found[0].inertia + 0.5 == pytest.approx(excess_work(LOAD).work / (0.05 * 100))
 

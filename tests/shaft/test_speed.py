@@ -9,7 +9,7 @@ from crankwork.shaft.collocation import integrate_periodic
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import true_speed
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
-from crankwork.shaft.speed import ReducedMachine, steady_speed
+from crankwork.shaft.steady_speed import ReducedMachine, steady_speed
 from motors import LinearMotor, missed
 
 pytestmark = pytest.mark.elsewhere

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from crankwork.shaft.fitted import fitted
-from crankwork.shaft.glide import CompiledIntegrator
+from crankwork.shaft.compiled_integrator import CompiledIntegrator
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
-from crankwork.shaft.transient import FreeMachine, Run
+from crankwork.shaft.piecewise_fit import fit_piecewise
+from crankwork.shaft.transient import Integrator, TransientSystem
 
 pytestmark = pytest.mark.elsewhere
 TURN = 2 * math.pi
@@ -24,11 +24,13 @@ def free(inertia=2.0, potential=None, grows=0.0, falls=0.0, damping=0.0, breaks=
         rows = (inertia, energy(q), grows(q) if callable(grows) else grows, falls, damping, 1.0, 0.0, slope(q))
         return np.stack([np.broadcast_to(one, q.shape) for one in rows])
 
-    reduced = fitted(columns, np.array(breaks), 0.5, TURN, groups=(0, 1, 1, 1, 2, 3, 0, 1))
-    return FreeMachine(reduced, breaks, **other)
+    reduced = fit_piecewise(columns, np.array(breaks), 0.5, TURN, groups=(0, 1, 1, 1, 2, 3, 0, 1))
+    return TransientSystem(reduced, breaks, **other)
 
 
-@pytest.fixture(params=[Run, pytest.param(CompiledIntegrator, marks=pytest.mark.compiled)], ids=["arrays", "compiled"])
+@pytest.fixture(
+    params=[Integrator, pytest.param(CompiledIntegrator, marks=pytest.mark.compiled)], ids=["arrays", "compiled"]
+)
 def run(request):
     """Steps of arrays, and the same steps compiled."""
     return request.param
@@ -122,7 +124,7 @@ class TestMotor:
         breaks = tuple(np.radians([0.0, 40.0, 80.0, 120.0, 360.0]))
         load = lambda q: np.interp(q, breaks, [-5.0, -5.0, -100.0, -5.0, -5.0])  # noqa: E731
         machine = free(grows=load, falls=0.0, breaks=breaks, motor=MOTOR)
-        course = Run(machine, 0.0, 0.0).until(2.0)
+        course = Integrator(machine, 0.0, 0.0).until(2.0)
 
         def rate(_, state):
             return [state[1], (load(state[0] % TURN) + float(MOTOR.torque(state[1]))) / 2.0]
@@ -138,12 +140,12 @@ class TestMotor:
         assert (q[0], v[0]) == pytest.approx(tuple(state), rel=1e-9)
 
     def test_a_load_too_heavy_to_start(self):
-        course = Run(free(grows=-400.0, falls=400.0, motor=MOTOR), 0.0, 0.0).until(5.0)
+        course = Integrator(free(grows=-400.0, falls=400.0, motor=MOTOR), 0.0, 0.0).until(5.0)
         assert words(course) == ["comes_to_rest"]
         assert course.at(np.array([5.0]))[0] == 0.0
 
     def test_a_speed_is_told_when_it_is_reached(self):
-        course = Run(free(torque=4.0), 0.0, 0.0).until(5.0, watched=[6.0])
+        course = Integrator(free(torque=4.0), 0.0, 0.0).until(5.0, watched=[6.0])
         (event,) = course.events
         assert (event.word, event.rate) == ("reaches_speed", pytest.approx(6.0, rel=1e-13))
         assert event.time == pytest.approx(3.0, rel=1e-13)
@@ -160,12 +162,12 @@ class TestBounds:
                 raise KeyboardInterrupt
             return False
 
-        course = Run(free(potential=HILLS), 1.0, 0.0).until(100.0, each=impatient)
+        course = Integrator(free(potential=HILLS), 1.0, 0.0).until(100.0, each=impatient)
         assert words(course)[-1] == "interrupted"
         assert course.end == seen[-1]
 
     def test_too_many_steps_are_told(self, monkeypatch):
         monkeypatch.setattr("crankwork.shaft.transient.MOST_STEPS", 20)
-        course = Run(free(potential=HILLS), 1.0, 0.0).until(100.0)
+        course = Integrator(free(potential=HILLS), 1.0, 0.0).until(100.0)
         assert words(course)[-1] == "many_steps"
         assert course.end < 100.0

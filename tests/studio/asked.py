@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from crankwork.studio.answers import Session
+from crankwork.studio.session import Session
 
 FOUR = {"1": "OA", "2": "AB", "3": "BC"}
 PLACES = {

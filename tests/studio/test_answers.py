@@ -11,12 +11,12 @@ import pytest
 import crankwork
 from crankwork.description.machine_file import template, template_names
 from crankwork.errors import CrankworkError
-from crankwork.locale import told
+from crankwork.locale import in_language
 from crankwork.page import sliders
-from crankwork.studio import answers
+from crankwork.studio import session
 from crankwork.studio.additions import additions
-from crankwork.studio.answers import Session, StoppedError, opened_share, shared
-from crankwork.study.mapped import map_text, mapped
+from crankwork.studio.session import Session, StoppedError, opened_share, shared
+from crankwork.study.parameter_map import map_text, mapped
 from each import for_each
 from studio.asked import answer, drawn, rows_of, sketch, typed
 
@@ -119,7 +119,7 @@ def test_what_is_refused_is_told_as_the_command_line_tells_it():
             found = Session(language, Path("machine.toml")).answer(asked)
             with pytest.raises(crankwork.InputError) as error:
                 crankwork.read_machine(found["text"], "machine.toml")
-            lines = error.value.lines(lambda one, language=language: told(one, language))
+            lines = error.value.lines(lambda one, language=language: in_language(one, language))
             line = found["text"].splitlines()[found["refusals"][0]["line"] - 1]
             if (
                 [one["text"] for one in found["refusals"]] != lines
@@ -374,9 +374,9 @@ def test_scales_that_differ_by_rounding_are_the_same(monkeypatch):
 def test_while_a_number_is_held_no_more_is_drawn_than_is_asked_for(machine, monkeypatch):
     drawn = []
     for name in ("film_of", "inline_film", "form", "values"):
-        own = getattr(answers, name)
+        own = getattr(session, name)
         monkeypatch.setattr(
-            answers, name, lambda *told, _own=own, _name=name, **more: drawn.append(_name) or _own(*told, **more)
+            session, name, lambda *told, _own=own, _name=name, **more: drawn.append(_name) or _own(*told, **more)
         )
     asked = {"fields": {"crank.radius": "60 mm"}, "figures": ["velocity_plan"], "held": True, "machine": machine}
     found = answer(template("four-bar"), "set", **asked)

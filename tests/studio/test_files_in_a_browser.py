@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from crankwork.description.machine_file import template
-from crankwork.studio.answers import opened_share
+from crankwork.studio.session import opened_share
 from studio.hands import begin, field, refused, settled, source, sourced, told, typed, undone
 from studio.test_pmks import FOUR_BAR
 

@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 
 import crankwork
 from crankwork.report.figures import drawings
-from crankwork.studio.answers import Session
+from crankwork.studio.session import Session
 from studio.hands import begin, hold, let_go, prepared, settled, slider_of, with_figure
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -9,9 +9,9 @@ import pytest
 
 import crankwork
 from crankwork.description.machine_file import template, template_names
-from crankwork.locale import told
-from crankwork.studio.answers import Session
+from crankwork.locale import in_language
 from crankwork.studio.form import form
+from crankwork.studio.session import Session
 from studio.asked import answer, drawn, rows_of, sketch
 
 
@@ -82,7 +82,7 @@ def test_what_is_typed_while_drawing_is_refused_as_the_command_line_refuses_it()
         message = next(one.message for one in error.value.problems if one.key == "crank.radius")
         for language in ("en", "ru", "vi"):
             found = measured(value, "", language=language)
-            failures += [(value, language, found)] if found != {"refusal": told(message, language)} else []
+            failures += [(value, language, found)] if found != {"refusal": in_language(message, language)} else []
     assert failures == []
 
 

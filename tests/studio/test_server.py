@@ -133,7 +133,7 @@ def test_a_message_of_ten_megabytes_is_refused(started):
 
 def test_what_fails_in_a_calculation_is_told_and_the_next_one_is_answered(monkeypatch):
     from crankwork.studio import server
-    from crankwork.studio.answers import Session
+    from crankwork.studio.session import Session
 
     rooms = server.ServerState(server.StartupOptions(""), "en")
     studio = Session("en")

@@ -15,7 +15,7 @@ import pytest
 import crankwork
 from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
-from crankwork.study.running import ExecutionOptions, run_study
+from crankwork.study.runner import ExecutionOptions, run_study
 from crankwork.study.study_file import load_study
 
 pytestmark = pytest.mark.data
@@ -104,6 +104,6 @@ def one_of(cluster, gone, generator):
 
 @pytest.mark.filterwarnings("default")
 def test_a_cluster_that_does_not_answer_is_named(study, tmp_path, monkeypatch):
-    monkeypatch.setattr("crankwork.study.running._TIMEOUT", "1s")
+    monkeypatch.setattr("crankwork.study.runner._TIMEOUT", "1s")
     with pytest.raises(CrankworkError, match="nothing answers there"):
         run_study(study, tmp_path / "out", ExecutionOptions(scheduler="tcp://127.0.0.1:1"))

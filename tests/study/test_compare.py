@@ -10,7 +10,7 @@ import pytest
 
 import crankwork
 from crankwork import CrankworkError, NoteOptions
-from crankwork.analysis.compare import beside, difference
+from crankwork.analysis.compare import comparison_key, difference_key
 from crankwork.note.document import Figure, Heading, Table
 from crankwork.report.comparison import comparison_rows, comparison_text
 from crankwork.report.figures import drawings
@@ -41,17 +41,17 @@ def test_columns_are_those_of_each_method_and_of_their_differences(name):
     assert compared.names == ("exact", "textbook", "series:4")
     assert {"piston_displacement", "piston_velocity", "piston_acceleration"} <= set(compared.keys)
     for key in compared.keys:
-        own = compared.columns[beside(key, "exact")]
+        own = compared.columns[comparison_key(key, "exact")]
         assert np.array_equal(own, results.columns[key])
         for method, other in zip(compared.names[1:], compared.others, strict=True):
             size = np.max(np.abs(own))
-            its = compared.columns[beside(key, method)]
+            its = compared.columns[comparison_key(key, method)]
             assert its == pytest.approx(other.columns[key], abs=1e-12 * size)
-            assert compared.columns[difference(key, method)] == pytest.approx(its - own, abs=1e-12 * size)
+            assert compared.columns[difference_key(key, method)] == pytest.approx(its - own, abs=1e-12 * size)
     # in the figure each curve is that of its name, and below it are the differences
     plots, wrong = iter(drawings(results)["comparison"].plots), []
     for key in ("piston_displacement", "piston_velocity", "piston_acceleration"):
-        for of_name, names in ((beside, compared.names), (difference, compared.names[1:])):
+        for of_name, names in ((comparison_key, compared.names), (difference_key, compared.names[1:])):
             curves = next(plots).curves
             assert tuple(curves) == names
             for which, (angles, drawn) in curves.items():
@@ -69,7 +69,7 @@ def test_the_textbook_differs_from_exact_by_what_its_two_terms_leave_out():
     r, ratio = own["crank_radius"], own["rod_ratio"]
     phi = np.radians([0.0, 50.0, 90.0, 222.0])
     exact = 1 / ratio - np.sqrt(1 / ratio**2 - np.sin(phi) ** 2)
-    found = compared.columns_at(np.degrees(phi))[difference("piston_displacement", "textbook")]
+    found = compared.columns_at(np.degrees(phi))[difference_key("piston_displacement", "textbook")]
     assert found == pytest.approx(r * (ratio / 4 * (1 - np.cos(2 * phi)) - exact), abs=1e-15)
 
 
@@ -77,7 +77,7 @@ def test_the_largest_difference_is_the_error_that_the_method_states():
     results = by_methods("engine", "textbook")
     compared = results.compared
     for key in ("piston_displacement", "piston_velocity", "piston_acceleration"):
-        found = np.max(np.abs(compared.columns_at(np.arange(0, 720, 0.1))[difference(key, "textbook")]))
+        found = np.max(np.abs(compared.columns_at(np.arange(0, 720, 0.1))[difference_key(key, "textbook")]))
         assert found == pytest.approx(compared.others[0].summary[f"{key}_error"], rel=1e-5)
 
 
@@ -100,7 +100,9 @@ def test_two_machines_stand_side_by_side_with_all_their_values():
     assert set(rows) == set(one.summary) | set(other.summary)
     assert rows["rod_length"] == pytest.approx((160.0, 140.0, -20.0))
     for key in results.compared.keys:
-        assert results.compared.columns[beside(key, "short")] == pytest.approx(other.columns[key], rel=1e-12, abs=1e-9)
+        assert results.compared.columns[comparison_key(key, "short")] == pytest.approx(
+            other.columns[key], rel=1e-12, abs=1e-9
+        )
 
 
 def test_linkages_are_compared_by_what_they_have_in_common():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from crankwork.errors import CrankworkError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.study.roots import find_roots
 
 PLACES = np.linspace(0.0, 10.0, 401)
@@ -16,11 +16,11 @@ PLACES = np.linspace(0.0, 10.0, 401)
 
 def gaps(x: float) -> float:
     if x < 2:
-        raise CrankworkError(Refusal("this"))
+        raise CrankworkError(ErrorMessage("this"))
     if 7 < x < 8:
-        raise CrankworkError(Refusal("the_number"))
+        raise CrankworkError(ErrorMessage("the_number"))
     if 8 <= x < 8.503:
-        raise CrankworkError(Refusal("this"))
+        raise CrankworkError(ErrorMessage("this"))
     return math.sqrt(x - 2) - 0.5
 
 

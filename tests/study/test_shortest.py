@@ -26,7 +26,7 @@ def apart(machine):
     """Return keys whose values are not those of the whole analysis."""
     whole, short = analyse(machine), columns_only(machine)
     angle = float(whole.grid.degrees[len(whole.grid) // 3])
-    keys = [key for key, known in short.memory.items() if known.varies and key in whole.memory]
+    keys = [key for key, known in short.trace.items() if known.varies and key in whole.trace]
     one, other = whole.columns_at([angle], keys), short.columns_at([angle], keys)
     unlike = {key for key in keys if not np.allclose(one[key], other[key], rtol=1e-9, atol=1e-11, equal_nan=True)}
     found = {}

@@ -9,9 +9,9 @@ import pytest
 
 import crankwork
 from crankwork import CrankworkError, Description
-from crankwork.report.language import key_unit
+from crankwork.report.display import key_unit
+from crankwork.study.numeric_field import numeric_field
 from crankwork.study.solution import solution_data, solution_text
-from crankwork.study.sought import numeric_field
 from crankwork.units import coherent_unit
 
 pytestmark = pytest.mark.usefixtures("by_arrays")

@@ -9,17 +9,17 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import template
 from crankwork.locale import LANGUAGES
 from crankwork.quantities import QUANTITIES
+from crankwork.show.canvas import BLACK
 from crankwork.show.chart import ChartBox, Graph, round_ticks, sheet
+from crankwork.show.chart_layout import MM
 from crankwork.show.contour import Field, contours
-from crankwork.show.paper import BLACK
-from crankwork.show.place import MM
 from crankwork.show.scene import Circle, Polyline, Text, pen_of
-from crankwork.study.found_figures import found_drawings
-from crankwork.study.found_text import found_data
 from crankwork.study.map_figures import map_drawings
-from crankwork.study.mapped import mapped
-from crankwork.study.running import ExecutionOptions, run_study
+from crankwork.study.parameter_map import mapped
+from crankwork.study.runner import ExecutionOptions, run_study
+from crankwork.study.study_figures import found_drawings
 from crankwork.study.study_file import load_study
+from crankwork.study.study_text import found_data
 from looks import faults
 
 STUDY = """\

@@ -19,11 +19,11 @@ from crankwork import cli, files
 from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
 from crankwork.kernel import compiled
-from crankwork.locale import LANGUAGES, say
+from crankwork.locale import LANGUAGES, translate
 from crankwork.study.chunks import prepared_study
-from crankwork.study.found_text import found_data, found_text, ranked
-from crankwork.study.running import ExecutionOptions, run_study
+from crankwork.study.runner import ExecutionOptions, run_study
 from crankwork.study.study_file import load_study
+from crankwork.study.study_text import found_data, found_text, ranked
 
 pytestmark = pytest.mark.data
 MILLION = Path(__file__).parents[2] / "examples" / "studies" / "million-engines.toml"
@@ -401,8 +401,8 @@ def test_a_study_says_whether_it_is_compiled_and_why_not(tmp_path, monkeypatch):
         is_compiled, reason = key == "mean_torque", found_data(study, found)["not_compiled"]
         assert (found.one_by_one, key in (reason or "")) == ((0, False) if is_compiled else (8, True))
         for language in LANGUAGES:
-            why = say("study.because_procedure", language, name=key)
-            why = say("study.compiled", language, count="0") if is_compiled else why
+            why = translate("study.because_procedure", language, name=key)
+            why = translate("study.compiled", language, count="0") if is_compiled else why
             if why not in found_text(study, found, language):
                 wrong.append((key, language))
     assert wrong == []

@@ -84,7 +84,7 @@ def test_a_kernel_that_says_something_else_than_analyses_is_not_believed(monkeyp
 
 
 def test_several_threads_give_the_same(monkeypatch):
-    monkeypatch.setattr("crankwork.study.machines._BATCH_SIZE", 8)
+    monkeypatch.setattr("crankwork.study.variants._BATCH_SIZE", 8)
     d = crankwork.Description(crankwork.template("slider-crank"))
     asked = {"crank.radius": np.linspace(0.03, 0.05, 50), "crank.speed": np.linspace(200, 300, 50)}
     one, two = (crankwork.sweep(d, asked, ["piston_velocity_max"], workers=count) for count in (1, 3))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from crankwork.formula.known import Found, Given, Known, Use, in_order
+from crankwork.formula.traced_value import FormulaCall, Input, ProcedureValue, TracedValue, in_order
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import FUELS, CycleError
@@ -32,25 +32,25 @@ every_law = for_each("law", ["kolchin", "vietnamese", "linear"])
 @every_engine
 @every_law
 def test_every_value_is_followed_to_what_was_given(data: GrinevetskyData, law: HeatLaw):
-    memory = grinevetsky(replace(data, heat_capacities=law)).memory
-    assert all(key == one.key and base_key(key) in QUANTITIES for key, one in memory.items())
-    made = list(in_order(memory.values()))
+    trace = grinevetsky(replace(data, heat_capacities=law)).trace
+    assert all(key == one.key and base_key(key) in QUANTITIES for key, one in trace.items())
+    made = list(in_order(trace.values()))
     assert len(made) > 90
     constants = {
         value
         for one in made
-        if isinstance(one.node, Use)
+        if isinstance(one.node, FormulaCall)
         for name, value in zip(one.node.formula.arguments, one.node.inputs, strict=True)
-        if not isinstance(value, Known) and name != "pi"
+        if not isinstance(value, TracedValue) and name != "pi"
     }
     assert constants == set()
-    found = [one for one in made if isinstance(one.node, Found)]
+    found = [one for one in made if isinstance(one.node, ProcedureValue)]
     assert [one.key for one in found] == ["stroke"], "the stroke that gives itself"
-    assert found[0].value == pytest.approx(memory["stroke"].value, rel=1e-12)
+    assert found[0].value == pytest.approx(trace["stroke"].value, rel=1e-12)
 
 
 def test_given_values_stand_where_the_file_states_them():
-    leaves = {one.key: one.node.path for one in in_order(grinevetsky(PETROL).memory.values()) if _is_given(one)}
+    leaves = {one.key: one.node.path for one in in_order(grinevetsky(PETROL).trace.values()) if _is_given(one)}
     places = {
         "compression_ratio": "cylinder.compression_ratio", "rotational_speed": "crank.speed",
         "excess_air": "cycle.excess_air", "effective_power": "cycle.power", "cylinder_count": "engine.cylinders",
@@ -64,8 +64,8 @@ def test_given_values_stand_where_the_file_states_them():
     }  # fmt: skip
 
 
-def _is_given(one: Known) -> bool:
-    return isinstance(one.node, Given) and not one.is_absent
+def _is_given(one: TracedValue) -> bool:
+    return isinstance(one.node, Input) and not one.is_absent
 
 
 LOW = {

@@ -2,8 +2,8 @@
 
 import pytest
 
-from crankwork.formula.known import Known, given
-from crankwork.formula.worked import Worked
+from crankwork.formula.calculation import Calculation
+from crankwork.formula.traced_value import TracedValue, given
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs
 from crankwork.working_cycle.fuels import FUELS, burning
 from crankwork.working_cycle.grinevetsky import mixture
@@ -62,7 +62,7 @@ def test_heat_between_two_temperatures_is_the_measured_one(name: str):
     assert ends[0] - ends[1] == pytest.approx(measured, rel=0.02)
 
 
-def _counted(law: HeatLaw, kelvin: float) -> Known:
+def _counted(law: HeatLaw, kelvin: float) -> TracedValue:
     return given("gas_celsius", kelvin - law_zero(law))
 
 
@@ -91,7 +91,7 @@ def test_heat_from_600_to_2400_kelvin_is_that_of_the_gases(law: HeatLaw, excess_
 def test_heat_of_the_charge_from_350_to_800_kelvin_is_that_of_air(law: HeatLaw):
     def energy(one: HeatLaw, kelvin: float) -> float:
         at = _counted(one, kelvin)
-        return fresh_heat(Worked(), one, at).value * at.value
+        return fresh_heat(Calculation(), one, at).value * at.value
 
     ours, air = (energy(one, 800.0) - energy(one, 350.0) for one in (law, "kolchin"))
     assert ours == pytest.approx(air, rel=0.02)

@@ -15,14 +15,14 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.formula.known import absent, in_order
-from crankwork.formula.lines import Moment
+from crankwork.formula.calculation_lines import Snapshot
 from crankwork.formula.replay import replay
+from crankwork.formula.traced_value import absent, in_order
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.extremes import dead_centres
+from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.monotone import hermite, hermite_slope
-from crankwork.loads.pressure import remembered_pressure
+from crankwork.loads.pressure import traced_pressure
 from crankwork.working_cycle.closed_gas import (
     EXPANSION,
     internal_energy_change,
@@ -32,7 +32,7 @@ from crankwork.working_cycle.closed_gas import (
     woschni_gas_speed,
 )
 from crankwork.working_cycle.heat_data import HeatReleaseData, stages
-from crankwork.working_cycle.pressures import HeatReleaseResult, heat_release
+from crankwork.working_cycle.pressure_models import HeatReleaseResult, heat_release
 from each import for_each
 from engines import cylinder_volumes
 
@@ -310,7 +310,7 @@ def test_what_stands_behind_the_greatest_pressure_is_told():
     volume = VOLUME(np.array([230.0]))[0]
     assert found.peak["gas_mass"].value == pytest.approx(1e5 * volume / (287 * 340), rel=1e-12)
     assert abs(found.peak["pressure_rise.peak"].value) < 1e-3 * found.values["pressure_rise_max"], "no rise at the peak"
-    lines = {one.key: one for one in Moment(CrankGrid.from_degrees, 0.0).steps(found.worked)}
+    lines = {one.key: one for one in Snapshot(CrankGrid.from_degrees, 0.0).steps(found.worked)}
     assert lines["heat_transfer_coefficient.peak"].values["p_cyl"] == found.values["cylinder_pressure_max"]
     assert lines["fuel_heat"].values == {"m_fuel": 2.5e-5, "H_fuel": 43e6, "eta_burn": 0.9}
 
@@ -319,7 +319,7 @@ def test_what_was_found_can_be_kept_and_read_again():
     found = _run(ENGINE).calculated
     again = pickle.loads(pickle.dumps(found))  # noqa: S301 - written by the line itself
     assert again.values == found.values
-    pressure = again.memory["closed_work"].node.operands[0]
+    pressure = again.trace["closed_work"].node.operands[0]
     grid = CrankGrid.from_degrees([240.0, 350.0, 372.0])
     volume = np.ones(3)
     assert np.array_equal(replay(pressure, grid), found.diagram.pressure(grid.degrees, volume))
@@ -327,7 +327,7 @@ def test_what_was_found_can_be_kept_and_read_again():
 
 def test_the_pressure_at_any_angle_is_followed_to_the_heat():
     found = _run(TWO_STROKE).calculated
-    pressure = remembered_pressure(found.diagram, absent("cylinder_volume"))
+    pressure = traced_pressure(found.diagram, absent("cylinder_volume"))
     grid = CrankGrid.steps(3.7, 360.0)
     assert np.array_equal(replay(pressure, grid), found.diagram.pressure(grid.degrees, grid.degrees))
     assert {"fuel_heat", "burning_shape", "residual_pressure"} <= {one.key for one in in_order([pressure])}

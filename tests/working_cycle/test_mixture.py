@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st
 
-from crankwork.formula.worked import Worked
+from crankwork.formula.calculation import Calculation
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel, burning
 from crankwork.working_cycle.grinevetsky import mixture
@@ -18,7 +18,7 @@ OXYGEN = st.floats(0.0, 0.1)
 ATOMS = [(1, 0, 2, 0), (1, 0, 1, 0), (0, 2, 1, 0), (0, 2, 0, 0), (0, 0, 2, 0), (0, 0, 0, 2)]
 
 
-def _burnt(fuel: Fuel, air: float, share: float = 0.5) -> Worked:
+def _burnt(fuel: Fuel, air: float, share: float = 0.5) -> Calculation:
     data = GrinevetskyData("petrol", 9.0, 5000.0, fuel=fuel, excess_air=air, hydrogen_share=share)
     worked = traced_cycle_inputs(data, data)
     burning(worked, fuel)
@@ -26,7 +26,7 @@ def _burnt(fuel: Fuel, air: float, share: float = 0.5) -> Worked:
     return worked
 
 
-def _parts(worked: Worked) -> list[float]:
+def _parts(worked: Calculation) -> list[float]:
     return [worked[key].value for key in PRODUCTS]
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from crankwork.errors import CrankworkError
-from crankwork.kinematics.extremes import dead_centres
+from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, VolumeAt, solve_diagram
 from crankwork.working_cycle.rounding import (

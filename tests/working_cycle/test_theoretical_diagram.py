@@ -5,19 +5,19 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from crankwork.formula.known import Known, Table, given, in_order
 from crankwork.formula.replay import replay
+from crankwork.formula.traced_value import Tabulated, TracedValue, given, in_order
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.extremes import dead_centres
+from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
-from crankwork.loads.pressure import remembered_pressure
+from crankwork.loads.pressure import traced_pressure
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import CycleError
 from crankwork.working_cycle.grinevetsky import grinevetsky
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
-from crankwork.working_cycle.pressures import CornerPressure, theoretical_diagram
+from crankwork.working_cycle.pressure_models import CornerPressure, theoretical_diagram
 from crankwork.working_cycle.rounding import Timing
 from each import for_each
 
@@ -149,8 +149,8 @@ def test_the_pressure_at_any_angle_is_followed_into_the_calculation(name: str, t
     cycle = CYCLES[name]
     cylinder = _cylinder(cycle, 0.0)
     diagram = CornerPressure(cycle, timing).pressure(cylinder.volume_at, cylinder.volume_at, cylinder.centres).diagram
-    volume = Known(Table(cylinder.volume_at, "measured"), "cylinder_volume")
-    pressure = remembered_pressure(diagram, volume)
+    volume = TracedValue(Tabulated(cylinder.volume_at, "measured"), "cylinder_volume")
+    pressure = traced_pressure(diagram, volume)
     grid = CrankGrid.steps(7.3, 720.0)
     assert np.array_equal(replay(pressure, grid), diagram.pressure(grid.degrees, cylinder.volume_at(grid.degrees)))
     made_of = {one.key for one in in_order([pressure])}

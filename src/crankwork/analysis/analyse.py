@@ -10,12 +10,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.engine import analyse_engine, own_key
+from crankwork.analysis.one_cylinder import analyse_engine, own_key
+from crankwork.analysis.prepared import Notice, prepare
 from crankwork.analysis.results import Results
-from crankwork.analysis.solved import Notice, solve
 from crankwork.errors import CrankworkError, MethodError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.method import EXACT, Method
 
@@ -69,9 +69,9 @@ def analyse(
     [0.0, 0.051328, 0.09]
     """
     if not isinstance(machine, Machine) and not hasattr(machine, "machine"):
-        raise CrankworkError(Refusal("object_machine", value=type(machine).__name__))
+        raise CrankworkError(ErrorMessage("object_machine", value=type(machine).__name__))
     if not isinstance(method, Method | str | None):
-        raise CrankworkError(Refusal("object_method", value=type(method).__name__))
+        raise CrankworkError(ErrorMessage("object_method", value=type(method).__name__))
     machine = machine if isinstance(machine, Machine) else machine.machine()
     grid = angles if angles is None or isinstance(angles, CrankGrid) else _grid(angles, machine.cycle)
     method = machine.method.named(method) if isinstance(method, str) else method
@@ -92,14 +92,14 @@ def _engine_of(machine: Machine, method: Method) -> Machine | None:
     if machine.lengths is not None or (method.is_exact and not machine.chambers):
         return None
     # most linkages are no engines
-    from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
+    from crankwork.analysis.cylinder_form import engine_form_or_reason  # noqa: PLC0415
 
     form = engine_form_or_reason(machine, has_all=True)
     if isinstance(form, Machine):
         return form
     if method.is_exact:
         return None
-    raise MethodError(Refusal("method_of_engines", method=method.name, reason=form.message))
+    raise MethodError(ErrorMessage("method_of_engines", method=method.name, reason=form.message))
 
 
 def is_engine(machine: Machine) -> bool:
@@ -111,7 +111,7 @@ def _located(results: Results, machine: Machine) -> Results:
     """Return results of the engine that a linkage is, their inputs where the linkage states them."""
     from crankwork.analysis.form_paths import linkage_paths, relocate  # noqa: PLC0415 - loaded where it is needed
 
-    relocate(results.memory.values(), linkage_paths(machine))
+    relocate(results.trace.values(), linkage_paths(machine))
     return results
 
 
@@ -126,7 +126,7 @@ def _in_other_form(machine: Machine, grid: CrankGrid, method: Method, *, is_engi
     if form is not None or machine.linkage is None:
         return None if form is None else _analysed(form, grid, None, None)
     # few linkages are engines
-    from crankwork.analysis.engine_form import engine_form  # noqa: PLC0415 - loaded where it is needed
+    from crankwork.analysis.cylinder_form import engine_form  # noqa: PLC0415 - loaded where it is needed
 
     form = engine_form(machine)
     return None if form is None else _located(_analysed(form, grid, None, None), machine)
@@ -140,7 +140,7 @@ def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:
         degrees = np.empty(0)
     is_row = degrees.ndim == 1 and degrees.size > 0 and bool(np.all(np.isfinite(degrees)))
     if not is_row or np.any(np.diff(degrees) <= 0) or degrees[0] < -cycle or degrees[-1] > cycle:
-        raise CrankworkError(Refusal("angles_wrong", cycle=f"{cycle:g}"))
+        raise CrankworkError(ErrorMessage("angles_wrong", cycle=f"{cycle:g}"))
     return CrankGrid.from_degrees(degrees)
 
 
@@ -149,15 +149,15 @@ def _analysed(
 ) -> Results:
     # what gives the motion decides; lengths would wait longer for the rooms of the others than for their results
     if machine.turning is not None:
-        from crankwork.analysis.turning import analyse_turning  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.analysis.given_torques import analyse_turning  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_turning(machine, machine.turning, grid)
     if machine.transfer is not None:
-        from crankwork.analysis.tabulated import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.analysis.given_motion import analyse_tabulated  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_tabulated(machine, machine.transfer)
     if machine.linkage is not None:
-        from crankwork.analysis.linkage import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.analysis.mechanism import analyse_linkage  # noqa: PLC0415 - loaded where it is needed
 
         return analyse_linkage(machine, grid, progress)
     return analyse_engine(machine, grid, method=method)
@@ -174,22 +174,22 @@ def columns_only(machine: Machine) -> Results:
     if engine is not None:
         return _located(columns_only(engine), machine)
     if machine.linkage is not None:
-        from crankwork.analysis.linkage import linkage_columns  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.analysis.mechanism import linkage_columns  # noqa: PLC0415 - loaded where it is needed
 
         return linkage_columns(machine)
-    solved = solve(machine, machine.method)
+    solved = prepare(machine, machine.method)
     grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     # in the joints of an engine there are the forces of other cylinders too
     of_all = _IN_JOINTS if machine.engine is not None else ()
-    memory = {own_key(machine, key): known for key, known in solved.memory.items() if not key.startswith(of_all)}
-    return Results(solved, grid, {}, {}, {}, (), {}, memory=memory)
+    trace = {own_key(machine, key): known for key, known in solved.trace.items() if not key.startswith(of_all)}
+    return Results(solved, grid, {}, {}, {}, (), {}, trace=trace)
 
 
 def value_only(machine: Machine, key: str) -> Results:
     """Return results that give a single value, and maybe no others; they take a part of the time of `analyse`."""
     if machine.linkage is None or not machine.method.is_exact:
         return analyse(machine)
-    from crankwork.analysis.linkage import linkage_value  # noqa: PLC0415 - loaded where it is needed
+    from crankwork.analysis.mechanism import linkage_value  # noqa: PLC0415 - loaded where it is needed
 
     return linkage_value(machine, key)
 

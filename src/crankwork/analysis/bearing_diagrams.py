@@ -9,12 +9,12 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from crankwork.analysis.bearings import FORCES
+from crankwork.analysis.joint_bearings import FORCES
 from crankwork.analysis.results import Results
 from crankwork.cylinders.load_statistics import PolarDiagram, polar_diagram
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import OilHole, oil_hole
-from crankwork.formula.known import Found, Known, breaks_of
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, breakpoints_of
 from crankwork.kinematics.crank_grid import Array
 
 __all__ = [
@@ -67,12 +67,12 @@ def wear_rings(results: Results, listing: str) -> tuple[Array, dict[str, WearRin
     return angles, {key.partition(".")[2]: WearRing(sums, oil_hole(sums)) for key, sums in columns.items()}
 
 
-def load_extremes(memory: Mapping[str, Known]) -> list[float]:
+def load_extremes(trace: Mapping[str, TracedValue]) -> list[float]:
     """Return the crank angles where the loads of bearings are largest and least. [deg]"""
     return [
         known.node.at
-        for key, known in memory.items()
-        if key.startswith("bearing_load_m") and isinstance(known.node, Found) and known.node.at is not None
+        for key, known in trace.items()
+        if key.startswith("bearing_load_m") and isinstance(known.node, ProcedureValue) and known.node.at is not None
     ]
 
 
@@ -95,12 +95,12 @@ class JointDiagrams:
     @cached_property
     def _loads(self) -> tuple[Array, dict[str, BearingLoad]]:
         """Crank angles with those of corners and extremes [deg], and loads in the frames of their cranks. [N]"""
-        results, memory, cycle = self.results, self.results.memory, self.results.machine.cycle
+        results, trace, cycle = self.results, self.results.trace, self.results.machine.cycle
         keys = {name: tuple(f"{kind}.{name}" for kind in FORCES[:2]) for name in self.pins}
         keys |= {name: (f"bearing_force_x.{name}", f"bearing_force_y.{name}") for name in self._names("main_wear")}
         components = [key for pair in keys.values() for key in pair]
-        corners = breaks_of([memory[key] for key in components], cycle)
-        angles = [np.arange(0.0, cycle), corners, corners[:-1] + AFTER, np.mod(load_extremes(memory), cycle)]
+        corners = breakpoints_of([trace[key] for key in components], cycle)
+        angles = [np.arange(0.0, cycle), corners, corners[:-1] + AFTER, np.mod(load_extremes(trace), cycle)]
         degrees = np.unique(np.concatenate(angles))
         degrees = degrees[degrees < cycle]
         columns = results.columns_at(degrees, components)

@@ -13,8 +13,8 @@ from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.load_statistics import reversal, reversal_of_polynomials
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import OilHoleOfPolynomials, oil_hole, ray_angles, wear_sums
-from crankwork.formula.known import Found, Known, Procedure, Table
-from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.traced_value import FunctionValue, ProcedureValue, Tabulated, TracedValue
 from crankwork.kinematics.crank_grid import Array
 
 # between the loads that wear diagrams add up [deg]
@@ -27,8 +27,12 @@ _LISTED = (
 
 
 def load_values(
-    name: str, key: str, over: OverCycle, extremes: Mapping[str, Known], size: tuple[Known, Known] | None = None
-) -> dict[str, Known]:
+    name: str,
+    key: str,
+    over: CycleInterpolant,
+    extremes: Mapping[str, TracedValue],
+    size: tuple[TracedValue, TracedValue] | None = None,
+) -> dict[str, TracedValue]:
     """Return mean and extremes of the load of a bearing, their ratio, and its pressures if its size is known.
 
     `key`: of the column of the load; `size`: diameter and length [m].
@@ -40,7 +44,7 @@ def load_values(
         extreme = extremes[f"{kind}_{word}" + (f".{owner}" if owner else "")]
         values[f"bearing_load_{word}.{name}"] = extreme.named(f"bearing_load_{word}.{name}")
     largest = values[f"bearing_load_max.{name}"]
-    none = Known(Found(1.0, "none", (mean,)))
+    none = TracedValue(ProcedureValue(1.0, "none", (mean,)))
     ratio = formulas.bearing_load_ratio(largest, mean) if mean.value else none
     values[f"bearing_load_ratio.{name}"] = ratio.named(f"bearing_load_ratio.{name}")
     if size is not None:
@@ -50,17 +54,22 @@ def load_values(
     return values
 
 
-def reversal_values(key: str, over: OverCycle, extremes: Mapping[str, Known], owner: str = "") -> dict[str, Known]:
+def reversal_values(
+    key: str, over: CycleInterpolant, extremes: Mapping[str, TracedValue], owner: str = ""
+) -> dict[str, TracedValue]:
     """Return duration and ratio of the reversal of a load along one direction.
 
     `key`: of the column of that load; `owner`: of the keys that are returned.
     """
     kind, dot, name = key.partition(".")
     peaks = extremes[f"{kind}_max{dot}{name}"].value, extremes[f"{kind}_min{dot}{name}"].value
-    turned, column = reversal(*over.stretches(key), peaks), (over.columns[key],)
+    turned, column = reversal(*over.sign_intervals(key), peaks), (over.columns[key],)
     numbers = (math.radians(turned.duration), turned.ratio)
     values = (
-        Known(Procedure(value, "reversal", column, reversal_of_polynomials, part), f"{kind}.{owner}" if owner else kind)
+        TracedValue(
+            FunctionValue(value, "reversal", column, reversal_of_polynomials, part),
+            f"{kind}.{owner}" if owner else kind,
+        )
         for part, (kind, value) in enumerate(zip(_REVERSAL, numbers, strict=True))
     )
     return {known.key: known for known in values}
@@ -77,27 +86,27 @@ class OnRays:
         return np.asarray(self.sums[np.rint(degrees * self.sums.size / 360).astype(int) % self.sums.size])
 
 
-def wear_table(key: str, load: BearingLoad, traced: Iterable[Known], rays: int) -> Known:
+def wear_table(key: str, load: BearingLoad, traced: Iterable[TracedValue], rays: int) -> TracedValue:
     """Return the sums of loads on the rays of a journal.
 
     `load`: on the journal in its own frame every `WEAR_STEP` degrees [N]; `traced`: the same, traced.
     """
-    return Known(Table(OnRays(wear_sums(load, rays=rays)), "wear", operands=traced), key)
+    return TracedValue(Tabulated(OnRays(wear_sums(load, rays=rays)), "wear", operands=traced), key)
 
 
-def hole_of(key: str, table: Known, forces: Iterable[Known], rays: int) -> Known:
+def hole_of(key: str, table: TracedValue, forces: Iterable[TracedValue], rays: int) -> TracedValue:
     """Return the angle of the oil hole of a crankpin from the sums on its rays.
 
     `forces`: radial and tangential force of the rods, traced.
     """
-    if not (isinstance(table.node, Table) and isinstance(table.node.function, OnRays)):
+    if not (isinstance(table.node, Tabulated) and isinstance(table.node.function, OnRays)):
         raise TypeError(f"{table!r} is not a table of wear")
     angle = math.radians(oil_hole(table.node.function.sums).angle)
-    procedure = Known(Procedure(angle, "oil_hole", forces, OilHoleOfPolynomials(WEAR_STEP, rays), 0))
-    return Known(Found(angle, "oil_hole", (table,), argument=procedure), key)
+    procedure = TracedValue(FunctionValue(angle, "oil_hole", forces, OilHoleOfPolynomials(WEAR_STEP, rays), 0))
+    return TracedValue(ProcedureValue(angle, "oil_hole", (table,), argument=procedure), key)
 
 
-def loads_listing(values: Mapping[str, Known], *, with_reversal: bool = False) -> Listing:
+def loads_listing(values: Mapping[str, TracedValue], *, with_reversal: bool = False) -> Listing:
     """Return what the loads of all bearings come to over the cycle, a row for each."""
     names = tuple(key.partition(".")[2] for key in values if key.startswith("mean_bearing_load."))
     columns = {
@@ -107,12 +116,12 @@ def loads_listing(values: Mapping[str, Known], *, with_reversal: bool = False) -
     return Listing({key: values for key, values in columns.items() if not np.all(np.isnan(values))}, names)
 
 
-def wear_listing(tables: Mapping[str, Known], rays: int) -> Listing:
+def wear_listing(tables: Mapping[str, TracedValue], rays: int) -> Listing:
     """Return the wear of some journals over the directions of their rays, by the names of the journals."""
     degrees = ray_angles(rays)
     sums = {
         f"wear_sum.{name}": known.node.function(degrees)
         for name, known in tables.items()
-        if isinstance(known.node, Table)
+        if isinstance(known.node, Tabulated)
     }
     return Listing({"wear_ray_angle": np.radians(degrees), **sums})

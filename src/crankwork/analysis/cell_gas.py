@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from crankwork.formula.known import Known
+from crankwork.formula.traced_value import TracedValue
 from crankwork.loads.chamber import Chamber
 from crankwork.loads.indicator import DiagramPoint, Piece
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Gas, Machine
 from crankwork.mechanism.cells import Cell, NoCellsError
 
@@ -40,12 +40,12 @@ def chambers_of(machine: Machine, cells: Sequence[Cell]) -> dict[str, CellChambe
     for name, chamber in machine.chambers.items():
         face = chamber.faces[0]
         if len(chamber.faces) > 1 or face.slider not in chambers_by_slider:
-            raise NoCellsError(Refusal("cells_chamber", name=name))
+            raise NoCellsError(ErrorMessage("cells_chamber", name=name))
         # it shrinks towards the head
         side = "head" if face.sense == -senses[face.slider] else "crank_end"
         is_plain = side == "head" or (chamber.pressure is not None and chamber.factor == 1)
         if getattr(chambers_by_slider[face.slider], side) is not None or not is_plain:
-            raise NoCellsError(Refusal("cells_chamber", name=name))
+            raise NoCellsError(ErrorMessage("cells_chamber", name=name))
         chambers_by_slider[face.slider] = replace(chambers_by_slider[face.slider], **{side: (name, chamber)})
     return chambers_by_slider
 
@@ -93,8 +93,8 @@ def nearly_equal(value: Any, other: Any) -> bool:  # noqa: ANN401 - numbers, and
     if value is other:
         return True
     match value:
-        case Known():
-            return isinstance(other, Known) and is_close(value.value, other.value)
+        case TracedValue():
+            return isinstance(other, TracedValue) and is_close(value.value, other.value)
         case float() | int() if isinstance(other, float | int):
             return is_close(value, other)
         case np.ndarray():

@@ -9,12 +9,12 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from crankwork.analysis.results import Results
-from crankwork.analysis.rounding import summary_without_rounding
+from crankwork.analysis.rounding_noise import summary_without_rounding
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Known
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 # what is put side by side, of each kind that two results have in common
 _MOTION = (
@@ -36,13 +36,13 @@ class Comparison(NamedTuple):
     names: tuple[str, ...]
     others: tuple[Results, ...]
     keys: tuple[str, ...]  # Columns that all have, under which names and differences are found
-    memory: Mapping[str, Known]
+    trace: Mapping[str, TracedValue]
     columns: Mapping[str, Array]  # At the crank angles of the results [SI]
     is_of_methods: bool  # Whether one machine is compared by its methods, which are the names
 
     def columns_at(self, degrees: Array) -> dict[str, Array]:
         """Return what is compared at crank angles [deg]; nothing is a number where a machine does not get."""
-        return _played(self.memory, CrankGrid.from_degrees(degrees))
+        return _played(self.trace, CrankGrid.from_degrees(degrees))
 
     def values(self, results: Results) -> dict[str, tuple[float, ...]]:
         """Return single values by key, of all results in the order of the names, none for those that lack one. [SI]
@@ -55,12 +55,12 @@ class Comparison(NamedTuple):
         return {key: one for key, one in found.items() if not self.is_of_methods or _differ(one)}
 
 
-def beside(key: str, name: str) -> str:
+def comparison_key(key: str, name: str) -> str:
     """Return the key of a column of the results of a name."""
     return f"{key}.{name}"
 
 
-def difference(key: str, name: str) -> str:
+def difference_key(key: str, name: str) -> str:
     """Return the key of what the column of a name is above that of the results."""
     kind, dot, owner = key.partition(".")
     return f"{kind}_difference{dot}{owner}.{name}"
@@ -99,21 +99,21 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     """
     own = name or results.method.name
     if own in others:
-        raise CrankworkError(Refusal("compare_own", method=own))
+        raise CrankworkError(ErrorMessage("compare_own", method=own))
     every = (results, *others.values())
     keys = tuple(_common(every)) if _go_alike(every) else ()
-    memory: dict[str, Known] = {}
+    trace: dict[str, TracedValue] = {}
     for key in keys:
-        mine = results.memory[key].named(beside(key, own))
-        memory[beside(key, own)] = mine
+        mine = results.trace[key].named(comparison_key(key, own))
+        trace[comparison_key(key, own)] = mine
         for other, one in others.items():
-            its = one.memory[key].named(beside(key, other))
-            memory[beside(key, other)] = its
-            memory[difference(key, other)] = (its - mine).named(difference(key, other))
+            its = one.trace[key].named(comparison_key(key, other))
+            trace[comparison_key(key, other)] = its
+            trace[difference_key(key, other)] = (its - mine).named(difference_key(key, other))
     if not keys and not any(one.summary.keys() & results.summary.keys() for one in others.values()):
-        raise CrankworkError(Refusal("compare_nothing"))
-    columns = _played(memory, results.grid)
-    compared = Comparison((own, *others), tuple(others.values()), keys, memory, columns, is_of_methods=not name)
+        raise CrankworkError(ErrorMessage("compare_nothing"))
+    columns = _played(trace, results.grid)
+    compared = Comparison((own, *others), tuple(others.values()), keys, trace, columns, is_of_methods=not name)
     return replace(results, compared=compared)
 
 
@@ -123,7 +123,7 @@ def _common(every: tuple[Results, ...]) -> Iterator[str]:
     kinds = (*_MOTION, *_FORCES) if len({one.machine.cycle for one in every}) == 1 else _MOTION
     for kind in kinds:
         for key in every[0].columns:
-            if key.partition(".")[0] == kind and all(key in one.columns and key in one.memory for one in every):
+            if key.partition(".")[0] == kind and all(key in one.columns and key in one.trace for one in every):
                 yield key
 
 
@@ -132,11 +132,11 @@ def _go_alike(every: tuple[Results, ...]) -> bool:
     return len({one.period for one in every}) == 1 and not any(one.has_positions for one in every)
 
 
-def _played(memory: Mapping[str, Known], grid: CrankGrid) -> dict[str, Array]:
+def _played(trace: Mapping[str, TracedValue], grid: CrankGrid) -> dict[str, Array]:
     with warnings.catch_warnings():
         # at an angle that a crank does not reach
         warnings.simplefilter("ignore", RuntimeWarning)
-        return Program(memory)(grid) if memory else {}
+        return Program(trace)(grid) if trace else {}
 
 
 def _differ(values: tuple[float, ...]) -> bool:

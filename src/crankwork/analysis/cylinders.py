@@ -10,41 +10,41 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.solved import SolvedCylinder, solve, solve_slave
+from crankwork.analysis.prepared import PreparedCylinder, prepare, prepare_articulated
 from crankwork.cylinders.articulated import ArticulatedRod
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.formula.known import Known, delayed
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import TracedValue, delayed
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Engine, Machine
 from crankwork.mechanism.mechanism import slider_crank
 
 
 @dataclass(frozen=True, eq=False)
-class WholeEngine:
+class MultiCylinderEngine:
     """An engine made ready: the solved crank gear of every cylinder by number; alike ones are the same object."""
 
     machine: Machine
     engine: Engine
-    cylinders: tuple[SolvedCylinder, ...]
+    cylinders: tuple[PreparedCylinder, ...]
 
-    def of(self, number: int, key: str) -> Known:
+    def of(self, number: int, key: str) -> TracedValue:
         """Return a column of a cylinder at the crank angle of cylinder 1, under its key and the number."""
         if (number, key) not in self._delayed:
             by = self.layout.places[number - 1].firing_angle
             name = f"{key}.{number}" if len(self.cylinders) > 1 else key
-            known = self.cylinders[number - 1].memory[key]
+            known = self.cylinders[number - 1].trace[key]
             self._delayed[number, key] = delayed(known, by, self.layout.cycle, name)
         return self._delayed[number, key]
 
     @cached_property
-    def _delayed(self) -> dict[tuple[int, str], Known]:
+    def _delayed(self) -> dict[tuple[int, str], TracedValue]:
         return {}
 
     def has(self, key: str) -> tuple[int, ...]:
         """Return the numbers of the cylinders that have a column."""
-        return tuple(number for number, one in enumerate(self.cylinders, start=1) if key in one.memory)
+        return tuple(number for number, one in enumerate(self.cylinders, start=1) if key in one.trace)
 
     def each(self, key: str, degrees: ArrayLike) -> Array:
         """Return a column of every cylinder at crank angles of cylinder 1, shape (cylinders, n). [SI]"""
@@ -63,7 +63,7 @@ class WholeEngine:
     @property
     def moves_alike(self) -> bool:
         """Whether the piston of every cylinder moves as that of the first does."""
-        return len({(one.lengths, one.slave) for one in self.cylinders}) == 1
+        return len({(one.lengths, one.articulated_rod) for one in self.cylinders}) == 1
 
     @property
     def layout(self) -> Layout:
@@ -71,7 +71,7 @@ class WholeEngine:
         return self.engine.layout
 
     @property
-    def master(self) -> SolvedCylinder:
+    def master(self) -> PreparedCylinder:
         """Cylinder 1."""
         return self.cylinders[0]
 
@@ -92,42 +92,45 @@ class WholeEngine:
         return {pin: tuple(one for one in self.layout.places if one.crankpin == pin) for pin in pins}
 
 
-def whole_engine(solved: SolvedCylinder) -> WholeEngine:
+def multi_cylinder_engine(solved: PreparedCylinder) -> MultiCylinderEngine:
     """Return the engine that a solved crank gear is the first cylinder of."""
     machine = solved.machine
     engine = machine.engine
     if engine is None:
         raise TypeError("this machine is one crank gear only")
-    kinds, each = dict[_Kind, SolvedCylinder](), list[SolvedCylinder]()
+    kinds, each = dict[_Kind, PreparedCylinder](), list[PreparedCylinder]()
     for at in range(len(engine.layout.places)):
         kind = _kind(machine, engine, at)
         if kind not in kinds:
             kinds[kind] = solved if at == 0 else _of_kind(solved, engine, kind)
         each.append(kinds[kind])
-    return WholeEngine(machine, engine, tuple(each))
+    return MultiCylinderEngine(machine, engine, tuple(each))
 
 
 class _Kind(NamedTuple):
     """What tells a cylinder from the others: rod, offset, gas and, where they matter, lean and share of a throw."""
 
-    slave: ArticulatedRod | None
+    articulated_rod: ArticulatedRod | None
     offset: float | None
     gas: int  # Where among the gases of the engine it stands first
     lean: float = 0.0
     is_first: bool = True
 
 
-def _of_kind(solved: SolvedCylinder, engine: Engine, kind: _Kind) -> SolvedCylinder:
+def _of_kind(solved: PreparedCylinder, engine: Engine, kind: _Kind) -> PreparedCylinder:
     """Return a cylinder of an engine, made ready from its first."""
-    machine, solved = _own_machine(solved.machine, kind.slave, is_first=kind.is_first), replace(solved, lean=kind.lean)
+    machine, solved = (
+        _own_machine(solved.machine, kind.articulated_rod, is_first=kind.is_first),
+        replace(solved, lean=kind.lean),
+    )
     if kind.gas:
         machine = replace(machine, gas=engine.gases[kind.gas])
-    if kind.slave is not None:
-        return solve_slave(replace(solved, machine=machine), kind.slave)
+    if kind.articulated_rod is not None:
+        return prepare_articulated(replace(solved, machine=machine), kind.articulated_rod)
     if kind.offset not in (None, solved.lengths.offset):
         sizes = solved.lengths._replace(offset=kind.offset)
-        return replace(solve(replace(machine, mechanism=slider_crank(*sizes)), solved.method), lean=kind.lean)
-    return replace(solve(machine, solved.method), lean=kind.lean) if kind.gas else replace(solved, machine=machine)
+        return replace(prepare(replace(machine, mechanism=slider_crank(*sizes)), solved.method), lean=kind.lean)
+    return replace(prepare(machine, solved.method), lean=kind.lean) if kind.gas else replace(solved, machine=machine)
 
 
 def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
@@ -136,19 +139,19 @@ def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
     With weight or a changing speed a bank leans by its own angle, and the mass of a throw counts for the first
     cylinder on it only.
     """
-    places, slave = engine.layout.places, engine.slaves[at] if engine.slaves else None
+    places, articulated_rod = engine.layout.places, engine.articulated_rods[at] if engine.articulated_rods else None
     offset = engine.offsets[at] if engine.offsets else None
     gas = next((one for one, gas in enumerate(engine.gases) if gas is engine.gases[at]), 0)
     if not (machine.has_gravity or machine.angular_acceleration):
-        return _Kind(slave, offset, gas)
+        return _Kind(articulated_rod, offset, gas)
     first = next(one for one in places if one.throw == places[at].throw)
-    return _Kind(slave, offset, gas, places[at].axis - places[0].axis, places[at] is first)
+    return _Kind(articulated_rod, offset, gas, places[at].axis - places[0].axis, places[at] is first)
 
 
-def _own_machine(machine: Machine, slave: ArticulatedRod | None, *, is_first: bool) -> Machine:
+def _own_machine(machine: Machine, articulated_rod: ArticulatedRod | None, *, is_first: bool) -> Machine:
     """Return the machine as a cylinder, with a rod of its own where it is articulated, sees it."""
-    if slave is not None and machine.masses is not None:
-        own = machine.engine.slave_rod if machine.engine is not None else None
+    if articulated_rod is not None and machine.masses is not None:
+        own = machine.engine.articulated_masses if machine.engine is not None else None
         parts = ("rod_small_end", "rod_big_end", "rod_inertia_excess")
         rod = {"rod_inertia_excess": 0.0} if own is None else {one: getattr(own, one) for one in parts}
         machine = replace(machine, masses=replace(machine.masses, **rod))

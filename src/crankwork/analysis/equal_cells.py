@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from crankwork.analysis.cell_gas import nearly_equal
-from crankwork.formula.known import Known, delayed
+from crankwork.formula.traced_value import TracedValue, delayed
 from crankwork.loads.chamber import Chamber
 from crankwork.loads.weight import Weight
 from crankwork.machine import Machine
@@ -38,8 +38,8 @@ def equal_cells(machine: Machine) -> tuple[EqualPart, ...]:
 
 
 def with_equal_columns(
-    columns: Mapping[str, Known], mechanism: Mechanism, parts: Sequence[EqualPart]
-) -> dict[str, Known]:
+    columns: Mapping[str, TracedValue], mechanism: Mechanism, parts: Sequence[EqualPart]
+) -> dict[str, TracedValue]:
     """Return columns, in equal parts those of the earlier ones at their own crank angle where no direction matters."""
     result, held = dict(columns), joints(mechanism)
     for part in parts:

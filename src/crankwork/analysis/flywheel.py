@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from crankwork.analysis import origins
-from crankwork.formula.known import Known, absent, given, total
+from crankwork.analysis import traced_inputs
+from crankwork.formula.traced_value import TracedValue, absent, given, total
 from crankwork.machine import Machine
-from crankwork.shaft.wheel import (
-    Rim,
+from crankwork.shaft.flywheel_sizing import (
+    RimSpec,
     hoop_stress,
     inertia_of_rim,
     inertia_of_wheel,
@@ -24,7 +24,7 @@ from crankwork.shaft.wheel import (
 )
 
 
-def wanted_fluctuation(machine: Machine, w: Known) -> Known | None:
+def target_fluctuation(machine: Machine, w: TracedValue) -> TracedValue | None:
     """Return the fluctuation of the speed that is wanted, in whichever way it is stated."""
     value, stated = machine.drive.fluctuation, machine.stated
     if value is None:
@@ -32,24 +32,24 @@ def wanted_fluctuation(machine: Machine, w: Known) -> Known | None:
     wanted, key = given("speed_fluctuation", value, "flywheel.fluctuation"), "flywheel.percent"
     if key in stated:
         half = given("half_fluctuation", stated[key].value, key)
-        return origins.checked(half * 2 / 100, wanted)
+        return traced_inputs.checked(half * 2 / 100, wanted)
     if "flywheel.speeds[1]" in stated:
         high, low = extreme_speeds(machine)
-        return origins.checked((high - low) / w, wanted)
+        return traced_inputs.checked((high - low) / w, wanted)
     return wanted
 
 
-def extreme_speeds(machine: Machine) -> tuple[Known, Known]:
+def extreme_speeds(machine: Machine) -> tuple[TracedValue, TracedValue]:
     """Return the extreme speeds that a flywheel shall keep to, as they are stated."""
     paths = {".largest": "flywheel.speeds[1]", ".least": "flywheel.speeds[2]"}
     high, low = (
-        origins.speed_at(machine, machine.method, path, machine.stated[path].value, name)
+        traced_inputs.speed_at(machine, machine.method, path, machine.stated[path].value, name)
         for name, path in paths.items()
     )
     return high, low
 
 
-def turning_inertia(machine: Machine, key: str) -> Known:
+def turning_inertia(machine: Machine, key: str) -> TracedValue:
     """Return the moment of inertia of all that turns and is given under a key; absent where nothing is."""
     whole, wheel = machine.drive.inertia, tuple(_given_wheel(machine))
     if not whole:
@@ -58,12 +58,12 @@ def turning_inertia(machine: Machine, key: str) -> Known:
     beside = () if own is None else (given("reduced_inertia.shaft", own.value, "crank.inertia"),)
     # that of a heavy crank is one of the bodies
     for parts in ((*beside, *wheel), wheel):
-        if parts and (found := origins.checked(total(key, parts), plain)) is not plain:
+        if parts and (found := traced_inputs.checked(total(key, parts), plain)) is not plain:
             return found
     return plain
 
 
-def _given_wheel(machine: Machine) -> Iterator[Known]:
+def _given_wheel(machine: Machine) -> Iterator[TracedValue]:
     """Yield the moment of inertia of the flywheel that a description gives."""
     wheel, stated = machine.drive.wheel, machine.stated
     own = stated.get("flywheel.inertia")
@@ -81,32 +81,32 @@ def _given_wheel(machine: Machine) -> Iterator[Known]:
             mass = mass_of_rim(_of_rim("density", rim.density), machine.method.pi, diameter, *sizes)
         else:
             return
-        inertia: Known = inertia_of_rim(mass, diameter)
+        inertia: TracedValue = inertia_of_rim(mass, diameter)
         yield inertia if rim.share == 1 else inertia / _of_rim("share", rim.share)
 
 
-def _gyration(value: float) -> Known:
+def _gyration(value: float) -> TracedValue:
     return given("gyration_radius", value, "flywheel.radius_of_gyration")
 
 
-def _of_rim(name: str, value: float) -> Known:
+def _of_rim(name: str, value: float) -> TracedValue:
     return given(f"rim_{name}", value, f"flywheel.rim.{name}")
 
 
-def sizes_of_given(machine: Machine, w: Known) -> dict[str, Known]:
+def given_flywheel_dimensions(machine: Machine, w: TracedValue) -> dict[str, TracedValue]:
     """Return what follows of the sizes of a flywheel that is given, beside those that are stated."""
-    found = dict[str, Known]()
+    found = dict[str, TracedValue]()
     for wheel in _given_wheel(machine):
-        found |= sizes_of(machine, wheel, w)
+        found |= flywheel_dimensions(machine, wheel, w)
     return {key: one for key, one in found.items() if key != "flywheel_mass" or "flywheel.mass" not in machine.stated}
 
 
-def sizes_of(machine: Machine, inertia: Known, w: Known) -> dict[str, Known]:
+def flywheel_dimensions(machine: Machine, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
     """Return the mass of a flywheel of a moment of inertia, and what follows for its rim."""
     wheel = machine.drive.wheel
     if wheel is None:
         return {}
-    found = dict[str, Known]()
+    found = dict[str, TracedValue]()
     if wheel.gyration_radius is not None:
         found["flywheel_mass"] = mass_of_wheel(inertia, _gyration(wheel.gyration_radius))
     if wheel.rim is not None:
@@ -114,9 +114,9 @@ def sizes_of(machine: Machine, inertia: Known, w: Known) -> dict[str, Known]:
     return {key: one.named(key) for key, one in found.items()}
 
 
-def _rim(machine: Machine, rim: Rim, inertia: Known, w: Known) -> dict[str, Known]:
+def _rim(machine: Machine, rim: RimSpec, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
     """Return speed, diameter, mass and section of a rim, as far as they follow."""
-    found = dict[str, Known]()
+    found = dict[str, TracedValue]()
     density = None if rim.density is None else _of_rim("density", rim.density)
     if rim.diameter is not None:
         diameter = _of_rim("diameter", rim.diameter)
@@ -145,7 +145,9 @@ def _rim(machine: Machine, rim: Rim, inertia: Known, w: Known) -> dict[str, Know
     return found
 
 
-def recovery(machine: Machine, inertia: Known, w: Known, summary: Mapping[str, Known]) -> dict[str, Known]:
+def recovery_torque_values(
+    machine: Machine, inertia: TracedValue, w: TracedValue, summary: Mapping[str, TracedValue]
+) -> dict[str, TracedValue]:
     """Return the torque that brings a shaft back to its greatest speed in the time that is stated."""
     wheel = machine.drive.wheel
     if wheel is None or wheel.recovery_time is None or "speed_fluctuation" not in summary:

@@ -7,8 +7,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.results import Results
-from crankwork.analysis.running import running_at
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import link_wrenches
 from crankwork.dynamics.reaction import PinForce, Reaction, reaction_wrench
@@ -22,7 +22,7 @@ from crankwork.mechanism.linkage import GROUND
 _NOTHING = 1e-9
 
 
-class PlanForce(NamedTuple):
+class PolygonForce(NamedTuple):
     """A force of a plan: of what joint, guide, link or driver, and its parts along the fixed axes. [N]"""
 
     kind: Literal["load", "pin", "guide", "driver"]
@@ -36,14 +36,14 @@ class PlanForce(NamedTuple):
         return float(np.hypot(self.x, self.y))
 
 
-class ForcePlan(NamedTuple):
+class ForcePolygon(NamedTuple):
     """What acts on the links of a group: loads with inertia first, then what its outer joints put on it."""
 
     links: tuple[str, ...]
-    forces: tuple[PlanForce, ...]
+    forces: tuple[PolygonForce, ...]
 
 
-def force_plans(results: Results, degrees: float) -> list[ForcePlan]:
+def force_plans(results: Results, degrees: float) -> list[ForcePolygon]:
     """Return the plans of all groups, from the last to the driver, at a crank angle [deg].
 
     None of a linkage that a cylinder or a motor between links drives: its groups are not apart from its driver.
@@ -51,15 +51,15 @@ def force_plans(results: Results, degrees: float) -> list[ForcePlan]:
     solved, mechanism = results.solved, results.machine.mechanism
     if isinstance(mechanism.driver, Cylinder | LinkMotor) or mechanism.passages or results.machine.redundant:
         return []
-    running = running_at(solved, linkage_motion(mechanism, CrankGrid.from_degrees([degrees])))
+    running = operating_state(solved, linkage_motion(mechanism, CrankGrid.from_degrees([degrees])))
     found, motion, wrenches = joint_forces(running), running.motion, link_wrenches(running)
     reactions: dict[str, Reaction] = {**found.pins, **found.guides}
     pivots = names_of_pivots(mechanism)
 
-    def on_group(links: tuple[str, ...]) -> Iterator[PlanForce]:
+    def on_group(links: tuple[str, ...]) -> Iterator[PolygonForce]:
         for link in links:
             wrench = wrenches[link]
-            yield PlanForce("load", link, *(float(np.ravel(one)[0]) for one in (wrench.x, wrench.y)))
+            yield PolygonForce("load", link, *(float(np.ravel(one)[0]) for one in (wrench.x, wrench.y)))
         for joint in joints(mechanism):
             inside = [link for link in (joint.link, joint.other) if link in links]
             if len(inside) == 1:
@@ -68,11 +68,11 @@ def force_plans(results: Results, degrees: float) -> list[ForcePlan]:
                 sign = 1.0 if inside[0] == joint.link else -1.0
                 parts = (sign * float(np.ravel(one)[0]) for one in (held.x, held.y))
                 kind: Literal["pin", "guide"] = "pin" if isinstance(reaction, PinForce) else "guide"
-                yield PlanForce(kind, pivots.get(joint.name, joint.name), *parts)
+                yield PolygonForce(kind, pivots.get(joint.name, joint.name), *parts)
         if isinstance(mechanism.driver, DrivingSlider) and mechanism.driver.link in links:
             pushed = float(results.columns_at(np.array([degrees]), ["driver_force"])["driver_force"][0])
             cos, sin = (float(np.ravel(one)[0]) for one in motion.frames[mechanism.driver.link][1:3])
-            yield PlanForce("driver", mechanism.driver.link, pushed * cos, pushed * sin)
+            yield PolygonForce("driver", mechanism.driver.link, pushed * cos, pushed * sin)
 
     driven = tuple(name for name in motion.frames if name not in _of_groups(results) and name != GROUND)
     plans = []
@@ -80,7 +80,7 @@ def force_plans(results: Results, degrees: float) -> list[ForcePlan]:
         forces = tuple(on_group(links))
         most = max((one.size for one in forces), default=0.0)
         if most > 0:
-            plans.append(ForcePlan(links, tuple(one for one in forces if one.size > _NOTHING * most)))
+            plans.append(ForcePolygon(links, tuple(one for one in forces if one.size > _NOTHING * most)))
     return plans
 
 

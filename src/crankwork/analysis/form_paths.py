@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from crankwork.analysis.cell_gas import CellChambers, chambers_of
-from crankwork.formula.known import Given, Known, in_order
+from crankwork.formula.traced_value import Input, TracedValue, in_order
 from crankwork.machine import Machine
 from crankwork.mechanism.cells import crank_cells
 
@@ -74,11 +74,11 @@ def _of_gas(chambers: CellChambers) -> dict[str, str]:
     return paths
 
 
-def relocate(traced: Iterable[Known], paths: Mapping[str, str]) -> None:
+def relocate(traced: Iterable[TracedValue], paths: Mapping[str, str]) -> None:
     """Give inputs of an engine form the paths of its linkage; what this does not state itself has none."""
     for known in in_order(traced):
         node = known.node
-        if isinstance(node, Given) and _OF_ENGINES.match(node.path):
+        if isinstance(node, Input) and _OF_ENGINES.match(node.path):
             tables = (node.path[: dot.start()] for dot in reversed([*_ENDS.finditer(node.path)]))
             table = next((table for table in tables if table in paths), "")
             node.path = f"{paths[table]}{node.path.removeprefix(table)}" if table else ""

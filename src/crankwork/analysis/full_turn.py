@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.placement import place
+from crankwork.kinematics.position_analysis import place
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Dyad
 from crankwork.mechanism.mechanism import Mechanism

@@ -8,8 +8,8 @@ import numpy as np
 
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.torque_harmonics import TorqueHarmonics, amplitude_of_harmonic, curve_harmonics
-from crankwork.formula.known import Found, Harmonic, Known
-from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue
 from crankwork.shaft.curve import Curve
 
 # orders per revolution, and what rounding leaves of the highest degrees of polynomials
@@ -24,7 +24,7 @@ def order_count(cycle: float) -> int:
     return round(_ORDERS * cycle / 360)
 
 
-def curve_of(over: OverCycle, key: str) -> Curve:
+def curve_of(over: CycleInterpolant, key: str) -> Curve:
     """Return a column as polynomials, without degrees that are nothing but rounding."""
     series = over.polynomials(key)
     sizes = np.max(np.abs(series), axis=0)
@@ -32,22 +32,27 @@ def curve_of(over: OverCycle, key: str) -> Curve:
     return Curve.legendre(np.radians(over.edges), series[:, : last + 1])
 
 
-def traced_harmonics(harmonics: TorqueHarmonics, torque: Known, kind: str = "harmonic") -> Iterator[Known]:
+def traced_harmonics(harmonics: TorqueHarmonics, torque: TracedValue, kind: str = "harmonic") -> Iterator[TracedValue]:
     """Yield coefficients, amplitude and phase of every harmonic of a torque.
 
     `torque`: that they are of; `kind`: with which the keys begin, `total_harmonic` of the whole machine.
     """
     for index, order in enumerate(harmonics.orders.tolist()):
         cosine, sine = (
-            Known(Harmonic(float(getattr(harmonics, part)[index]), torque, part, order), f"{kind}_{part}.{order:g}")
+            TracedValue(
+                HarmonicCoefficient(float(getattr(harmonics, part)[index]), torque, part, order),
+                f"{kind}_{part}.{order:g}",
+            )
             for part in ("cosine", "sine")
         )
         amplitude = amplitude_of_harmonic(cosine, sine).named(f"{kind}_amplitude.{order:g}")
         yield from (cosine, sine, amplitude)
-        yield Known(Found(float(harmonics.phase[index]), "fourier", (cosine, sine)), f"{kind}_phase.{order:g}")
+        yield TracedValue(
+            ProcedureValue(float(harmonics.phase[index]), "fourier", (cosine, sine)), f"{kind}_phase.{order:g}"
+        )
 
 
-def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
+def harmonics_listing(harmonics: Mapping[str, TracedValue]) -> Listing:
     """Return the harmonics of the torque by their order."""
     columns: dict[str, list[float]] = {"harmonic_order": []}
     for key, known in harmonics.items():
@@ -58,13 +63,13 @@ def harmonics_listing(harmonics: Mapping[str, Known]) -> Listing:
     return Listing({key: np.array(values) for key, values in columns.items()})
 
 
-def delivered_harmonics(over: OverCycle, cycle: float, radius: float) -> dict[str, Known]:
+def delivered_harmonics(over: CycleInterpolant, cycle: float, radius: float) -> dict[str, TracedValue]:
     """Return the torque that a linkage gives to its crank, minus the balancing torque, and its harmonics.
 
     Nothing where it is no more than what rounding leaves of the forces in joints at the crank radius. `over`: its
     columns over a whole cycle [deg]; `radius`: of the crank [m].
     """
-    reach = {key: max(abs(end.value) for end in ends) for key, ends in over.largest_and_least.items()}
+    reach = {key: max(abs(end.value) for end in ends) for key, ends in over.extreme_points.items()}
     forces = [size for key, size in reach.items() if key.startswith("joint_force.")]
     if reach.get("balancing_torque", 0.0) <= _NOTHING * radius * max(forces, default=0.0):
         return {}
@@ -74,7 +79,7 @@ def delivered_harmonics(over: OverCycle, cycle: float, radius: float) -> dict[st
     return {torque.key: torque} | {known.key: known for known in harmonics}
 
 
-def listed_harmonics(values: Mapping[str, Known]) -> dict[str, Listing]:
+def listed_harmonics(values: Mapping[str, TracedValue]) -> dict[str, Listing]:
     """Return the table of the harmonics of a linkage, if there are any."""
     harmonics = {key: known for key, known in values.items() if key.startswith("total_harmonic")}
     return {"torque_harmonics": harmonics_listing(harmonics)} if harmonics else {}

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crankwork.analysis.solved import Notice
+from crankwork.analysis.prepared import Notice
 from crankwork.errors import CrankworkError, RenamedKeyWarning, UnknownKeyError
-from crankwork.formula.known import Known
-from crankwork.formula.lines import Moment
+from crankwork.formula.calculation_lines import Snapshot
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.locale import Language, Refusal
+from crankwork.locale import ErrorMessage, Language
 from crankwork.method import Method
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.renamed import MOVED, RENAMED
@@ -90,7 +90,7 @@ class Results(Mapping[str, Array | float]):
     allowed : mapping of str to float
         What a residual may be by the error that an approximate method states, by its key in `checks`; the others
         may be rounding. [-]
-    memory : mapping of str to Known
+    trace : mapping of str to Known
         How every column, every single value and what lies between them came about.
     compared : Comparison, optional
         Results that stand beside these, by `crankwork.compare`.
@@ -108,7 +108,7 @@ class Results(Mapping[str, Array | float]):
     groups: Mapping[str, tuple[str, ...]]
     listings: Mapping[str, Listing] = field(default_factory=dict)
     allowed: Mapping[str, float] = field(default_factory=dict)
-    memory: Mapping[str, Known] = field(default_factory=dict)
+    trace: Mapping[str, TracedValue] = field(default_factory=dict)
     compared: Comparison | None = None
     in_other_form: Callable[[], Results | None] | None = field(default=None, compare=False)
     # old keys that have been asked for
@@ -184,7 +184,7 @@ class Results(Mapping[str, Array | float]):
             notices=(*self.notices, *(notice for notice in other.notices if notice.code not in codes)),
             groups=groups,
             listings=listings,
-            memory={**other.memory, **self.memory},
+            trace={**other.trace, **self.trace},
             in_other_form=None,
         )
 
@@ -199,16 +199,16 @@ class Results(Mapping[str, Array | float]):
         renamed, engine = RENAMED.get(key, key), self.machine.engine
         notice, is_renamed = None, renamed != key and renamed in self
         if is_renamed:
-            notice = Refusal("key_renamed", old=key, new=renamed)
+            notice = ErrorMessage("key_renamed", old=key, new=renamed)
         elif key in MOVED and engine is not None and len(engine.layout.places) > 1:
-            notice = Refusal("key_moved", key=key, new=MOVED[key])
+            notice = ErrorMessage("key_moved", key=key, new=MOVED[key])
         if notice is not None and key not in self._noticed:
             self._noticed.update((key, renamed))
             warnings.warn(RenamedKeyWarning(notice), stacklevel=3)
         return renamed if is_renamed else key
 
     def _has(self, key: str) -> bool:
-        return key in self.columns or key in self.summary or key in self.memory
+        return key in self.columns or key in self.summary or key in self.trace
 
     def columns_at(self, angles: CrankGrid | ArrayLike, keys: Iterable[str] | None = None) -> dict[str, Array]:
         """Return columns that are remembered, at other crank angles.
@@ -231,27 +231,27 @@ class Results(Mapping[str, Array | float]):
             return {key: renamed[RENAMED.get(key, key)] for key in keys if RENAMED.get(key, key) in renamed}
         if keys is not None and any(self.holding(key) is not self for key in keys):
             return self.complete.columns_at(grid, keys)
-        wanted = [key for key in (self.columns if keys is None else keys) if key in self.memory]
+        wanted = [key for key in (self.columns if keys is None else keys) if key in self.trace]
         if not any(key.startswith("instant_centre_") for key in wanted):
-            return Program({key: self.memory[key] for key in wanted})(grid)
+            return Program({key: self.trace[key] for key in wanted})(grid)
         # engines do not load it
         from crankwork.kinematics.instant_centres import absent_where_still  # noqa: PLC0415
 
-        rates = [key for key in self.memory if key.startswith("link_angular_velocity.")]
-        found = absent_where_still(Program({key: self.memory[key] for key in (*wanted, *rates)})(grid))
+        rates = [key for key in self.trace if key.startswith("link_angular_velocity.")]
+        found = absent_where_still(Program({key: self.trace[key] for key in (*wanted, *rates)})(grid))
         return {key: found[key] for key in wanted}
 
-    def moment(self, at: float = 0.0, mark: str = "") -> Moment:
-        """Return the lines of the memory at a crank angle.
+    def moment(self, at: float = 0.0, mark: str = "") -> Snapshot:
+        """Return the lines of the trace at a crank angle.
 
         Parameters
         ----------
         at : float
             Crank angle. [deg]
         mark : str
-            Whose lines they are, as `Moment` takes it.
+            Whose lines they are, as `Snapshot` takes it.
         """
-        return Moment(CrankGrid.from_degrees, at, mark)
+        return Snapshot(CrankGrid.from_degrees, at, mark)
 
     def __getitem__(self, key: str) -> Array | float:
         """Return a column, or a single value. [SI]"""
@@ -262,7 +262,7 @@ class Results(Mapping[str, Array | float]):
             return self.summary[key]
         if (holding := self.holding(key)) is not self:
             return holding[key]
-        known = self.memory.get(key)
+        known = self.trace.get(key)
         return known.value if known is not None and not known.varies else self.column(key)
 
     def column(self, key: str) -> Array:
@@ -278,19 +278,19 @@ class Results(Mapping[str, Array | float]):
             return holding.column(key)
         if key in self.columns:
             return self.columns[key]
-        if key not in self.memory:
+        if key not in self.trace:
             raise self._unknown(key, self)
-        return np.asarray(Program({key: self.memory[key]})(self.grid)[key] + np.zeros(len(self.grid)))
+        return np.asarray(Program({key: self.trace[key]})(self.grid)[key] + np.zeros(len(self.grid)))
 
     # as objects: arrays do not say in a word whether they are equal
     __eq__ = object.__eq__
     __hash__ = object.__hash__
 
     def __iter__(self) -> Iterator[str]:
-        return iter({**self.columns, **self.summary, **self.memory})
+        return iter({**self.columns, **self.summary, **self.trace})
 
     def __len__(self) -> int:
-        return len({*self.columns, *self.summary, *self.memory})
+        return len({*self.columns, *self.summary, *self.trace})
 
     def __contains__(self, key: object) -> bool:
         return isinstance(key, str) and self.holding(key := RENAMED.get(key, key))._has(key)  # noqa: SLF001 - own class
@@ -301,7 +301,7 @@ class Results(Mapping[str, Array | float]):
     def unit(self, key: str) -> str:
         """Return the SI unit of what a key gives, empty for a pure number."""
         # words stand above the analysis, and these are doors to them
-        from crankwork.report.language import key_unit  # noqa: PLC0415
+        from crankwork.report.display import key_unit  # noqa: PLC0415
 
         if key not in self:
             raise self._unknown(key, self)
@@ -407,7 +407,7 @@ class Results(Mapping[str, Array | float]):
         key = self.current(key)
         if (holding := self.holding(key)) is not self:
             return holding.value(key, at)
-        known = self.memory.get(key)
+        known = self.trace.get(key)
         if key in self.summary or (known is not None and not known.varies):
             return float(self.summary[key]) if known is None else known.value
         if known is None and key not in self.columns:
@@ -442,12 +442,12 @@ class Results(Mapping[str, Array | float]):
         key = self.current(key)
         return explanation(self.holding(key), key, at, language)
 
-    def _column_at(self, key: str, known: Known | None, at: float) -> float:
+    def _column_at(self, key: str, known: TracedValue | None, at: float) -> float:
         row = int(np.argmin(np.abs(self.grid.degrees - at)))
         if known is None or self.has_positions:
             if abs(float(self.grid.degrees[row]) - at) > _SAME_ANGLE:
                 nearest = f"{self.grid.degrees[row]:g}"
-                raise CrankworkError(Refusal("angle_between_rows", key=key, angle=at, nearest=nearest))
+                raise CrankworkError(ErrorMessage("angle_between_rows", key=key, angle=at, nearest=nearest))
             if known is None:
                 return float(self.columns[key][row])
         with warnings.catch_warnings():
@@ -455,7 +455,7 @@ class Results(Mapping[str, Array | float]):
             warnings.simplefilter("ignore", RuntimeWarning)
             value = float(Program({key: known})(CrankGrid.from_degrees([at]))[key][0])
         if not math.isfinite(value):
-            raise CrankworkError(Refusal("angle_unreached", key=key, angle=at))
+            raise CrankworkError(ErrorMessage("angle_unreached", key=key, angle=at))
         return value
 
     @property
@@ -467,26 +467,26 @@ class Results(Mapping[str, Array | float]):
         """Return a crank angle for what varies."""
         if self.period:
             if at is None:
-                raise CrankworkError(Refusal("time_missing", key=key, example=f"{self.period / 2:g}"))
+                raise CrankworkError(ErrorMessage("time_missing", key=key, example=f"{self.period / 2:g}"))
             if not 0 <= at <= self.period:
-                raise CrankworkError(Refusal("time_outside", time=at, period=self.period))
+                raise CrankworkError(ErrorMessage("time_outside", time=at, period=self.period))
             return self.degrees_of(at)
         if at is None:
             middle = float(self.grid.degrees[len(self.grid) // 2])
-            raise CrankworkError(Refusal("angle_missing", key=key, example=f"{middle:g}"))
+            raise CrankworkError(ErrorMessage("angle_missing", key=key, example=f"{middle:g}"))
         if not 0 <= at <= self.machine.cycle:
-            raise CrankworkError(Refusal("angle_outside", angle=at, cycle=self.machine.cycle))
+            raise CrankworkError(ErrorMessage("angle_outside", angle=at, cycle=self.machine.cycle))
         return float(at)
 
     def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:
         """Return the refusal of a key, with the nearest that there are."""
         known, kind = list(known), key.partition(".")[0]
         if kind in QUANTITIES and not any(one.partition(".")[0] == kind for one in known):
-            return UnknownKeyError(Refusal("result_absent", key=_printable(key), method=self.method.name))
+            return UnknownKeyError(ErrorMessage("result_absent", key=_printable(key), method=self.method.name))
         near = difflib.get_close_matches(key, known, n=3, cutoff=0.7) or [one for one in known if key in one][:3]
         if near:
-            return UnknownKeyError(Refusal("result_unknown_near", key=_printable(key), nearest=tuple(near)))
-        return UnknownKeyError(Refusal("result_unknown", key=_printable(key)))
+            return UnknownKeyError(ErrorMessage("result_unknown_near", key=_printable(key), nearest=tuple(near)))
+        return UnknownKeyError(ErrorMessage("result_unknown", key=_printable(key)))
 
 
 def _printable(key: str) -> str:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.moving import Frame, Moving
+from crankwork.analysis.sampled_motion import Frame, SampledMotion
 from crankwork.kinematics.crank_grid import Array
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, rod_name
@@ -176,14 +176,14 @@ def point_letters(mechanism: Mechanism, members: Sequence[Member], centres: Sequ
     return letters
 
 
-def tracks(shape: Skeleton, moving: Moving) -> dict[str, Array]:
+def tracks(shape: Skeleton, moving: SampledMotion) -> dict[str, Array]:
     """Return where every point is, arrays of shape (n, 2). [m]"""
     count = len(moving.degrees)
     found = {name: np.tile(np.array(at, dtype=float), (count, 1)) for name, at in shape.pivots.items()}
     return found | {name: point.place for name, point in moving.points.items() if name not in found}
 
 
-class Pose(NamedTuple):
+class MovingFrame(NamedTuple):
     """A frame that moves: origin and direction of its x axis, arrays of shape (n, 2). [m], [-]"""
 
     origin: Array
@@ -205,15 +205,15 @@ class Pose(NamedTuple):
         return np.column_stack([np.sum(apart * self.along, axis=1), np.sum(apart * self.left, axis=1)])
 
 
-def pose(link: Frame | None, count: int) -> Pose:
+def pose(link: Frame | None, count: int) -> MovingFrame:
     """Return the frame of a link at each angle; that of the ground for None."""
     if link is None:
-        return Pose(np.zeros((count, 2)), np.tile([1.0, 0.0], (count, 1)))
-    return Pose(link.origin.place, link.along)
+        return MovingFrame(np.zeros((count, 2)), np.tile([1.0, 0.0], (count, 1)))
+    return MovingFrame(link.origin.place, link.along)
 
 
-def guide_pose(guide: Guide, moving: Moving) -> Pose:
+def guide_pose(guide: Guide, moving: SampledMotion) -> MovingFrame:
     """Return the line of a guide as a frame, its x axis on the line."""
     base = pose(moving.frames[guide.link] if guide.link else None, len(moving.degrees))
     cos, sin = np.cos(guide.angle), np.sin(guide.angle)
-    return Pose(base.place(*guide.point), cos * base.along + sin * base.left)
+    return MovingFrame(base.place(*guide.point), cos * base.along + sin * base.left)

@@ -9,15 +9,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.flywheel import recovery, sizes_of, sizes_of_given, wanted_fluctuation
-from crankwork.analysis.linkage_memory import efficiency_of
-from crankwork.analysis.solved import Notice
+from crankwork.analysis.flywheel import (
+    flywheel_dimensions,
+    given_flywheel_dimensions,
+    recovery_torque_values,
+    target_fluctuation,
+)
+from crankwork.analysis.mechanism_trace import efficiency_of
+from crankwork.analysis.prepared import Notice
 from crankwork.errors import MethodError
-from crankwork.formula.known import Found, Known, Procedure, Table, absent, given
-from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import FunctionValue, ProcedureValue, Tabulated, TracedValue, absent, given
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine
 from crankwork.shaft.curve import AtDegrees, Curve
 from crankwork.shaft.fluctuation import (
@@ -45,8 +50,8 @@ from crankwork.shaft.flywheel import (
     works_of_tangents,
 )
 from crankwork.shaft.motor import GearedMotor
-from crankwork.shaft.motor_choice import first_angle_beyond, needed_power
-from crankwork.shaft.speed import ReducedMachine, steady_speed
+from crankwork.shaft.motor_selection import first_angle_beyond, needed_power
+from crankwork.shaft.steady_speed import ReducedMachine, steady_speed
 
 _SLOPES = {
     "wittenbauer": (wittenbauer_slope_largest, wittenbauer_slope_least),
@@ -59,33 +64,33 @@ _BOOKS_ARE_NEAR = 0.01
 class Balance(NamedTuple):
     """What acts on the crank over a cycle, but for the constant torque that balances it, and the inertia of all."""
 
-    torque: Known  # Without that of inertia [N m]
+    torque: TracedValue  # Without that of inertia [N m]
     curve: Curve  # The same, positive where it drives [N m]
-    inertia: Known  # Without a flywheel to be found; absent where nothing of it is known [kg m2]
+    inertia: TracedValue  # Without a flywheel to be found; absent where nothing of it is known [kg m2]
     inertia_curve: Curve
     excess: ExcessWork
     sign: float = -1.0  # Of `torque` where it drives: that of loads brakes
 
 
-def has_friction(drive: Drive, over: OverCycle) -> bool:
+def has_friction(drive: Drive, over: CycleInterpolant) -> bool:
     """Return whether friction counts in what drives a linkage: it is known, and no efficiency stands for it."""
     return "torque_with_friction" in over.columns and drive.losses != "machine"
 
 
 def balance_of(
-    machine: Machine, over: OverCycle, memory: Mapping[str, Known], *, counts_efficiency: bool = True
+    machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedValue], *, counts_efficiency: bool = True
 ) -> Balance:
     """Return what loads and losses take from the crank of a linkage, with its reduced inertia.
 
     Losses are those of friction at the mean speed, or else those of an efficiency as the calculation uses it, unless
     the motor has them.
     """
-    torque, drive = memory["static_torque"], machine.drive
+    torque, drive = trace["static_torque"], machine.drive
     if has_friction(drive, over):
-        torque = (torque + (memory["torque_with_friction"] - memory["balancing_torque"])).named("load_torque")
+        torque = (torque + (trace["torque_with_friction"] - trace["balancing_torque"])).named("load_torque")
     elif counts_efficiency and drive.efficiency != 1 and drive.losses != "drive" and torque.varies:
-        torque = (torque + (memory["driving_torque"] - memory["balancing_torque"])).named("load_torque")
-    edges, inertia = np.radians(over.edges), memory["reduced_inertia"]
+        torque = (torque + (trace["driving_torque"] - trace["balancing_torque"])).named("load_torque")
+    edges, inertia = np.radians(over.edges), trace["reduced_inertia"]
     program = Program({"torque": torque, "inertia": inertia})
 
     def followed(key: str) -> Curve:
@@ -95,19 +100,19 @@ def balance_of(
     return Balance(torque, load, inertia, followed("inertia"), excess_work(load))
 
 
-def delivered_or_needed(delivered: Known) -> Known:
+def delivered_or_needed(delivered: TracedValue) -> TracedValue:
     """Return the mean torque of a machine: what it delivers or, under the name of that, what its driver must give."""
     return delivered if delivered.value >= 0 else (-delivered).named("mean_driving_torque")
 
 
-class Turn(NamedTuple):
+class SpeedResults(NamedTuple):
     """How evenly a machine runs: columns, single values, residuals, what the reader should know, what lies between."""
 
-    columns: dict[str, Known]
-    summary: dict[str, Known]
+    columns: dict[str, TracedValue]
+    summary: dict[str, TracedValue]
     checks: dict[str, float]
     notices: tuple[Notice, ...]
-    between: dict[str, Known]
+    between: dict[str, TracedValue]
     speed: TrueSpeed | None = None
     added: float = 0.0  # Moment of inertia of a flywheel that was found [kg m2]
 
@@ -117,12 +122,12 @@ def has_flywheel(drive: Drive) -> bool:
     return drive.fluctuation is not None or drive.wheel is not None
 
 
-def excess_of(balance: Balance) -> Known:
+def excess_of(balance: Balance) -> TracedValue:
     """Return the excess work of a balance."""
-    return Known(Found(balance.excess.work, "range", (balance.torque,)), "excess_work")
+    return TracedValue(ProcedureValue(balance.excess.work, "range", (balance.torque,)), "excess_work")
 
 
-def work_of(excess: Known, mean: Known | None, cycle: Known) -> dict[str, Known]:
+def work_of(excess: TracedValue, mean: TracedValue | None, cycle: TracedValue) -> dict[str, TracedValue]:
     """Return the work of a cycle, and how much of it the kinetic energy takes and gives; nothing without either."""
     if mean is None or not mean.value:
         return {}
@@ -130,34 +135,36 @@ def work_of(excess: Known, mean: Known | None, cycle: Known) -> dict[str, Known]
     return {"work_per_cycle": work, "energy_fluctuation": share_of_work(excess, work)}
 
 
-def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -> Turn:
+def analyse_speed(machine: Machine, balance: Balance, w: TracedValue, mean: Mean = "time") -> SpeedResults:
     """Return flywheel, fluctuation and speed of a machine, as far as its inertia is known.
 
     `mean`: of what its speed is the mean.
     """
-    change = Known(
-        Table(AtDegrees(balance.excess.curve), "integral", np.degrees(balance.excess.curve.angle), (balance.torque,)),
+    change = TracedValue(
+        Tabulated(
+            AtDegrees(balance.excess.curve), "integral", np.degrees(balance.excess.curve.angle), (balance.torque,)
+        ),
         "kinetic_energy_change",
     )
-    columns, wanted, excess = {"kinetic_energy_change": change}, wanted_fluctuation(machine, w), excess_of(balance)
+    columns, wanted, excess = {"kinetic_energy_change": change}, target_fluctuation(machine, w), excess_of(balance)
     works = _works(balance, w, wanted) if balance.inertia.varies else {}
     of_all = {one.key: one for way, one in works.items() if way == "mertsalov"}
     if not (has_flywheel(machine.drive) or machine.drive.inertia):
-        return Turn(columns, of_all, {}, (), {})
+        return SpeedResults(columns, of_all, {}, (), {})
     try:
         every_way = partial(_every_way, balance, works, w)
         summary, between, wheel, inertia = wheels_of(machine, w, wanted, excess, balance.inertia, every_way)
     except MethodError as error:
-        return Turn(columns, {}, {}, (Notice("no_flywheel", {"message": error.args[0]}),), {})
+        return SpeedResults(columns, {}, {}, (Notice("no_flywheel", {"message": error.args[0]}),), {})
     summary |= of_all
     if not (inertia.varies or inertia.value > 0):
-        told = () if wanted is None else (Notice("no_flywheel", {"message": Refusal("masses_missing")}),)
-        return Turn(columns, summary, {}, told, between)
+        told = () if wanted is None else (Notice("no_flywheel", {"message": ErrorMessage("masses_missing")}),)
+        return SpeedResults(columns, summary, {}, told, between)
     try:
         speed = true_speed(balance.inertia_curve + wheel.value, balance.curve, w.value, balance.excess, mean=mean)
     except MethodError as error:
-        return Turn(columns, summary, {}, (Notice("no_steady_speed", {"message": error.args[0]}),), between)
-    energy = Known(Found(speed.energy, "energy", (balance.torque,)), "kinetic_energy.start")
+        return SpeedResults(columns, summary, {}, (Notice("no_steady_speed", {"message": error.args[0]}),), between)
+    energy = TracedValue(ProcedureValue(speed.energy, "energy", (balance.torque,)), "kinetic_energy.start")
     columns["crank_speed"] = speed_of_energy(energy + change, inertia).named("crank_speed")
     of = (balance.torque, inertia, w)
     found = SpeedOfPolynomials(balance.sign, mean)
@@ -166,9 +173,9 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
     elif wanted is not None and wheel.value:
         summary["speed_fluctuation"] = wanted
     else:
-        summary["speed_fluctuation"] = Known(Procedure(speed.fluctuation, "fluctuation", of, found, 0))
+        summary["speed_fluctuation"] = TracedValue(FunctionValue(speed.fluctuation, "fluctuation", of, found, 0))
     summary |= _extremes(speed, columns["crank_speed"], of, found)
-    summary |= recovery(machine, inertia, w, summary)
+    summary |= recovery_torque_values(machine, inertia, w, summary)
     checks = {}
     if wanted is not None and balance.inertia.varies:
         more = speed.fluctuation - wanted.value
@@ -177,63 +184,69 @@ def turn_of(machine: Machine, balance: Balance, w: Known, mean: Mean = "time") -
     swings, notices = 2 * (high - low) / (high + low), tuple[Notice, ...]()
     if abs(swings / (speed.fluctuation or swings or 1.0) - 1) > _BOOKS_ARE_NEAR:
         notices = (Notice("fluctuation_of_books", {"books": speed.fluctuation, "speeds": swings}),)
-    return Turn(columns, summary, checks, notices, between, speed, wheel.value)
+    return SpeedResults(columns, summary, checks, notices, between, speed, wheel.value)
 
 
-def _works(balance: Balance, w: Known, wanted: Known | None) -> dict[str, Known]:
+def _works(balance: Balance, w: TracedValue, wanted: TracedValue | None) -> dict[str, TracedValue]:
     """Return the excess work in the sense of every way that takes tangents, by their slopes.
 
     Mertsalov's is that of the torque at the mean speed, that of inertia in it.
     """
-    slopes: dict[str, tuple[Known, Known]] = {}
+    slopes: dict[str, tuple[TracedValue, TracedValue]] = {}
     slopes["mertsalov"] = 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),)
     for way, (largest, least) in _SLOPES.items() if wanted is not None else ():
         ends = {"largest": largest(w, wanted), "least": least(w, wanted)}
         slopes[way] = tuple(one.named(f"wittenbauer_slope.{way}.{end}") for end, one in ends.items())
     found = works_of_tangents(balance.inertia_curve, balance.excess, [(a.value, b.value) for a, b in slopes.values()])
     return {
-        way: Known(Found(work, "tangents", (balance.torque, balance.inertia, *ends)), f"excess_work.{way}")
+        way: TracedValue(
+            ProcedureValue(work, "tangents", (balance.torque, balance.inertia, *ends)), f"excess_work.{way}"
+        )
         for (way, ends), work in zip(slopes.items(), found, strict=True)
     }
 
 
-def _extremes(speed: TrueSpeed, column: Known, of: tuple[Known, ...], found: SpeedOfPolynomials) -> dict[str, Known]:
+def _extremes(
+    speed: TrueSpeed, column: TracedValue, of: tuple[TracedValue, ...], found: SpeedOfPolynomials
+) -> dict[str, TracedValue]:
     """Return the extremes of the speed, each with its angle."""
     low, at_low, high, at_high = speed.extremes
     result = {}
     for part, (word, value, at) in ((1, ("max", high, at_high)), (3, ("min", low, at_low))):
         degrees = math.degrees(at)
-        by, where = (Known(Procedure(one, word, of, found, part + k)) for k, one in enumerate((value, at)))
-        result[f"crank_speed_{word}"] = Known(Found(value, word, (column,), degrees, by))
-        result[f"crank_speed_{word}_angle"] = Known(Found(at, f"{word}_angle", (column,), degrees, where))
+        by, where = (TracedValue(FunctionValue(one, word, of, found, part + k)) for k, one in enumerate((value, at)))
+        result[f"crank_speed_{word}"] = TracedValue(ProcedureValue(value, word, (column,), degrees, by))
+        result[f"crank_speed_{word}_angle"] = TracedValue(
+            ProcedureValue(at, f"{word}_angle", (column,), degrees, where)
+        )
     return result
 
 
 class Wheels(NamedTuple):
     """The flywheel for a wanted fluctuation with its sizes, or those of one that is given."""
 
-    summary: dict[str, Known]
-    between: dict[str, Known]
-    wheel: Known  # Moment of inertia of one that was found; zero if none is needed
-    inertia: Known  # Of all that turns with the crank, this flywheel too
+    summary: dict[str, TracedValue]
+    between: dict[str, TracedValue]
+    wheel: TracedValue  # Moment of inertia of one that was found; zero if none is needed
+    inertia: TracedValue  # Of all that turns with the crank, this flywheel too
 
 
 def wheels_of(
     machine: Machine,
-    w: Known,
-    wanted: Known | None,
-    excess: Known,
-    own: Known,
-    every_way: Callable[[Known], dict[str, Known]] | None = None,
+    w: TracedValue,
+    wanted: TracedValue | None,
+    excess: TracedValue,
+    own: TracedValue,
+    every_way: Callable[[TracedValue], dict[str, TracedValue]] | None = None,
 ) -> Wheels:
     """Return the flywheel of a machine from its excess work and the moment of inertia without it.
 
     `every_way`: the flywheels for a wanted fluctuation by every way, where that inertia varies.
     """
     if wanted is None:
-        return Wheels(sizes_of_given(machine, w), {}, absent("flywheel_inertia"), own)
+        return Wheels(given_flywheel_dimensions(machine, w), {}, absent("flywheel_inertia"), own)
     check_fluctuation(wanted.value, w.value)
-    ways, between = dict[str, Known](), dict[str, Known]()
+    ways, between = dict[str, TracedValue](), dict[str, TracedValue]()
     if own.varies and every_way is not None:
         ways = every_way(wanted)
         wheel = ways["flywheel_inertia.exact"]
@@ -245,34 +258,36 @@ def wheels_of(
             wheel = flywheel_beside_machine(whole, own)
         wheel = _needed(wheel)
         between = {whole.key: whole} if wheel.value else {}
-    summary = {"flywheel_inertia": wheel, **ways, **(sizes_of(machine, wheel, w) if wheel.value else {})}
+    summary = {"flywheel_inertia": wheel, **ways, **(flywheel_dimensions(machine, wheel, w) if wheel.value else {})}
     return Wheels(summary, between, wheel, whole if wheel.value else own)
 
 
-def _every_way(balance: Balance, works: Mapping[str, Known], w: Known, wanted: Known) -> dict[str, Known]:
+def _every_way(
+    balance: Balance, works: Mapping[str, TracedValue], w: TracedValue, wanted: TracedValue
+) -> dict[str, TracedValue]:
     """Return the flywheel for a wanted fluctuation by every way, each of its excess work."""
-    energy = Known(Found(balance.excess.work, "range", (balance.torque, balance.inertia)), "excess_work")
+    energy = TracedValue(ProcedureValue(balance.excess.work, "range", (balance.torque, balance.inertia)), "excess_work")
     ways = {"energy": energy, **works}
     return {f"flywheel_inertia.{way}": _wheel(way, work, balance, w, wanted) for way, work in ways.items()}
 
 
-def _wheel(way: str, work: Known, balance: Balance, w: Known, wanted: Known) -> Known:
+def _wheel(way: str, work: TracedValue, balance: Balance, w: TracedValue, wanted: TracedValue) -> TracedValue:
     """Return the flywheel of one way, of its excess work."""
-    wheel: Known = inertia_for_fluctuation(work, wanted, w)
+    wheel: TracedValue = inertia_for_fluctuation(work, wanted, w)
     if way in ("energy", "mertsalov"):
         own = balance.inertia_curve
         word, value = ("mean", own.mean) if way == "energy" else ("min", own.extremes().least)
-        less = Known(Found(value, word, (balance.inertia,)), f"reduced_inertia.{word}")
+        less = TracedValue(ProcedureValue(value, word, (balance.inertia,)), f"reduced_inertia.{word}")
         wheel = flywheel_beside_machine(wheel.named(f"whole_inertia.{way}"), less)
     return _needed(wheel).named(f"flywheel_inertia.{way}")
 
 
-def _needed(wheel: Known) -> Known:
+def _needed(wheel: TracedValue) -> TracedValue:
     """Return a flywheel, zero where the machine turns evenly enough without one."""
-    return wheel if wheel.value > 0 else Known(Found(0.0, "none", (wheel,)))
+    return wheel if wheel.value > 0 else TracedValue(ProcedureValue(0.0, "none", (wheel,)))
 
 
-def _rotor(motor: GearedMotor) -> dict[str, Known]:
+def _rotor(motor: GearedMotor) -> dict[str, TracedValue]:
     """Return the moment of inertia of the rotor on the crank; nothing without one."""
     if not motor.inertia:
         return {}
@@ -282,23 +297,28 @@ def _rotor(motor: GearedMotor) -> dict[str, Known]:
 
 
 def driven_by_motor(
-    machine: Machine, motor: GearedMotor, balance: Balance, w: Known, mean_torque: Known | None, added: float
-) -> Turn:
+    machine: Machine,
+    motor: GearedMotor,
+    balance: Balance,
+    w: TracedValue,
+    mean_torque: TracedValue | None,
+    added: float,
+) -> SpeedResults:
     """Return the power that the motor needs and the speed that it settles at; `added`: a flywheel [kg m2]."""
     drive, inertia, load = machine.drive, balance.inertia_curve, balance.curve
     if not balance.inertia.varies and not balance.inertia.value and not added + motor.reduced_inertia:
-        return Turn({}, {}, {}, (Notice("no_steady_speed", {"message": Refusal("masses_missing")}),), {})
+        return SpeedResults({}, {}, {}, (Notice("no_steady_speed", {"message": ErrorMessage("masses_missing")}),), {})
     mean, eta, notices = (-load).mean, efficiency_of(drive), tuple[Notice, ...]()
     if mean > 0 and mean_torque is not None:
-        power: Known = needed_power(absent("power_reserve", 1.0), mean_torque, w, eta)
+        power: TracedValue = needed_power(absent("power_reserve", 1.0), mean_torque, w, eta)
     else:
-        power = Known(Found(float(needed_power(1.0, mean, w.value, drive.efficiency)), "need", (w, eta)))
+        power = TracedValue(ProcedureValue(float(needed_power(1.0, mean, w.value, drive.efficiency)), "need", (w, eta)))
     if power.value > drive.rated_power:
         powers: dict[str, float | str] = {"needed": power.value / 1e3, "rated": drive.rated_power / 1e3}
         notices = (Notice("overloaded", powers),)
     more, told = _steady(motor, w.value, inertia, load, added)
-    steady = {key: Known(Found(value, "steady"), key) for key, value in more.items()}
-    return Turn({}, {"motor_power": power, **steady}, {}, notices + told, _rotor(motor))
+    steady = {key: TracedValue(ProcedureValue(value, "steady"), key) for key, value in more.items()}
+    return SpeedResults({}, {"motor_power": power, **steady}, {}, notices + told, _rotor(motor))
 
 
 def _steady(
@@ -313,5 +333,5 @@ def _steady(
     greatest = float(np.max(motor.torque(speeds)))
     stalls = first_angle_beyond(load * -1.0, greatest)
     if stalls is None:
-        return {}, (Notice("no_steady_speed", {"message": Refusal("steady_unfound", speed=speed)}),)
+        return {}, (Notice("no_steady_speed", {"message": ErrorMessage("steady_unfound", speed=speed)}),)
     return {}, (Notice("stalls", {"torque": greatest, "angle": float(np.degrees(stalls))}),)

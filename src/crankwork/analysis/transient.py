@@ -10,25 +10,25 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.analysis.charts import BESIDE, Chart, Piece, chart_of
-from crankwork.analysis.loose import Loose
+from crankwork.analysis.path_coordinate import BESIDE, PathCoordinate, PathSegment, path_coordinate
+from crankwork.analysis.prepared import Notice, PreparedLinkage
 from crankwork.analysis.results import Listing
-from crankwork.analysis.solved import Notice, SolvedLinkage
+from crankwork.analysis.transient_model import TransientModel
 from crankwork.dynamics.friction import friction_forces
 from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reduction import kinetic_energy, reduced_torque
-from crankwork.dynamics.running import Running
 from crankwork.errors import GeometryError, MethodError
-from crankwork.formula.known import Found, Known, Procedure
+from crankwork.formula.traced_value import FunctionValue, ProcedureValue, TracedValue
 from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.crank_range import CrankRange
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.travel import Travel
 from crankwork.loads.potential import has_potential, potential_energy
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.joints import names_of_pivots
 from crankwork.shaft.collocation import gauss
-from crankwork.shaft.glide import Followed
-from crankwork.shaft.transient import RATE, Direction, Run, Trajectory
+from crankwork.shaft.compiled_integrator import TransientReplay
+from crankwork.shaft.transient import RATE, Direction, Integrator, Trajectory
 
 # share of the energy that may be missed across dead positions of the crank, beside which its angle says little
 _ACROSS = 1e-6
@@ -43,57 +43,57 @@ _ALL_BUT_DEAD = 1e-3
 _NODES, _WEIGHTS, *_ = gauss(8)
 
 
-class Ran(NamedTuple):
+class TransientResults(NamedTuple):
     """How a linkage went: single values, tables over time and of events, checks, notices, what checks may miss."""
 
-    summary: dict[str, Known]
+    summary: dict[str, TracedValue]
     listings: dict[str, Listing]
     checks: dict[str, float]
     notices: tuple[Notice, ...]
     allowed: dict[str, float]
 
 
-def let_go(
-    solved: SolvedLinkage,
+def simulate_transient(
+    solved: PreparedLinkage,
     motion: Motion,
-    found: Travel | None,
-    summary: Mapping[str, Known],
+    found: CrankRange | None,
+    summary: Mapping[str, TracedValue],
     progress: Callable[[float], None] | None = None,
-) -> Ran:
+) -> TransientResults:
     """Return how a linkage moves in time from where it is let go (artobolevsky_1988, ch. 15); nothing if it is not.
 
     `motion`: over the crank angle, remembered; `found`: the way of a crank that does not turn fully; `summary`: what
     else is known, such as its flywheel; `progress`: told the part of the time that is done.
     """
     if solved.machine.transient is None:
-        return Ran({}, {}, {}, (), {})
+        return TransientResults({}, {}, {}, (), {})
     try:
         return _followed(solved, motion, found, summary, progress)
     except (GeometryError, MethodError) as error:
-        return Ran({}, {}, {}, (Notice("transient_unfollowed", {"message": error.args[0]}),), {})
+        return TransientResults({}, {}, {}, (Notice("transient_unfollowed", {"message": error.args[0]}),), {})
 
 
 def _followed(
-    solved: SolvedLinkage,
+    solved: PreparedLinkage,
     motion: Motion,
-    found: Travel | None,
-    summary: Mapping[str, Known],
+    found: CrankRange | None,
+    summary: Mapping[str, TracedValue],
     progress: Callable[[float], None] | None,
-) -> Ran:
-    chart = chart_of(solved.machine, found)
+) -> TransientResults:
+    chart = path_coordinate(solved.machine, found)
     flywheel = summary.get("flywheel_inertia.exact")
-    loose = Loose(solved, chart, flywheel.value if flywheel is not None else 0.0)
+    loose = TransientModel(solved, chart, flywheel.value if flywheel is not None else 0.0)
     wanted = loose.wanted
     start = chart.coordinate(wanted.start)
     rate = float(chart.crank(np.array([start]))[1][0])
     if solved.machine.friction and chart.pieces[0].turns_back:
-        raise MethodError(Refusal("transient_rubbing"))
+        raise MethodError(ErrorMessage("transient_rubbing"))
     if abs(rate) < _ALL_BUT_DEAD and (wanted.speed or not rate):
-        raise MethodError(Refusal("transient_dead", angle=math.degrees(wanted.start)))
+        raise MethodError(ErrorMessage("transient_dead", angle=math.degrees(wanted.start)))
     cycles = _Cycles(loose, progress)
-    course = Run(loose.felt, start, wanted.speed / rate).until(wanted.time, watched=wanted.speeds, each=cycles)
+    course = Integrator(loose.felt, start, wanted.speed / rate).until(wanted.time, watched=wanted.speeds, each=cycles)
     if not course.steps:
-        return Ran({}, {}, {}, tuple(_told(loose, course)), {})
+        return TransientResults({}, {}, {}, tuple(_told(loose, course)), {})
     checks = {"energy_balance": _missing(loose, course)}
     if course.events and course.events[-1].word == "steady":
         checks |= cycles.against(summary)
@@ -101,13 +101,14 @@ def _followed(
     (q, q_1, _), (_, v, _) = chart.crank(course.at(end)[0]), course.at(end)
     turn, speed = float(q[0]) - wanted.start, float(q_1[0] * v[0])
     keys = {"transient_time": course.end, "final_turn": turn, "final_speed": speed}
-    felt, of = loose.felt, loose.remembered(motion, flywheel) if wanted.until == "time" else ()
-    by = Followed(felt.breaks, felt.stops, felt.restitution)
+    felt, of = loose.felt, loose.traced(motion, flywheel) if wanted.until == "time" else ()
+    by = TransientReplay(felt.breaks, felt.stops, felt.restitution)
     nodes = [
-        Procedure(one, "followed", of, by, k) if of else Found(one, "followed") for k, one in enumerate(keys.values())
+        FunctionValue(one, "followed", of, by, k) if of else ProcedureValue(one, "followed")
+        for k, one in enumerate(keys.values())
     ]
-    return Ran(
-        {key: Known(node, key) for key, node in zip(keys, nodes, strict=True)},
+    return TransientResults(
+        {key: TracedValue(node, key) for key, node in zip(keys, nodes, strict=True)},
         {"transient": _history(loose, course), **_events(chart, course)},
         checks,
         (*_told(loose, course), *_not_yet(loose, course)),
@@ -118,7 +119,7 @@ def _followed(
 class _Cycles:
     """Where a motion passes the coordinate that it started from, and whether it is steady there."""
 
-    def __init__(self, loose: Loose, progress: Callable[[float], None] | None) -> None:
+    def __init__(self, loose: TransientModel, progress: Callable[[float], None] | None) -> None:
         self._time, self._progress = loose.wanted.time, progress
         self._place, self._period = loose.chart.coordinate(loose.wanted.start), loose.chart.period
         self._until = loose.wanted.until
@@ -126,7 +127,7 @@ class _Cycles:
         self._rubs = bool(loose.machine.friction)
         self.times, self.rates = [0.0], [loose.wanted.speed]
 
-    def __call__(self, run: Run) -> bool:
+    def __call__(self, run: Integrator) -> bool:
         """Return whether enough has been seen."""
         if self._progress is not None:
             self._progress(run.time / self._time)
@@ -146,7 +147,7 @@ class _Cycles:
         run.record_event("steady")
         return True
 
-    def against(self, summary: Mapping[str, Known]) -> dict[str, float]:
+    def against(self, summary: Mapping[str, TracedValue]) -> dict[str, float]:
         """Return by how much the last cycle misses the steady speed that was found without its start. [-]"""
         if "steady_speed" not in summary or self._rubs or len(self.times) <= _SAME_CYCLES:
             return {}
@@ -154,7 +155,7 @@ class _Cycles:
         return {"steady_cycle": abs(mean / summary["steady_speed"].value - 1)}
 
 
-def _history(loose: Loose, course: Trajectory) -> Listing:
+def _history(loose: TransientModel, course: Trajectory) -> Listing:
     """Return the motion as a table over time: crank, sliding pieces, joint forces, energies."""
     step = loose.wanted.step or course.end / _ROWS
     times = np.asarray(np.arange(math.floor(course.end / step * (1 + 1e-12)) + 1) * step, dtype=float)
@@ -174,7 +175,7 @@ def _history(loose: Loose, course: Trajectory) -> Listing:
         rest.put("kinetic_energy", here, kinetic_energy(loose.inertia(piece, motion), speed[here]))
         rest.put("potential_energy", here, potential_energy(piece.mechanism, motion, loose.machine.loads))
         loads = loose.loads(piece, motion, speed[here])
-        running = Running(piece.mechanism, motion, speed[here], loads, acceleration[here])
+        running = OperatingState(piece.mechanism, motion, speed[here], loads, acceleration[here])
         with np.errstate(divide="ignore", invalid="ignore"):
             rubbed = friction_forces(running, loose.machine.friction) if loose.machine.friction else None
         if rubbed is not None:
@@ -196,7 +197,7 @@ class _Filled:
         self.columns.setdefault(key, np.full(self.count, np.nan))[rows] = values
 
 
-def _events(chart: Chart, course: Trajectory) -> dict[str, Listing]:
+def _events(chart: PathCoordinate, course: Trajectory) -> dict[str, Listing]:
     """Return the table of what happens; none where nothing does."""
     if not course.events:
         return {}
@@ -211,7 +212,7 @@ def _events(chart: Chart, course: Trajectory) -> dict[str, Listing]:
     return {"transient_events": Listing(columns, tuple(names))}
 
 
-def _missing(loose: Loose, course: Trajectory) -> float:
+def _missing(loose: TransientModel, course: Trajectory) -> float:
     """Return by how much energy gained and work done differ, over the largest kinetic energy. [-]
 
     Energies are those of speed and place, the work that of powers between, on a grid of its own.
@@ -234,7 +235,7 @@ def _missing(loose: Loose, course: Trajectory) -> float:
     return float(np.ptp(kinetic + potential - done)) / largest if largest else 0.0
 
 
-def _lost_at_stops(loose: Loose, course: Trajectory) -> Array:
+def _lost_at_stops(loose: TransientModel, course: Trajectory) -> Array:
     """Return what each stop takes of the kinetic energy. [J]"""
     met = [one for one in course.events if one.word == "stop"]
     if not met:
@@ -244,7 +245,7 @@ def _lost_at_stops(loose: Loose, course: Trajectory) -> Array:
     return np.asarray(kinetic_energy(inertia, rate) * (1 - loose.wanted.restitution**2))
 
 
-def _energies(loose: Loose, course: Trajectory, times: Array) -> tuple[Array, Array]:
+def _energies(loose: TransientModel, course: Trajectory, times: Array) -> tuple[Array, Array]:
     """Return kinetic and potential energy at some times. [J]"""
     u, v, _ = course.at(times)
     crank, found = loose.chart.crank(u), np.empty((2, times.size))
@@ -256,7 +257,7 @@ def _energies(loose: Loose, course: Trajectory, times: Array) -> tuple[Array, Ar
     return np.asarray(found[0]), np.asarray(found[1])
 
 
-def _power(loose: Loose, course: Trajectory, times: Array) -> Array:
+def _power(loose: TransientModel, course: Trajectory, times: Array) -> Array:
     """Return the power of the driver and of the loads without a potential energy. [W]"""
     u, v, a = course.at(times)
     crank = loose.chart.crank(u)
@@ -282,18 +283,18 @@ def _power(loose: Loose, course: Trajectory, times: Array) -> Array:
     return np.asarray(power)
 
 
-def _lost(loose: Loose, piece: Piece, motion: Motion, rates: tuple[Array, Array]) -> Array | float:
+def _lost(loose: TransientModel, piece: PathSegment, motion: Motion, rates: tuple[Array, Array]) -> Array | float:
     """Return the power that friction takes, from the equilibrium of all links at speeds and accelerations. [W]"""
     if not loose.machine.friction:
         return 0.0
     loads = loose.loads(piece, motion, rates[0])
-    running = Running(piece.mechanism, motion, rates[0], loads, rates[1])
+    running = OperatingState(piece.mechanism, motion, rates[0], loads, rates[1])
     with np.errstate(divide="ignore", invalid="ignore"):
         # nothing drives, and there is no efficiency
         return friction_forces(running, loose.machine.friction).power_loss
 
 
-def _told(loose: Loose, course: Trajectory) -> Iterator[Notice]:
+def _told(loose: TransientModel, course: Trajectory) -> Iterator[Notice]:
     """Yield what keeps it from starting, and what happens on the way: the first time of each."""
     missing = _missing_torque(loose)
     stays = bool(course.events) and course.events[0].time == 0 and course.events[0].word == "comes_to_rest"
@@ -312,14 +313,14 @@ def _told(loose: Loose, course: Trajectory) -> Iterator[Notice]:
             yield Notice(f"transient_{word}", {"time": event.time, "angle": angle, "speed": speed, "count": count})
 
 
-def _not_yet(loose: Loose, course: Trajectory) -> Iterator[Notice]:
+def _not_yet(loose: TransientModel, course: Trajectory) -> Iterator[Notice]:
     """Yield that the time was up before what was waited for."""
     waited = {"rest": "comes_to_rest", "steady": "steady"}.get(loose.wanted.until)
     if waited is not None and all(one.word != waited for one in course.events):
         yield Notice(f"transient_not_{loose.wanted.until}", {"time": course.end})
 
 
-def _missing_torque(loose: Loose) -> float:
+def _missing_torque(loose: TransientModel) -> float:
     """Return what more torque on the crank would start a machine at rest the way that it is driven. [N m]"""
     drive = float(loose.felt.drive(np.zeros(1))[0])
     if not drive or loose.wanted.speed:

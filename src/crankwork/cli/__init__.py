@@ -51,7 +51,7 @@ from crankwork.errors import (
     RenamedKeyWarning,
     missing_extras,
 )
-from crankwork.locale import Language, Refusal, say, told
+from crankwork.locale import ErrorMessage, Language, in_language, translate
 from crankwork.progress import progress_bar, with_progress
 
 _MODULES = {"starlette": "studio", "uvicorn": "studio", "websockets": "studio"}
@@ -65,12 +65,14 @@ _MODULES = {"starlette": "studio", "uvicorn": "studio", "websockets": "studio"}
 def studio(file: str | None, port: str, language: Language, *, no_browser: bool) -> None:
     """Open the studio, with a machine file or a shared text."""
     if not (port.isascii() and port.isdecimal() and len(port) < 6 and int(port) < 1 << 16):
-        raise CrankworkError(Refusal("option_wrong", option="--port", mistake=Refusal("port_range", port=port[:20])))
+        raise CrankworkError(
+            ErrorMessage("option_wrong", option="--port", mistake=ErrorMessage("port_range", port=port[:20]))
+        )
     if extras := missing_extras(_MODULES):
-        raise MissingExtraError(Refusal("extra_studio"), *extras)
+        raise MissingExtraError(ErrorMessage("extra_studio"), *extras)
     from crankwork import files
-    from crankwork.studio.answers import is_share, opened_share
     from crankwork.studio.server import StartupOptions, serve
+    from crankwork.studio.session import is_share, opened_share
 
     if file is None:
         opening = StartupOptions()
@@ -78,7 +80,7 @@ def studio(file: str | None, port: str, language: Language, *, no_browser: bool)
         opening = StartupOptions(opened_share(file, language))
     else:
         path = Path(file)
-        text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
+        text = files.read_text(path, advice=ErrorMessage("check_path_or_new", path=path))
         # a text of another form is not saved in its place
         opening = (
             StartupOptions(opened_share(text, language)) if is_share(text) else StartupOptions(text, path.resolve())
@@ -111,7 +113,7 @@ def _exit_code() -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except InputError as error:
-        _print_error(*error.lines(_in_language), _in_language(Refusal("nothing_computed")))
+        _print_error(*error.lines(_in_language), _in_language(ErrorMessage("nothing_computed")))
     except CrankworkError as error:
         _print_error(_in_language(error.args[0]))
         return 1 if isinstance(error, DoubtfulError) else 2
@@ -127,7 +129,9 @@ def _exit_code() -> int:
     except OSError as error:
         # all other disk access is in `files`, so this is the output itself
         _discard_output(sys.stdout)
-        _print_error(_in_language(Refusal("output_unwritable", reason=(error.strerror or "unknown reason").lower())))
+        _print_error(
+            _in_language(ErrorMessage("output_unwritable", reason=(error.strerror or "unknown reason").lower()))
+        )
     else:
         return 0
     return 2
@@ -148,7 +152,7 @@ def _print_error(*lines: str) -> None:
 
 def _in_language(message: str) -> str:
     """Return a message in the language of the command line, even if its arguments are wrong."""
-    return told(message, requested_language())
+    return in_language(message, requested_language())
 
 
 def _usage_sentence(error: click.ClickException) -> str:
@@ -158,19 +162,19 @@ def _usage_sentence(error: click.ClickException) -> str:
             return _unknown(error)
         case click.BadOptionUsage():
             name = "option_no_value" if "does not take" in error.message else "option_value"
-            return Refusal(name, option=error.option_name)
+            return ErrorMessage(name, option=error.option_name)
         case click.MissingParameter() if isinstance(error.param, click.Option):
             option = f"{error.param.opts[0]} {placeholder(error.param.metavar or '')}".strip()
-            return Refusal("option_missing", option=error.param.opts[0], written=option)
+            return ErrorMessage("option_missing", option=error.param.opts[0], written=option)
         case click.MissingParameter():
             name = (error.param.name or "argument").upper() if error.param else "argument"
-            return Refusal("argument_missing", argument=placeholder(name))
+            return ErrorMessage("argument_missing", argument=placeholder(name))
         case click.BadParameter() if error.param and isinstance(error.param.type, click.Choice):
             match = re.search(r"'(.*)' is not one of", error.message)
-            given, choices = match[1] if match else Refusal("this"), tuple(error.param.type.choices)
-            return Refusal("option_choice", option=error.param.opts[0], given=given, choices=choices)
+            given, choices = match[1] if match else ErrorMessage("this"), tuple(error.param.type.choices)
+            return ErrorMessage("option_choice", option=error.param.opts[0], given=given, choices=choices)
         case _ if match := re.search(r"extra arguments? \((.*)\)$", error.message):
-            return Refusal("argument_extra", argument=match[1])
+            return ErrorMessage("argument_extra", argument=match[1])
         case _:
             return f"{error.format_message().rstrip('.')}; see crankwork --help"
 
@@ -180,15 +184,15 @@ def _unknown(error: click.NoSuchOption | click.exceptions.NoSuchCommand) -> str:
     if isinstance(error, click.NoSuchOption):
         option = error.option_name
         if error.possibilities:
-            return Refusal("option_unknown_near", option=option, nearest=error.possibilities[0])
+            return ErrorMessage("option_unknown_near", option=option, nearest=error.possibilities[0])
         options = {name for command in commands.commands.values() for param in command.params for name in param.opts}
-        return Refusal("option_early" if option in options else "option_unknown", option=option)
+        return ErrorMessage("option_early" if option in options else "option_unknown", option=option)
     command = error.command_name[:40]
     if command.endswith(".toml"):
-        return Refusal("command_first", file=command)
+        return ErrorMessage("command_first", file=command)
     if error.possibilities:
-        return Refusal("no_command_near", command=command, nearest=error.possibilities[0])
-    return Refusal("no_command", command=command, known=", ".join(commands.commands))
+        return ErrorMessage("no_command_near", command=command, nearest=error.possibilities[0])
+    return ErrorMessage("no_command", command=command, known=", ".join(commands.commands))
 
 
 @click.group(cls=LocalizedGroup, context_settings={"help_option_names": ["-h", "--help"]})
@@ -218,7 +222,7 @@ def new(options: CommonOptions, name: str | None, output: str | None) -> None:
         click.echo(text, nl=False)
         return
     files.write_new(output, text, overwrite=options.overwrite)
-    click.echo(say("report.written_new", options.language, file=output))
+    click.echo(translate("report.written_new", options.language, file=output))
 
 
 @commands.command()
@@ -233,7 +237,7 @@ def new(options: CommonOptions, name: str | None, output: str | None) -> None:
 def check(options: CommonOptions, *, circuits: bool, expand: bool) -> None:
     """Read a machine and say what it is."""
     if expand and (circuits or options.as_json):
-        raise CrankworkError(Refusal("expand_alone"))
+        raise CrankworkError(ErrorMessage("expand_alone"))
     if expand:
         from crankwork.description.expand import expanded
 
@@ -243,25 +247,25 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool) -> None:
     from crankwork.report.summary import description_text
 
     if options.as_json and not circuits:
-        raise CrankworkError(Refusal("json_of_circuits"))
+        raise CrankworkError(ErrorMessage("json_of_circuits"))
     machine = options.machine
     if circuits and options.as_json:
-        from crankwork.analysis.ways import ways
-        from crankwork.report.ways import ways_data
+        from crankwork.analysis.assembly_modes import assembly_modes
+        from crankwork.report.assembly_modes_text import assembly_modes_data
 
-        click.echo(json.dumps(ways_data(machine, ways(machine)), ensure_ascii=False, indent=1))
+        click.echo(json.dumps(assembly_modes_data(machine, assembly_modes(machine)), ensure_ascii=False, indent=1))
         return
     results = analyse_with_progress(machine)
     click.echo(f"{options.file}: {machine.title}" if machine.title else options.file)
     click.echo(description_text(results, options.language))
     if circuits:
-        from crankwork.analysis.ways import ways
-        from crankwork.report.ways import ways_text
+        from crankwork.analysis.assembly_modes import assembly_modes
+        from crankwork.report.assembly_modes_text import assembly_modes_text
 
-        click.echo(ways_text(machine, ways(machine), options.language))
+        click.echo(assembly_modes_text(machine, assembly_modes(machine), options.language))
     for notice in results.notices:
         click.echo(
-            say("check.note", options.language, notice=notice_text(notice.code, notice.values, options.language))
+            translate("check.note", options.language, notice=notice_text(notice.code, notice.values, options.language))
         )
     options.raise_if_unverified(results)
 
@@ -291,7 +295,7 @@ def run(options: CommonOptions, output: str | None, *, excel_csv: bool) -> None:
     language, per_area = options.language, options.per_area
     if output is not None:
         if not output:
-            raise CrankworkError(Refusal("folder_unnamed"))
+            raise CrankworkError(ErrorMessage("folder_unnamed"))
         files.check_folder(output, overwrite=options.overwrite)
     formats = () if options.no_figures or output is None else parse_formats(options.formats)
     results = options.results()
@@ -300,7 +304,7 @@ def run(options: CommonOptions, output: str | None, *, excel_csv: bool) -> None:
         lambda: summary_data(results, per_area=per_area),
     )
     if output is not None:
-        from crankwork.report.results_folder import left_out, results_folder
+        from crankwork.report.results_folder import missing_writers, results_folder
 
         steps = results_folder(
             results, language=language, per_area=per_area, for_excel=excel_csv, formats=formats, theme=options.theme
@@ -309,12 +313,12 @@ def run(options: CommonOptions, output: str | None, *, excel_csv: bool) -> None:
         files.write_folder(output, contents, overwrite=options.overwrite)
         options.print_written(output, "\n")
         if formats:
-            from crankwork.report.notices import not_drawn
+            from crankwork.report.notices import skipped_figure_notes
 
-            for skipped in not_drawn(results, language):
-                _print_error(say("check.note", language, notice=skipped))
-        if (missing := left_out()) is not None:
-            _print_error(say("check.note", language, notice=_in_language(missing.args[0])))
+            for skipped in skipped_figure_notes(results, language):
+                _print_error(translate("check.note", language, notice=skipped))
+        if (missing := missing_writers()) is not None:
+            _print_error(translate("check.note", language, notice=_in_language(missing.args[0])))
     options.raise_if_unverified(results)
 
 
@@ -337,7 +341,7 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
     from crankwork.note.explain import explanation, key_lines
 
     if key is None and not with_keys:
-        raise CrankworkError(Refusal("explain_what"))
+        raise CrankworkError(ErrorMessage("explain_what"))
     # if it is no crank angle, it may be a time of the machine
     angle_or_time = (
         None

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from crankwork.errors import CrankworkError, DoubtfulError, MissingExtraError, missing_extras
-from crankwork.locale import Language, Refusal, say
+from crankwork.locale import ErrorMessage, Language, translate
 from crankwork.progress import progress_bar
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class CommonOptions:
 
         machine = read(self.file, self.overrides)
         if self.per_area and machine.cylinder is None:
-            raise CrankworkError(Refusal("per_area_bore"))
+            raise CrankworkError(ErrorMessage("per_area_bore"))
         return machine
 
     def results(self) -> Results:
@@ -67,18 +67,18 @@ class CommonOptions:
         if self.compare is None:
             return analyse_with_progress(self.machine)
         from crankwork.analysis.compare import compare
-        from crankwork.study.beside import comparison_machines
+        from crankwork.study.comparison_machines import comparison_machines
 
         name, machines = comparison_machines(self.machine, self.file, self.compare)
         results = analyse_with_progress(self.machine)
         compared = compare(results, {key: analyse_with_progress(other) for key, other in machines.items()}, name)
         if self.per_area and compared.compared is not None and not compared.compared.is_of_methods:
-            raise CrankworkError(Refusal("compare_per_area"))
+            raise CrankworkError(ErrorMessage("compare_per_area"))
         return compared
 
     def origin(self) -> Callable[[str, Iterable[float]], str]:
         """Return a function that gives the place in the file where numbers are stated."""
-        from crankwork.description.origins import origins
+        from crankwork.description.source_locations import origins
         from crankwork.note.explain import place_text
 
         places = origins(self.file, self.overrides)
@@ -90,7 +90,7 @@ class CommonOptions:
 
     def print_written(self, names: str, before: str = "") -> None:
         """Print the names of written files, on the error stream if the output is JSON."""
-        click.echo(f"{before}{say('report.written', self.language)} {names}", err=self.as_json)
+        click.echo(f"{before}{translate('report.written', self.language)} {names}", err=self.as_json)
 
     def raise_if_unverified(self, results: Results) -> None:
         """Raise if results contradict each other or are incomplete; they have been printed and written."""
@@ -132,7 +132,7 @@ def parse_angle_or_time(text: str, dimension: str) -> float:
     try:
         value = parse_in(text, "deg" if dimension == "angle" else "s")
     except ValueError as error:
-        raise CrankworkError(Refusal("option_wrong", option="--at", mistake=error.args[0])) from None
+        raise CrankworkError(ErrorMessage("option_wrong", option="--at", mistake=error.args[0])) from None
     return round(math.degrees(value), 9) if dimension == "angle" else value
 
 
@@ -161,10 +161,10 @@ def parse_formats(text: str) -> tuple[str, ...]:
     wrong = [name for name in formats if name not in FORMATS]
     if wrong or not formats:
         name = ", ".join(wrong)[:60] or "--format"
-        raise CrankworkError(Refusal("figure_formats", name=name, known=", ".join(FORMATS)))
+        raise CrankworkError(ErrorMessage("figure_formats", name=name, known=", ".join(FORMATS)))
     modules = {module: extra for name in formats for module, extra in MODULES[name].items()}
     if extras := missing_extras(modules):
-        raise MissingExtraError(Refusal("extra_writing", names=[name.upper() for name in formats]), *extras)
+        raise MissingExtraError(ErrorMessage("extra_writing", names=[name.upper() for name in formats]), *extras)
     return formats
 
 
@@ -175,9 +175,9 @@ def drawing_ending(name: str, *, is_still: bool) -> str:
 
     ending = PurePath(name).suffix.lower().removeprefix(".")
     if is_still and ending in FILMS and ending not in FORMATS:
-        raise CrankworkError(Refusal("still_film", name=name[-60:], known=", ".join(FORMATS)))
+        raise CrankworkError(ErrorMessage("still_film", name=name[-60:], known=", ".join(FORMATS)))
     if ending not in (known := tuple(dict.fromkeys([*FILMS, *FORMATS]))):
-        raise CrankworkError(Refusal("drawing_ending", name=name[-60:], known=", ".join(known)))
+        raise CrankworkError(ErrorMessage("drawing_ending", name=name[-60:], known=", ".join(known)))
     if extras := missing_extras(MODULES[ending]):
-        raise MissingExtraError(Refusal("extra_writing", names=ending.upper()), *extras)
+        raise MissingExtraError(ErrorMessage("extra_writing", names=ending.upper()), *extras)
     return ending

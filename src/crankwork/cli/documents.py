@@ -22,7 +22,7 @@ from crankwork.cli.options import (
     LocalizedCommand,
 )
 from crankwork.errors import CrankworkError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.progress import progress_bar
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ def page(options: CommonOptions, output: str, sliders: tuple[str, ...]) -> None:
     from crankwork.page.document import page as written
 
     if not output.lower().endswith((".html", ".htm")):
-        raise CrankworkError(Refusal("page_ending", name=output))
+        raise CrankworkError(ErrorMessage("page_ending", name=output))
     files.check_files(output, overwrite=options.overwrite)
     results = options.results()
     live = None

@@ -8,7 +8,7 @@ import sys
 
 import click
 
-from crankwork.locale import LANGUAGES, Language, has_text, say
+from crankwork.locale import LANGUAGES, Language, has_text, translate
 
 
 def language_of_system() -> Language:
@@ -28,7 +28,7 @@ def placeholder(words: str) -> str:
     """Return the placeholders of a usage, `-o FILE`, in the language; literal words are in lower case."""
 
     def stand_in(match: re.Match[str]) -> str:
-        return say(stand_in_key(match[0]), requested_language()).upper().replace(" ", "-")
+        return translate(stand_in_key(match[0]), requested_language()).upper().replace(" ", "-")
 
     # formats of paper are no placeholders
     return re.sub(r"[A-Z]+(?!\d)", stand_in, words)
@@ -52,7 +52,7 @@ class LocalizedCommand(click.Command):
     def format_usage(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the usage of the command."""
         words = placeholder(" ".join(self.collect_usage_pieces(ctx)))
-        formatter.write_usage(ctx.command_path, words, prefix=f"{say('help.usage', requested_language())}: ")
+        formatter.write_usage(ctx.command_path, words, prefix=f"{translate('help.usage', requested_language())}: ")
 
     def format_help_text(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the purpose of the command."""
@@ -63,20 +63,20 @@ class LocalizedCommand(click.Command):
         """Write the help of each option, and the purpose of each command of a group."""
         language = requested_language()
         rows = [
-            (placeholder(record[0]), say(option_key(str(self.name), option), language, default=option.default))
+            (placeholder(record[0]), translate(option_key(str(self.name), option), language, default=option.default))
             for option in self.get_params(ctx)
             if isinstance(option, click.Option) and (record := option.get_help_record(ctx)) is not None
         ]
-        with formatter.section(say("help.options", language)):
+        with formatter.section(translate("help.options", language)):
             formatter.write_dl(rows)
         if isinstance(self, click.Group):
-            with formatter.section(say("help.commands", language)):
+            with formatter.section(translate("help.commands", language)):
                 purposes = [(name, self._purpose(command)) for name, command in sorted(self.commands.items())]
                 formatter.write_dl(purposes)
 
     @staticmethod
     def _purpose(command: click.Command) -> str:
-        return say(f"help.command_{command.name}", requested_language())
+        return translate(f"help.command_{command.name}", requested_language())
 
 
 class LocalizedGroup(LocalizedCommand, click.Group):

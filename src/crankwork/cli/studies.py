@@ -12,7 +12,7 @@ import click
 from crankwork.cli.asked import CommonOptions, parse_count, parse_formats, with_common_options
 from crankwork.cli.options import FORMAT, JSON, LANG, NO_FIGURES, OVERWRITE, SET, SYSTEM, THEME, LocalizedCommand
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
-from crankwork.locale import Refusal, say
+from crankwork.locale import ErrorMessage, translate
 from crankwork.progress import counting, progress_bar
 
 if TYPE_CHECKING:
@@ -41,22 +41,22 @@ def sweep(
 ) -> None:
     """Calculate the designs of a study: the best, the Pareto set, histograms and what matters."""
     from crankwork import files
-    from crankwork.study.found_figures import found_drawings
-    from crankwork.study.found_text import found_data, found_files, found_text
-    from crankwork.study.running import ExecutionOptions, run_study
+    from crankwork.study.runner import ExecutionOptions, run_study
+    from crankwork.study.study_figures import found_drawings
     from crankwork.study.study_file import load_study
+    from crankwork.study.study_text import found_data, found_files, found_text
 
     where = ExecutionOptions(_number_of(workers, scheduler), scheduler or "")
     formats = () if options.no_figures else parse_formats(options.formats)
     stated = load_study(study, options.settings)
     if extras := missing_extras(_MODULES):
-        raise MissingExtraError(Refusal("extra_study"), *extras)
+        raise MissingExtraError(ErrorMessage("extra_study"), *extras)
     started = time.monotonic()
     try:
         with counting(stated.count) as progress:
             aggregate = run_study(stated, output, where, resume=resume, progress=progress)
     except KeyboardInterrupt:
-        click.echo(f"\n{say('study.stopped', options.language)}", err=True)
+        click.echo(f"\n{translate('study.stopped', options.language)}", err=True)
         raise
     drawings = found_drawings(stated, aggregate, options.language) if formats else {}
     contents = found_files(stated, aggregate) | _figures(drawings, formats, options.theme)
@@ -65,7 +65,7 @@ def sweep(
     passed = time.monotonic() - started
     options.print_written(output, "\n")
     rate = {"seconds": f"{passed:.1f}", "rate": f"{aggregate.designs / passed:.0f}"}
-    click.echo(say("study.rate", options.language, **rate), err=True)
+    click.echo(translate("study.rate", options.language, **rate), err=True)
 
 
 @click.command(cls=LocalizedCommand)
@@ -112,7 +112,7 @@ def map_(options: CommonOptions, over: tuple[str, ...], output: str | None, work
     from crankwork import files
     from crankwork.description.document import load
     from crankwork.study.map_figures import map_drawings
-    from crankwork.study.mapped import map_data, map_files, map_text, mapped
+    from crankwork.study.parameter_map import map_data, map_files, map_text, mapped
 
     formats = () if options.no_figures or output is None else parse_formats(options.formats)
     if output is not None:
@@ -145,8 +145,8 @@ def _number_of(workers: str | None, scheduler: str | None) -> int:
     if workers is None:
         return 0
     if scheduler is not None:
-        raise CrankworkError(Refusal("workers_or"))
+        raise CrankworkError(ErrorMessage("workers_or"))
     count = parse_count(workers)
     if not 1 <= count <= _MAX_WORKERS:
-        raise CrankworkError(Refusal("workers_number", most=str(_MAX_WORKERS)))
+        raise CrankworkError(ErrorMessage("workers_number", most=str(_MAX_WORKERS)))
     return count

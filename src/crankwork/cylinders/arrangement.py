@@ -24,7 +24,7 @@ from crankwork.cylinders.firing import (
     wrap_angle,
 )
 from crankwork.cylinders.layout import Banks, CylinderPlace, Layout
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 
 class CylinderPosition(NamedTuple):
@@ -61,7 +61,7 @@ def build_layout(
     """
     seats = _seats(banks)
     if strokes not in (2, 4):
-        raise LayoutError("engine.strokes", Refusal("strokes_wrong", count=strokes))
+        raise LayoutError("engine.strokes", ErrorMessage("strokes_wrong", count=strokes))
     order, cycle = checked_order(order, banks.cylinders), 180.0 * strokes
     if throws is None:
         pins = _pins_of_even_firing(banks, seats, order, cycle, uneven=uneven)
@@ -85,14 +85,14 @@ def _seats(banks: Banks) -> list[CylinderPosition]:
     """Return the cylinder positions by number, with throws in their order along the shaft."""
     count, rows = banks.cylinders, len(banks.axes)
     if count < 1 or count % rows:
-        message = Refusal("cylinders_uneven" if rows > 1 else "cylinders_none", count=count, rows=rows)
+        message = ErrorMessage("cylinders_uneven" if rows > 1 else "cylinders_none", count=count, rows=rows)
         raise LayoutError("engine.cylinders", message)
     directions = {wrap_angle(axis) for axis in banks.axes}
     if len(directions) < rows and not banks.own_throws:
         key = "engine.bank_angle" if rows == 2 else "engine.bank_angles"
-        raise LayoutError(key, Refusal("banks_together"))
+        raise LayoutError(key, ErrorMessage("banks_together"))
     if banks.numbering not in ("banks", "pairs"):
-        raise LayoutError("engine.numbering", Refusal("numbering_wrong", given=banks.numbering))
+        raise LayoutError("engine.numbering", ErrorMessage("numbering_wrong", given=banks.numbering))
     per_bank = count // rows
     seats = []
     for bank, axis in enumerate(banks.axes):
@@ -108,7 +108,7 @@ def _seats(banks: Banks) -> list[CylinderPosition]:
 def _pins_of_throws(seats: Sequence[CylinderPosition], throws: Sequence[float]) -> list[float]:
     count = max(seat.throw for seat in seats) + 1
     if len(throws) != count:
-        raise LayoutError("engine.throws", Refusal("throws_count", given=len(throws), count=count))
+        raise LayoutError("engine.throws", ErrorMessage("throws_count", given=len(throws), count=count))
     # the first throw is that of cylinder 1, from whose crankpin the others are measured
     return [wrap_angle(throws[seat.throw] - throws[0] + seat.pin_offset) for seat in seats]
 
@@ -151,7 +151,7 @@ def _disagreement(
     first_bank = [abs(angle - off[number]) <= SAME_ANGLE for cylinder, angle in off.items() if seats[cylinder - 1].bank]
     remedies: list[str] = []
     if banks.kind == "V" and all(first_bank):
-        remedies.append(Refusal("way_pin_offset", angle=f"{split:.7g}"))
+        remedies.append(ErrorMessage("way_pin_offset", angle=f"{split:.7g}"))
         bank_angle = banks.axes[1] - banks.axes[0] - off[number]
         if 0 < abs(bank_angle) < 180:
             remedies.append(f"engine.bank_angle = {bank_angle:.7g}")
@@ -159,11 +159,11 @@ def _disagreement(
     angles = firing_angles(order, dead_centres, cycle)
     if angles:
         steps = intervals([angles[cylinder - 1] for cylinder in order], cycle)
-        remedies.append(Refusal("way_uneven", intervals=angle_list(steps)))
+        remedies.append(ErrorMessage("way_uneven", intervals=angle_list(steps)))
     remedies += [f"engine.firing_order = {list(allowed)}" for allowed in even_orders(dead_centres, cycle, limit=2)]
     if not remedies:
-        remedies.append(Refusal("way_throws"))
-    message = Refusal(
+        remedies.append(ErrorMessage("way_throws"))
+    message = ErrorMessage(
         "pins_ahead" if split > 0 else "pins_behind",
         partner=partner, number=number, order=order_text(order), angle=abs(split),
         given=seat.pin_offset, ways=reduce(_or, remedies),
@@ -171,8 +171,8 @@ def _disagreement(
     return LayoutError("engine.pin_offset" if banks.kind == "V" else "engine.firing_order", message)
 
 
-def _or(first: str, other: str) -> Refusal:
-    return Refusal("way_or", first=first, other=other)
+def _or(first: str, other: str) -> ErrorMessage:
+    return ErrorMessage("way_or", first=first, other=other)
 
 
 def _dead_centres(seats: Sequence[CylinderPosition], pins: Sequence[float]) -> list[float]:
@@ -198,9 +198,9 @@ def _firing(
         throws = {seat.throw: wrap_angle(seat.dead_centre - seats[0].dead_centre - angle) for seat, angle in pairs}
         quoted = ", ".join(f'"{throws[throw]:.7g} deg"' for throw in sorted(throws))
         name = "order_refused_both" if alternatives else "order_refused_throws"
-        raise LayoutError("engine.firing_order", Refusal(name, **values, throws=quoted))
+        raise LayoutError("engine.firing_order", ErrorMessage(name, **values, throws=quoted))
     name = "order_refused_others" if alternatives else "order_refused"
-    raise LayoutError("engine.firing_order", Refusal(name, **values))
+    raise LayoutError("engine.firing_order", ErrorMessage(name, **values))
 
 
 def _places(
@@ -210,7 +210,7 @@ def _places(
     masters = {seat.throw: seat.number for seat in reversed(seats) if seat.bank == 0}
     rows = len(banks.axes)
     if banks.articulated and (banks.own_throws or not common):
-        raise LayoutError("engine.articulated", Refusal("articulated_pins"))
+        raise LayoutError("engine.articulated", ErrorMessage("articulated_pins"))
     places = []
     for seat, pin, angle in zip(seats, pins, firing, strict=True):
         crankpin = seat.throw if common or banks.own_throws else seat.throw * rows + seat.bank

@@ -16,8 +16,9 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Found, Known, absent, given, is_known, named, plain
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given, is_traced, named, to_number
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.kinematics.slider_crank import (
     RodSwing,
     SliderCrank,
@@ -27,8 +28,7 @@ from crankwork.kinematics.slider_crank import (
     rod_transfer_1,
     rod_transfer_2,
 )
-from crankwork.kinematics.transfer import PointMotion, Transfer
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 # Rounding of sums of lengths, relative to the rod length.
 _ROUNDING = 1e-12
@@ -144,9 +144,9 @@ def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGri
     crank and master rod, with the offset of the master cylinder [m]; `grid`: crank angles from the axis of its own
     cylinder [rad]. Source: taylor_1985, ch. 8; artobolevsky_1988, ch. 4.
     """
-    top: Value = articulated_stroke(SliderCrank(*map(plain, lengths)), rod).top
-    if is_known(*lengths):
-        top = Known(Found(top, "dead_centre", lengths), "pin_distance.top")
+    top: Value = articulated_stroke(SliderCrank(*map(to_number, lengths)), rod).top
+    if is_traced(*lengths):
+        top = TracedValue(ProcedureValue(top, "dead_centre", lengths), "pin_distance.top")
     motion = _motion(lengths, rod, grid)
     x = top - motion.piston.position
     return motion._replace(piston=Transfer(x, *motion.piston[1:]))
@@ -154,7 +154,7 @@ def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGri
 
 def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> ArticulatedMotion:
     """Return the motion, with the distance of the piston pin from the crankshaft in place of the displacement."""
-    own = _remembered(rod) if is_known(*lengths) else rod
+    own = _traced(rod) if is_traced(*lengths) else rod
     r, r_a, l_a, e = lengths.crank_radius, own.knuckle_radius, own.length, own.offset
     sin, cos, (delta_1, delta_2), master = _knuckle_direction(lengths, rod, grid, own.knuckle_angle - own.axis)
     x = knuckle_along(r, grid.cos, r_a, cos)
@@ -179,7 +179,7 @@ def _motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGrid) -> Artic
     return ArticulatedMotion(piston, angle, swing, knuckle, sin, cos, master, own)
 
 
-def _remembered(rod: ArticulatedRod) -> ArticulatedRod:
+def _traced(rod: ArticulatedRod) -> ArticulatedRod:
     """Return a rod of inputs, its angles in radians."""
     table = "engine.articulated"
     angle, axis = math.radians(rod.knuckle_angle), math.radians(rod.axis)
@@ -227,9 +227,11 @@ def sine_and_cosine(degrees: float, angle: Value, keys: tuple[str, str]) -> tupl
     """Return sine and cosine of a constant angle, exact at multiples of 90 degrees, traced if the angle is."""
     grid = CrankGrid.from_degrees(degrees)
     sin, cos = float(grid.sin), float(grid.cos)
-    if not is_known(angle):
+    if not is_traced(angle):
         return sin, cos
-    return Known(Found(sin, "sine", [angle]), keys[0]), Known(Found(cos, "cosine", [angle]), keys[1])
+    return TracedValue(ProcedureValue(sin, "sine", [angle]), keys[0]), TracedValue(
+        ProcedureValue(cos, "cosine", [angle]), keys[1]
+    )
 
 
 @lru_cache(maxsize=256)
@@ -274,7 +276,7 @@ def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:
     """Raise if crank, master rod and articulated rod cannot turn fully."""
     check_slider_crank(lengths)
     if rod.length <= 0 or rod.knuckle_radius < 0:
-        raise GeometryError(Refusal("articulated_zero"))
+        raise GeometryError(ErrorMessage("articulated_zero"))
 
     def across(degrees: Array) -> Transfer:
         return _motion(lengths, rod, CrankGrid.from_degrees(degrees)).knuckle.y
@@ -284,7 +286,7 @@ def check_articulated_rod(lengths: SliderCrank, rod: ArticulatedRod) -> None:
     worst = int(np.argmax(away))
     if away[worst] >= rod.length * (1 - _ROUNDING):
         raise GeometryError(
-            Refusal(
+            ErrorMessage(
                 "articulated_short",
                 length=rod.length * 1e3,
                 angle=angles[worst] % 360,

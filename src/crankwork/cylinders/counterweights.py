@@ -18,7 +18,7 @@ from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import plain
+from crankwork.formula.traced_value import to_number
 
 
 @formula("counterweight_moment", "bevan_1956, ch. 14")
@@ -60,7 +60,7 @@ def turning_forces(
     Source: den_hartog_1956, ch. 5.
     """
     at_zero = layout.places[0].axis + np.array([unbalance.angle for unbalance in unbalances])
-    size = np.array([plain(unbalance.mass_moment) for unbalance in unbalances]) * speed**2
+    size = np.array([to_number(unbalance.mass_moment) for unbalance in unbalances]) * speed**2
     forces = size * unit_vectors(at_zero)
     arms = np.array([unbalance.position for unbalance in unbalances]) - about
     return OrderBalance(1, Ellipse(vector_sum(forces), 0j), Ellipse(vector_sum(arms * forces), 0j))

@@ -9,7 +9,7 @@ from crankwork.cylinders.arrangement import build_layout
 from crankwork.cylinders.firing import LayoutError, LayoutNotice
 from crankwork.cylinders.layout import Banks, Layout
 from crankwork.cylinders.standard_orders import radial_order
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 
 def inline(  # noqa: PLR0913 - each argument is a key of the description
@@ -99,7 +99,7 @@ def radial(  # noqa: PLR0913 - each argument is a key of the description
     intervals are wanted, so that there is no notice of them.
     """
     if not 0 <= master <= cylinders:
-        raise LayoutError("engine.master", Refusal("master_absent", number=master, count=cylinders))
+        raise LayoutError("engine.master", ErrorMessage("master_absent", number=master, count=cylinders))
     banks = Banks("radial", cylinders, tuple(index * 360 / cylinders for index in range(cylinders)), span, tops=tops)
     order = radial_order(cylinders, strokes) if order is None else order
     layout, notices = build_layout(banks, order, strokes=strokes, throws=(0.0,), uneven=uneven)

@@ -7,7 +7,7 @@ from itertools import islice, permutations, product
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 # Angles closer than this are the same. [deg]
 SAME_ANGLE = 1e-6
@@ -65,16 +65,16 @@ def checked_order(order: Sequence[int], cylinders: int) -> tuple[int, ...]:
     key, given = "engine.firing_order", [int(number) for number in order]
     unknown = sorted({number for number in given if not 1 <= number <= cylinders})
     if unknown:
-        raise LayoutError(key, Refusal("cylinder_absent", number=unknown[0], count=cylinders))
+        raise LayoutError(key, ErrorMessage("cylinder_absent", number=unknown[0], count=cylinders))
     twice = sorted({number for number in given if given.count(number) > 1})
     missing = [number for number in range(1, cylinders + 1) if number not in given]
     if twice or missing:
         values = {"order": order_text(given), "count": cylinders}
         if not missing:
-            raise LayoutError(key, Refusal("order_twice", **values, twice=twice[0]))
+            raise LayoutError(key, ErrorMessage("order_twice", **values, twice=twice[0]))
         if not twice:
-            raise LayoutError(key, Refusal("order_leaves_out", **values, missing=missing[0]))
-        raise LayoutError(key, Refusal("order_twice_leaves_out", **values, twice=twice[0], missing=missing[0]))
+            raise LayoutError(key, ErrorMessage("order_leaves_out", **values, missing=missing[0]))
+        raise LayoutError(key, ErrorMessage("order_twice_leaves_out", **values, twice=twice[0], missing=missing[0]))
     first = given.index(1)
     return tuple(given[first:] + given[:first])
 

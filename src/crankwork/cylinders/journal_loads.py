@@ -17,9 +17,9 @@ from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.cylinders.load_vectors import BearingLoad, rotated, rotated_by
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import added, given, is_known, named
+from crankwork.formula.traced_value import given, is_traced, named, sum_terms
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 
 @formula("unbalance_force", "kolchin_demidov_2008, ch. 7")
@@ -88,7 +88,7 @@ def main_journal_loads(
 
 def _in_shaft(load: BearingLoad, place: CylinderPlace) -> BearingLoad:
     """Return a load on a crankpin in the frame of the shaft, with a traced angle if the load is traced."""
-    if not is_known(load.x):
+    if not is_traced(load.x):
         return rotated_by(load, place.pin_angle)
     pin = place.crankpin + 1
     angle = given(f"crankpin_angle.{pin}", math.radians(place.pin_angle), "engine.layout")
@@ -106,7 +106,7 @@ class _Acting(NamedTuple):
 
 def _far_share(force: _Acting, ends: Sequence[float]) -> Value:
     """Return the share of the further journal of a throw, traced if the force is."""
-    if not is_known(*force.load):
+    if not is_traced(*force.load):
         return journal_share(force.position, *ends)
     names = (force.name, *(f"main_journal.{force.throw + offset}" for offset in (1, 2)))
     places = zip(names, (force.position, *ends), strict=True)
@@ -115,8 +115,8 @@ def _far_share(force: _Acting, ends: Sequence[float]) -> Value:
 
 
 def _sum(loads: Sequence[BearingLoad], owner: str) -> BearingLoad:
-    x = added(f"bearing_force_x.{owner}", [load.x for load in loads])
-    return BearingLoad(x, added(f"bearing_force_y.{owner}", [load.y for load in loads]))
+    x = sum_terms(f"bearing_force_x.{owner}", [load.x for load in loads])
+    return BearingLoad(x, sum_terms(f"bearing_force_y.{owner}", [load.y for load in loads]))
 
 
 def _span(position: float, journals: Sequence[float]) -> int:
@@ -139,14 +139,14 @@ def check_journals(layout: Layout) -> None:
     """Raise unless every throw lies between two main journals with its cylinders."""
     journals, throws = layout.journal_positions, max(place.throw for place in layout.places) + 1
     if len(journals) != throws + 1:
-        raise CrankworkError(Refusal("journals_count", throws=throws, needed=throws + 1, given=len(journals)))
+        raise CrankworkError(ErrorMessage("journals_count", throws=throws, needed=throws + 1, given=len(journals)))
     if any(left >= right for left, right in pairwise(journals)):
-        raise CrankworkError(Refusal("journals_rise"))
+        raise CrankworkError(ErrorMessage("journals_rise"))
     for place in layout.places:
         left, right = journals[place.throw], journals[place.throw + 1]
         if not left <= place.position <= right:
             raise CrankworkError(
-                Refusal(
+                ErrorMessage(
                     "cylinder_outside",
                     number=place.number,
                     position=place.position * 1e3,

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import named
+from crankwork.formula.traced_value import named
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 
 

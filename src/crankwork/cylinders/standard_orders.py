@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from crankwork.cylinders.firing import LayoutError
 from crankwork.cylinders.layout import MOST_CYLINDERS
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 _TURN = 360.0
 
@@ -99,7 +99,7 @@ def radial_order(cylinders: int, strokes: int) -> tuple[int, ...]:
     step = strokes // 2
     if step == 2 and cylinders % 2 == 0 and cylinders:
         more = min(cylinders + 1, MOST_CYLINDERS - 1)
-        raise LayoutError("engine.cylinders", Refusal("radial_even", count=cylinders, fewer=more - 2, more=more))
+        raise LayoutError("engine.cylinders", ErrorMessage("radial_even", count=cylinders, fewer=more - 2, more=more))
     return tuple(index * step % cylinders + 1 for index in range(cylinders))
 
 

@@ -11,7 +11,7 @@ from crankwork.cylinders.firing import intervals, wrap_angle
 from crankwork.cylinders.layout import Layout
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import absent, added, is_known, named
+from crankwork.formula.traced_value import absent, is_traced, named, sum_terms
 
 
 @formula("journal_torque", "kolchin_demidov_2008, ch. 9")
@@ -61,10 +61,10 @@ def torques_along_shaft(torques: Sequence[Value], layout: Layout) -> TorquesAlon
     count = max(place.throw for place in layout.places) + 1
     members = [[torques[place.number - 1] for place in layout.places if place.throw == index] for index in range(count)]
     throws = tuple(
-        group[0] if len(group) == 1 else added(f"throw_torque.{index}", group)
+        group[0] if len(group) == 1 else sum_terms(f"throw_torque.{index}", group)
         for index, group in enumerate(members, start=1)
     )
-    journals = [absent("journal_torque.1") if is_known(*torques) else np.zeros_like(throws[0])]
+    journals = [absent("journal_torque.1") if is_traced(*torques) else np.zeros_like(throws[0])]
     crankpins = []
     for number, throw in enumerate(throws, start=1):
         crankpins.append(named(torque_of_crankpin(journals[-1], throw), f"crankpin_torque.{number}"))

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from crankwork.description.gas_build import ReadMeasured, build_gas
-from crankwork.description.kinds import MeasuredValue, Reader
+from crankwork.description.cylinder_pressure_build import ReadMeasured, build_gas
+from crankwork.description.flywheel_build import read_flywheel
 from crankwork.description.schema import Values
 from crankwork.description.stated import stated_numbers
-from crankwork.description.wheel_build import read_flywheel
+from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
 from crankwork.errors import MethodError
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.loads.gas import piston_area
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Cylinder, Drive, Engine, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, Method
@@ -47,11 +47,11 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
     is_whole = not _ENGINE_TABLES.isdisjoint(values)
     cycle = gas.cycle if gas else 180.0 * values["engine"]["strokes"] if is_whole else 360.0
     for number, angle in enumerate(special, start=1):
-        if angle > cycle + 1e-9 and not reader.doubts("gas.cycle"):
-            reader.complain(f"table.special_angles[{number}]", Refusal("angle_beyond", angle=angle, cycle=cycle))
+        if angle > cycle + 1e-9 and not reader.has_errors("gas.cycle"):
+            reader.add_error(f"table.special_angles[{number}]", ErrorMessage("angle_beyond", angle=angle, cycle=cycle))
     engine = None
     if is_whole:
-        from crankwork.description.engine_build import build_engine  # noqa: PLC0415 - most files have one cylinder
+        from crankwork.description.crankshaft_build import build_engine  # noqa: PLC0415 - most files have one cylinder
 
         engine = build_engine(values, lengths, cycle, reader)
     if not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]:
@@ -88,7 +88,7 @@ def _with_own_gas(
 
     if engine is None:
         if "engine" not in values and "cylinders" in values["gas"]:
-            reader.complain("gas.cylinders", Refusal("cylinders_engine"))
+            reader.add_error("gas.cylinders", ErrorMessage("cylinders_engine"))
         return None, gas
     engine = with_own_gas(values, engine, gas, reader, read_measured)
     return engine, engine.gases[0] if engine.gases else gas
@@ -106,7 +106,7 @@ def build_method(values: Values, reader: Reader) -> Method:
     try:
         method = method.named(values["kinematics"])
     except MethodError as error:
-        reader.complain("method.kinematics", error.args[0])
+        reader.add_error("method.kinematics", error.args[0])
         return EXACT
     rod = values["rod"] or method.rod
     return method if rod == method.rod else Method(**{**vars(method), "rod": rod})
@@ -120,7 +120,7 @@ def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tu
         meant = f"{1 / ratio:.6g}"
         # close to 1 the inverse would be rejected too
         key = "ratio_inverse" if float(meant) < 1 else "ratio_of_one"
-        reader.complain("rod.ratio", Refusal(key, ratio=f"{ratio:g}", inverse=meant))
+        reader.add_error("rod.ratio", ErrorMessage(key, ratio=f"{ratio:g}", inverse=meant))
         return None
     if "radius" in crank:
         radius = crank["radius"].value
@@ -138,7 +138,7 @@ def _lengths(crank: Values, rod: Values, cylinder: Values, reader: Reader) -> tu
     if not turns_fully(SliderCrank(radius, length, offset)):
         key = "rod.ratio" if ratio is not None else "rod.length"
         lengths = {"length": length, "radius": radius, "offset": abs(offset), "missing": radius + abs(offset) - length}
-        reader.complain(key, Refusal("rod_short", **{name: size * 1e3 for name, size in lengths.items()}))
+        reader.add_error(key, ErrorMessage("rod_short", **{name: size * 1e3 for name, size in lengths.items()}))
         return None
     return radius, length, offset
 
@@ -150,7 +150,7 @@ def check_inertia_ratio(method: Method, lengths: tuple[float, float, float] | No
         return
     radius, _, offset = lengths
     if not turns_fully(SliderCrank(radius, radius / ratio, offset)):
-        reader.complain("method.inertia_rod_ratio", Refusal("inertia_ratio_large", ratio=f"{ratio:g}"))
+        reader.add_error("method.inertia_rod_ratio", ErrorMessage("inertia_ratio_large", ratio=f"{ratio:g}"))
 
 
 def _cylinder(values: Values) -> Cylinder | None:
@@ -165,9 +165,9 @@ def _check_clearance(cylinder: Cylinder | None, lengths: tuple[float, float, flo
         return
     swept = 2 * lengths[0] * float(piston_area(math.pi, cylinder.bore))
     if swept < _LEAST_RISE * cylinder.clearance_volume:
-        reader.complain(
+        reader.add_error(
             "cylinder.clearance_volume",
-            Refusal("clearance_large", times=cylinder.clearance_volume / swept, swept=swept * 1e6),
+            ErrorMessage("clearance_large", times=cylinder.clearance_volume / swept, swept=swept * 1e6),
         )
 
 
@@ -189,8 +189,8 @@ def _masses(
     rod = values["rod"]
     if ("rod", "mass") not in mass:
         for key in ("inertia", "radius_of_gyration", "centre_of_mass", "small_end_share"):
-            if key in rod and not reader.doubts("rod.mass"):
-                reader.complain(f"rod.{key}", Refusal("only_beside", key="mass", advice='mass = "1 kg"'))
+            if key in rod and not reader.has_errors("rod.mass"):
+                reader.add_error(f"rod.{key}", ErrorMessage("only_beside", key="mass", advice='mass = "1 kg"'))
         small, big = (mass.get(("rod", key), 0.0) for key in rod_keys[1:])
         return CrankGearMasses(piston, small, big, crank)
     ends = rod_masses(rod, mass["rod", "mass"], lengths[1], reader, "rod") if lengths else None
@@ -217,8 +217,8 @@ def _mass(measure: MeasuredValue, area: float | None, key: str, reader: Reader) 
     if measure.dimension == "mass":
         return measure.value
     if area is None:
-        if not reader.doubts("cylinder.bore"):
-            reader.complain(key, Refusal("mass_per_area"))
+        if not reader.has_errors("cylinder.bore"):
+            reader.add_error(key, ErrorMessage("mass_per_area"))
         return 0.0
     return measure.value * area
 
@@ -228,12 +228,12 @@ def _centre_of_mass(rod: Values, length: float, reader: Reader, table: str) -> f
     if "small_end_share" in rod:
         return float(rod["small_end_share"] * length)
     if "centre_of_mass" not in rod:
-        if not reader.doubts(f"{table}.centre_of_mass", f"{table}.small_end_share"):
-            reader.complain(f"{table}.mass", Refusal("rod_mass_where"))
+        if not reader.has_errors(f"{table}.centre_of_mass", f"{table}.small_end_share"):
+            reader.add_error(f"{table}.mass", ErrorMessage("rod_mass_where"))
         return None
     centre = float(rod["centre_of_mass"].value)
     if centre >= length:
-        reader.complain(f"{table}.centre_of_mass", Refusal("rod_centre_beyond", length=length * 1e3))
+        reader.add_error(f"{table}.centre_of_mass", ErrorMessage("rod_centre_beyond", length=length * 1e3))
         return None
     return centre
 

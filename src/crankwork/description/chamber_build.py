@@ -5,11 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from crankwork.description.gas_build import ReadMeasured, build_diagram, build_valves, check_parts, with_valves
-from crankwork.description.kinds import Reader
+from crankwork.description.cylinder_pressure_build import (
+    ReadMeasured,
+    build_diagram,
+    build_valves,
+    check_parts,
+    with_valves,
+)
 from crankwork.description.schema import Values, no_effect_message
+from crankwork.description.value_types import Reader
 from crankwork.loads.chamber import Chamber, Charge, DeadVolume, Face, PressureOfCycle
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.linkage import Linkage
 from crankwork.mechanism.mechanism import Mechanism
@@ -75,19 +81,21 @@ def _faces(path: str, chamber: Values, sliders: set[str] | None, reader: Reader)
     taken: set[str] = set()
     for number, face in enumerate(written, start=1):
         place = f"{path}.faces[{number}]" if listed else path
-        if face is None or reader.doubts(place):
+        if face is None or reader.has_errors(place):
             continue
         slider, bore, rod = face["slider"] or "", face.si("bore"), face.si("rod_diameter") or 0.0
-        if not slider and not reader.doubts(f"{place}.slider"):
-            reader.complain(f"{place}.slider", Refusal("face_slider"))
+        if not slider and not reader.has_errors(f"{place}.slider"):
+            reader.add_error(f"{place}.slider", ErrorMessage("face_slider"))
         elif slider and sliders is not None and slider not in sliders:
-            reader.complain(f"{place}.slider", Refusal("absent_slider", name=slider, known=", ".join(sorted(sliders))))
+            reader.add_error(
+                f"{place}.slider", ErrorMessage("absent_slider", name=slider, known=", ".join(sorted(sliders)))
+            )
         elif slider in taken:
-            reader.complain(f"{place}.slider", Refusal("face_twice", slider=slider))
-        if bore is None and "area" not in face and not reader.doubts(f"{place}.bore", f"{place}.area"):
-            reader.complain(f"{place}.bore", Refusal("face_area"))
-        if rod and not rod < (bore or 0.0) and not reader.doubts(f"{place}.bore"):
-            reader.complain(f"{place}.rod_diameter", Refusal("face_rod"))
+            reader.add_error(f"{place}.slider", ErrorMessage("face_twice", slider=slider))
+        if bore is None and "area" not in face and not reader.has_errors(f"{place}.bore", f"{place}.area"):
+            reader.add_error(f"{place}.bore", ErrorMessage("face_area"))
+        if rod and not rod < (bore or 0.0) and not reader.has_errors(f"{place}.bore"):
+            reader.add_error(f"{place}.rod_diameter", ErrorMessage("face_rod"))
         taken.add(slider)
         yield Face(slider, bore, rod, face.si("area"), -1 if face["sense"] == -1 else 1)
 
@@ -98,30 +106,30 @@ def _check_pressure(path: str, chamber: Values, charge: Values | None, reader: R
     if charge is not None:
         for key in (*own, "pressures", "period", "delay", "pressure_factor"):
             if key in chamber:
-                reader.complain(f"{path}.{key}", Refusal("chamber_sealed"))
+                reader.add_error(f"{path}.{key}", ErrorMessage("chamber_sealed"))
     else:
         if (
             chamber["pressures"] != "absolute"
             and "ambient" in chamber
             and "cycle" not in own
-            and not reader.doubts(f"{path}.pressures")
+            and not reader.has_errors(f"{path}.pressures")
         ):
-            reader.complain(f"{path}.ambient", no_effect_message("pressures", "gauge", ("absolute",)))
-        if not own and not reader.doubts(*(f"{path}.{key}" for key in _OWN_PRESSURE), "charges"):
-            reader.complain(path, Refusal("chamber_pressure", path=path))
+            reader.add_error(f"{path}.ambient", no_effect_message("pressures", "gauge", ("absolute",)))
+        if not own and not reader.has_errors(*(f"{path}.{key}" for key in _OWN_PRESSURE), "charges"):
+            reader.add_error(path, ErrorMessage("chamber_pressure", path=path))
         elif own and {"pressure", "cycle"}.isdisjoint(own):
             check_parts(chamber, path, reader)
         if "delay" in chamber and "pressure" in own:
-            reader.complain(f"{path}.delay", Refusal("delay_constant"))
+            reader.add_error(f"{path}.delay", ErrorMessage("delay_constant"))
     if "temperature" in chamber and (charge is None or "exponent" in charge):
-        reader.complain(f"{path}.temperature", Refusal("temperature_unused"))
+        reader.add_error(f"{path}.temperature", ErrorMessage("temperature_unused"))
     elif charge is not None and "exponent" not in charge and "temperature" not in chamber:
         _miss(path, "temperature", reader)
 
 
 def _miss(path: str, key: str, reader: Reader) -> None:
-    if not reader.doubts(f"{path}.{key}"):
-        reader.complain(f"{path}.{key}", Refusal(f"charge_{key}"))
+    if not reader.has_errors(f"{path}.{key}"):
+        reader.add_error(f"{path}.{key}", ErrorMessage(f"charge_{key}"))
 
 
 def _holders(sealed: Mapping[str, Values], chambers: Mapping[str, Values], reader: Reader) -> dict[str, str]:
@@ -130,10 +138,12 @@ def _holders(sealed: Mapping[str, Values], chambers: Mapping[str, Values], reade
     for charge, table in sealed.items():
         for number, name in enumerate(table["chambers"], start=1):
             place = f"charges.{charge}.chambers[{number}]"
-            if name is not None and name not in chambers and not reader.doubts(f"chambers.{name}"):
-                reader.complain(place, Refusal("absent_chamber", name=name, known=", ".join(sorted(chambers)) or "–"))
+            if name is not None and name not in chambers and not reader.has_errors(f"chambers.{name}"):
+                reader.add_error(
+                    place, ErrorMessage("absent_chamber", name=name, known=", ".join(sorted(chambers)) or "–")
+                )
             elif name in holder:
-                reader.complain(place, Refusal("chamber_twice", name=name))
+                reader.add_error(place, ErrorMessage("chamber_twice", name=name))
             elif name is not None:
                 holder[name] = charge
     return holder
@@ -142,14 +152,14 @@ def _holders(sealed: Mapping[str, Values], chambers: Mapping[str, Values], reade
 def _check_charge(path: str, charge: Values, reader: Reader) -> None:
     """Report missing and superfluous keys of the state of a charge."""
     amounts = [key for key in _AMOUNTS if key in charge]
-    if not amounts and not reader.doubts(*(f"{path}.{key}" for key in _AMOUNTS)):
-        reader.complain(path, Refusal("charge_amount"))
+    if not amounts and not reader.has_errors(*(f"{path}.{key}" for key in _AMOUNTS)):
+        reader.add_error(path, ErrorMessage("charge_amount"))
     parts = [(f"{path}.dead_volumes[{k}]", volume) for k, volume in enumerate(charge["dead_volumes"], start=1)]
     if "exponent" in charge:
         unused = [f"{path}.{key}" for key in ("gas_constant", "mass") if key in charge]
         unused += [f"{place}.temperature" for place, volume in parts if volume and "temperature" in volume]
         for place in unused:
-            reader.complain(place, Refusal("charge_polytrope"))
+            reader.add_error(place, ErrorMessage("charge_polytrope"))
         return
     if "gas_constant" not in charge:
         _miss(path, "gas_constant", reader)

@@ -9,16 +9,16 @@ from typing import Any, Literal, NamedTuple, cast
 import numpy as np
 
 from crankwork.analysis.form_paths import relocate
-from crankwork.description.engine_keys import CYCLE
-from crankwork.description.kinds import MeasuredValue, Reader
+from crankwork.description.cylinder_keys import CYCLE
 from crankwork.description.schema import Values
+from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import given
+from crankwork.formula.traced_value import given
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.kinematics.extremes import dead_centres
+from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Gas
 from crankwork.mechanism.cells import NoCellsError, crank_cells
 from crankwork.mechanism.mechanism import Mechanism
@@ -28,7 +28,7 @@ from crankwork.working_cycle.fuels import FUELS, Fuel
 from crankwork.working_cycle.grinevetsky import grinevetsky
 from crankwork.working_cycle.heat_data import HeatReleaseData
 from crankwork.working_cycle.ideal import IdealData, ideal_cycle
-from crankwork.working_cycle.pressures import CornerPressure, HeatReleasePressure, MisfirePressure
+from crankwork.working_cycle.pressure_models import CornerPressure, HeatReleasePressure, MisfirePressure
 from crankwork.working_cycle.rounding import Rounding, Timing
 
 _IDEAL = ("otto", "ideal-diesel", "dual")
@@ -65,10 +65,10 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
     if "kind" not in table:
         return None
     if cylinder["compression_ratio"] is None:
-        if not reader.doubts("cylinder.compression_ratio", "cylinder.clearance_volume"):
-            reader.complain("cylinder.compression_ratio", Refusal("cycle_ratio"))
+        if not reader.has_errors("cylinder.compression_ratio", "cylinder.clearance_volume"):
+            reader.add_error("cylinder.compression_ratio", ErrorMessage("cycle_ratio"))
         return None
-    if reader.doubts("cycle", "crank.speed") or "speed" not in values["crank"]:
+    if reader.has_errors("cycle", "crank.speed") or "speed" not in values["crank"]:
         return None
     size = CylinderSize(
         cylinder["compression_ratio"], values["crank"]["speed"].value, int(values["engine"]["cylinders"] or 1),
@@ -87,9 +87,9 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
 def cylinder_of(cylinder: Values, pressure: CalculatedPressure | None) -> Values:
     """Return the values of a cylinder or chamber, with the geometric ratio if its ports take a part of the stroke."""
     cycle = getattr(pressure, "cycle", None)
-    if cycle is None or "geometric_compression_ratio" not in cycle.memory:
+    if cycle is None or "geometric_compression_ratio" not in cycle.trace:
         return cylinder
-    return cylinder.but(compression_ratio=cycle.memory["geometric_compression_ratio"].value)
+    return cylinder.but(compression_ratio=cycle.trace["geometric_compression_ratio"].value)
 
 
 def calculated_pressure(
@@ -99,7 +99,7 @@ def calculated_pressure(
     try:
         return _built(table, size, pi)
     except CrankworkError as error:
-        reader.complain(_blamed(error.args[0], table, path), error.args[0])
+        reader.add_error(_blamed(error.args[0], table, path), error.args[0])
         return None
 
 
@@ -187,12 +187,12 @@ def _fuel(given: object) -> Fuel | None:
         return None
     if isinstance(given, str):
         if given not in FUELS:
-            raise CrankworkError(Refusal("fuel_unknown", fuel=given, known=tuple(FUELS)))
+            raise CrankworkError(ErrorMessage("fuel_unknown", fuel=given, known=tuple(FUELS)))
         return FUELS[given]
     table = cast("Values", given)
     parts = [table[key] or 0.0 for key in ("carbon", "hydrogen", "oxygen")]
     if abs(sum(parts) - 1) > 0.01:
-        raise CrankworkError(Refusal("fuel_parts", sum=sum(parts)))
+        raise CrankworkError(ErrorMessage("fuel_parts", sum=sum(parts)))
     return Fuel(parts[0], parts[1], parts[2], table["molar_mass"], table.si("heating_value"))
 
 
@@ -202,7 +202,7 @@ def _lost_stroke(table: Values, lengths: SliderCrank | None, timing: Timing, ang
     if table["lost_stroke"] is not None or not closes:
         return float(table["lost_stroke"] or 0.0)
     if lengths is None:
-        raise CrankworkError(Refusal("cycle_lost_stroke"))
+        raise CrankworkError(ErrorMessage("cycle_lost_stroke"))
     if not turns_fully(lengths):
         return 0.0
     bottom = dead_centres(lengths)[1]
@@ -244,11 +244,11 @@ def heat_release_data(table: Values, angle: float, size: CylinderSize) -> HeatRe
     given |= {name: place.degrees(key) for name, (place, key) in angles.items()}
     of_fuel = [key for key in ("fuel_mass", "heating_value", "burning_efficiency") if key in table]
     if given["heat"] is not None and of_fuel:
-        raise CrankworkError(Refusal("cycle_heat_twice", names=", ".join(of_fuel)))
+        raise CrankworkError(ErrorMessage("cycle_heat_twice", names=", ".join(of_fuel)))
     if given["heat"] is None and not {"fuel_mass", "heating_value"} <= set(of_fuel):
-        raise CrankworkError(Refusal("cycle_heat_missing"))
+        raise CrankworkError(ErrorMessage("cycle_heat_missing"))
     if size.bore is None:
-        raise CrankworkError(Refusal("cycle_bore_missing"))
+        raise CrankworkError(ErrorMessage("cycle_bore_missing"))
     return HeatReleaseData(
         bore=size.bore,
         rotational_speed=size.speed * 30 / math.pi,
@@ -335,15 +335,15 @@ def _of_cycle(
     table = Values({**chamber["cycle"], **around}, CYCLE)
     for name in names:
         path = f"chambers.{name}"
-        if reader.doubts(path):
+        if reader.has_errors(path):
             continue
         if chamber["compression_ratio"] is None and table["kind"] != "wiebe":
-            reader.complain(f"{path}.compression_ratio", Refusal("cycle_ratio"))
+            reader.add_error(f"{path}.compression_ratio", ErrorMessage("cycle_ratio"))
         elif {"clearance_volume", "compression_ratio"}.isdisjoint(chamber):
-            reader.complain(path, Refusal("gas_volume"))
+            reader.add_error(path, ErrorMessage("gas_volume"))
         else:
             pressure = pressure or calculated_pressure(table, size, pi, f"{path}.cycle", reader)
     if isinstance(pressure, CornerPressure):
         places = {key: f"{size.chamber}.{place}" for key, place in _PLACES.items()}
-        relocate((*pressure.cycle.memory.values(), *pressure.cycle.corners), places)
+        relocate((*pressure.cycle.trace.values(), *pressure.cycle.corners), places)
     return pressure

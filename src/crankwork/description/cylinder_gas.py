@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import cast
 
-from crankwork.description.gas_build import ReadMeasured, build_diagram, check_parts, has_diagram
-from crankwork.description.kinds import Reader
+from crankwork.description.cylinder_pressure_build import ReadMeasured, build_diagram, check_parts, has_diagram
 from crankwork.description.schema import Values
-from crankwork.formula.known import given
+from crankwork.description.value_types import Reader
+from crankwork.formula.traced_value import given
 from crankwork.loads.indicator import DiagramPoint, Piece
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Engine, Gas
-from crankwork.working_cycle.pressures import CornerPressure, HeatReleasePressure, MisfirePressure
+from crankwork.working_cycle.pressure_models import CornerPressure, HeatReleasePressure, MisfirePressure
 
 _AMBIENT = "ambient"
 
@@ -26,8 +26,8 @@ def with_own_gas(
     own = values["gas"]["cylinders"]
     if gas is None:
         for key in requested:
-            if not reader.doubts("gas", "cycle", "cylinder"):
-                reader.complain(key, Refusal("cylinder_gas_none"))
+            if not reader.has_errors("gas", "cycle", "cylinder"):
+                reader.add_error(key, ErrorMessage("cylinder_gas_none"))
         return engine
     if not requested and not own:
         return engine
@@ -39,7 +39,7 @@ def with_own_gas(
         return engine
     left = [number for number in range(1, count + 1) if number not in diagrams and number not in misfires]
     if left and not (gas.calculated or has_diagram(values["gas"])):
-        reader.complain("gas.points", Refusal("cylinder_gas", numbers=", ".join(map(str, left)), first=left[0]))
+        reader.add_error("gas.points", ErrorMessage("cylinder_gas", numbers=", ".join(map(str, left)), first=left[0]))
         return engine
     gases, known = list[Gas](), dict[tuple[int, float], Gas]()
     for number, factor in enumerate(factors, start=1):
@@ -57,7 +57,7 @@ def _own_diagrams(table: Values, gas: Gas, count: int, reader: Reader, read_meas
     for name, values in table["cylinders"].items():
         path = f"gas.cylinders.{name}"
         if name not in map(str, range(1, count + 1)):
-            reader.complain(path, Refusal("cylinder_name", count=count))
+            reader.add_error(path, ErrorMessage("cylinder_name", count=count))
         elif values is not None:
             gases[int(name)] = _with_diagram(gas, values, path, table, reader, read_measured)
     return gases
@@ -78,11 +78,11 @@ def _misfires(table: Values, own: dict[str, Values | None], count: int, reader: 
             continue
         number, place = int(entry), f"engine.misfire[{index}]"
         if number > count:
-            reader.complain(place, Refusal("misfire_absent", number=number, count=count))
+            reader.add_error(place, ErrorMessage("misfire_absent", number=number, count=count))
         elif number in misfires:
-            reader.complain(place, Refusal("misfire_twice", number=number))
+            reader.add_error(place, ErrorMessage("misfire_twice", number=number))
         elif str(number) in own:
-            reader.complain(place, Refusal("misfire_own", number=number))
+            reader.add_error(place, ErrorMessage("misfire_own", number=number))
         misfires.add(number)
     return misfires
 
@@ -93,10 +93,10 @@ def _factors(table: Values, misfires: set[int], count: int, reader: Reader) -> l
     if not factors or None in factors:
         return [1.0] * count
     if len(factors) != count:
-        reader.complain("engine.pressure_factors", Refusal("offsets_count", count=len(factors), cylinders=count))
+        reader.add_error("engine.pressure_factors", ErrorMessage("offsets_count", count=len(factors), cylinders=count))
     for number in misfires:
         if number <= len(factors) and factors[number - 1] != 1:
-            reader.complain(f"engine.pressure_factors[{number}]", Refusal("misfire_factor", number=number))
+            reader.add_error(f"engine.pressure_factors[{number}]", ErrorMessage("misfire_factor", number=number))
     return [float(factor) for factor in factors]
 
 
@@ -110,12 +110,12 @@ def _motored(values: Values, gas: Gas, reader: Reader, read_measured: ReadMeasur
     table = values["gas"]
     motored = table["motored"]
     if motored is None:
-        if not reader.doubts("gas.motored"):
-            reader.complain("engine.misfire", Refusal("motored_missing"))
+        if not reader.has_errors("gas.motored"):
+            reader.add_error("engine.misfire", ErrorMessage("motored_missing"))
         return None
     if isinstance(motored, str):
         if motored != _AMBIENT:
-            reader.complain("gas.motored", Refusal("motored_word"))
+            reader.add_error("gas.motored", ErrorMessage("motored_word"))
         pressure = gas.ambient if gas.is_absolute else 0.0
         points = {"o": DiagramPoint(0.0, pressure), "o'": DiagramPoint(gas.cycle, pressure)}
         level = replace(gas, points=points, pieces=(Piece("constant", ("o", "o'")),), measured=None, valves=None)

@@ -20,9 +20,9 @@ from crankwork.description.machine_file import (
     steps_of,
 )
 from crankwork.description.schema import TableSpec, Values
-from crankwork.description.written import document, with_value, without_key
+from crankwork.description.toml_edit import document, with_value, without_key
 from crankwork.errors import CrankworkError, UnknownKeyError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine
@@ -67,7 +67,7 @@ class Description:
         """Return a value as the file states it, or its default as a file would; KeyError if there is neither."""
         value = stated_value(self._values, key)
         if value is None:
-            raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
+            raise UnknownKeyError(ErrorMessage("not_stated", key=key[:60]))
         return copy.deepcopy(value)
 
     def __iter__(self) -> Iterator[str]:
@@ -99,7 +99,7 @@ class Description:
     def __delitem__(self, key: str) -> None:
         """Take a key, or a table, out of the file."""
         if key not in self:
-            raise UnknownKeyError(Refusal("not_stated", key=key[:60]))
+            raise UnknownKeyError(ErrorMessage("not_stated", key=key[:60]))
         self._text = without_key(self._text, key)
         self._values = parse(self._text, self.name)
 
@@ -114,7 +114,7 @@ class Description:
             text = with_value(text, key, value, gives_way)
             if parse(text, self.name) != values:
                 # an entry of an array of tables, [[loads]], would get another type
-                raise CrankworkError(Refusal("entry_table", key=key[:60]))
+                raise CrankworkError(ErrorMessage("entry_table", key=key[:60]))
         self._text, self._values = text, values
 
     def values_with(self, overrides: Sequence[str | Setting]) -> dict[str, Any]:
@@ -161,7 +161,7 @@ def load(path: str | Path) -> Description:
         If the file cannot be read, or is no TOML.
     """
     path = Path(path)
-    text = files.read_text(path, advice=Refusal("check_path_or_new", path=path))
+    text = files.read_text(path, advice=ErrorMessage("check_path_or_new", path=path))
     return Description(text, str(path), folder=path.parent)
 
 

@@ -6,9 +6,9 @@ import datetime as dt
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from crankwork.description.kinds import Number, Reader, Text, shown
 from crankwork.description.schema import KeySpec, OneOrMore, TableSpec, nearest_name
-from crankwork.locale import Language, Refusal
+from crankwork.description.value_types import Number, Reader, Text, shown
+from crankwork.locale import ErrorMessage, Language
 from crankwork.machine import Document
 
 # sections of notes in the order that most schools have
@@ -43,7 +43,7 @@ class Date(NamedTuple):
         try:
             return dt.date.fromisoformat(value if isinstance(value, str) and len(value) == len("2026-05-31") else "")
         except ValueError:
-            reader.complain(key, Refusal("no_day", value=shown(value)))
+            reader.add_error(key, ErrorMessage("no_day", value=shown(value)))
             return None
 
     def schema(self, _: Language, /) -> dict[str, Any]:
@@ -62,7 +62,9 @@ class Section(NamedTuple):
             return value
         nearest = nearest_name(value, self.options) if isinstance(value, str) else ""
         known = nearest or ", ".join(self.options)
-        reader.complain(key, Refusal("no_section_near" if nearest else "no_section", value=shown(value), known=known))
+        reader.add_error(
+            key, ErrorMessage("no_section_near" if nearest else "no_section", value=shown(value), known=known)
+        )
         return None
 
     def schema(self, _: Language, /) -> dict[str, Any]:

@@ -6,11 +6,11 @@ import math
 from dataclasses import replace
 from typing import Literal
 
-from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
+from crankwork.description.value_types import Reader
 from crankwork.dynamics.efficiency import Chain, Parallel, Series, efficiency
 from crankwork.errors import MethodError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
 
@@ -33,17 +33,17 @@ def read_drive(values: Values, reader: Reader) -> Drive:
         series = Series(tuple(parts))
         total = efficiency(series)
         if total < _LEAST_EFFICIENCY:
-            reader.complain("efficiency.chain", Refusal("efficiency_small", whole=total))
+            reader.add_error("efficiency.chain", ErrorMessage("efficiency_small", whole=total))
             return drive
         losses: Literal["", "drive", "machine"] = table.get("losses", "")
         drive = replace(drive, efficiency=total, chain=series, losses=losses)
         if not losses and any(joints in values.get("friction", {}) for joints in ("pins", "sliders")):
-            reader.complain("efficiency", Refusal("losses_twice"))
+            reader.add_error("efficiency", ErrorMessage("losses_twice"))
         if "decimals" in table:
             used = round(total, int(table["decimals"]))
             drive = replace(drive, efficiency=used, exact_efficiency=total)
             if used <= 0:
-                reader.complain("efficiency.decimals", Refusal("efficiency_rounded", whole=total))
+                reader.add_error("efficiency.decimals", ErrorMessage("efficiency_rounded", whole=total))
     motor = values.get("motor")
     if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
         frequency = motor.si("frequency") / (2 * math.pi)
@@ -53,7 +53,7 @@ def read_drive(values: Values, reader: Reader) -> Drive:
                 frequency=frequency, pole_pairs=int(motor["pole_pairs"]),
             )  # fmt: skip
         except MethodError as error:
-            reader.complain("motor.rated_speed", error.args[0])
+            reader.add_error("motor.rated_speed", error.args[0])
         else:
             geared = GearedMotor(own, motor["ratio"], motor.si("inertia"), drive.efficiency)
             drive = replace(drive, motor=geared, rated_power=motor["rated_power"].value)

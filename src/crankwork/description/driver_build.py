@@ -5,9 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 
-from crankwork.description.kinds import MeasuredValue, Reader
 from crankwork.description.schema import Values
-from crankwork.locale import Refusal
+from crankwork.description.value_types import MeasuredValue, Reader
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law, Segment
 
 # tables for a crank with a constant mean speed
@@ -21,32 +21,32 @@ def check_driver(values: Values, reader: Reader) -> None:
     driver, crank = values["driver"], values.get("crank")
     for name in _TURNING:
         if name in values:
-            reader.complain(name, Refusal("needs_turning", key=name))
+            reader.add_error(name, ErrorMessage("needs_turning", key=name))
     if crank is None:
         if not {"slider", "cylinder", "between"} & set(driver):
-            reader.complain("driver", Refusal("driver_none"))
+            reader.add_error("driver", ErrorMessage("driver_none"))
         return
     for name in _WITHOUT_DRIVER:
         if name in crank:
-            reader.complain(f"crank.{name}", Refusal("crank_with_law", key=name))
+            reader.add_error(f"crank.{name}", ErrorMessage("crank_with_law", key=name))
     for name, example in (("pivot", "O"), ("pin", "A"), ("radius", "50 mm")):
         if name not in crank:
-            reader.complain(f"crank.{name}", Refusal("missing", advice=(f'{name} = "{example}"',)))
+            reader.add_error(f"crank.{name}", ErrorMessage("missing", advice=(f'{name} = "{example}"',)))
 
 
 def check_halves(values: Values, reader: Reader) -> None:
     """Report barrel and rod without a driving cylinder."""
     driver = values["driver"]
     for name in ("barrel", "rod"):
-        if name in driver and "cylinder" not in driver and not reader.doubts("driver.cylinder"):
-            reader.complain(f"driver.{name}", Refusal("half_alone", key=name))
+        if name in driver and "cylinder" not in driver and not reader.has_errors("driver.cylinder"):
+            reader.add_error(f"driver.{name}", ErrorMessage("half_alone", key=name))
 
 
 def check_loads(values: Values, reader: Reader) -> None:
     """Report loads over the crank angle in a machine without one."""
     for number, load in enumerate(values["loads"], start=1):
         if load and ((load["kind"] == "torque" and "at" in load) or load["against"] == "angle"):
-            reader.complain(f"loads[{number}]", Refusal("load_by_angle"))
+            reader.add_error(f"loads[{number}]", ErrorMessage("load_by_angle"))
 
 
 def check_gas(values: Values, reader: Reader) -> None:
@@ -61,10 +61,10 @@ def check_gas(values: Values, reader: Reader) -> None:
         points = table.get("points", {}).items()
         keys += [f"points.{point}.angle" for point, placed in points if placed and "angle" in placed]
         for key in keys:
-            reader.complain(f"{path}.{key}", Refusal("gas_by_angle"))
+            reader.add_error(f"{path}.{key}", ErrorMessage("gas_by_angle"))
     for name, charge in values.get("charges", {}).items():
         if charge and "angle" in charge:
-            reader.complain(f"charges.{name}.angle", Refusal("charge_by_angle"))
+            reader.add_error(f"charges.{name}.angle", ErrorMessage("charge_by_angle"))
 
 
 def build_law(values: Values, reader: Reader) -> Law | None:
@@ -81,17 +81,17 @@ def build_law(values: Values, reader: Reader) -> Law | None:
     if places[0] is None:
         places[0] = next((start for start in reversed(places) if start is not None), None)
     if places[0] is None:
-        reader.complain("driver.start", Refusal("driver_start"))
+        reader.add_error("driver.start", ErrorMessage("driver_start"))
         return None
     filled = [float(places[0])]
     for place in places[1:]:
         filled.append(filled[-1] if place is None else float(place))
     passed = (place.value for _, segment in segments for place in segment["values"])
     if "start" not in driver and all(place == filled[0] for place in itertools.chain(filled, passed)):
-        reader.complain("driver.start", Refusal("law_stands"))
+        reader.add_error("driver.start", ErrorMessage("law_stands"))
         return None
     if min(filled) <= 0 and "cylinder" in driver:
-        reader.complain("driver.law", Refusal("cylinder_short"))
+        reader.add_error("driver.law", ErrorMessage("cylinder_short"))
         return None
     times = _times(driver, [segment for _, segment in segments], filled, reader)
     if times is None:
@@ -111,7 +111,7 @@ def _place(table: Values, key: str, path: str, wanted: str, reader: Reader) -> f
     """Return a value of the coordinate in SI; report a wrong dimension."""
     measure: MeasuredValue | None = table[key]
     if measure is not None and measure.dimension != wanted:
-        reader.complain(path, Refusal(f"driver_{wanted}"))
+        reader.add_error(path, ErrorMessage(f"driver_{wanted}"))
     return None if measure is None else measure.value
 
 
@@ -121,14 +121,14 @@ def _end(segment: Values, number: int, before: list[float | None], wanted: str, 
     if segment["kind"] == "dwell":
         return before[-1]
     if "to" not in segment:
-        reader.complain(f"{path}.to", Refusal("law_to", example="0.5 m" if wanted == "length" else "90 deg"))
+        reader.add_error(f"{path}.to", ErrorMessage("law_to", example="0.5 m" if wanted == "length" else "90 deg"))
     return _place(segment, "to", f"{path}.to", wanted, reader)
 
 
 def _check_kind(segment: Values, path: str, wanted: str, reader: Reader) -> None:
     """Report a rate of a wrong dimension, and an invalid table."""
     if "speed" in segment and segment["speed"].dimension != ("velocity" if wanted == "length" else "speed"):
-        reader.complain(f"{path}.speed", Refusal(f"driver_speed_{wanted}"))
+        reader.add_error(f"{path}.speed", ErrorMessage(f"driver_speed_{wanted}"))
     if segment["kind"] == "table":
         _check_table(segment, path, wanted, reader)
 
@@ -137,12 +137,12 @@ def _check_table(segment: Values, path: str, wanted: str, reader: Reader) -> Non
     """Report a table that does not rise, or with columns of different lengths."""
     times, values = segment["at"], segment["values"]
     if len(times) != len(values) or not times:
-        reader.complain(f"{path}.at", Refusal("law_table"))
+        reader.add_error(f"{path}.at", ErrorMessage("law_table"))
     elif None not in times and any(b <= a for a, b in itertools.pairwise([0.0, *times, 1.0])):
-        reader.complain(f"{path}.at", Refusal("law_table_rises"))
+        reader.add_error(f"{path}.at", ErrorMessage("law_table_rises"))
     for number, value in enumerate(values, start=1):
         if value is not None and value.dimension != wanted:
-            reader.complain(f"{path}.values[{number}]", Refusal(f"driver_{wanted}"))
+            reader.add_error(f"{path}.values[{number}]", ErrorMessage(f"driver_{wanted}"))
 
 
 def _times(driver: Values, segments: list[Values], places: list[float], reader: Reader) -> list[float] | None:
@@ -153,18 +153,20 @@ def _times(driver: Values, segments: list[Values], places: list[float], reader: 
         if "speed" in segment:
             times.append(abs(high - low) / segment["speed"].value)
             if not times[-1]:
-                reader.complain(f"driver.law[{number}].speed", Refusal("law_still"))
+                reader.add_error(f"driver.law[{number}].speed", ErrorMessage("law_still"))
                 return None
         elif isinstance(segment["over"], MeasuredValue):
             times.append(segment["over"].value)
         elif period is None:
-            reader.complain(f"driver.law[{number}].over", Refusal("law_period"))
+            reader.add_error(f"driver.law[{number}].over", ErrorMessage("law_period"))
             return None
         else:
             times.append(segment["over"] * period)
             shares.append(segment["over"])
     if period is not None and abs(math.fsum(times) - period) > _SUM * period:
-        text = Refusal("law_shares" if shares else "law_times", whole=f"{math.fsum(times):.6g}", period=f"{period:.6g}")
-        reader.complain("driver.period", text)
+        text = ErrorMessage(
+            "law_shares" if shares else "law_times", whole=f"{math.fsum(times):.6g}", period=f"{period:.6g}"
+        )
+        reader.add_error("driver.period", text)
         return None
     return times

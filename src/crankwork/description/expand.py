@@ -8,14 +8,14 @@ from typing import Any
 
 from crankwork.description.document import Description, load
 from crankwork.description.file_columns import resolve_file_columns
-from crankwork.description.kinds import Reader
 from crankwork.description.load_keys import LOADING
-from crankwork.description.locate import TomlPositions
 from crankwork.description.machine_file import file_keys, read, settings_of
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.shorthand import given_motion_tables, linkage_tables, linkage_values
-from crankwork.description.written import key_text, toml, with_value
-from crankwork.locale import Language, say
+from crankwork.description.toml_edit import key_text, toml, with_value
+from crankwork.description.toml_positions import TomlPositions
+from crankwork.description.value_types import Reader
+from crankwork.locale import Language, translate
 from crankwork.machine import Machine
 
 # tables that may be left out because all of them has a default
@@ -34,7 +34,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
         description = Description(_text(given_motion_tables(columns)), description.name)
     elif "rod" in keys.keys:
         description = Description(_text(linkage_tables(values, engine_of(description))), description.name)
-    return _with_defaults(description, say("check.by_default", language))
+    return _with_defaults(description, translate("check.by_default", language))
 
 
 def linkage_of(description: Description) -> dict[str, Any]:

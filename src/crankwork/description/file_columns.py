@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from crankwork.description.kinds import Quantity, Reader, ValueType
 from crankwork.description.schema import ListOf, MapOf, TableSpec
 from crankwork.description.table_file import FileTable, read_table
+from crankwork.description.value_types import Quantity, Reader, ValueType
 from crankwork.errors import CrankworkError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.units import EXAMPLES, UNITS
 
 _REFERENCE = {"column", "unit"}
@@ -36,19 +36,19 @@ def resolve_file_columns(values: dict[str, Any], keys: TableSpec, reader: Reader
         places = list(_places(path, table, kind))
         if not places:
             example = next(name for name, key in kind.keys.items() if _takes_columns(key.kind))
-            reader.complain(f"{path}.file", Refusal("file_unused", example=example))
+            reader.add_error(f"{path}.file", ErrorMessage("file_unused", example=example))
         sheet = table["sheet"] if isinstance(table.get("sheet"), str) else None
         try:
             read = read_table(folder / file, name=file, sheet=sheet) if places else None
         except CrankworkError as error:
             # consequences of an unreadable file are not reported
-            reader.complain(f"{path}.file", error.args[0], meant=path)
+            reader.add_error(f"{path}.file", error.args[0], meant=path)
             read = None
         for place in places if read else ():
             try:
                 place.holder[place.name] = _column(read, place) if read else []
             except CrankworkError as error:
-                reader.complain(place.path, error.args[0], meant=path)
+                reader.add_error(place.path, error.args[0], meant=path)
                 del place.holder[place.name]
     return values
 
@@ -89,7 +89,7 @@ def _column(table: FileTable, place: _Place) -> list[Any]:
     stated = value if isinstance(value, dict) and set(value) <= _REFERENCE else {"column": value}
     column, unit = stated.get("column"), stated.get("unit", "")
     if not isinstance(column, str | int) or isinstance(column, bool) or not isinstance(unit, str):
-        raise CrankworkError(Refusal("column_form", key=place.name))
+        raise CrankworkError(ErrorMessage("column_form", key=place.name))
     position = table.position(column)
     numbers: list[float] = table.columns((position,))[:, 0].tolist()
     if not isinstance(place.entry, Quantity):

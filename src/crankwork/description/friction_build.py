@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeVar
 
-from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
+from crankwork.description.value_types import Reader
 from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import Circle, Friction, GuideFriction, PinFriction
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import Point
@@ -77,8 +77,8 @@ def known_joints(
     for name, table in tables.items():
         if name not in known:
             kind = "sliders" if path.endswith("sliders") else "pins"
-            message = Refusal(f"absent_rubbing_{kind}", name=name, known=", ".join(known) or "–")
-            reader.complain(f"{path}.{name}", message)
+            message = ErrorMessage(f"absent_rubbing_{kind}", name=name, known=", ".join(known) or "–")
+            reader.add_error(f"{path}.{name}", message)
         elif table is not None:
             yield known[name], table
 
@@ -89,8 +89,8 @@ def check_friction(machine: Machine, reader: Reader) -> None:
         return
     crank = machine.mechanism.driver
     if machine.redundant:
-        reader.complain("friction", Refusal("friction_redundant", name=machine.redundant[0].member.name))
+        reader.add_error("friction", ErrorMessage("friction_redundant", name=machine.redundant[0].member.name))
     if machine.mechanism.passages:
-        reader.complain("friction", Refusal("friction_passages"))
+        reader.add_error("friction", ErrorMessage("friction_passages"))
     if isinstance(crank, Crank) and any(geared_crank.pressure_angle for geared_crank in crank.geared):
-        reader.complain("friction", Refusal("friction_teeth"))
+        reader.add_error("friction", ErrorMessage("friction_teeth"))

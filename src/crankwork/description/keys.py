@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 
 from crankwork.description import document_keys
-from crankwork.description.engine_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
-from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
+from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.load_keys import LOADING, SHEET
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
 from crankwork.method import STANDARD_GRAVITY
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)

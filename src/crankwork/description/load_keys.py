@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from crankwork.description.kinds import Choice, Flag, Number, Quantity, Text
 from crankwork.description.schema import KeySpec, ListOf, MapOf, Nested, TableSpec
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
 
 LENGTH = Quantity(("length",), 1e-6, 100.0)
 COORDINATE = Quantity(("length",), -1e3, 1e3)

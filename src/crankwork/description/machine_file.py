@@ -15,25 +15,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
-from crankwork.analysis import solve
+from crankwork.analysis import prepare
 from crankwork.description.build import build_machine
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, SIZED_FILE
-from crankwork.description.kinds import Reader, is_one_line
-from crankwork.description.linkage_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.load_keys import LOADING
-from crankwork.description.locate import locate
 from crankwork.description.measured_build import read_measured
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
-from crankwork.description.turning_keys import PRESS_FILE, TURNING_FILE
+from crankwork.description.toml_positions import locate
+from crankwork.description.torque_keys import PRESS_FILE, TURNING_FILE
+from crankwork.description.value_types import Reader, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
-from crankwork.locale import LANGUAGES, Language, Refusal, say
+from crankwork.locale import LANGUAGES, ErrorMessage, Language, translate
 from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
-    from crankwork.loads.measured import MeasuredPressure
+    from crankwork.loads.measured_pressure import MeasuredPressure
     from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
@@ -70,7 +70,7 @@ def read(path: str | Path, overrides: Sequence[str | Setting] = ()) -> Machine:
         If the file cannot be read at all.
     """
     path = Path(path)
-    advice = Refusal("check_path_or_new", path=path)
+    advice = ErrorMessage("check_path_or_new", path=path)
     return read_machine(files.read_text(path, advice=advice), str(path), overrides, folder=path.parent)
 
 
@@ -112,7 +112,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     """Return the machine of the values, or None after complaints."""
     if isinstance(stated := values.get("format"), int) and stated > FORMATS[-1]:
         # its keys may have other meanings
-        reader.complain("format", Refusal("format_unknown", newest=str(FORMATS[-1])))
+        reader.add_error("format", ErrorMessage("format_unknown", newest=str(FORMATS[-1])))
         return None
     keys = file_keys(values)
     read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
@@ -165,12 +165,12 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
 
     if not machine.method.is_exact:
         stated = next(key for key in LOADING if key in values)
-        reader.complain("method.kinematics", Refusal("loaded_exact", method=machine.method.name, key=stated))
+        reader.add_error("method.kinematics", ErrorMessage("loaded_exact", method=machine.method.name, key=stated))
         return None
     own = Reader(decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
     linkage = _build(linkage_values(values, machine), own, folder)
     for problem in own.problems:
-        reader.complain(key_of_engine(problem.key, values), problem.message)
+        reader.add_error(key_of_engine(problem.key, values), problem.message)
     if linkage is None:
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
@@ -191,12 +191,12 @@ def _of_kind(keys: TableSpec, read_values: Values, reader: Reader, folder: Path)
 
     if keys in (TURNING_FILE, PRESS_FILE):
         # most files do not load it
-        from crankwork.description.turning_build import build_turning  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.description.torque_build import build_turning  # noqa: PLC0415 - loaded where it is needed
 
         return build_turning(read_values, reader)
     if keys in _LINKAGES:
         # an engine starts faster without these modules
-        from crankwork.description.linkage_build import (  # noqa: PLC0415 - loaded where it is needed
+        from crankwork.description.links_build import (  # noqa: PLC0415 - loaded where it is needed
             build_linkage,
             build_tabulated,
         )
@@ -212,21 +212,21 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
     if machine is None:
         return None
     try:
-        solved = solve(machine, machine.method)
+        solved = prepare(machine, machine.method)
         if machine.engine is not None and machine.engine.gases:
-            from crankwork.analysis.cylinders import whole_engine  # noqa: PLC0415 - few engines have them
+            from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415 - few engines have them
 
-            whole_engine(solved)
+            multi_cylinder_engine(solved)
     except DiagramError as error:
         mistake = error.args[0]
         if error.key.endswith(".measured"):
             measured = functools.reduce(dict.__getitem__, error.key.split("."), values)
-            mistake = Refusal("in_file", file=measured["file"], mistake=mistake)
-        reader.complain(error.key, mistake)
+            mistake = ErrorMessage("in_file", file=measured["file"], mistake=mistake)
+        reader.add_error(error.key, mistake)
     except CrankworkError as error:
         if "cycle" not in values:
             raise
-        reader.complain("cycle", error.args[0])
+        reader.add_error("cycle", error.args[0])
     return machine
 
 
@@ -250,18 +250,18 @@ def parse(source: str, name: str) -> dict[str, Any]:
     """Return the values of a TOML text; raise for texts that would take the parser too long."""
     for number, line in enumerate(source.split("\n"), start=1):
         if len(line) > files.MAX_LINE:
-            raise CrankworkError(Refusal("line_long", place=f"{name}:{number}", most=files.MAX_LINE))
+            raise CrankworkError(ErrorMessage("line_long", place=f"{name}:{number}", most=files.MAX_LINE))
         if line.count(".") >= _MAX_PARTS and _most_parts(line) > _MAX_PARTS:
-            raise CrankworkError(Refusal("key_parts", place=f"{name}:{number}", most=_MAX_PARTS))
+            raise CrankworkError(ErrorMessage("key_parts", place=f"{name}:{number}", most=_MAX_PARTS))
     try:
         return tomllib.loads(source)
     except tomllib.TOMLDecodeError as error:
         raise CrankworkError(_syntax_message(source, name, str(error))) from None
     except RecursionError:
-        raise CrankworkError(Refusal("nested", place=f"{name}:{_deepest(source)}")) from None
+        raise CrankworkError(ErrorMessage("nested", place=f"{name}:{_deepest(source)}")) from None
     except ValueError:
         # an integer of thousands of digits, or a date that no calendar has
-        raise CrankworkError(Refusal("cannot_be", place=f"{name}:1")) from None
+        raise CrankworkError(ErrorMessage("cannot_be", place=f"{name}:1")) from None
 
 
 def _most_parts(line: str) -> int:
@@ -293,7 +293,7 @@ def _is_toml(line: str) -> bool:
 _CURLY = "“”„‟«»‘’‚‛"
 
 
-def _syntax_message(source: str, name: str, text: str) -> Refusal:
+def _syntax_message(source: str, name: str, text: str) -> ErrorMessage:
     """Return the message for a syntax error, with the line and a likely fix."""
     match = re.search(r"\(at line (\d+), column (\d+)\)", text)
     lines = source.split("\n")
@@ -301,27 +301,27 @@ def _syntax_message(source: str, name: str, text: str) -> Refusal:
     place = f"{name}:{number}"
     line = _printable(lines[number - 1].strip()[:60]) if number <= len(lines) else ""
     if any(word in text for word in ("overwrite", "twice", "already", "mutate", "Duplicate", "immutable")):
-        return Refusal("stands_twice", place=place, line=line)
+        return ErrorMessage("stands_twice", place=place, line=line)
     written = re.sub(f"[{_CURLY}]", '"', line)
     if written != line and _is_toml(written):
-        return Refusal("curly_quotes", place=place, line=line, written=written)
+        return ErrorMessage("curly_quotes", place=place, line=line, written=written)
     spaced = re.match(r"(\[{1,2})([^\]\"']*\s[^\]\"']*)\]", line)
     if spaced is not None:
         written = f'{spaced[1]}"{spaced[2].strip()}"{"]" * len(spaced[1])}'
-        return Refusal("letters_need_quotes", place=place, line=line, written=written)
+        return ErrorMessage("letters_need_quotes", place=place, line=line, written=written)
     comma = re.match(r"(.*?=\s*\[?(?:.*,\s)?)([+-]?\d+),(\d+)\s*(?:[\],#}]|$)", line)
     key = re.match(r"(\[{0,2})\s*([^=\[\]\"'#.]*[^\x00-\x7f][^=\[\]\"'#.]*)", line)
     if key is not None:
         written = f'"{key[2].strip()}"'
         written = f"{key[1]}{written}{']' * len(key[1])}" if key[1] else f"{written} = ..."
-        return Refusal("letters_need_quotes", place=place, line=line, written=written)
+        return ErrorMessage("letters_need_quotes", place=place, line=line, written=written)
     if comma is not None:
-        return Refusal("number_comma", place=place, line=line, point=f"{comma[2]}.{comma[3]}")
+        return ErrorMessage("number_comma", place=place, line=line, point=f"{comma[2]}.{comma[3]}")
     bare = re.match(r"([\w.\-]+)\s*=\s*([+-]?[\d.,]+\s*[^\W\d_][^#\"]*)", line)
     if bare is not None:
         written = f'{bare[1]} = "{bare[2].strip().replace(",", ".")}"'
-        return Refusal("needs_quotes", place=place, line=line, written=written)
-    return Refusal("not_toml", place=place, line=line or Refusal("ends_early"))
+        return ErrorMessage("needs_quotes", place=place, line=line, written=written)
+    return ErrorMessage("not_toml", place=place, line=line or ErrorMessage("ends_early"))
 
 
 def settings_of(overrides: Sequence[str | Setting]) -> list[Setting]:
@@ -334,9 +334,9 @@ def _setting(text: str) -> Setting:
     key, sign, value = (part.strip() for part in text.partition("="))
     names = key.split(".")
     if not sign or not all(_STEP.fullmatch(name) for name in names) or len(names) > _MAX_PARTS:
-        raise CrankworkError(Refusal("setting_form", setting=_printable(text[:60])))
+        raise CrankworkError(ErrorMessage("setting_form", setting=_printable(text[:60])))
     if len(value) > files.MAX_LINE:
-        raise CrankworkError(Refusal("setting_long", setting=_printable(key[:60])))
+        raise CrankworkError(ErrorMessage("setting_long", setting=_printable(key[:60])))
     try:
         return Setting("--set", key, tomllib.loads(f"value = {value}")["value"] if "\n" not in value else value)
     except (ValueError, RecursionError):
@@ -346,7 +346,7 @@ def _setting(text: str) -> Setting:
 def apply_override(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
     """Apply a setting to the values; return the keys that it excludes, which are removed."""
     if setting.option == "--step" and file_keys(values) in _TABULATED:
-        raise CrankworkError(Refusal("step_of_table"))
+        raise CrankworkError(ErrorMessage("step_of_table"))
     *path, last = steps_of(setting.key)
     table: Any = values
     entry: Any = file_keys(values)
@@ -357,7 +357,7 @@ def apply_override(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
         if not isinstance(table, list if isinstance(following, int) else dict):
             name = step if isinstance(step, str) else f"[{step}]"
             code = "setting_no_list" if isinstance(following, int) else "setting_no_table"
-            raise CrankworkError(Refusal(code, setting=shown, name=_printable(name[:40])))
+            raise CrankworkError(ErrorMessage(code, setting=shown, name=_printable(name[:40])))
     if isinstance(last, int):
         _entry_of(table, last, shown)
         table[last - 1] = setting.value
@@ -375,7 +375,7 @@ def steps_of(key: str) -> Iterator[str | int]:
     parts = key.split(".")
     for part in parts:
         if not _STEP.fullmatch(part) or len(parts) > _MAX_PARTS:
-            raise UnknownKeyError(Refusal("key_form", key=_printable(key[:60])))
+            raise UnknownKeyError(ErrorMessage("key_form", key=_printable(key[:60])))
         name, *entries = part.replace("]", "").split("[")
         yield name
         yield from map(int, entries)
@@ -384,7 +384,7 @@ def steps_of(key: str) -> Iterator[str | int]:
 def _entry_of(table: list[Any], number: int, shown: str) -> Any:  # noqa: ANN401 - what the file has there
     """Return an entry of a list by its number from 1."""
     if not 1 <= number <= len(table):
-        raise CrankworkError(Refusal("setting_no_entry", setting=shown, number=number, count=len(table)))
+        raise CrankworkError(ErrorMessage("setting_no_entry", setting=shown, number=number, count=len(table)))
     return table[number - 1]
 
 
@@ -406,7 +406,7 @@ def input_error(source: str, name: str, reader: Reader, settings: Sequence[Setti
     located = []
     for problem in reader.problems:
         message = problem.message
-        message = message.cleaned(_printable) if isinstance(message, Refusal) else _printable(message)
+        message = message.cleaned(_printable) if isinstance(message, ErrorMessage) else _printable(message)
         setting = next((candidate for candidate in settings if _concerns(problem.key, candidate.key, lines)), None)
         if setting is not None:
             key = f" {_printable(problem.key)}" if setting.option == "--set" else ""
@@ -419,7 +419,7 @@ def input_error(source: str, name: str, reader: Reader, settings: Sequence[Setti
         located.append((line, f"{name}:{line}", Problem(_printable(problem.key), message)))
     located.sort(key=lambda item: item[0])
     if reader.more:
-        located.append((0, name, Problem("", Refusal("more_mistakes", count=reader.more))))
+        located.append((0, name, Problem("", ErrorMessage("more_mistakes", count=reader.more))))
     return InputError([problem for _, _, problem in located], [position for _, position, _ in located])
 
 
@@ -465,15 +465,15 @@ def template(name: str, language: Language = "en") -> str:
         If there is none of that name.
     """
     if language not in LANGUAGES:
-        raise CrankworkError(Refusal("language_unknown", name=str(language)[:20], known=", ".join(LANGUAGES)))
+        raise CrankworkError(ErrorMessage("language_unknown", name=str(language)[:20], known=", ".join(LANGUAGES)))
     if name not in template_names():
         shown, known = _printable(name[:40]), ", ".join(template_names())
         if near := nearest_name(name, template_names()):
-            raise CrankworkError(Refusal("no_template_near", name=shown, nearest=near))
-        raise CrankworkError(Refusal("no_template", name=shown, known=known))
+            raise CrankworkError(ErrorMessage("no_template_near", name=shown, nearest=near))
+        raise CrankworkError(ErrorMessage("no_template", name=shown, known=known))
 
     def text_of(match: re.Match[str]) -> str:
-        return say(match[1] if "." in match[1] else f"templates.{match[1]}", language)
+        return translate(match[1] if "." in match[1] else f"templates.{match[1]}", language)
 
     def comment(match: re.Match[str]) -> str:
         return textwrap.fill(text_of(match), 116, initial_indent="# ", subsequent_indent="# ", break_on_hyphens=False)

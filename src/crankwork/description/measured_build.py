@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.description.kinds import Choice, Reader
 from crankwork.description.schema import Values, no_effect_message
 from crankwork.description.table_file import FileTable, read_table
+from crankwork.description.value_types import Choice, Reader
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.measured import MeasuredPressure, NoticeData, Pegging, Preprocessing
-from crankwork.locale import Refusal
+from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing
+from crankwork.locale import ErrorMessage
 from crankwork.units import UNITS
 
 # words of headings in the languages of test benches
@@ -61,23 +61,24 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
         samples = table.columns((columns.angle, *columns.pressures))
         _check_angles(samples[:, 0], columns.angle_unit, table)
     except CrankworkError as error:
-        reader.complain(f"{path}.measured.file", error.args[0])
+        reader.add_error(f"{path}.measured.file", error.args[0])
         return None
     if not columns.pressure_unit:
         key = "pressure_unit"
         written = table.written[columns.pressures[0]]
         options = ", ".join(_options(values)[:3])
-        message = Refusal("missing", advice=(f'{key} = "{_options(values)[0]}"',))
+        message = ErrorMessage("missing", advice=(f'{key} = "{_options(values)[0]}"',))
         if written:
             column = table.label(columns.pressures[0])
-            message = Refusal("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
-        if not reader.doubts(f"{path}.measured.{key}"):
-            reader.complain(f"{path}.measured.{key}", message)
+            message = ErrorMessage("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
+        if not reader.has_errors(f"{path}.measured.{key}"):
+            reader.add_error(f"{path}.measured.{key}", message)
         return None
     if not reader.decimal_comma and _are_thousands(table, samples[:, 1:] * UNITS[columns.pressure_unit].factor):
         line = table.lines[0]
-        reader.complain(
-            f"{path}.measured.file", Refusal("in_file", file=file, mistake=Refusal("measured_thousands", line=line))
+        reader.add_error(
+            f"{path}.measured.file",
+            ErrorMessage("in_file", file=file, mistake=ErrorMessage("measured_thousands", line=line)),
         )
         return None
     degrees = samples[:, 0] if columns.angle_unit == "deg" else np.degrees(samples[:, 0])
@@ -95,7 +96,7 @@ def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -
     peg, which, smooth, loss = values.get("peg"), values["cycle"], values.si("smooth"), values.si("loss_angle")
     pegging = None
     if peg is not None and "exponent" in peg and not absolute:
-        reader.complain(f"{path}.peg.exponent", no_effect_message("pressures", "gauge", ("absolute",)))
+        reader.add_error(f"{path}.peg.exponent", no_effect_message("pressures", "gauge", ("absolute",)))
     elif peg is not None and {"angle", "pressure"} <= set(peg):
         pegging = Pegging(math.degrees(peg.si("angle")), peg.si("pressure"))
     elif peg is not None and {"exponent", "from", "to"} <= set(peg):

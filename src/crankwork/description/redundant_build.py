@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from crankwork.description.kinds import Reader
-from crankwork.description.linkage_reach import check_redundant_fit
+from crankwork.description.range_checks import check_redundant_fit
 from crankwork.description.schema import Values
+from crankwork.description.value_types import Reader
 from crankwork.dynamics.redundant import RedundantLink
 from crankwork.errors import Problem
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.decomposition import mechanism_of
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 from crankwork.mechanism.structure import mobility
@@ -35,13 +35,13 @@ def without_redundant(linkage: Linkage, values: Values, reader: Reader) -> tuple
         for key, other in (_KEYS, _KEYS[::-1]):
             if key in link and other not in link:
                 example = next((member_name for member_name in links if member_name != name), "rocker")
-                reader.complain(f"links.{name}.{other}", Refusal(f"{other}_missing", name=name, example=example))
+                reader.add_error(f"links.{name}.{other}", ErrorMessage(f"{other}_missing", name=name, example=example))
     shared = tuple(member for member in linkage.members if set(_KEYS) <= set(links.get(member.name, ())))
     if reader.problems or not shared:
         return linkage, ()
     if not mechanism_of(linkage)[1]:
         for member in shared:
-            reader.complain(f"links.{member.name}.share", Refusal("share_needless", name=member.name))
+            reader.add_error(f"links.{member.name}.share", ErrorMessage("share_needless", name=member.name))
         return linkage, ()
     without = replace(linkage, members=tuple(member for member in linkage.members if member not in shared))
     for member in shared:
@@ -71,7 +71,7 @@ def without_unshared(linkage: Linkage, taken: tuple[Member, ...]) -> tuple[Linka
 
 
 def _is_stiff(problem: Problem) -> bool:
-    return isinstance(problem.message, Refusal) and problem.message.name == "stiff_one"
+    return isinstance(problem.message, ErrorMessage) and problem.message.name == "stiff_one"
 
 
 def _check(both: tuple[Linkage, Linkage], link: Member, other: str, reader: Reader) -> None:
@@ -81,14 +81,14 @@ def _check(both: tuple[Linkage, Linkage], link: Member, other: str, reader: Read
     """
     key, (full, without) = f"links.{link.name}", both
     if sum(point in without.owners for point in link.points) != 2:
-        reader.complain(f"{key}.share", Refusal("share_joints", name=link.name))
+        reader.add_error(f"{key}.share", ErrorMessage("share_joints", name=link.name))
     if link.mass or link.inertia:
-        reader.complain(f"{key}.mass", Refusal("share_mass", name=link.name))
+        reader.add_error(f"{key}.mass", ErrorMessage("share_mass", name=link.name))
     known = [member.name for member in without.members if not member.guide]
     if other not in known:
-        reader.complain(f"{key}.of", Refusal("absent_link", name=other, known=", ".join(known)))
+        reader.add_error(f"{key}.of", ErrorMessage("absent_link", name=other, known=", ".join(known)))
     elif len(_joints(full, full.member(other))) != 2:
-        reader.complain(f"{key}.of", Refusal("share_joints", name=other))
+        reader.add_error(f"{key}.of", ErrorMessage("share_joints", name=other))
 
 
 def _joints(linkage: Linkage, member: Member) -> list[str]:
@@ -102,7 +102,7 @@ def fitting(linkage: Linkage, members: tuple[Member, ...], values: Values, reade
         freedom = float(mobility(replace(linkage, members=(*linkage.members, link))).value)
         message = check_redundant_fit(linkage, link, freedom)
         if message is None or message.name != "redundant_fits":
-            reader.complain(f"links.{link.name}", message or Refusal("share_driver", name=link.name))
+            reader.add_error(f"links.{link.name}", message or ErrorMessage("share_driver", name=link.name))
             continue
         start, end = (point for point in link.points if point in linkage.owners)
         length = math.dist(link.points[start], link.points[end])

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from crankwork import units
-from crankwork.description.kinds import (
+from crankwork.description.value_types import (
     Choice,
     MeasuredValue,
     Number,
@@ -22,7 +22,7 @@ from crankwork.description.kinds import (
     is_one_line,
     shown,
 )
-from crankwork.locale import Language, Refusal, say, texts
+from crankwork.locale import ErrorMessage, Language, texts, translate
 
 _MAX_ENTRIES = 10_000
 _LONGEST_NAME = 60
@@ -43,24 +43,24 @@ class ListOf(NamedTuple):
 
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
         """Return the entries; an invalid entry becomes None after its complaint."""
-        if self.may_be_one and isinstance(value, str) and not reader.doubts(key):
+        if self.may_be_one and isinstance(value, str) and not reader.has_errors(key):
             return [self.entry.read(value, key, reader)]
         if not isinstance(value, list):
             # the missing content of an unreadable file is not reported
-            if not (self.from_file and reader.doubts(key)):
-                reader.complain(key, self._advice(key))
+            if not (self.from_file and reader.has_errors(key)):
+                reader.add_error(key, self._advice(key))
             return None
         if not self.fewest <= len(value) <= self.most:
             wanted: object = self.fewest
             if self.fewest != self.most:
-                wanted = Refusal("entries_between", fewest=self.fewest, most=self.most)
-            reader.complain(key, Refusal("entries", count=len(value), wanted=wanted))
+                wanted = ErrorMessage("entries_between", fewest=self.fewest, most=self.most)
+            reader.add_error(key, ErrorMessage("entries", count=len(value), wanted=wanted))
             return None
         return [self.entry.read(entry, f"{key}[{i}]", reader) for i, entry in enumerate(value, start=1)]
 
-    def _advice(self, key: str) -> Refusal:
+    def _advice(self, key: str) -> ErrorMessage:
         if isinstance(self.entry, TableSpec):
-            return Refusal("list_of_tables", key=key)
+            return ErrorMessage("list_of_tables", key=key)
         match self.entry:
             case Quantity(dimensions=(first, *_)):
                 example = f'"{units.EXAMPLES[first]}"'
@@ -69,8 +69,8 @@ class ListOf(NamedTuple):
             case _:
                 example = '"a"'
         if self.from_file:
-            return Refusal("list_or_file", example=", ".join([example] * self.fewest))
-        return Refusal("list_like", example=f"[{example}]")
+            return ErrorMessage("list_or_file", example=", ".join([example] * self.fewest))
+        return ErrorMessage("list_like", example=f"[{example}]")
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an array."""
@@ -91,7 +91,7 @@ class Nested(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> list[Any] | None:
         """Return the entries, inner lists as lists."""
         if not isinstance(value, list) or not 1 <= len(value) <= _MAX_ENTRIES:
-            reader.complain(key, Refusal("list_like", example="[0.98, [0.95, 0.95], 0.99]"))
+            reader.add_error(key, ErrorMessage("list_like", example="[0.98, [0.95, 0.95], 0.99]"))
             return None
         inner = ListOf(self.entry, fewest=1)
         return [
@@ -183,14 +183,14 @@ class MapOf(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> dict[str, Any] | None:
         """Return the values by name."""
         if not isinstance(value, dict):
-            reader.complain(key, Refusal("table_below", key=key))
+            reader.add_error(key, ErrorMessage("table_below", key=key))
             return None
         if len(value) > self.most:
-            reader.complain(key, Refusal("entries_most", count=len(value), most=self.most))
+            reader.add_error(key, ErrorMessage("entries_most", count=len(value), most=self.most))
             return None
         for name in value:
             if not name or len(name) > _LONGEST_NAME or not is_one_line(name):
-                reader.complain(f"{key}.{name}", Refusal("no_name", most=_LONGEST_NAME))
+                reader.add_error(f"{key}.{name}", ErrorMessage("no_name", most=_LONGEST_NAME))
         return {name: self.entry.read(item, f"{key}.{name}", reader) for name, item in value.items()}
 
     def schema(self, language: Language, /) -> dict[str, Any]:
@@ -236,10 +236,12 @@ class TableSpec(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> Values | None:
         """Return the values by key."""
         if isinstance(value, list) and all(isinstance(part, dict) for part in value):
-            reader.complain(key, Refusal("one_table", count=len(value), key=key))
+            reader.add_error(key, ErrorMessage("one_table", count=len(value), key=key))
             return None
         if not isinstance(value, dict):
-            reader.complain(key, Refusal("table_below", key=key) if "[" not in key else Refusal("table_inline"))
+            reader.add_error(
+                key, ErrorMessage("table_below", key=key) if "[" not in key else ErrorMessage("table_inline")
+            )
             return None
         result = {}
         for name, item in value.items():
@@ -251,7 +253,7 @@ class TableSpec(NamedTuple):
             clashes = [other for other in self.keys[name].instead_of if other in value]
             later = clashes and list(value).index(name) > min(list(value).index(other) for other in clashes)
             if later or any(name not in self.keys[other].instead_of for other in clashes):
-                reader.complain(path, Refusal("same", others=clashes))
+                reader.add_error(path, ErrorMessage("same", others=clashes))
         values = Values({name: read_value for name, read_value in result.items() if read_value is not None}, self)
         prefix = f"{key}." if key else ""
         for name, entry in self.keys.items():
@@ -294,38 +296,38 @@ class TableSpec(NamedTuple):
     def _check_applies(self, name: str, values: Values, prefix: str, reader: Reader) -> None:
         """Report a key without effect because of the other keys."""
         missed = self._foreign(self.keys[name], values)
-        if missed is None or reader.doubts(f"{prefix}{missed[0]}"):
+        if missed is None or reader.has_errors(f"{prefix}{missed[0]}"):
             return
         other, wanted = missed
         if wanted:
-            reader.complain(f"{prefix}{name}", no_effect_message(other, values[other], wanted))
+            reader.add_error(f"{prefix}{name}", no_effect_message(other, values[other], wanted))
         else:
             advice = _advice(other, self.keys[other].kind, prefix)
-            reader.complain(f"{prefix}{name}", Refusal("only_beside", key=other, advice=advice))
+            reader.add_error(f"{prefix}{name}", ErrorMessage("only_beside", key=other, advice=advice))
 
     def _report_unknown(self, name: str, value: object, path: str, reader: Reader) -> None:
         if reader.is_full:
-            reader.complain(path, "")
+            reader.add_error(path, "")
             return
         what = "table" if isinstance(value, dict) else "key"
         nearest = nearest_name(name, tuple(self.keys))
         if nearest:
             meant = f"{path.removesuffix(name)}{nearest}"
-            reader.complain(path, Refusal(f"unknown_{what}_near", nearest=nearest), meant=meant)
+            reader.add_error(path, ErrorMessage(f"unknown_{what}_near", nearest=nearest), meant=meant)
             # report mistakes inside a misspelt table too
             self.keys[nearest].kind.read(value, path, reader)
         else:
-            reader.complain(path, Refusal(f"unknown_{what}", known=", ".join(self.keys)))
+            reader.add_error(path, ErrorMessage(f"unknown_{what}", known=", ".join(self.keys)))
 
     def _check_there(self, name: str, value: Mapping[str, object], values: Values, prefix: str, reader: Reader) -> None:
         """Report a required key if it and its alternatives are missing."""
         entry = self.keys[name]
         alternatives = (name, *entry.instead_of)
-        is_reported = reader.doubts(*(f"{prefix}{key}" for key in (*alternatives, *entry.only)))
+        is_reported = reader.has_errors(*(f"{prefix}{key}" for key in (*alternatives, *entry.only)))
         if is_reported or any(alternative in value for alternative in alternatives) or self._foreign(entry, values):
             return
         advice = tuple(_advice(alternative, self.keys[alternative].kind, prefix) for alternative in alternatives)
-        reader.complain(f"{prefix}{name}", Refusal("missing", advice=advice))
+        reader.add_error(f"{prefix}{name}", ErrorMessage("missing", advice=advice))
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an object."""
@@ -410,16 +412,16 @@ def _degrees(angle: MeasuredValue) -> float:
 def _applies(entry: KeySpec, language: Language) -> Iterator[str]:
     """Yield texts about the keys that a key needs, and about a default that depends on another key."""
     for key, values in entry.only.items():
-        yield say("fields.with", language, condition=" | ".join(f"{key} = {option}" for option in values) or key)
+        yield translate("fields.with", language, condition=" | ".join(f"{key} = {option}" for option in values) or key)
     if isinstance(entry.default, DefaultBy):
         for default in dict.fromkeys(entry.default.values.values()):
             cases = [f"{entry.default.key} = {case}" for case, item in entry.default.values.items() if item == default]
-            yield say("fields.default_with", language, default=default, condition=" | ".join(cases))
+            yield translate("fields.default_with", language, default=default, condition=" | ".join(cases))
 
 
-def no_effect_message(key: str, value: object, wanted: tuple[str, ...]) -> Refusal:
+def no_effect_message(key: str, value: object, wanted: tuple[str, ...]) -> ErrorMessage:
     """Return the message about a key that applies only with other values of another key."""
-    return Refusal("only_with", key=key, found=shown(value), needed=tuple(map(shown, wanted[:5])))
+    return ErrorMessage("only_with", key=key, found=shown(value), needed=tuple(map(shown, wanted[:5])))
 
 
 def nearest_name(word: str, options: Iterable[str]) -> str:
@@ -440,9 +442,9 @@ def _advice(name: str, kind: ValueType, prefix: str) -> str:
         case Text():
             return f'{name} = "..."'
         case TableSpec():
-            return Refusal("a_table", key=f"{prefix}{name}")
+            return ErrorMessage("a_table", key=f"{prefix}{name}")
         case MapOf():
-            return Refusal("tables_of_names", key=f"{prefix}{name}")
+            return ErrorMessage("tables_of_names", key=f"{prefix}{name}")
         case ListOf(Text()):
             return f'{name} = ["A", "B"]'
         case ListOf(Quantity() as entry):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from crankwork.description.friction_build import known_joints, pins_by_name
-from crankwork.description.kinds import Reader
 from crankwork.description.schema import Values
-from crankwork.locale import Refusal
+from crankwork.description.value_types import Reader
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Bearings, Machine, PinBearing, Shaft
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
@@ -26,7 +26,7 @@ def build_bearings(values: Values, mechanism: Mechanism, reader: Reader, *, turn
         return Bearings()
     table = values["bearings"]
     if not turns and not _of_crankshaft(values):
-        reader.complain("bearings", Refusal("bearings_partial"))
+        reader.add_error("bearings", ErrorMessage("bearings_partial"))
     pins = pins_by_name(mechanism)
     names = {joint: name for name, joint in pins.items()}
     bearings = {}
@@ -34,7 +34,9 @@ def build_bearings(values: Values, mechanism: Mechanism, reader: Reader, *, turn
         name, link, held = names[joint], stated["link"] or "", [joint.link, joint.other]
         bearings[name] = PinBearing(stated.si("diameter"), stated.si("length"), link)
         if link and (link == GROUND or link not in held):
-            reader.complain(f"bearings.pins.{name}.link", Refusal("bearing_link", pin=name, known=", ".join(held)))
+            reader.add_error(
+                f"bearings.pins.{name}.link", ErrorMessage("bearing_link", pin=name, known=", ".join(held))
+            )
     made: Bearings = table.made(Bearings, pins=bearings)
     return made
 
@@ -73,7 +75,7 @@ def _of_crankshaft(values: Values) -> tuple[str, ...]:
 def check_counterweights(sizes: Values, balance: Values, reader: Reader) -> None:
     """Report counterweights that are stated twice: as mass moments, and as a share of the masses."""
     if sizes.si("counterweight") and balance["rotating_share"]:
-        reader.complain("bearings.counterweight", Refusal("counterweight_twice"))
+        reader.add_error("bearings.counterweight", ErrorMessage("counterweight_twice"))
 
 
 def check_shaft(machine: Machine, values: Values, reader: Reader) -> bool:
@@ -81,16 +83,16 @@ def check_shaft(machine: Machine, values: Values, reader: Reader) -> bool:
     if machine.shaft is None:
         return True
     # most linkages do not load it
-    from crankwork.analysis.engine_form import engine_form_or_reason  # noqa: PLC0415
+    from crankwork.analysis.cylinder_form import engine_form_or_reason  # noqa: PLC0415
 
     form = engine_form_or_reason(machine)
     if isinstance(form, Machine):
         return True
     if form.key:
-        reader.complain(form.key, form.message)
+        reader.add_error(form.key, form.message)
     else:
         for table in _of_crankshaft(values):
-            reader.complain(table, Refusal("shaft_of_engine", reason=form.message))
+            reader.add_error(table, ErrorMessage("shaft_of_engine", reason=form.message))
     return False
 
 

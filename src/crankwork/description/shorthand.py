@@ -8,18 +8,18 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from crankwork.analysis import solve
-from crankwork.analysis.cylinders import whole_engine
-from crankwork.analysis.solved import SolvedCylinder
+from crankwork.analysis import prepare
+from crankwork.analysis.cylinders import multi_cylinder_engine
+from crankwork.analysis.prepared import PreparedCylinder
 from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
-from crankwork.description.engine_keys import CHAMBER_CYCLE, OF_LINKAGE
+from crankwork.description.cylinder_keys import CHAMBER_CYCLE, OF_LINKAGE
 from crankwork.description.load_keys import LOADING
-from crankwork.description.written import key_text
+from crankwork.description.toml_edit import key_text
 from crankwork.dynamics.masses import CrankGearMasses
 from crankwork.machine import Engine, Gas, Machine
 from crankwork.units import from_si
-from crankwork.working_cycle.pressures import MisfirePressure
+from crankwork.working_cycle.pressure_models import MisfirePressure
 
 _DIAGRAM = ("points", "pieces", "measured", "valves")
 _COUNTED = ("pressures", "ambient")
@@ -35,7 +35,7 @@ class CrankMechanism(NamedTuple):
     `own`: suffix of its names; `joint`: pin of its rod.
     """
 
-    solved: SolvedCylinder
+    solved: PreparedCylinder
     place: CylinderPlace
     head: float
     own: str
@@ -49,18 +49,22 @@ class CrankMechanism(NamedTuple):
     @property
     def length(self) -> float:
         """Length of its rod. [m]"""
-        return self.solved.lengths.rod_length if self.solved.slave is None else self.solved.slave.length
+        return (
+            self.solved.lengths.rod_length
+            if self.solved.articulated_rod is None
+            else self.solved.articulated_rod.length
+        )
 
     @property
     def offset(self) -> float:
         """Offset of its axis, positive towards the crankpin at 90 degrees. [m]"""
-        return self.solved.lengths.offset if self.solved.slave is None else self.solved.slave.offset
+        return self.solved.lengths.offset if self.solved.articulated_rod is None else self.solved.articulated_rod.offset
 
     @property
     def top(self) -> float:
         """Distance of its piston pin from the shaft along its axis at top dead centre. [m]"""
-        if self.solved.slave is not None:
-            return articulated_stroke(self.solved.lengths, self.solved.slave).top
+        if self.solved.articulated_rod is not None:
+            return articulated_stroke(self.solved.lengths, self.solved.articulated_rod).top
         return math.sqrt((self.length + self.solved.lengths.crank_radius) ** 2 - self.offset**2)
 
     def at(self, along: float, across: float) -> complex:
@@ -75,7 +79,7 @@ class CrankMechanism(NamedTuple):
 
 def crank_mechanisms(machine: Machine) -> list[CrankMechanism]:
     """Return the crank mechanisms of an engine, cylinder 1 first."""
-    solved = solve(machine, machine.method)
+    solved = prepare(machine, machine.method)
     if machine.engine is None or len(machine.engine.layout.places) == 1:
         return [CrankMechanism(solved, _ALONE, _head(machine, 0.0, 0.0), "", "A")]
     first, *_ = places = machine.engine.layout.places
@@ -85,9 +89,9 @@ def crank_mechanisms(machine: Machine) -> list[CrankMechanism]:
             place,
             _head(machine, place.axis, first.axis),
             f"_{place.number}",
-            f"A{place.crankpin + 1}" if cylinder.slave is None else f"C{place.number}",
+            f"A{place.crankpin + 1}" if cylinder.articulated_rod is None else f"C{place.number}",
         )
-        for cylinder, place in zip(whole_engine(solved).cylinders, places, strict=True)
+        for cylinder, place in zip(multi_cylinder_engine(solved).cylinders, places, strict=True)
     ]
 
 
@@ -205,9 +209,11 @@ def _rod(gear: CrankMechanism, gears: list[CrankMechanism]) -> dict[str, Any]:
     """Return the rod as a link from pin to piston pin, with the inertia of its masses if none is stated."""
     rod: dict[str, Any] = {"joins": [gear.joint, gear.pin], "length": _unit(gear.length, "mm")}
     knuckles = {
-        other.joint: _place(other.solved.slave.knuckle_radius * _direction(-other.solved.slave.knuckle_angle))
+        other.joint: _place(
+            other.solved.articulated_rod.knuckle_radius * _direction(-other.solved.articulated_rod.knuckle_angle)
+        )
         for other in gears
-        if other.solved.slave is not None and other.place.master == gear.place.number
+        if other.solved.articulated_rod is not None and other.place.master == gear.place.number
     }
     rod |= {"points": knuckles} if knuckles else {}
     machine = gear.solved.machine
@@ -251,7 +257,7 @@ def _positions(gears: list[CrankMechanism]) -> Iterator[tuple[str, complex]]:
     """Yield the positions of the piston pins at a crank angle of zero. [m]"""
     start, rods = gears[0].head, dict[int, tuple[complex, complex]]()
     for mechanism in sorted(gears, key=lambda gear: gear.place.master):
-        rod_kind = mechanism.solved.slave
+        rod_kind = mechanism.solved.articulated_rod
         if rod_kind is None:
             joint = mechanism.solved.lengths.crank_radius * _direction(start - mechanism.place.pin_angle)
             rods[mechanism.place.number] = joint, mechanism.pin_beyond(joint)

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from crankwork.description.kinds import MeasuredValue
+from crankwork.description.value_types import MeasuredValue
 from crankwork.machine import InputNumber
 
 

@@ -17,7 +17,7 @@ from crankwork import files
 from crankwork.description.workbook import START, workbook_text
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.units import UNITS
 
 # lines in which the numbers must begin, and characters in a line
@@ -131,7 +131,7 @@ class FileTable:
 
     def refused(self, name: str, /, **values: object) -> CrankworkError:
         """Return an error about the file."""
-        return CrankworkError(Refusal("in_file", file=self.file, mistake=Refusal(name, **values)))
+        return CrankworkError(ErrorMessage("in_file", file=self.file, mistake=ErrorMessage(name, **values)))
 
 
 def read_table(path: str | Path, *, name: str = "", sheet: str | None = None) -> FileTable:
@@ -144,7 +144,7 @@ def read_table(path: str | Path, *, name: str = "", sheet: str | None = None) ->
     try:
         return _table(_text(files.read_data(path), path, sheet), called)
     except ValueError as error:
-        raise CrankworkError(Refusal("in_file", file=called, mistake=error.args[0])) from None
+        raise CrankworkError(ErrorMessage("in_file", file=called, mistake=error.args[0])) from None
 
 
 def _table(text: str, name: str) -> FileTable:
@@ -152,21 +152,23 @@ def _table(text: str, name: str) -> FileTable:
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if max(map(len, lines)) > _LONGEST_LINE:
         line = next(number for number, content in enumerate(lines, start=1) if len(content) > _LONGEST_LINE)
-        raise ValueError(Refusal("measured_cell", line=line))
+        raise ValueError(ErrorMessage("measured_cell", line=line))
     filled = [
         number
         for number, content in enumerate(lines, start=1)
         if content.strip(" \t;,\ufeff") and not content.lstrip().startswith(_MARKS)
     ]
     if not filled:
-        raise ValueError(Refusal("measured_empty"))
+        raise ValueError(ErrorMessage("measured_empty"))
     separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
     if start < 0:
         single = next((number for number in filled if _float(lines[number - 1].strip(" \t;")) is not None), 0)
-        raise ValueError(Refusal("measured_one_column" if single else "measured_heading", line=single or filled[0]))
+        raise ValueError(
+            ErrorMessage("measured_one_column" if single else "measured_heading", line=single or filled[0])
+        )
     numbers = filled[start:]
     if separator == "," and count > 2 and lines[numbers[0] - 2].count(",") + 1 == count / 2:
-        raise ValueError(Refusal("table_commas", line=numbers[0]))
+        raise ValueError(ErrorMessage("table_commas", line=numbers[0]))
     heading, names, written = _headings(lines[: numbers[0] - 1], separator, count)
     rows = [lines[number - 1] for number in numbers]
     units = tuple(unit_of(unit) for unit in written)
@@ -322,12 +324,12 @@ def _text(data: bytes, path: Path, sheet: str | None) -> str:
     if data.startswith(START):
         return workbook_text(data, sheet)
     if sheet is not None:
-        raise ValueError(Refusal("workbook_needed"))
+        raise ValueError(ErrorMessage("workbook_needed"))
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         with contextlib.suppress(UnicodeDecodeError):
             return data.decode("utf-16")
     if b"\0" in data:
-        raise CrankworkError(Refusal("path_binary", path=path, line=data.count(b"\n", 0, data.index(0)) + 1))
+        raise CrankworkError(ErrorMessage("path_binary", path=path, line=data.count(b"\n", 0, data.index(0)) + 1))
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

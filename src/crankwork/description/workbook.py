@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
 from crankwork import files
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 START = b"PK\x03\x04"
 _LARGEST = 4 * files.MAX_DATA_FILE
@@ -30,7 +30,7 @@ def workbook_text(data: bytes, sheet: str | None = None) -> str:
             _check_size(book)
             return _sheet_text(book, sheet)
     except _BROKEN:
-        raise ValueError(Refusal("workbook_none")) from None
+        raise ValueError(ErrorMessage("workbook_none")) from None
 
 
 def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
@@ -42,7 +42,7 @@ def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
     filled = [name for name, member in sheets.items() if b"<v>" in _read(book, member)]
     if wanted not in sheets and (wanted is not None or len(filled) != 1):
         known = tuple(f'"{title[:60]}"' for title in list(sheets)[:12])
-        raise ValueError(Refusal("workbook_sheet", known=known, example=f'"{(filled or list(sheets))[0][:60]}"'))
+        raise ValueError(ErrorMessage("workbook_sheet", known=known, example=f'"{(filled or list(sheets))[0][:60]}"'))
     words = []
     if "xl/sharedStrings.xml" in book.namelist():
         words = [_words(item) for item in _root(book, "xl/sharedStrings.xml").iter(f"{_MAIN}si")]
@@ -56,14 +56,14 @@ def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
 def _check_size(book: zipfile.ZipFile) -> None:
     """Raise if the parts of a workbook are too large."""
     if sum(member.file_size for member in book.infolist()) > _LARGEST:
-        raise ValueError(Refusal("workbook_large", size=_LARGEST >> 20))
+        raise ValueError(ErrorMessage("workbook_large", size=_LARGEST >> 20))
 
 
 def _read(book: zipfile.ZipFile, name: str) -> bytes:
     """Return a part of a workbook; raise if it has external references."""
     data = book.read(name)
     if b"<!DOCTYPE" in data or b"\0" in data:
-        raise ValueError(Refusal("workbook_none"))
+        raise ValueError(ErrorMessage("workbook_none"))
     return data
 
 

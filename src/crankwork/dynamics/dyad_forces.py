@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from crankwork.dynamics.link_loads import Wrench, moment_about
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import named
+from crankwork.formula.traced_value import named
 from crankwork.kinematics.plane_motion import across_guide, along_guide
 from crankwork.kinematics.sliding_dyads import sine_between
 

@@ -7,9 +7,9 @@ import operator
 from dataclasses import dataclass
 from functools import reduce
 
-from crankwork.dynamics.force_parts import efficiency_share
+from crankwork.dynamics.torque_formulas import efficiency_share
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, given, total
+from crankwork.formula.traced_value import TracedValue, given, total
 
 
 @dataclass(frozen=True)
@@ -41,15 +41,15 @@ def efficiency(chain: Chain) -> float:
     >>> round(efficiency(Series((0.98, Parallel((0.9, 0.8)), 0.99))), 5)
     0.82467
     """
-    return remembered_efficiency(chain).value
+    return traced_efficiency(chain).value
 
 
-def remembered_efficiency(chain: Chain, key: str = "efficiency", path: str = "efficiency.chain") -> Known:
+def traced_efficiency(chain: Chain, key: str = "efficiency", path: str = "efficiency.chain") -> TracedValue:
     """Return the traced efficiency of a chain; its parts have the keys `key.1`, `key.2` and so on."""
     match chain:
         case Series(parts):
             factors = [
-                remembered_efficiency(part, f"{key}.{index}", f"{path}[{index}]")
+                traced_efficiency(part, f"{key}.{index}", f"{path}[{index}]")
                 for index, part in enumerate(parts, start=1)
             ]
             return reduce(operator.mul, factors).named(key)
@@ -61,7 +61,7 @@ def remembered_efficiency(chain: Chain, key: str = "efficiency", path: str = "ef
             for number, (share, part) in enumerate(zip(shares, parts, strict=True), start=1):
                 # a single efficiency has a key of its own, so that its symbol in the formula has an index
                 own = "efficiency" if isinstance(part, float | int) else f"{key}.{number}.0"
-                inner = remembered_efficiency(part, own, f"{path}[{number}]")
+                inner = traced_efficiency(part, own, f"{path}[{number}]")
                 terms.append(efficiency_share(share, inner).named(f"{key}.{number}"))
             return total(key, terms)
         case value:

@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 
 from crankwork.dynamics.dyad_forces import force_along
 from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, cross
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, joint_place
-from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Component, Known, Root, added, is_known, total
+from crankwork.formula.traced_value import Component, Root, TracedValue, is_traced, sum_terms, total
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
+from crankwork.loads.applied_loads import AppliedForce, AppliedLoads, AppliedTorque
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints, origin_of
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
@@ -144,8 +144,8 @@ def solved_group(
     motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting
 ) -> dict[Joint, Reaction]:
     """Return the reactions in the joints of one group (artobolevsky_1988, ch. 13)."""
-    if is_known(motion.grid.angle):
-        return _remembered_with(motion, links, held, wrenches, None)[0]
+    if is_traced(motion.grid.angle):
+        return _traced_with(motion, links, held, wrenches, None)[0]
     system = equilibrium(motion, links, held)
     return system.reactions(solve_positions(system.matrix, system.right_side(wrenches)))
 
@@ -154,8 +154,8 @@ def motor_group(
     motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, motor: LinkMotor
 ) -> tuple[dict[Joint, Reaction], Value]:
     """Return the reactions in the joints of links that a motor connects, and its torque."""
-    if is_known(motion.grid.angle):
-        return _remembered_with(motion, links, held, wrenches, motor)
+    if is_traced(motion.grid.angle):
+        return _traced_with(motion, links, held, wrenches, motor)
     system = equilibrium(motion, links, held, driver=motor)
     unknowns = solve_positions(system.matrix, system.right_side(wrenches))
     return system.reactions(unknowns), unknowns[..., -1]
@@ -179,9 +179,9 @@ class GroupSolver:
         return solve_positions(augmented[:, :, :-1], augmented[:, :, -1]).T
 
 
-def _remembered_with(
+def _traced_with(
     motion: Motion, links: Sequence[str], held: Sequence[Joint], wrenches: Acting, driver: Driver | None
-) -> tuple[dict[Joint, Reaction], Known]:
+) -> tuple[dict[Joint, Reaction], TracedValue]:
     """Return the traced reactions, as a root of the equilibrium equations, and the last unknown."""
     row = {link: 3 * k for k, link in enumerate(links)}
     entries: list[tuple[int, int, Value]] = []
@@ -200,10 +200,10 @@ def _remembered_with(
     size = 3 * len(row)
     entries += [(row[link] + which, size - 1, value) for link, which, value in _pushed(driver, motion)]
     entries += [(i + offset, size, -part) for link, i in row.items() for offset, part in enumerate(wrenches[link])]
-    known = tuple(value for _, _, value in entries if is_known(value))
-    solver = GroupSolver(size, tuple((i, j, None if is_known(value) else value) for i, j, value in entries))
+    known = tuple(value for _, _, value in entries if is_traced(value))
+    solver = GroupSolver(size, tuple((i, j, None if is_traced(value) else value) for i, j, value in entries))
     root = Root(solver, known)
-    unknowns = [Known(Component(root, index)) for index in range(size)]
+    unknowns = [TracedValue(Component(root, index)) for index in range(size)]
     root.residuals = tuple(_residual(entries, unknowns, i) for i in range(size))
     reactions: dict[Joint, Reaction] = {
         joint: (PinForce(joint, *pair) if isinstance(joint, Pin) else GuideForce(joint, *pair))
@@ -228,7 +228,7 @@ def cylinder_force(
         and driver.link in (joint.link, joint.other)
     ]
     x, y = (
-        added(f"link_force_{axis}.{driver.link}", side)
+        sum_terms(f"link_force_{axis}.{driver.link}", side)
         for axis, side in zip("xy", zip(*on_barrel, strict=True), strict=True)
     )
     if driver.halves:
@@ -241,7 +241,7 @@ def cylinder_force(
     return force if origin_of(mechanism, driver.link) == driver.barrel else -force
 
 
-def _residual(entries: list[tuple[int, int, Value]], unknowns: Sequence[Known], row: int) -> Known:
+def _residual(entries: list[tuple[int, int, Value]], unknowns: Sequence[TracedValue], row: int) -> TracedValue:
     """Return the residual of one equilibrium equation."""
     in_row = ((j, entry) for i, j, entry in entries if i == row and _counts(entry))
     terms = [entry * unknowns[j] if j < len(unknowns) else -entry for j, entry in in_row]
@@ -249,15 +249,15 @@ def _residual(entries: list[tuple[int, int, Value]], unknowns: Sequence[Known], 
 
 
 def _counts(entry: Value) -> bool:
-    return is_known(entry) or bool(entry)
+    return is_traced(entry) or bool(entry)
 
 
-def _named_pair(joint: Joint, first: Known, second: Known) -> tuple[Known, Known]:
+def _named_pair(joint: Joint, first: TracedValue, second: TracedValue) -> tuple[TracedValue, TracedValue]:
     kinds = ("joint_force_x", "joint_force_y") if isinstance(joint, Pin) else ("normal_force", "normal_moment")
     return first.named(f"{kinds[0]}.{joint.name}"), second.named(f"{kinds[1]}.{joint.name}")
 
 
-def system_joint_forces(running: Running) -> JointForces:
+def system_joint_forces(running: OperatingState) -> JointForces:
     """Return the joint forces from one linear system, a check of `joint_forces` (norton_2012, ch. 11). [N], [N m]"""
     system, mechanism = full_equilibrium(running), running.mechanism
     wrenches = {link: Wrench(*wrench) for link, wrench in numeric_wrenches(running).items()}
@@ -272,7 +272,7 @@ def system_joint_forces(running: Running) -> JointForces:
     return collect_reactions(reactions, system.joints, driven)
 
 
-def full_equilibrium(running: Running) -> Equilibrium:
+def full_equilibrium(running: OperatingState) -> Equilibrium:
     """Return the equilibrium equations of all links; the last unknown is the torque or force of the driver."""
     return equilibrium(running.motion, *all_links_and_joints(running.mechanism), driver=running.mechanism.driver)
 
@@ -315,7 +315,7 @@ def solve_positions(matrix: Array, right: Array) -> Array:
     return solution
 
 
-def numeric_loads(running: Running) -> AppliedLoads:
+def numeric_loads(running: OperatingState) -> AppliedLoads:
     """Return the loads of a mechanism together with the inertia of its bodies after D'Alembert."""
     w, eps = running.speed, running.angular_acceleration
     forces, torques = list(running.loads.forces), list(running.loads.torques)
@@ -326,7 +326,7 @@ def numeric_loads(running: Running) -> AppliedLoads:
     return AppliedLoads(tuple(forces), tuple(torques))
 
 
-def numeric_wrenches(running: Running) -> dict[str, tuple[Array, Array, Array]]:
+def numeric_wrenches(running: OperatingState) -> dict[str, tuple[Array, Array, Array]]:
     """Return force and moment about the origin of each link.
 
     Components [N], [N] and moment [N m] by link.

@@ -20,8 +20,8 @@ from crankwork.dynamics.friction_equations import (
     Truth,
 )
 from crankwork.dynamics.link_loads import Wrenches, arm, cross, link_wrenches
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import JointForces, collect_reactions
-from crankwork.dynamics.running import Running
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.bodies import broadcast
@@ -171,7 +171,7 @@ class FrictionJoint:
 
 
 def friction_joints(
-    running: Running, friction: Sequence[Friction], senses: Mapping[Friction, Array] | None = None
+    running: OperatingState, friction: Sequence[Friction], senses: Mapping[Friction, Array] | None = None
 ) -> tuple[FrictionJoint, ...]:
     """Return the joints with friction of a mechanism in operation.
 
@@ -203,7 +203,7 @@ def relative_rate(motion: Motion, joint: Joint) -> Value:
     return own if joint.other == GROUND else own - motion.frames[joint.other].angle_1
 
 
-def friction_forces(running: Running, friction: Sequence[Friction], *, thorough: bool = False) -> FrictionForces:
+def friction_forces(running: OperatingState, friction: Sequence[Friction], *, thorough: bool = False) -> FrictionForces:
     """Return the joint forces of a mechanism with friction in some joints (artobolevsky_1988, ch. 11 and 13-14).
 
     Forces, torque, losses, efficiency, residual and status at each crank angle. `running`: the mechanism at work; the
@@ -219,7 +219,9 @@ def friction_forces(running: Running, friction: Sequence[Friction], *, thorough:
     return solve_with_friction(running, friction_joints(running, friction), thorough=thorough)
 
 
-def solve_with_friction(running: Running, joints: Sequence[FrictionJoint], *, thorough: bool = False) -> FrictionForces:
+def solve_with_friction(
+    running: OperatingState, joints: Sequence[FrictionJoint], *, thorough: bool = False
+) -> FrictionForces:
     """Return the joint forces with friction for given relative motions in the joints."""
     system, wrenches = full_equilibrium(running), link_wrenches(running)
     right = system.right_side(wrenches)
@@ -244,7 +246,7 @@ def solve_with_friction(running: Running, joints: Sequence[FrictionJoint], *, th
     )
 
 
-def _driven(running: Running, system: Equilibrium, unknowns: Array, wrenches: Wrenches) -> Array:
+def _driven(running: OperatingState, system: Equilibrium, unknowns: Array, wrenches: Wrenches) -> Array:
     """Return the torque or force of the driver."""
     mechanism = running.mechanism
     if not isinstance(mechanism.driver, Cylinder) or mechanism.halves:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.dynamics.force_system import Equilibrium, solve_positions
-from crankwork.dynamics.running import Running
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.kinematics.crank_grid import Array
 from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.mechanism.joints import group_links
@@ -73,7 +73,9 @@ class FrictionEquations:
     alone, and acts on the group that it holds and on inner ones.
     """
 
-    def __init__(self, running: Running, system: Equilibrium, right: Array, joints: Sequence[FrictionJoint]) -> None:
+    def __init__(
+        self, running: OperatingState, system: Equilibrium, right: Array, joints: Sequence[FrictionJoint]
+    ) -> None:
         self._matrix, self._right = system.matrix, right.copy()
         # of each joint: the column of its first unknown, and the effect of its pressing force on the links
         self._parts: list[_Part] = []

@@ -28,25 +28,25 @@ from crankwork.dynamics.dyad_forces import (
 )
 from crankwork.dynamics.force_system import cylinder_force, motor_group, solved_group
 from crankwork.dynamics.link_loads import Wrench, Wrenches, arm, link_wrenches, moment_of
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import GuideForce, JointForces, PinForce, Reaction, collect_reactions, reaction_wrench
-from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, Pieces, Table, is_known, named
 from crankwork.formula.replay import Program
-from crankwork.kinematics.bridges import BEYOND
+from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, is_traced, named
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.equal_motion import Follower
-from crankwork.kinematics.memory import interpolant_of
+from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.transfer import PointMotion
+from crankwork.kinematics.traced_change_points import BEYOND
+from crankwork.kinematics.traced_motion import interpolant_of
 from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.change_point import ChangePointFit, ChangePointPassage, Polynomial
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, LinkMotor
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 from crankwork.mechanism.equal_parts import EqualPart
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, group_links, joints
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Driver, Mechanism
-from crankwork.mechanism.passage import ChangePointFit, ChangePointPassage, Polynomial
 
 _DEGREE, _NODES = 12, 40
 # forces lose one digit more than the motion they follow from: their nodes lie farther off
@@ -57,7 +57,7 @@ _ANGLE_TOLERANCE = 1e-6
 _SOURCE = "artobolevsky_1988, ch. 13"
 
 
-def joint_forces(running: Running) -> JointForces:
+def joint_forces(running: OperatingState) -> JointForces:
     """Return the forces in all joints and the balancing torque or force at the driver.
 
     On each pin the force on the link it holds [N]; on each sliding piece the normal force [N] and its moment [N m];
@@ -116,7 +116,7 @@ def _of_equal_part(
             )
 
 
-def _loaded(running: Running) -> Wrenches:
+def _loaded(running: OperatingState) -> Wrenches:
     """Return the wrenches of loads and inertia on each link; barrel and rod of a cylinder also count as one link."""
     wrenches, driver = link_wrenches(running), running.mechanism.driver
     for half in running.mechanism.halves:
@@ -124,7 +124,7 @@ def _loaded(running: Running) -> Wrenches:
     return wrenches
 
 
-def _at_driver(running: Running, reactions: Mapping[Joint, Reaction], wrenches: Wrenches) -> Value:
+def _at_driver(running: OperatingState, reactions: Mapping[Joint, Reaction], wrenches: Wrenches) -> Value:
     """Return the torque of a crank, or the force of a slider or a cylinder that drives."""
     driver, motion = running.mechanism.driver, running.motion
     if isinstance(driver, Crank):
@@ -136,7 +136,10 @@ def _at_driver(running: Running, reactions: Mapping[Joint, Reaction], wrenches: 
 
 
 def _at_base(
-    running: Running, all_joints: Sequence[Joint], wrenches: Wrenches, tooth_forces: Mapping[str, tuple[Value, Value]]
+    running: OperatingState,
+    all_joints: Sequence[Joint],
+    wrenches: Wrenches,
+    tooth_forces: Mapping[str, tuple[Value, Value]],
 ) -> dict[Joint, Reaction]:
     """Return the reactions in the joints of links that are placed before any group.
 
@@ -207,7 +210,7 @@ def _held_together(mechanism: Mechanism) -> Iterator[tuple[Dyad | Chain | None, 
 
 
 def _group_reactions(
-    group: Dyad | Chain, running: Running, held: Sequence[Joint], wrenches: Wrenches
+    group: Dyad | Chain, running: OperatingState, held: Sequence[Joint], wrenches: Wrenches
 ) -> dict[Joint, Reaction]:
     """Return the reactions in the joints of a group, for a dyad in closed form."""
     if isinstance(group, Chain):
@@ -222,7 +225,7 @@ def _arm(link: str, origin: PointMotion, pin: PointMotion) -> Vector:
 
 
 def _dyad_reactions(
-    dyad: Dyad, running: Running, wrenches: Wrenches, name: str
+    dyad: Dyad, running: OperatingState, wrenches: Wrenches, name: str
 ) -> tuple[Vector | OnGuide, Vector | OnGuide, Vector | OnGuide]:
     """Return the reactions of a dyad in the order of its joints."""
     (link_a, link_b), motion = group_links(dyad), running.motion
@@ -242,7 +245,7 @@ def _dyad_reactions(
             return rpp_forces(first, second, _arm(link_a, origin, other), along_b, along_a, name)
 
 
-def _about_joint(link: str, running: Running, own: Wrench) -> tuple[Wrench, PointMotion]:
+def _about_joint(link: str, running: OperatingState, own: Wrench) -> tuple[Wrench, PointMotion]:
     """Return the wrench on a link of a dyad about its outer joint, and that joint."""
     origin = running.motion.frames[link].origin
     if link not in running.mechanism.bars:
@@ -266,16 +269,16 @@ def _reaction(joint: Joint, force: Vector | OnGuide) -> Reaction:
 
 def bridged_forces(reactions: dict[Joint, Reaction], passage: ChangePointPassage) -> dict[Joint, Reaction]:
     """Return traced reactions of a dyad that passes change points; numbers stay as they are."""
-    if not all(isinstance(value, Known) for force in reactions.values() for value in force[1:]):
+    if not all(isinstance(value, TracedValue) for force in reactions.values() for value in force[1:]):
         return reactions
-    columns: dict[str, Known] = {
+    columns: dict[str, TracedValue] = {
         f"{number}.{index}": value
         for number, force in enumerate(reactions.values())
         for index, value in enumerate(force[1:])
     }
     varying = {key: column for key, column in columns.items() if column.varies}
     ends: list[float] = []
-    laws: dict[str, list[Known]] = {key: [] for key in varying}
+    laws: dict[str, list[TracedValue]] = {key: [] for key in varying}
     for bridge in passage.bridges:
         nodes = _nodes(bridge)
         values = Program(varying)(CrankGrid.from_degrees(bridge.degrees + nodes))
@@ -288,9 +291,9 @@ def bridged_forces(reactions: dict[Joint, Reaction], passage: ChangePointPassage
         ends += [bridge.degrees - width, bridge.degrees + width]
         for key, law in fits.items():
             if law is not None:
-                laws[key] += [varying[key], Known(Table(law, "change_point"), varying[key].key)]
+                laws[key] += [varying[key], TracedValue(Tabulated(law, "change_point"), varying[key].key)]
     for key, traced in varying.items():
-        columns[key] = Known(Pieces([*ends, BEYOND], (*laws[key], traced)), traced.key)
+        columns[key] = TracedValue(Piecewise([*ends, BEYOND], (*laws[key], traced)), traced.key)
     result: dict[Joint, Reaction] = {}
     for number, reaction in enumerate(reactions.values()):
         first, second = columns[f"{number}.0"], columns[f"{number}.1"]
@@ -376,7 +379,7 @@ def meshes(crank: Crank, motion: Motion, wrenches: Wrenches) -> Iterator[Mesh]:
         if geared.pressure_angle is None:
             continue
         line, moment = centres(crank, geared), wrenches[geared.link].moment
-        if is_known(moment) and moment.is_absent:
+        if is_traced(moment) and moment.is_absent:
             continue
         across = named(tooth_force(moment, geared.ratio, line.distance), f"tooth_force.{geared.link}")
         separating = _separating_force(across, geared, motion)
@@ -389,19 +392,19 @@ def meshes(crank: Crank, motion: Motion, wrenches: Wrenches) -> Iterator[Mesh]:
 def _is_inside(geared: GearedCrank) -> bool:
     """Return whether one of the wheels is a ring, so that teeth push the other towards its centre."""
     ratio: Any = geared.ratio
-    return bool((ratio.value if is_known(ratio) else ratio) > 0)
+    return bool((ratio.value if is_traced(ratio) else ratio) > 0)
 
 
 def _separating_force(across: Value, geared: GearedCrank, motion: Motion) -> Value:
     """Return the force that separates the wheels, on either flank."""
     angle, key = geared.pressure_angle, f"separating_force.{geared.link}"
-    if not is_known(across):
+    if not is_traced(across):
         return separating_force(np.abs(across), angle)
     push, pull = named(separating_force(across, angle), key), named(separating_force(-across, angle), key)
     if not across.varies:
         return push if across.value >= 0 else pull
-    ends, is_pull = interpolant_of(motion.grid)({"": across}).stretches("")
-    return Known(Pieces(ends, tuple(pull if is_pulling else push for is_pulling in is_pull)), key)
+    ends, is_pull = interpolant_of(motion.grid)({"": across}).sign_intervals("")
+    return TracedValue(Piecewise(ends, tuple(pull if is_pulling else push for is_pulling in is_pull)), key)
 
 
 def on_cranks(crank: Crank, meshes_by_link: Mapping[str, Mesh]) -> dict[str, tuple[Value, Value]]:

@@ -6,15 +6,15 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from crankwork.dynamics.running import Running
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import absent, is_known, named
+from crankwork.formula.traced_value import absent, is_traced, named
 from crankwork.kinematics.bodies import body_motions, sum_columns, zero_column
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dyads import is_zero
+from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.transfer import PointMotion
-from crankwork.loads.applied import AppliedForce, AppliedLoads, AppliedTorque
+from crankwork.loads.applied_loads import AppliedForce, AppliedLoads, AppliedTorque
 
 
 class Wrench(NamedTuple):
@@ -73,7 +73,7 @@ def link_angular_acceleration(theta_2: Value, w: Value, theta_1: Value, eps: Val
     return theta_2 * w**2 + theta_1 * eps
 
 
-def inertia_loads(running: Running) -> AppliedLoads:
+def inertia_loads(running: OperatingState) -> AppliedLoads:
     """Return -m a at each centre of mass [N] and -J eps on each link [N m] (artobolevsky_1988, ch. 12)."""
     w, eps = running.speed, running.angular_acceleration
     forces, torques = [], []
@@ -109,12 +109,12 @@ def distinct(names: Iterable[str]) -> list[str]:
     return result
 
 
-def all_loads(running: Running) -> AppliedLoads:
+def all_loads(running: OperatingState) -> AppliedLoads:
     """Return the loads of a mechanism together with the inertia of its bodies."""
     return running.loads.also(inertia_loads(running))
 
 
-def link_wrenches(running: Running) -> Wrenches:
+def link_wrenches(running: OperatingState) -> Wrenches:
     """Return the wrenches of loads and inertia on each moving link.
 
     Force [N] and moment about the origin of the frame of each link [N m].
@@ -133,14 +133,14 @@ def link_wrenches(running: Running) -> Wrenches:
 def arm(origin: PointMotion, point: PointMotion) -> tuple[Value, Value]:
     """Return the vector from one point to another. [m]"""
     ends, starts = (point.x.position, point.y.position), (origin.x.position, origin.y.position)
-    if all(is_known(end, start) and end.node is start.node for end, start in zip(ends, starts, strict=True)):
+    if all(is_traced(end, start) and end.node is start.node for end, start in zip(ends, starts, strict=True)):
         return absent("arm_x"), absent("arm_y")
     return ends[0] - starts[0], ends[1] - starts[1]
 
 
 def moment_of(lever: tuple[Value, Value], force: tuple[Value, Value], name: str = "") -> Value:
     """Return the moment of a force with an arm; absent where it has none."""
-    if all(is_known(component) and component.is_absent for component in lever):
+    if all(is_traced(component) and component.is_absent for component in lever):
         return absent("link_moment")
     return named(moment_about(lever[0], force[1], lever[1], force[0]), f"link_moment.{name}")
 

@@ -10,10 +10,10 @@ import numpy as np
 
 from crankwork.dynamics.link_loads import Wrench, arm, moment_of
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import is_known, named
+from crankwork.formula.traced_value import is_traced, named
 from crankwork.kinematics.bodies import zero_column
+from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.transfer import PointMotion
 from crankwork.mechanism.joints import Joint, Pin, SlidingJoint
 
 
@@ -77,7 +77,7 @@ def reaction_wrench(reaction: Reaction, motion: Motion, link: str) -> Wrench:
             x, y = -guide.sin * normal, guide.cos * normal
     x, y = named(x, f"joint_force_x.{joint.name}"), named(y, f"joint_force_y.{joint.name}")
     moment = moment_of(arm(motion.frames[link].origin, joint_place(joint, motion)), (x, y), f"{link}.{joint.name}")
-    if not (is_known(couple) and couple.is_absent):
+    if not (is_traced(couple) and couple.is_absent):
         moment = named(moment + couple, f"link_moment.{link}.{joint.name}.both")
     if link == joint.link:
         return Wrench(x, y, moment)

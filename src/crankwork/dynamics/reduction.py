@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from crankwork.dynamics.link_loads import distinct
-from crankwork.dynamics.running import Running
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import named
+from crankwork.formula.traced_value import named
 from crankwork.kinematics.bodies import body_motions, broadcast, sum_columns
 from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedLoads
+from crankwork.loads.applied_loads import AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
 
 
@@ -127,7 +127,7 @@ class CrankTorque(NamedTuple):
         return self.static + self.dynamic
 
 
-def crank_torque(running: Running) -> CrankTorque:
+def crank_torque(running: OperatingState) -> CrankTorque:
     """Return the torque needed at the crank without friction, from energy (artobolevsky_1988, ch. 16). [N m]"""
     inertia, inertia_1 = reduced_inertia(running.mechanism, running.motion)
     dynamic = dynamic_torque(running.speed, inertia_1, inertia, running.angular_acceleration)

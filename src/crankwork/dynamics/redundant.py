@@ -9,13 +9,13 @@ import numpy as np
 
 from crankwork.dynamics.dyad_forces import force_along
 from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import JointForces
-from crankwork.dynamics.running import Running
 from crankwork.formula.expression import Value
-from crankwork.formula.known import given, is_known, named
+from crankwork.formula.traced_value import given, is_traced, named
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import NO_LOADS, AppliedLoads, force_at
+from crankwork.loads.applied_loads import NO_LOADS, AppliedLoads, force_at
 from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.linkage import Member
 from crankwork.mechanism.mechanism import Mechanism
@@ -42,7 +42,7 @@ class RedundantLink:
     reference_length: float = 0.0
 
 
-def with_redundant(running: Running, links: Sequence[RedundantLink]) -> Running:
+def with_redundant(running: OperatingState, links: Sequence[RedundantLink]) -> OperatingState:
     """Return a mechanism in operation with the forces of its redundant links on their joints, in numbers.
 
     All forces are linear in those of the redundant links, which follow from the forces without them and from those due
@@ -57,7 +57,7 @@ def with_redundant(running: Running, links: Sequence[RedundantLink]) -> Running:
     return replace(running, loads=loads)
 
 
-def redundant_forces(running: Running, links: Sequence[RedundantLink]) -> Array:
+def redundant_forces(running: OperatingState, links: Sequence[RedundantLink]) -> Array:
     """Return the pressing forces of redundant links, shape (links, n). [N]"""
     mechanism, motion, count = running.mechanism, running.motion, len(running.motion.grid)
     without = _along_others(running, links)
@@ -65,7 +65,7 @@ def redundant_forces(running: Running, links: Sequence[RedundantLink]) -> Array:
     for k, link in enumerate(links):
         unit = pressing(mechanism, motion, link, np.ones(count))
         massless = replace(mechanism, bodies=())
-        alone = Running(massless, motion, np.zeros(count), unit, np.zeros(count))
+        alone = OperatingState(massless, motion, np.zeros(count), unit, np.zeros(count))
         matrix[:, :, k] = -np.stack(_along_others(alone, links), axis=-1)
     shares = np.array([link.share or 0.0 for link in links])
     matrix *= shares[:, None]
@@ -74,7 +74,7 @@ def redundant_forces(running: Running, links: Sequence[RedundantLink]) -> Array:
     return np.asarray(solution[..., 0].T)
 
 
-def _along_others(running: Running, links: Sequence[RedundantLink]) -> list[Array]:
+def _along_others(running: OperatingState, links: Sequence[RedundantLink]) -> list[Array]:
     forces = joint_forces(running)
     return [np.asarray(force_along_other(running.mechanism, running.motion, forces, link)) for link in links]
 
@@ -112,6 +112,6 @@ def _direction(motion: Motion, ends: tuple[str, str], link: str, length: Value) 
     x, y = (
         named(b.position - a.position, f"distance_{axis}.{link}") for axis, a, b in zip("xy", start, end, strict=True)
     )
-    if is_known(x, y):
+    if is_traced(x, y):
         length = given(f"link_length.{link}", length, f"links.{link}.length")
     return named(x / length, f"link_cos.{link}.along"), named(y / length, f"link_sin.{link}.along")

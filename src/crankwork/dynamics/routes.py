@@ -10,27 +10,27 @@ import numpy as np
 from crankwork.dynamics.force_system import numeric_loads, system_joint_forces
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.link_loads import cross
+from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reduction import crank_torque
-from crankwork.dynamics.running import Running
 from crankwork.kinematics.crank_grid import Array
 
 
-def torque_by_groups(running: Running) -> Array:
+def torque_by_groups(running: OperatingState) -> Array:
     """Return the torque from the joint forces, group after group to the crank. [N m]"""
     return np.asarray(joint_forces(running).balancing_torque)
 
 
-def torque_by_full_system(running: Running) -> Array:
+def torque_by_full_system(running: OperatingState) -> Array:
     """Return the torque from one linear system of all links. [N m]"""
     return np.asarray(system_joint_forces(running).balancing_torque)
 
 
-def torque_by_energy(running: Running) -> Array:
+def torque_by_energy(running: OperatingState) -> Array:
     """Return the torque from the work of the loads and the change of the kinetic energy. [N m]"""
     return np.asarray(crank_torque(running).driving)
 
 
-def zhukovsky_torque(running: Running) -> Array:
+def zhukovsky_torque(running: OperatingState) -> Array:
     """Return the balancing torque from the moments of all forces on the rotated velocity polygon. [N m]
 
     Torque on the crank, positive with the rotation. Source: artobolevsky_1988, ch. 15.
@@ -51,7 +51,7 @@ def zhukovsky_torque(running: Running) -> Array:
     return -moment
 
 
-def virtual_work_torque(running: Running) -> Array:
+def virtual_work_torque(running: OperatingState) -> Array:
     """Return the balancing torque from the virtual work of loads and inertia (artobolevsky_1988, ch. 15). [N m]
 
     Torque on the crank, positive with the rotation.
@@ -65,7 +65,7 @@ def virtual_work_torque(running: Running) -> Array:
     return -power
 
 
-TORQUE_METHODS: Mapping[str, Callable[[Running], Array]] = MappingProxyType({
+TORQUE_METHODS: Mapping[str, Callable[[OperatingState], Array]] = MappingProxyType({
     "whole_system": torque_by_full_system, "zhukovsky": zhukovsky_torque, "virtual_work": virtual_work_torque,
     "energy": torque_by_energy,
 })  # fmt: skip

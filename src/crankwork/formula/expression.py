@@ -21,8 +21,8 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from crankwork.formula.known import Known, Use, is_known
-from crankwork.locale import decimal, say
+from crankwork.formula.traced_value import FormulaCall, TracedValue, is_traced
+from crankwork.locale import decimal, translate
 from crankwork.notation import ARGUMENTS
 from crankwork.quantities import QUANTITIES, Language
 
@@ -108,8 +108,8 @@ def formula(
 
         @functools.wraps(function)
         def compute_or_trace(*operands: Any) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
-            if is_known(*operands):
-                return Known(Use(entry, operands), quantity)
+            if is_traced(*operands):
+                return TracedValue(FormulaCall(entry, operands), quantity)
             # through the entry, as in replays, so that `instead` replaces both
             return entry.function(*operands)
 
@@ -119,7 +119,7 @@ def formula(
 
 
 @contextmanager
-def instead(entry: Formula, function: Callable[..., Any]) -> Iterator[None]:
+def replaced_formula(entry: Formula, function: Callable[..., Any]) -> Iterator[None]:
     """Let another function be a formula for a while, wherever it is called, remembered or replayed.
 
     `function`: what is called in its place, with the same arguments.
@@ -225,7 +225,7 @@ def record(function: Callable[..., Any], absent: Collection[str] = ()) -> Expres
     tree = function(*(Number(0.0) if name in absent else Symbol(name) for name in names))
     if not isinstance(tree, Expression):
         return Number(tree)
-    return fold(tree) if absent else tree
+    return simplify(tree) if absent else tree
 
 
 def evaluate(tree: Expression, values: Mapping[str, Any]) -> Any:  # noqa: ANN401 - floats or arrays, as given
@@ -313,7 +313,7 @@ def takes_angle(function: Callable[..., Any]) -> bool:
 
 def radians(language: Language) -> str:
     """Return the unit of such a number."""
-    return say("units.rad", language)
+    return translate("units.rad", language)
 
 
 _NAMES = {"log": "ln", "log10": "lg", "absolute": "abs", "maximum": "max", "minimum": "min"}
@@ -361,7 +361,7 @@ def symbol(argument: str, language: Language = "en") -> str:
     return entry.pattern.format(*(QUANTITIES[key].symbol(language) for key in keys))
 
 
-def fold(tree: Expression) -> Expression:
+def simplify(tree: Expression) -> Expression:
     """Return a tree without the terms and factors that are plain zeros and ones.
 
     `tree`: a recorded formula; numbers stand where operands are absent.
@@ -373,7 +373,7 @@ def fold(tree: Expression) -> Expression:
     """
     if not isinstance(tree, Operation):
         return tree
-    operands = tuple(fold(operand) for operand in tree.operands)
+    operands = tuple(simplify(operand) for operand in tree.operands)
     numbers = [operand.value if isinstance(operand, Number) else None for operand in operands]
     function = tree.function
     is_power = function in (operator.pow, np.power)

@@ -17,20 +17,20 @@ from typing import Any, Literal, Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.formula.known import (
+from crankwork.formula.traced_value import (
+    AngleFunction,
+    AngleUnwrap,
     Arithmetic,
     Array,
     Component,
     Delayed,
-    HalfTurns,
-    Known,
+    FormulaCall,
     Node,
-    OfAngle,
-    Pieces,
+    Piecewise,
     Root,
-    Table,
-    Total,
-    Use,
+    Sum,
+    Tabulated,
+    TracedValue,
     in_order,
 )
 
@@ -66,9 +66,9 @@ class Angles(Protocol):
 
 
 # What makes a column: a function, and what it takes.
-_Step = tuple[Callable[..., Any], tuple[Known | float, ...]]
+_Step = tuple[Callable[..., Any], tuple[TracedValue | float, ...]]
 # Stand for the angles at which columns are replayed.
-_ANGLES, _DEGREES = Known(Node(None)), Known(OfAngle("degrees"))
+_ANGLES, _DEGREES = TracedValue(Node(None)), TracedValue(AngleFunction("degrees"))
 
 
 class Program:
@@ -77,17 +77,17 @@ class Program:
     A step takes columns and numbers out of slots and puts a column into one; the slot of what is spent is used again.
     """
 
-    def __init__(self, columns: Mapping[str, Known]) -> None:
+    def __init__(self, columns: Mapping[str, TracedValue]) -> None:
         self.columns = dict(columns)
         steps: dict[int, _Step] = {}
         late: list[Delayed] = []
 
-        def varying_operands(node: Node) -> list[Known]:
+        def varying_operands(node: Node) -> list[TracedValue]:
             if isinstance(node, Delayed):
                 late.append(node)
                 return []
             _, inputs = steps[id(node)] = _step(node)
-            return [item for item in inputs if type(item) is Known and item.varies and item is not _ANGLES]
+            return [item for item in inputs if type(item) is TracedValue and item.varies and item is not _ANGLES]
 
         varying = (column for column in columns.values() if column.varies)
         order = [column.node for column in in_order(varying, into=varying_operands)]
@@ -96,7 +96,7 @@ class Program:
         self._invalid: Literal["ignore", "warn"] = "ignore" if any(map(_may_have_no_value, order)) else "warn"
         for cycle in sorted({node.cycle for node in late}):
             together = [node for node in late if node.cycle == cycle]
-            earlier = Known(Node(None))
+            earlier = TracedValue(Node(None))
             steps[id(earlier.node)] = _Earlier(together, cycle), (_ANGLES,)
             steps |= {id(node): (itemgetter(id(node)), (earlier,)) for node in together}
             order.insert(0, earlier.node)
@@ -105,7 +105,7 @@ class Program:
         self._steps = list(self._placed([(id(node), *steps[id(node)]) for node in order]))
 
     def _placed(
-        self, steps: list[tuple[int, Callable[..., Any], tuple[Known | float, ...]]]
+        self, steps: list[tuple[int, Callable[..., Any], tuple[TracedValue | float, ...]]]
     ) -> Iterator[tuple[int, Callable[..., Any], Callable[[list[Any]], Iterable[Any]]]]:
         """Yield of each step the slot of what it makes, its function, and what takes its operands out of the slots."""
         slots, slot_of, free = self._slots, self._slot_of, list[int]()
@@ -113,18 +113,18 @@ class Program:
             id(step_input.node): step_index
             for step_index, (_, _, inputs) in enumerate(steps)
             for step_input in inputs
-            if type(step_input) is Known and step_input.node.value is None
+            if type(step_input) is TracedValue and step_input.node.value is None
         }
         for kept in (_ANGLES, *self.columns.values()):
             last.pop(id(kept.node), None)
         for index, (made, function, inputs) in enumerate(steps):
             taken = []
             for operand in inputs:
-                key = id(operand.node) if type(operand) is Known else id(operand)
+                key = id(operand.node) if type(operand) is TracedValue else id(operand)
                 slot = slot_of.get(key)
                 if slot is None:
                     slot = slot_of[key] = len(slots)
-                    slots.append(operand.node.value if type(operand) is Known else operand)
+                    slots.append(operand.node.value if type(operand) is TracedValue else operand)
                 elif last.get(key) == index:
                     del last[key]
                     free.append(slot)
@@ -191,14 +191,14 @@ class Samples:
 
 def _may_have_no_value(node: Node) -> bool:
     """Return whether a column follows polynomials about change points, or is that of an instant centre."""
-    if isinstance(node, Use):
+    if isinstance(node, FormulaCall):
         return node.formula.quantity in ("instant_centre_x", "instant_centre_y")
-    return isinstance(node, Pieces) and any(
-        isinstance(law.node, Table) and law.node.word == "change_point" for law in node.operands
+    return isinstance(node, Piecewise) and any(
+        isinstance(law.node, Tabulated) and law.node.word == "change_point" for law in node.operands
     )
 
 
-def replay(known: Known, angles: Angles) -> Array:
+def replay(known: TracedValue, angles: Angles) -> Array:
     """Return one column at crank angles."""
     return Program({"": known})(angles)[""]
 
@@ -221,32 +221,32 @@ class _Earlier:
 def _step(node: Node) -> _Step:
     """Return the function that computes a column, and its operands at the same angles."""
     match node:
-        case Use():
+        case FormulaCall():
             return node.formula.function, node.inputs
         case Arithmetic():
             return node.function, node.inputs
-        case OfAngle():
+        case AngleFunction():
             return partial(_of_angle, node), (_ANGLES,)
-        case Total():
+        case Sum():
             return _sum, node.operands
-        case Pieces():
+        case Piecewise():
             laws = [_law(law) for law in node.operands]
             return partial(_piece_by_piece, node.ends, laws), (
                 _DEGREES,
                 *itertools.chain(*(inputs for _, inputs in laws)),
             )
-        case Table():
+        case Tabulated():
             return partial(_read, node.function), (_DEGREES if node.by is None else node.by,)
         case Root():
             return (partial(_solved, node), node.operands) if node.operands else (node.solve, (_ANGLES,))
         case Component():
             return itemgetter(node.at), node.operands
-        case HalfTurns():
+        case AngleUnwrap():
             return partial(_half_turns, node), (_DEGREES, *node.operands)
     raise TypeError(f"{type(node).__name__} cannot be replayed")
 
 
-def _of_angle(node: OfAngle, angles: Angles) -> Array:
+def _of_angle(node: AngleFunction, angles: Angles) -> Array:
     column: Array = getattr(angles.multiple(node.multiple).shifted(node.shift), node.function)
     return column
 
@@ -263,13 +263,13 @@ def _solved(root: Root, *columns: Array) -> Array:
     return root.solve(columns)
 
 
-def _half_turns(node: HalfTurns, degrees: Array, sin: Array, cos: Array) -> Array:
+def _half_turns(node: AngleUnwrap, degrees: Array, sin: Array, cos: Array) -> Array:
     return np.asarray(np.rint((node.near(degrees) - np.arctan(sin / cos)) / np.pi))
 
 
-def _law(law: Known) -> _Step:
+def _law(law: TracedValue) -> _Step:
     """Return the step of one law of a piecewise column: a formula on its own interval only, other columns sliced."""
-    if law.varies and (isinstance(law.node, Use) or (isinstance(law.node, Table) and law.node.by is None)):
+    if law.varies and (isinstance(law.node, FormulaCall) or (isinstance(law.node, Tabulated) and law.node.by is None)):
         return _step(law.node)
     return _itself, (law,)
 

@@ -15,7 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork import files
-from crankwork.formula.known import Delayed, Found, Known, Node, Procedure, Use, breaks_of, in_order
+from crankwork.formula.traced_value import (
+    Delayed,
+    FormulaCall,
+    FunctionValue,
+    Node,
+    ProcedureValue,
+    TracedValue,
+    breakpoints_of,
+    in_order,
+)
+from crankwork.kernel.block_reductions import Block, LevelReductions
 from crankwork.kernel.gradient import Gradient
 from crankwork.kernel.graph import COMPUTE, KernelValue, number
 from crankwork.kernel.graph import in_order as values_in_order
@@ -29,13 +39,12 @@ from crankwork.kernel.grid import (
     uniform_grid,
     with_delayed_breakpoints,
 )
-from crankwork.kernel.plan import Schedule
-from crankwork.kernel.reduced import Block, LevelReductions
+from crankwork.kernel.javascript import Script
+from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
+from crankwork.kernel.python_source import ACCUMULATED, LANES, Source
+from crankwork.kernel.reduction_adjoints import ReductionAdjoint, part_key, split_extreme
 from crankwork.kernel.reductions import PolynomialReductions, SampledReductions
-from crankwork.kernel.script import Script
-from crankwork.kernel.slopes import ReductionAdjoint, part_key, split_extreme
-from crankwork.kernel.source import ACCUMULATED, LANES, Source
-from crankwork.kernel.trace import DesignTraces, Lowering, NotCompiledError
+from crankwork.kernel.schedule import Schedule
 
 Array = NDArray[np.float64]
 # widths of panels that are tried, and the truncation error at which a column is accepted
@@ -69,7 +78,7 @@ class Kernel:
 
     def __init__(  # noqa: PLR0913 - designs, what is wanted of them, and where it is looked at
         self,
-        traces: Sequence[Mapping[str, Known]],
+        traces: Sequence[Mapping[str, TracedValue]],
         fields: Array,
         keys: Sequence[str],
         angles_at: Callable[[Any], Any],
@@ -86,10 +95,10 @@ class Kernel:
         self.fields = fields.shape[1]
         wanted = {key: traces[0][key] for key in keys}
         traced = list(in_order(wanted.values(), into=_dependencies))
-        if steps and any(isinstance(operand.node, Procedure) for operand in traced):
+        if steps and any(isinstance(operand.node, FunctionValue) for operand in traced):
             raise NotCompiledError("procedure", next(iter(keys)))
         delays = sorted({operand.node.by for operand in traced if isinstance(operand.node, Delayed)})
-        breaks = [breaks_of(_reduced([memory[key] for key in keys]), cycle, start) for memory in traces]
+        breaks = [breakpoints_of(_reduced([trace[key] for key in keys]), cycle, start) for trace in traces]
         is_compiled = compiles() and not is_for_few
         widths = [width for width in _WIDTHS if width * parts <= cycle] or _WIDTHS[-1:]
         for width in (cycle,) if steps else widths:
@@ -258,20 +267,26 @@ class Kernel:
         return Script(self.source, _POLYNOMIALS)
 
 
-def _of_cycle(known: Known, value: KernelValue) -> KernelValue:
+def _of_cycle(known: TracedValue, value: KernelValue) -> KernelValue:
     """Return a single value, or the reduction that stores a column."""
     return value.graph.reduction("column", value) if known.varies else value
 
 
-def _dependencies(node: Node) -> Sequence[Known]:
-    return (node.general_form,) if isinstance(node, Found | Use) and node.general_form is not None else node.operands
+def _dependencies(node: Node) -> Sequence[TracedValue]:
+    return (
+        (node.general_form,)
+        if isinstance(node, ProcedureValue | FormulaCall) and node.general_form is not None
+        else node.operands
+    )
 
 
-def _reduced(traced: Iterable[Known]) -> list[Known]:
+def _reduced(traced: Iterable[TracedValue]) -> list[TracedValue]:
     """Return the columns that single values are reduced from, and those that are stored."""
     traced = list(traced)
     nodes = [known.node for known in in_order(traced, into=_dependencies)]
-    columns = [operand for node in nodes if isinstance(node, Found) for operand in node.operands if operand.varies]
+    columns = [
+        operand for node in nodes if isinstance(node, ProcedureValue) for operand in node.operands if operand.varies
+    ]
     return [*columns, *(known for known in traced if known.varies)]
 
 

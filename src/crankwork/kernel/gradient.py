@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from crankwork.kernel.derivative import PARTIALS
 from crankwork.kernel.graph import COMPUTE, KernelValue, number
-from crankwork.kernel.plan import Loop
-from crankwork.kernel.slopes import ColumnWeights, ReductionAdjoint
-from crankwork.kernel.source import Rows, Source
+from crankwork.kernel.python_source import Rows, Source
+from crankwork.kernel.reduction_adjoints import ColumnWeights, ReductionAdjoint
+from crankwork.kernel.schedule import Loop
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from crankwork.formula.over_cycle import integrals_of_roots
+from crankwork.formula.cycle_interpolant import integrals_of_roots
 from crankwork.kernel.grid import Grid, Polynomials
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from crankwork.errors import GeometryError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dyads import Closure
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 
@@ -19,7 +19,7 @@ from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Dyad
 _SINGULAR = 1e-13
 
 
-def unassembled(closure: Closure) -> NDArray[np.bool_] | None:
+def first_failure(closure: Closure) -> NDArray[np.bool_] | None:
     """Return where a group does not close or is singular, or None if it closes everywhere."""
     value = closure.value
     limit = _SINGULAR * closure.scale
@@ -38,55 +38,57 @@ def assembly_error(group: Dyad | Chain, closure: Closure, grid: CrankGrid, bad: 
     return GeometryError(message)
 
 
-def _singular(group: Dyad | Chain, angle: float) -> Refusal:
+def _singular(group: Dyad | Chain, angle: float) -> ErrorMessage:
     """Return the message that a group is singular at a crank angle, with advice. [deg]"""
     match group:
         case RRR():
-            return Refusal("rrr_singular", first=group.link_a, second=group.link_b, angle=angle)
+            return ErrorMessage("rrr_singular", first=group.link_a, second=group.link_b, angle=angle)
         case RRP():
-            return Refusal("rrp_singular", link=group.link, slider=group.slider, angle=angle)
+            return ErrorMessage("rrp_singular", link=group.link, slider=group.slider, angle=angle)
         case RPR():
-            return Refusal("rpr_singular", pin=group.joint, link=group.link, angle=angle)
+            return ErrorMessage("rpr_singular", pin=group.joint, link=group.link, angle=angle)
         case PRP():
-            return Refusal("prp_singular", first=group.block_a, second=group.block_b, angle=angle)
+            return ErrorMessage("prp_singular", first=group.block_a, second=group.block_b, angle=angle)
         case RPP():
-            return Refusal("rpp_singular", link=group.link, angle=angle)
+            return ErrorMessage("rpp_singular", link=group.link, angle=angle)
         case Chain():
-            return Refusal("chain_singular", links=_names(group), angle=angle)
+            return ErrorMessage("chain_singular", links=_names(group), angle=angle)
 
 
-def _missing(group: Dyad | Chain, measure: float, angle: float) -> Refusal:
+def _missing(group: Dyad | Chain, measure: float, angle: float) -> ErrorMessage:
     """Return the message that a group does not meet at a crank angle, by how much, with advice. [deg]"""
     match group:
         case RRR():
             return _gap_message(group, measure, angle)
         case RRP():
             short = (abs(measure) - group.length) * 1e3
-            return Refusal("rrp_short", link=group.link, slider=group.slider, missing=short, angle=angle)
+            return ErrorMessage("rrp_short", link=group.link, slider=group.slider, missing=short, angle=angle)
         case RPR():
             short = _slot_offset(group, measure) * 1e3
-            return Refusal("rpr_near", pin=group.joint, pivot=group.pivot, link=group.link, missing=short, angle=angle)
+            return ErrorMessage(
+                "rpr_near", pin=group.joint, pivot=group.pivot, link=group.link, missing=short, angle=angle
+            )
         case PRP() | RPP():
             return _singular(group, angle)
         case Chain():
             start = math.degrees(group.start)
-            return Refusal("chain_lost", links=_names(group), start=start, angle=angle)
+            return ErrorMessage("chain_lost", links=_names(group), start=start, angle=angle)
 
 
 def _names(chain: Chain) -> str:
     return ", ".join(link.name for link in chain.links)
 
 
-def _gap_message(group: RRR, square: float, angle: float) -> Refusal:
+def _gap_message(group: RRR, square: float, angle: float) -> ErrorMessage:
     p, q, distance = group.length_a, group.length_b, math.sqrt(square)
     names = {
         "first": group.link_a, "second": group.link_b, "point": group.point,
         "joint": group.joint_a, "other": group.joint_b, "angle": angle,
     }  # fmt: skip
     if distance > p + q:
-        return Refusal("rrr_short", **names, missing=(distance - p - q) * 1e3)
+        return ErrorMessage("rrr_short", **names, missing=(distance - p - q) * 1e3)
     longer, shorter = (group.link_a, group.link_b) if p > q else (group.link_b, group.link_a)
-    return Refusal("rrr_long", **names, longer=longer, shorter=shorter, missing=(abs(p - q) - distance) * 1e3)
+    return ErrorMessage("rrr_long", **names, longer=longer, shorter=shorter, missing=(abs(p - q) - distance) * 1e3)
 
 
 def _slot_offset(dyad: RPR, square: float) -> float:

@@ -9,10 +9,10 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value
-from crankwork.formula.known import absent, is_known, total
+from crankwork.formula.traced_value import absent, is_traced, total
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.transfer import PointMotion, Transfer
 from crankwork.mechanism.mechanism import Body, Mechanism
 
 
@@ -62,17 +62,17 @@ def _rates(body: Body, motion: Motion) -> tuple[Value, Value]:
 
 def zero_column(grid: CrankGrid) -> Value:
     """Return a column of zeros, an absent value for a traced motion."""
-    return absent("") if is_known(grid.angle) else np.zeros_like(grid.angle)
+    return absent("") if is_traced(grid.angle) else np.zeros_like(grid.angle)
 
 
 def broadcast(value: Value, grid: CrankGrid) -> Value:
     """Return a value as a column over the crank angle; traced values stay as they are."""
-    return value if is_known(value, grid.angle) else value + np.zeros_like(grid.angle)
+    return value if is_traced(value, grid.angle) else value + np.zeros_like(grid.angle)
 
 
 def sum_columns(key: str, terms: Iterable[Value], grid: CrankGrid) -> Value:
     """Return the sum of columns in their order, zero for no columns."""
-    if not is_known(grid.angle):
+    if not is_traced(grid.angle):
         return sum(terms, np.zeros_like(grid.angle))
-    stated = [term for term in terms if not (is_known(term) and term.is_absent)]
+    stated = [term for term in terms if not (is_traced(term) and term.is_absent)]
     return total(key, stated) if stated else absent(key)

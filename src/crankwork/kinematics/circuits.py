@@ -16,15 +16,15 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.kinematics.assembly import singular_between, suspect_intervals
-from crankwork.kinematics.closing import LoopClosure
-from crankwork.kinematics.coordinates import Configurations, Coordinate, rod_of, slider_place
+from crankwork.kinematics.chain_solver import as_chain
+from crankwork.kinematics.configuration_coordinates import Configurations, Coordinate, rod_of, slider_place
+from crankwork.kinematics.configuration_curve import ConfigurationCurve, PositionEquations, trace_curve
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.curves import ConfigurationCurve, PositionEquations, trace_curve
+from crankwork.kinematics.dead_centres import bracketed_roots
 from crankwork.kinematics.dyads import LinkMotion, fixed_point
-from crankwork.kinematics.extremes import bracketed_roots
-from crankwork.kinematics.loops import as_chain
-from crankwork.kinematics.placement import Closures, Placed, place_at
-from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
+from crankwork.kinematics.loop_closure import LoopClosure
+from crankwork.kinematics.position_analysis import Closures, Placed, place_at
 from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point

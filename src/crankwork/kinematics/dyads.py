@@ -15,10 +15,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, absent, given, is_known, named
+from crankwork.formula.traced_value import TracedValue, absent, given, is_traced, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.mechanism.dyads import RRP, RRR, Guide, Point
 from crankwork.mechanism.mechanism import Crank
 
@@ -106,12 +106,12 @@ def rrp_sine(sin_th: Value, h_g: Value, cos_th: Value, n_g: Value, l_i: Value) -
 
 def is_zero(value: Any) -> bool:  # noqa: ANN401 - a known or a number
     """Return whether a length or angle is zero: absent, or the number zero."""
-    return value.is_absent if isinstance(value, Known) else not value
+    return value.is_absent if isinstance(value, TracedValue) else not value
 
 
 def _moves(rate: Any) -> bool:  # noqa: ANN401 - a known or an array
     # the rate of a crank is absent too, with the value 1
-    return not rate.is_absent or rate.value != 0 if isinstance(rate, Known) else rate.ndim > 0
+    return not rate.is_absent or rate.value != 0 if isinstance(rate, TracedValue) else rate.ndim > 0
 
 
 class LinkMotion(NamedTuple):
@@ -151,7 +151,7 @@ class Closure(NamedTuple):
 
 def fixed_point(point: Point) -> PointMotion:
     """Return the motion of a fixed point."""
-    if is_known(*point):
+    if is_traced(*point):
         x, y = (Transfer(coordinate, absent("point_x_1"), absent("point_x_2")) for coordinate in point)
         return PointMotion(x, y)
     return PointMotion(Transfer(np.array(point[0]), _ZERO, _ZERO), Transfer(np.array(point[1]), _ZERO, _ZERO))
@@ -159,7 +159,7 @@ def fixed_point(point: Point) -> PointMotion:
 
 def fixed_guide(guide: Guide) -> LinkMotion:
     """Return the motion of a fixed guide."""
-    if is_known(guide.angle):
+    if is_traced(guide.angle):
         cos, sin = plane.cosine_of_direction(guide.angle), plane.sine_of_direction(guide.angle)
         return LinkMotion(fixed_point(guide.point), cos, sin, absent("link_angle_1"), absent("link_angle_2"))
     cos, sin = np.array(math.cos(guide.angle)), np.array(math.sin(guide.angle))
@@ -175,7 +175,7 @@ def crank_motion(crank: Crank, grid: CrankGrid) -> LinkMotion:
         cos, sin = (
             plane.cosine_of_turned(cos_start, cos, sin_start, sin), plane.sine_of_turned(sin_start, cos, cos_start, sin)
         )  # fmt: skip
-    if is_known(cos):
+    if is_traced(cos):
         forward = absent("link_angle_1", 1.0) if crank.direction == 1 else given("link_angle_1", -1.0)
         return LinkMotion(fixed_point(crank.pivot), cos, sin, forward, absent("link_angle_2"))
     rate = np.full_like(cos, crank.direction)
@@ -196,7 +196,7 @@ def point_on_link(link: LinkMotion, along: Value, across: Value, name: str = "")
     r = o + d, r' = o' + J d theta', r'' = o'' + J d theta'' - d theta'^2.
     """
     (x, x_1, x_2), (y, y_1, y_2) = link.origin
-    if is_known(along) and is_zero(along) and is_zero(across):
+    if is_traced(along) and is_zero(along) and is_zero(across):
         return link.origin
     if is_zero(across):
         dx, dy = along * link.cos, along * link.sin
@@ -223,7 +223,7 @@ def rotated_frame(link: LinkMotion, angle: float, name: str = "line") -> LinkMot
     """Return a frame with the same origin, its x axis at an angle to that of the link. [rad]"""
     if is_zero(angle):
         return link
-    if not is_known(angle) and abs(angle) == math.pi:
+    if not is_traced(angle) and abs(angle) == math.pi:
         return link._replace(cos=-link.cos, sin=-link.sin)
     cos, sin = plane.cosine_of_direction(angle), plane.sine_of_direction(angle)
     cos, sin = named(cos, f"line_cos.{name}"), named(sin, f"line_sin.{name}")
@@ -402,7 +402,7 @@ def _largest(value: Any) -> float:  # noqa: ANN401 - a float, a column or a comp
 
 
 def _rrr_closure(p: Value, q: Value, square: Value, *, is_opened: bool) -> Closure | None:
-    if is_known(square):
+    if is_traced(square):
         return None
     if is_opened:
         # singular only where the outer joints coincide
@@ -455,13 +455,13 @@ def rrp_motion(
         rate, rate_1 = rate + guide.angle_1, rate_1 + guide.angle_2
     point = point_on_guide(guide, slide)
     link = LinkMotion(joint, cos, sin, rate, rate_1)
-    closure = None if is_known(u) else Closure((length - u) * (length + u), _largest(length**2), u)
+    closure = None if is_traced(u) else Closure((length - u) * (length + u), _largest(length**2), u)
     return RRPMotion(point, slide, link, guide._replace(origin=point), closure)
 
 
 def named_coordinates(seen: PointMotion, name: str) -> PointMotion:
     """Return coordinates along and across a guide under the name of their point."""
-    if not is_known(*seen.x):
+    if not is_traced(*seen.x):
         return seen
     sides = zip(("guide_along", "guide_across"), seen, strict=True)
     return PointMotion(*(Transfer(*_ordered(side, key, name)) for key, side in sides))
@@ -469,7 +469,7 @@ def named_coordinates(seen: PointMotion, name: str) -> PointMotion:
 
 def named_slide(slide: Transfer, piece: str) -> Transfer:
     """Return the distance of a sliding piece under its name."""
-    return Transfer(*_ordered(slide, "slider_displacement", piece)) if is_known(*slide) else slide
+    return Transfer(*_ordered(slide, "slider_displacement", piece)) if is_traced(*slide) else slide
 
 
 def _ordered(transfer: Transfer, key: str, name: str) -> list[Any]:
@@ -478,7 +478,7 @@ def _ordered(transfer: Transfer, key: str, name: str) -> list[Any]:
 
 def named_point(point: PointMotion, name: str) -> PointMotion:
     """Return the motion of a point under its name."""
-    if not is_known(*point.x, *point.y):
+    if not is_traced(*point.x, *point.y):
         return point
     x, y = (Transfer(*_ordered(side, f"point_{axis}", name)) for axis, side in zip("xy", point, strict=True))
     return PointMotion(x, y)
@@ -486,7 +486,7 @@ def named_point(point: PointMotion, name: str) -> PointMotion:
 
 def named_link(link: LinkMotion, name: str) -> LinkMotion:
     """Return a frame under the name of its link."""
-    if not is_known(*link[1:]):
+    if not is_traced(*link[1:]):
         return link
     keys = ("link_cos", "link_sin", "link_angle_1", "link_angle_2")
     return LinkMotion(link.origin, *(named(value, f"{key}.{name}") for key, value in zip(keys, link[1:], strict=True)))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from crankwork.formula.known import Known, delayed
+from crankwork.formula.traced_value import TracedValue, delayed
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dyads import LinkMotion, named_link, named_point
-from crankwork.kinematics.placement import Placed
-from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
+from crankwork.kinematics.position_analysis import Placed
 from crankwork.mechanism.equal_parts import EqualPart
 
-Vector = tuple[Known, Known]
+Vector = tuple[TracedValue, TracedValue]
 
 
 class Follower:
@@ -19,10 +19,10 @@ class Follower:
         self.part = part
         angle = CrankGrid.from_degrees([part.turn])
         self._cos, self._sin = float(angle.cos[0]), float(angle.sin[0])
-        self._later: dict[int, tuple[Known, Known]] = {}
+        self._later: dict[int, tuple[TracedValue, TracedValue]] = {}
         self._points: dict[tuple[int, int], tuple[PointMotion, PointMotion]] = {}
 
-    def later(self, known: Known) -> Known:
+    def later(self, known: TracedValue) -> TracedValue:
         """Return a value at the crank angle of this part; the same node for the same value."""
         if not known.varies:
             return known
@@ -30,11 +30,11 @@ class Follower:
             self._later[id(known.node)] = known, delayed(known, self.part.delay, self.part.cycle, known.key)
         return self._later[id(known.node)][1]
 
-    def vector(self, x: Known, y: Known) -> Vector:
+    def vector(self, x: TracedValue, y: TracedValue) -> Vector:
         """Return a vector at the crank angle of this part, turned to it."""
         return self._turned(self.later(x), self.later(y))
 
-    def _turned(self, x: Known, y: Known) -> Vector:
+    def _turned(self, x: TracedValue, y: TracedValue) -> Vector:
         cos, sin = self._cos, self._sin
         if not sin:
             return (x, y) if cos > 0 else (-x, -y)

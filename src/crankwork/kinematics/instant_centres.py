@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.driver import LinkMotor
@@ -35,7 +35,7 @@ def pivoted_links(mechanism: Mechanism) -> set[str]:
     return {joint.link for joint in joints(mechanism) if isinstance(joint, Pin) and joint.other == GROUND}
 
 
-def instant_centres(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, Known]]:
+def instant_centres(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
     """Yield the instant centres of rotating links without a fixed pivot; `motion` is traced."""
     # the third side of the triangle of a motor is not a link
     pivoted = pivoted_links(mechanism) | ({mechanism.driver.link} if isinstance(mechanism.driver, LinkMotor) else set())

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from crankwork.kinematics.chain_solver import ChainPath
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dyads import LinkMotion
-from crankwork.kinematics.loops import ChainPath
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.kinematics.motion_laws import law_at
-from crankwork.kinematics.placement import assembled
-from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.kinematics.position_analysis import assembled
 from crankwork.mechanism.equal_parts import EqualPart
 from crankwork.mechanism.mechanism import Mechanism
 

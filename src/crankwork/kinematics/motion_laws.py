@@ -19,11 +19,11 @@ import numpy as np
 
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, Pieces, Table, absent, given
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, absent, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.transfer import Transfer
-from crankwork.locale import Refusal
+from crankwork.kinematics.kinematic_coefficients import Transfer
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law, LawKind, MotionLaw, Segment
 
 _REST_TOLERANCE = 1e-9
@@ -212,23 +212,23 @@ class _Own:
         tried = np.array(law.ways(_TRIED), dtype=float)
         name = type(law).__name__
         if tried.shape != (3, _TRIED.size) or not np.all(np.isfinite(tried)):
-            raise CrankworkError(Refusal("own_law_values", name=name))
+            raise CrankworkError(ErrorMessage("own_law_values", name=name))
         if abs(tried[0, 0]) > _REST_TOLERANCE or abs(tried[0, -1] - 1.0) > _REST_TOLERANCE:
-            raise CrankworkError(Refusal("own_law_ends", name=name, start=tried[0, 0], end=tried[0, -1]))
+            raise CrankworkError(ErrorMessage("own_law_ends", name=name, start=tried[0, 0], end=tried[0, -1]))
         if not all(0.0 < share < 1.0 for share in self.breaks) or list(self.breaks) != sorted(set(self.breaks)):
-            raise CrankworkError(Refusal("own_law_breaks", name=name))
+            raise CrankworkError(ErrorMessage("own_law_breaks", name=name))
         step = _TRIED[1]
         smooth = np.all(np.abs(_TRIED[1:-1, None] - np.array(self.breaks)) > step, axis=1)
         for order, (values, rate) in enumerate(itertools.pairwise(tried), start=1):
             error = np.abs((values[2:] - values[:-2]) / (2 * step) - rate[1:-1])[smooth]
             if np.max(error) > _RATE_TOLERANCE * max(1.0, np.max(np.abs(rate))):
-                raise CrankworkError(Refusal("own_law_rates", name=name, order=order))
+                raise CrankworkError(ErrorMessage("own_law_rates", name=name, order=order))
 
-    def pieces(self, z: Known) -> Iterator[tuple[float, tuple[Known, Known, Known]]]:
+    def pieces(self, z: TracedValue) -> Iterator[tuple[float, tuple[TracedValue, TracedValue, TracedValue]]]:
         """Yield the intervals between breaks: end, share of the travel, normalised velocity and acceleration."""
         for begin, end in itertools.pairwise((0.0, *self.breaks, 1.0)):
             share, rate, second = (
-                Known(Table(_Part(self.law, order, begin, end), "own_law", argument=z), key)
+                TracedValue(Tabulated(_Part(self.law, order, begin, end), "own_law", argument=z), key)
                 for order, key in enumerate(("way_share", "way_share_1", "way_share_2"))
             )
             yield end, (share, rate, second)
@@ -312,19 +312,19 @@ class Clock:
         return degrees * (self.period / 360.0)
 
 
-def clock(law: Law) -> Known:
+def clock(law: Law) -> TracedValue:
     """Return the traced time over the angle of one period. [s]"""
-    return Known(Table(Clock(law.period), "clock"), "time")
+    return TracedValue(Tabulated(Clock(law.period), "clock"), "time")
 
 
-def remembered_law(law: Law, *, turns: bool) -> Transfer:
+def traced_law(law: Law, *, turns: bool) -> Transfer:
     """Return the traced coordinate, rate and second rate of a driver over the angle of one period.
 
     `turns`: whether the coordinate is an angle and not a length.
     """
     keys, way_key = _KEYS[turns]
     time, ends = clock(law), list[float]()
-    columns: tuple[list[Known], ...] = ([], [], [])
+    columns: tuple[list[TracedValue], ...] = ([], [], [])
     for number, segment in enumerate(_placed_segments(law), start=1):
         before, path = f"driver.law[{number - 1}]" if number > 1 else "driver", f"driver.law[{number}]"
         origin = given(f"{keys[0]}.{number}", segment.origin, f"{before}.{'to' if number > 1 else 'start'}")
@@ -348,10 +348,10 @@ def remembered_law(law: Law, *, turns: bool) -> Transfer:
             columns[1].append(law_velocity(travel, f_1, duration))
             columns[2].append(f_2 if f_2.is_absent else law_acceleration(travel, f_2, duration))
     ends[-1] = 360.0
-    return Transfer(*(Known(Pieces(ends, tuple(laws)), key) for laws, key in zip(columns, keys, strict=True)))
+    return Transfer(*(TracedValue(Piecewise(ends, tuple(laws)), key) for laws, key in zip(columns, keys, strict=True)))
 
 
-def _normalised(piece: LawPiece, z: Known) -> tuple[Known, Known, Known]:
+def _normalised(piece: LawPiece, z: TracedValue) -> tuple[TracedValue, TracedValue, TracedValue]:
     """Return share of the travel, normalised velocity and acceleration of a piece; absent for a constant rate."""
     if piece.amplitude:
         c_0, c_1, *_ = (_coefficient(c) for c in piece.coefficients)
@@ -362,13 +362,13 @@ def _normalised(piece: LawPiece, z: Known) -> tuple[Known, Known, Known]:
     return polynomial_law(z, *c), polynomial_law_1(z, *c[1:]), second
 
 
-def _coefficient(value: float) -> Known | float:
+def _coefficient(value: float) -> TracedValue | float:
     return value or absent("law_coefficient")
 
 
 @cache
 def _program(law: Law) -> Program:
-    return Program(dict(zip(_KEYS[False][0], remembered_law(law, turns=False), strict=True)))
+    return Program(dict(zip(_KEYS[False][0], traced_law(law, turns=False), strict=True)))
 
 
 def law_at(law: Law, grid: CrankGrid) -> Transfer:

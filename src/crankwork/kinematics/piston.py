@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.kinematic_coefficients import Transfer
 from crankwork.kinematics.series import series_transfer
 from crankwork.kinematics.slider_crank import (
     RodSwing,
@@ -19,7 +20,6 @@ from crankwork.kinematics.slider_crank import (
     rod_transfer_1,
     rod_transfer_2,
 )
-from crankwork.kinematics.transfer import Transfer
 from crankwork.mechanism.dyads import RRP
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import EXACT, Method

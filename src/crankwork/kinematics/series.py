@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Found, Known, absent, added, is_known, named, plain
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, is_traced, named, sum_terms, to_number
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.kinematic_coefficients import Transfer
 from crankwork.kinematics.slider_crank import SliderCrank, piston_transfer_2, rod_swing
-from crankwork.kinematics.transfer import Transfer
 
 # Above this ratio the closed form needs too many terms.
 _CLOSED_FORM_RATIO = 0.999
@@ -139,36 +139,39 @@ def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> T
 
     x, x', x''; the displacement is zero at the top dead centre of the mechanism. Source: taylor_1985, vol. 2, ch. 8.
     """
-    lengths = SliderCrank(*map(plain, slider_crank))
-    dead_centre, is_traced = lengths.top_dead_centre, is_known(*slider_crank)
+    lengths = SliderCrank(*map(to_number, slider_crank))
+    dead_centre, has_trace = lengths.top_dead_centre, is_traced(*slider_crank)
     terms: list[tuple[int, Transfer]] = []
     for k, (c, s) in enumerate(zip(*acceleration_harmonics(lengths, order), strict=True), start=1):
         if c == 0 and s == 0:
             continue
         at_top = (float(np.cos(k * dead_centre)), float(np.sin(k * dead_centre)))
-        taken = remembered_order(slider_crank, k, (float(c), float(s)), at_top) if is_traced else (c, s, at_top)
+        taken = traced_order(slider_crank, k, (float(c), float(s)), at_top) if has_trace else (c, s, at_top)
         terms.append((k, order_terms(grid, k, *taken)))
     sums = (_sum(key, [(k, term[i]) for k, term in terms]) for i, key in enumerate(_KEYS))
     return Transfer(*sums)
 
 
-def remembered_order(
+def traced_order(
     slider_crank: SliderCrank, order: int, coefficients: tuple[float, float], start: tuple[float, float]
-) -> tuple[Known, Known, tuple[Known, Known]]:
+) -> tuple[TracedValue, TracedValue, tuple[TracedValue, TracedValue]]:
     """Return the coefficients of one order as knowns; of a central mechanism those of the sines are absent.
 
     `start`: cosine and sine of order times the crank angle where the displacement is to be zero.
     """
     a_k, b_k = coefficients
-    first = Known(Found(a_k, "harmonic", slider_crank), f"series_cosine.{order}")
+    first = TracedValue(ProcedureValue(a_k, "harmonic", slider_crank), f"series_cosine.{order}")
     if b_k == 0 and start == (1.0, 0.0):
         return first, absent(""), (absent("", 1.0), absent(""))
     return (
         first,
-        Known(Found(b_k, "harmonic", slider_crank), f"series_sine.{order}"),
-        (Known(Found(start[0], "dead_centre", slider_crank)), Known(Found(start[1], "dead_centre", slider_crank))),
+        TracedValue(ProcedureValue(b_k, "harmonic", slider_crank), f"series_sine.{order}"),
+        (
+            TracedValue(ProcedureValue(start[0], "dead_centre", slider_crank)),
+            TracedValue(ProcedureValue(start[1], "dead_centre", slider_crank)),
+        ),
     )
 
 
 def _sum(key: str, terms: list[tuple[int, Value]]) -> Value:
-    return added(key, [named(term, f"{key}.k{k}") for k, term in terms])
+    return sum_terms(key, [named(term, f"{key}.k{k}") for k, term in terms])

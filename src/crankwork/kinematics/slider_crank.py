@@ -14,9 +14,9 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Arithmetic, is_known, named
+from crankwork.formula.traced_value import Arithmetic, is_traced, named
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 
 @formula("rod_ratio", "kolchin_demidov_2008, ch. 6")
@@ -131,7 +131,7 @@ class SliderCrank(NamedTuple):
     @property
     def rod_ratio(self) -> Value:
         """Crank radius over rod length. [-]"""
-        made = self.rod_length.node if is_known(self.rod_length) else None
+        made = self.rod_length.node if is_traced(self.rod_length) else None
         if isinstance(made, Arithmetic) and made.inputs[0] is self.crank_radius and made.function is operator.truediv:
             # what the length was made of
             return made.inputs[1]
@@ -171,10 +171,10 @@ def check_slider_crank(slider_crank: SliderCrank) -> None:
     """Raise if the crank cannot turn fully."""
     r, l, e = (float(np.max(np.abs(length))) for length in slider_crank)  # noqa: E741
     if np.any(np.less_equal(slider_crank.crank_radius, 0)) or np.any(np.less_equal(slider_crank.rod_length, 0)):
-        raise GeometryError(Refusal("lengths_zero"))
+        raise GeometryError(ErrorMessage("lengths_zero"))
     if not turns_fully(slider_crank):
         raise GeometryError(
-            Refusal("rod_too_short", length=l * 1e3, radius=r * 1e3, offset=e * 1e3, missing=(r + e - l) * 1e3)
+            ErrorMessage("rod_too_short", length=l * 1e3, radius=r * 1e3, offset=e * 1e3, missing=(r + e - l) * 1e3)
         )
 
 

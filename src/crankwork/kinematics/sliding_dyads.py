@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import absent, is_known, named
+from crankwork.formula.traced_value import absent, is_traced, named
 from crankwork.kinematics import plane_motion as plane
 from crankwork.kinematics.dyads import (
     Closure,
@@ -23,7 +23,7 @@ from crankwork.kinematics.dyads import (
     rotated_frame,
     unchanged,
 )
-from crankwork.kinematics.transfer import PointMotion, Transfer
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.mechanism.dyads import PRP, RPP, RPR, Guide
 
 _DYADS = "artobolevsky_1988, ch. 4"
@@ -128,7 +128,7 @@ def rpr_motion(dyad: RPR, joint: PointMotion, pivot: PointMotion, through: Throu
     angle = dyad.slot.angle
     link = rotated_frame(block._replace(origin=pivot), angle if is_zero(angle) else -angle, name)
     closure = (
-        None if is_known(square) else Closure(square - e * e, float(np.fmax.reduce(square.real, initial=0.0)), square)
+        None if is_traced(square) else Closure(square - e * e, float(np.fmax.reduce(square.real, initial=0.0)), square)
     )
     place = s if is_zero(along) else s - along
     return RPRMotion(named_slide(Transfer(place, s_1, s_2), block_), link, block, closure)
@@ -140,7 +140,7 @@ def _in_slot_axes(slot: Guide) -> tuple[Value, Value]:
     if is_zero(slot.angle):
         return x, y
     cos, sin = plane.cosine_of_direction(slot.angle), plane.sine_of_direction(slot.angle)
-    if is_known(x) and is_zero(x) and is_zero(y):
+    if is_traced(x) and is_zero(x) and is_zero(y):
         return absent("slider_displacement"), absent("slot_offset")
     along, across = plane.along_guide(x, cos, y, sin), plane.across_guide(y, cos, x, sin)
     return named(along, "guide_along.slot"), named(across, "slot_offset")
@@ -165,7 +165,7 @@ def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
     s_a t_a - s_b t_b = q_b - q_a, and its derivatives with what the turning guides add.
     """
     zero: Value
-    if is_known(a.cos, b.cos):
+    if is_traced(a.cos, b.cos):
         zero, sine = absent("slider_displacement_1"), sine_between(a.cos, b.sin, a.sin, b.cos)
         sine = named(sine, f"guide_sine.{dyad.point}")
     else:
@@ -194,7 +194,7 @@ def prp_motion(dyad: PRP, a: LinkMotion, b: LinkMotion) -> PRPMotion:
     slide_a, slide_b = Transfer(s_a, s_a_1, s_a_2), Transfer(s_b, s_b_1, s_b_2)
     point = point_on_guide(a, slide_a)
     blocks = a._replace(origin=point), b._replace(origin=point)
-    closure = None if is_known(sine) else Closure(sine * sine, 1.0, sine)
+    closure = None if is_traced(sine) else Closure(sine * sine, 1.0, sine)
     return PRPMotion(point, slide_a, slide_b, *blocks, closure)
 
 
@@ -234,5 +234,5 @@ def rpp_motion(dyad: RPP, joint: PointMotion, guide: LinkMotion) -> RPPMotion:
     )
     link = guide._replace(origin=named_point(point_on_guide(guide, slide), dyad.link))
     block = rotated_frame(guide, gamma, dyad.block)._replace(origin=joint)
-    closure = None if is_known(gamma) else Closure(np.full_like(slide[0], sin * sin), 1.0, slide[0])
+    closure = None if is_traced(gamma) else Closure(np.full_like(slide[0], sin * sin), 1.0, slide[0])
     return RPPMotion(slide, block_slide, link, block, closure)

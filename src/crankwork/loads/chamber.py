@@ -7,15 +7,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from crankwork.formula.known import Found, Known, given
-from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, given
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.loads import gas
 from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece, VolumeAt
-from crankwork.loads.measured import MeasuredPressure
+from crankwork.loads.measured_pressure import MeasuredPressure
 from crankwork.loads.pressure import at_angle
 from crankwork.loads.valves import Valves
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.dyads import Branch
 
 _TURN = 360.0
@@ -31,7 +31,7 @@ class CalculatedDiagram(Protocol):
         """The diagram."""
 
     @property
-    def memory(self) -> Mapping[str, Known]:
+    def trace(self) -> Mapping[str, TracedValue]:
         """Single values by key, in the order of calculation."""
 
     @property
@@ -52,7 +52,7 @@ class PressureOfCycle(Protocol):
         """Return the diagram in a chamber."""
 
     @property
-    def traced(self) -> Callable[[Known, tuple[float, float]], Known] | None:
+    def traced(self) -> Callable[[TracedValue, tuple[float, float]], TracedValue] | None:
         """What gives the pressure as a traced column of volume and dead centres, None without formulas for it."""
 
 
@@ -144,7 +144,7 @@ def face_names(name: str, chamber: Chamber) -> tuple[str, ...]:
     return tuple(f"{name}.{face.slider}" for face in chamber.faces)
 
 
-def charge_mass(name: str, charge: Charge, volume: Known, constant: Known, period: float) -> Known:
+def charge_mass(name: str, charge: Charge, volume: TracedValue, constant: TracedValue, period: float) -> TracedValue:
     """Return the mass of a charge whose parts keep their temperatures."""
     key = f"gas_mass.{name}"
     if charge.mass is not None:
@@ -154,11 +154,13 @@ def charge_mass(name: str, charge: Charge, volume: Known, constant: Known, perio
         start = at_angle(volume, charge.angle, f"reduced_volume.{name}.start")
     else:
         mean = math.radians(period) / over.integral("inverse")
-        start = Known(Found(mean, "harmonic_mean", (volume,)), f"reduced_volume.{name}.mean")
+        start = TracedValue(ProcedureValue(mean, "harmonic_mean", (volume,)), f"reduced_volume.{name}.mean")
     return gas.charge_mass(_stated(name, charge), start, constant).named(key)  # type: ignore[no-any-return]
 
 
-def charge_pressure(name: str, charge: Charge, volume: Known, exponent: Known, period: float) -> Known:
+def charge_pressure(
+    name: str, charge: Charge, volume: TracedValue, exponent: TracedValue, period: float
+) -> TracedValue:
     """Return the pressure of a charge that follows a polytrope."""
     over, stated = _volume_over_cycle(name, volume, period), _stated(name, charge)
     if charge.mean_pressure is None:
@@ -167,20 +169,20 @@ def charge_pressure(name: str, charge: Charge, volume: Known, exponent: Known, p
         angle = over.extremes("")["_min_angle"] * (180 / math.pi)
         start = at_angle(volume, angle.value, f"cylinder_volume.{name}.start", angle)
         trial = gas.polytropic_pressure(stated, start, volume, exponent)
-        mean = OverCycle({"": trial}, CrankGrid.from_degrees, period).mean("", f"diagram_pressure.{name}.trial")
+        mean = CycleInterpolant({"": trial}, CrankGrid.from_degrees, period).mean("", f"diagram_pressure.{name}.trial")
         stated = (stated * (stated / mean)).named(f"diagram_pressure.{name}.start")
     return gas.polytropic_pressure(stated, start, volume, exponent)  # type: ignore[no-any-return]
 
 
-def _stated(name: str, charge: Charge) -> Known:
+def _stated(name: str, charge: Charge) -> TracedValue:
     if charge.mean_pressure is not None:
         return given(f"diagram_pressure.{name}.mean", charge.mean_pressure, f"charges.{name}.mean_pressure")
     return given(f"diagram_pressure.{name}.start", charge.pressure or math.nan, f"charges.{name}.pressure")
 
 
-def _volume_over_cycle(name: str, volume: Known, period: float) -> OverCycle:
+def _volume_over_cycle(name: str, volume: TracedValue, period: float) -> CycleInterpolant:
     """Return the volume of a charge and its inverse over the cycle; raise if the volume vanishes."""
-    largest, least = OverCycle({"": volume}, CrankGrid.from_degrees, period).largest_and_least[""]
+    largest, least = CycleInterpolant({"": volume}, CrankGrid.from_degrees, period).extreme_points[""]
     if least.value <= ZERO_TOLERANCE * largest.value:
-        raise DiagramError(f"charges.{name}", Refusal("charge_empty", angle=least.at))
-    return OverCycle({"": volume, "inverse": 1 / volume}, CrankGrid.from_degrees, period)
+        raise DiagramError(f"charges.{name}", ErrorMessage("charge_empty", angle=least.at))
+    return CycleInterpolant({"": volume, "inverse": 1 / volume}, CrankGrid.from_degrees, period)

@@ -8,12 +8,12 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import given, is_known, named
+from crankwork.formula.traced_value import given, is_traced, named
+from crankwork.kinematics.kinematic_coefficients import slider_velocity
 from crankwork.kinematics.motion import Motion
-from crankwork.kinematics.transfer import slider_velocity
-from crankwork.loads.applied import AppliedLoads, check_name, force_between, force_on_slider
+from crankwork.loads.applied_loads import AppliedLoads, check_name, force_between, force_on_slider
 from crankwork.loads.spring import spring_length
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.mechanism import Mechanism
 
 
@@ -62,8 +62,8 @@ def point_damper(load: Damper, mechanism: Mechanism, motion: Motion, speed: Valu
         for start_value, end_value in zip(start_axis[:2], end_axis[:2], strict=True)
     )
     length = named(spring_length(x, y), f"damper_length.{name}")
-    if not is_known(length) and np.any(length == 0):
-        raise GeometryError(Refusal("damper_shut", start=load.start, end=load.end))
+    if not is_traced(length) and np.any(length == 0):
+        raise GeometryError(ErrorMessage("damper_shut", start=load.start, end=load.end))
     rate = named(damper_velocity(x, x_1, y, y_1, length, speed), f"damper_velocity.{name}")
     force = named(damper_force(_damping(load, name, rate, path), rate), f"damper_force.{name}")
     return force_between(
@@ -83,4 +83,4 @@ def slider_damper(
 
 
 def _damping(load: Damper | SliderDamper, name: str, rate: Value, path: str) -> Value:
-    return given(f"damping.{name}", load.damping, f"{path}.damping") if is_known(rate) else load.damping
+    return given(f"damping.{name}", load.damping, f"{path}.damping") if is_traced(rate) else load.damping

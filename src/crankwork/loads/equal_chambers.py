@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from crankwork.formula.known import Known, delayed
+from crankwork.formula.traced_value import TracedValue, delayed
 from crankwork.loads.chamber import Chamber, face_names
-from crankwork.loads.filling import ChamberGas, GasForce
+from crankwork.loads.chamber_gas import ChamberGas, GasForce
 from crankwork.mechanism.equal_parts import EqualPart
 
 
@@ -38,7 +38,7 @@ def with_equal_chambers(filling: ChamberGas, chambers: Mapping[str, Chamber], pa
     return filling._replace(columns=columns, singles=singles, forces=tuple(forces))
 
 
-def _in_order(values: Mapping[str, Known], chambers: Mapping[str, Chamber]) -> dict[str, Known]:
+def _in_order(values: Mapping[str, TracedValue], chambers: Mapping[str, Chamber]) -> dict[str, TracedValue]:
     """Return values of each chamber in the order of chambers; gas forces and rod loads come last."""
     order = dict[str, int]()
     for number, (name, chamber) in enumerate(chambers.items()):

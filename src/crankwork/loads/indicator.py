@@ -15,12 +15,12 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Known
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.extremes import solve_monotone
+from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 Law = Literal["constant", "polytropic", "rounded"]
 # Cylinder volume [m3], or its derivative [m3/rad], of crank angles [deg].
@@ -103,7 +103,7 @@ class Segment:
     origin: str = ""
     piece: int = 0
     places: tuple[str, ...] = field(default=(), compare=False)
-    operands: tuple[Known, ...] = field(default=(), compare=False)
+    operands: tuple[TracedValue, ...] = field(default=(), compare=False)
 
     @property
     def is_measured(self) -> bool:
@@ -245,7 +245,7 @@ class _Solver:
         key = f"{self.path}.pieces[{number + 1}]"
         for name in (*piece.points, *([piece.reference] if piece.reference else [])):
             if name not in self.points:
-                raise DiagramError(f"{key}.points", Refusal("point_absent", name=name))
+                raise DiagramError(f"{key}.points", ErrorMessage("point_absent", name=name))
         match piece.law:
             case "constant":
                 return self._constant(key, piece)
@@ -288,7 +288,7 @@ class _Solver:
         if point.angle is not None:
             return point.angle
         if not self._is_by_volume(point):
-            raise DiagramError(key, Refusal("point_angle", name=name))
+            raise DiagramError(key, ErrorMessage("point_angle", name=name))
         return self._angle_of_volume(name, after)
 
     @staticmethod
@@ -325,7 +325,7 @@ class _Solver:
                 return solve_monotone(self.volume_at, target, float(edges[index]), float(edges[index + 1]))
         key = "volume" if self.points[name].stroke is None else "stroke"
         raise DiagramError(
-            f"{self.path}.points.{name}.{key}", Refusal("point_volume_far", low=low * 1e6, high=high * 1e6)
+            f"{self.path}.points.{name}.{key}", ErrorMessage("point_volume_far", low=low * 1e6, high=high * 1e6)
         )
 
     def pressure(self, key: str, name: str) -> float:
@@ -334,7 +334,7 @@ class _Solver:
             return self.named[name][1]
         pressure = self.points[name].pressure
         if pressure is None:
-            raise DiagramError(key, Refusal("point_pressure", name=name))
+            raise DiagramError(key, ErrorMessage("point_pressure", name=name))
         return pressure
 
     def settle(self, name: str, angle: float, pressure: float) -> None:
@@ -357,14 +357,14 @@ class _Solver:
 
     def _polytropic(self, key: str, piece: Piece) -> Segment:
         if piece.exponent is None:
-            raise DiagramError(f"{key}.exponent", Refusal("exponent_missing"))
+            raise DiagramError(f"{key}.exponent", ErrorMessage("exponent_missing"))
         first, last = piece.points[0], piece.points[-1]
         reference = piece.reference or first
         start = self.start(key, first)
         volume = self._volume(key, reference, start if reference == first else self.ended)
         state = (self.pressure(key, reference), volume, piece.exponent)
         if state[0] <= 0:
-            raise DiagramError(key, Refusal("polytrope_vacuum", name=reference))
+            raise DiagramError(key, ErrorMessage("polytrope_vacuum", name=reference))
         ending = self.points[last]
         if ending.angle is not None:
             end = ending.angle
@@ -391,13 +391,13 @@ class _Solver:
         degrees = np.array([start, *centres[centres < end], end])
         volumes = self.volume_at(degrees)
         if min(float(np.min(volumes)), reference) <= _EMPTY * self._reach[1]:
-            raise DiagramError(key, Refusal("polytrope_empty", angle=float(degrees[np.argmin(volumes)])))
+            raise DiagramError(key, ErrorMessage("polytrope_empty", angle=float(degrees[np.argmin(volumes)])))
 
     def _angle_of_pressure(self, key: str, start: float, last: str, state: tuple[float, float, float]) -> float:
         """Return where the polytrope reaches the pressure of its end point, before the next dead centre."""
         target = self.points[last].pressure
         if target is None or target <= 0:
-            raise DiagramError(key, Refusal("polytrope_end", name=last))
+            raise DiagramError(key, ErrorMessage("polytrope_end", name=last))
         low, high = start, float(self._centres_after(start)[0])
 
         def pressure(degrees: Array) -> Array:
@@ -407,12 +407,14 @@ class _Solver:
 
         ends = pressure(np.array([low, high])) - target
         if ends[0] * ends[1] > 0:
-            raise DiagramError(key, Refusal("polytrope_far", name=last, angle=high, centres=tuple(self.dead_centres)))
+            raise DiagramError(
+                key, ErrorMessage("polytrope_far", name=last, angle=high, centres=tuple(self.dead_centres))
+            )
         return solve_monotone(pressure, target, low, high)
 
     def _rounded(self, key: str, piece: Piece) -> Segment:
         if len(piece.points) < 2:
-            raise DiagramError(f"{key}.points", Refusal("rounded_points"))
+            raise DiagramError(f"{key}.points", ErrorMessage("rounded_points"))
         angles = [self.start(key, piece.points[0])]
         for name in piece.points[1:]:
             angles.append(self.angle(key, name, angles[-1]))
@@ -421,7 +423,7 @@ class _Solver:
         if knots[0] == knots[-1]:
             slopes = np.zeros_like(knots)
         elif np.any(np.diff(knots) <= 0):
-            raise DiagramError(f"{key}.points", Refusal("rounded_rises"))
+            raise DiagramError(f"{key}.points", ErrorMessage("rounded_rises"))
         else:
             slopes = monotone_slopes(knots, pressures)
         for name, angle, pressure in zip(piece.points, knots, pressures, strict=True):
@@ -436,15 +438,15 @@ def _check_chain(segments: list[Segment], cycle: float, named: Mapping[str, tupl
     for number, segment in enumerate(segments, start=1):
         if abs(segment.start - end) > _SAME_ANGLE:
             name = "piece_gap" if segment.start > end else "piece_overlap"
-            raise DiagramError(f"{path}.pieces[{number}]", Refusal(name, start=segment.start, end=end))
+            raise DiagramError(f"{path}.pieces[{number}]", ErrorMessage(name, start=segment.start, end=end))
         if segment.end < segment.start:
             raise DiagramError(
-                f"{path}.pieces[{number}]", Refusal("piece_backwards", start=segment.start, end=segment.end)
+                f"{path}.pieces[{number}]", ErrorMessage("piece_backwards", start=segment.start, end=segment.end)
             )
         end = segment.end
     if abs(end - cycle) > _SAME_ANGLE:
         last = max(named, key=lambda name: named[name][0])
-        raise DiagramError(f"{path}.pieces", Refusal("pieces_end", end=end, name=last, cycle=cycle))
+        raise DiagramError(f"{path}.pieces", ErrorMessage("pieces_end", end=end, name=last, cycle=cycle))
 
 
 def _check_closed(segments: list[Segment], stated: float, path: str) -> None:
@@ -453,7 +455,7 @@ def _check_closed(segments: list[Segment], stated: float, path: str) -> None:
     last = min(stated, float(segments[-1].pressures[-1]), key=lambda pressure: abs(pressure - first))
     highest = max(float(np.max(np.abs(segment.pressures))) for segment in segments)
     if abs(first - last) > 0.02 * highest:
-        raise DiagramError(f"{path}.pieces", Refusal("diagram_open", first=first / 1e6, last=last / 1e6))
+        raise DiagramError(f"{path}.pieces", ErrorMessage("diagram_open", first=first / 1e6, last=last / 1e6))
 
 
 def quadrature(breaks: Array) -> tuple[Array, Array]:

@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 
 from crankwork.formula.expression import Value
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedLoads, combine_loads, force_at
+from crankwork.loads.applied_loads import AppliedLoads, combine_loads, force_at
 from crankwork.loads.damper import Damper, SliderDamper, point_damper, slider_damper
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink, constant_force, link_torque, process_force
 from crankwork.loads.spring import SliderSpring, Spring, point_spring, slider_spring

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.formula.known import chosen, plain
+from crankwork.formula.traced_value import select, to_number
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.between import cubic_between
+from crankwork.loads.interpolation import cubic_between
 
 
 def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
@@ -31,8 +31,8 @@ def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
         return np.repeat(delta, 2)
     before, after = 2 * h[1:] + h[:-1], h[1:] + 2 * h[:-1]
     product = delta[:-1] * delta[1:]
-    left, right = chosen(product, delta[:-1], 1.0), chosen(product, delta[1:], 1.0)
-    inner = chosen(product, (before + after) / (before / left + after / right), 0.0)
+    left, right = select(product, delta[:-1], 1.0), select(product, delta[1:], 1.0)
+    inner = select(product, (before + after) / (before / left + after / right), 0.0)
     slopes = np.empty(len(x), dtype=delta.dtype)
     slopes[0], slopes[-1] = _end_slope(h[0], h[1], *delta[:2]), _end_slope(h[-1], h[-2], *delta[:-3:-1])
     slopes[1:-1] = inner
@@ -41,8 +41,8 @@ def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
 
 def _end_slope(near: Any, far: Any, delta_near: Any, delta_far: Any) -> Any:  # noqa: ANN401 - numbers or knowns
     slope, steepest = ((2 * near + far) * delta_near - near * delta_far) / (near + far), 3 * delta_near
-    turning = chosen((slope - steepest) * delta_near, steepest, slope)
-    return chosen(slope * delta_near, chosen(delta_near * delta_far, slope, turning), 0.0)
+    turning = select((slope - steepest) * delta_near, steepest, slope)
+    return select(slope * delta_near, select(delta_near * delta_far, slope, turning), 0.0)
 
 
 def hermite(x: Array, y: Array, slopes: Array, abscissas: Array) -> Array:
@@ -65,5 +65,5 @@ def hermite_slope(x: Array, y: Array, slopes: Array, abscissas: Array) -> Array:
 
 
 def _interval(x: Array, abscissas: Array) -> NDArray[np.intp]:
-    numbers = np.array([plain(value) for value in x], dtype=float) if x.dtype == object else x
+    numbers = np.array([to_number(value) for value in x], dtype=float) if x.dtype == object else x
     return np.asarray(np.clip(np.searchsorted(numbers, abscissas, side="right") - 1, 0, len(x) - 2))

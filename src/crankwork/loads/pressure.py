@@ -8,31 +8,31 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crankwork.formula.known import Found, Known, Pieces, Table, Use, given
 from crankwork.formula.replay import replay
+from crankwork.formula.traced_value import FormulaCall, Piecewise, ProcedureValue, Tabulated, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.loads.between import CurvePoint, curve_between
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import IndicatorDiagram, Segment
+from crankwork.loads.interpolation import CurvePoint, curve_between
 
 # A stated volume within this tolerance is the computed volume.
 _SAME_VOLUME = 1e-12
 
 
-def remembered_pressure(
+def traced_pressure(
     diagram: IndicatorDiagram,
-    volume: Known,
+    volume: TracedValue,
     path: str = "gas",
-    retold: Callable[[], Known] | None = None,
+    retold: Callable[[], TracedValue] | None = None,
     owner: str = "",
-) -> Known:
+) -> TracedValue:
     """Return the pressure of a diagram as a sequence of laws; `retold`: its form that holds for all inputs.
 
     `path`: of the diagram in the description; `owner`: the chamber it belongs to, if it is one of a linkage.
     """
     laws = tuple(_law(diagram, segment, volume, (path, owner)) for segment in diagram.segments)
     ends = [segment.end for segment in diagram.segments]
-    return Known(Pieces(ends, laws, diagram.breaks.tolist(), retold), _of("diagram_pressure", owner))
+    return TracedValue(Piecewise(ends, laws, diagram.breaks.tolist(), retold), _of("diagram_pressure", owner))
 
 
 def _of(key: str, owner: str, name: str = "") -> str:
@@ -40,27 +40,31 @@ def _of(key: str, owner: str, name: str = "") -> str:
     return ".".join((key, *(part for part in (owner, name) if part)))
 
 
-def at_angle(column: Known, degrees: float, key: str, angle: Known | None = None) -> Known:
+def at_angle(column: TracedValue, degrees: float, key: str, angle: TracedValue | None = None) -> TracedValue:
     """Return the value of a column at one crank angle under a key; `angle`: that angle if it is traced."""
     value = float(replay(column, CrankGrid.from_degrees([degrees]))[0])
-    return Known(Found(value, "at", (column,), degrees, angle), key)
+    return TracedValue(ProcedureValue(value, "at", (column,), degrees, angle), key)
 
 
 def polytrope_origin(
-    diagram: IndicatorDiagram, segment: Segment, volume: Known, path: str = "gas", owner: str = ""
-) -> tuple[Known, Known, Known]:
+    diagram: IndicatorDiagram, segment: Segment, volume: TracedValue, path: str = "gas", owner: str = ""
+) -> tuple[TracedValue, TracedValue, TracedValue]:
     """Return pressure and volume of the state that a polytrope passes through, and its exponent."""
     pressure, state_volume, exponent = segment.state
     name = segment.origin
     if segment.operands:
         p_1, n_p, *remaining = segment.operands
-        if name == "z" and isinstance(volume.node, Use):
+        if name == "z" and isinstance(volume.node, FormulaCall):
             # at the end of combustion the volume is the clearance volume times the cut-off ratio
             burnt = (remaining[0] * volume.node.operands[0]).named(f"cylinder_volume.{name}")
             if math.isclose(burnt.value, state_volume, rel_tol=_SAME_VOLUME):
                 return p_1, burnt, n_p
         angle = diagram.named.get(name, (None, 0.0))[0]
-        return p_1, Known(Found(state_volume, "at", (volume, *remaining), angle), f"cylinder_volume.{name}"), n_p
+        return (
+            p_1,
+            TracedValue(ProcedureValue(state_volume, "at", (volume, *remaining), angle), f"cylinder_volume.{name}"),
+            n_p,
+        )
     keys = [_of(key, owner, name) if name else "" for key in ("diagram_pressure", "cylinder_volume")]
     place = f"{path}.points.{_stated(name)}"
     p_1 = given(keys[0], pressure, f"{place}.pressure")
@@ -78,7 +82,7 @@ def _stated(name: str) -> str:
     return name.rstrip("′")
 
 
-def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known, stated: tuple[str, str]) -> Known:
+def _law(diagram: IndicatorDiagram, segment: Segment, volume: TracedValue, stated: tuple[str, str]) -> TracedValue:
     path, owner = stated
     match segment.law:
         case "constant":
@@ -90,7 +94,9 @@ def _law(diagram: IndicatorDiagram, segment: Segment, volume: Known, stated: tup
             p_1, V_1, exponent = polytrope_origin(diagram, segment, volume, path, owner)
             return polytropic_pressure(p_1, V_1, volume, exponent)  # type: ignore[no-any-return]
     word = "first_law" if segment.operands else "measured" if segment.is_measured else "curve"
-    return Known(Table(PressureCurve(segment), word, segment.knots.tolist(), segment.operands), "diagram_pressure")
+    return TracedValue(
+        Tabulated(PressureCurve(segment), word, segment.knots.tolist(), segment.operands), "diagram_pressure"
+    )
 
 
 @dataclass(frozen=True)
@@ -103,7 +109,7 @@ class PressureCurve:
         """Return the pressure at crank angles."""
         return self.segment.rounded(degrees)
 
-    def between(self, degrees: float, angle: Known) -> Known:
+    def between(self, degrees: float, angle: TracedValue) -> TracedValue:
         """Return the pressure at one crank angle, interpolated between two knots."""
         knots = self.segment.knots
         index = int(np.clip(np.searchsorted(knots, degrees, side="right") - 1, 0, len(knots) - 2))
@@ -113,8 +119,8 @@ class PressureCurve:
         segment = self.segment
         degrees, pressure, slope = (float(part[index]) for part in (segment.knots, segment.pressures, segment.slopes))
         if segment.operands:
-            value = Known(Found(pressure, "first_law", segment.operands))
-            return CurvePoint(Known(Found(math.radians(degrees), "step")), value, math.degrees(slope))
+            value = TracedValue(ProcedureValue(pressure, "first_law", segment.operands))
+            return CurvePoint(TracedValue(ProcedureValue(math.radians(degrees), "step")), value, math.degrees(slope))
         path = segment.places[index] if segment.places else "cycle.timing"
         angle = given("", math.radians(degrees), path.replace(".pressure", ".angle"))
         return CurvePoint(angle, given("", pressure, path), math.degrees(slope))

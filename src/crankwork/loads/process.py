@@ -8,17 +8,17 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Known, Pieces, Table, absent, given, is_known, named
-from crankwork.formula.over_cycle import OverCycle
+from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, absent, given, is_traced, named
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.memory import angle_of, interpolant_of
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedLoads, check_name, force_along_guide, force_at, torque_on
-from crankwork.loads.between import CurvePoint, curve_between
+from crankwork.kinematics.traced_motion import angle_of, interpolant_of
+from crankwork.loads.applied_loads import AppliedLoads, check_name, force_along_guide, force_at, torque_on
+from crankwork.loads.interpolation import CurvePoint, curve_between
+from crankwork.loads.load_curve import Curve
+from crankwork.loads.load_curve import LoadCurve as LoadTable
 from crankwork.loads.monotone import monotone_slopes
-from crankwork.loads.table import Curve
-from crankwork.loads.table import Table as LoadTable
 from crankwork.mechanism.dyads import Branch
 from crankwork.mechanism.mechanism import Mechanism
 
@@ -34,7 +34,9 @@ class ProcessForce:
     """A force against the working stroke of a sliding piece, along its guide."""
 
     slider: str  # The sliding piece
-    force: Curve  # Force, positive against the forward stroke, at the stroke or the crank angle; a `Table` is one [N]
+    force: (
+        Curve  # Force, positive against the forward stroke, at the stroke or the crank angle; a `LoadCurve` is one [N]
+    )
     # Argument of `force`: distance from `start`, or crank angle [m], [rad]
     against: Literal["stroke", "angle"] = "stroke"
     forward: Branch = 1  # 1 if the distance of the piece along its guide grows on the working stroke, -1 if it falls
@@ -74,7 +76,7 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
     check_name("sliding piece", load.slider, motion.sliders)
     slide = motion.sliders[load.slider]
     start: Value = load.start
-    if is_known(slide.position):
+    if is_traced(slide.position):
         start = given(f"slider_displacement.{load.slider}.start", start, f"{path}.start")
     # a rate with the sign of the velocity: the driver's coordinate may decrease
     rate = slide.position_1 if motion.driver is None else slide.position_1 * motion.driver.position_1
@@ -85,15 +87,15 @@ def process_force(load: ProcessForce, motion: Motion, path: str = "") -> Applied
 
 
 def _force(load: ProcessForce, travel: _Travel, motion: Motion, named_at: tuple[str, str]) -> Value:
-    if is_known(travel.position):
-        return _remembered(load, travel, motion, *named_at)
+    if is_traced(travel.position):
+        return _traced(load, travel, motion, *named_at)
     force = np.asarray(load.force(travel.position if load.against == "stroke" else motion.grid.angle), dtype=float)
     if load.acts == "both":
         return force
     return np.where(travel.position_1 >= -_REST * np.max(np.abs(travel.position_1)), force, 0.0)
 
 
-def _remembered(load: ProcessForce, travel: _Travel, motion: Motion, name: str, path: str) -> Known:
+def _traced(load: ProcessForce, travel: _Travel, motion: Motion, name: str, path: str) -> TracedValue:
     """Return the force as a curve over travel or crank angle, piecewise if it acts on the working stroke only."""
     key, interpolator = f"process_force.{name}", interpolant_of(motion.grid)
     travel = travel._replace(position=named(travel.position, f"working_stroke.{name}"))
@@ -105,12 +107,12 @@ def _remembered(load: ProcessForce, travel: _Travel, motion: Motion, name: str, 
         force = curve_over_angle(load.force, angle_of(motion.grid), key, f"{path}.force")
     if load.acts == "both":
         return force
-    (*ends, last), is_back = over.stretches("rate")
+    (*ends, last), is_back = over.sign_intervals("rate")
     # the force acts at rest: an interval of the return stroke does not own its end
     ends = [_rounded(end, over.breaks, back=back) for end, back in zip(ends, is_back, strict=False)]
     if is_back[-1] and not is_back[0]:
         ends, is_back = [*ends, math.nextafter(last, 0.0)], [*is_back, False]
-    return Known(Pieces([*ends, last], tuple(absent(key) if back else force for back in is_back)), key)
+    return TracedValue(Piecewise([*ends, last], tuple(absent(key) if back else force for back in is_back)), key)
 
 
 def _rounded(end: float, breaks: Array, *, back: bool) -> float:
@@ -126,7 +128,7 @@ def _rounded(end: float, breaks: Array, *, back: bool) -> float:
 def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion, path: str = "") -> AppliedLoads:
     """Return a constant force at a point."""
     force: tuple[Value, Value] = np.array(load.x), np.array(load.y)
-    if is_known(motion.grid.angle):
+    if is_traced(motion.grid.angle):
         x, y = ((f"load_{axis}.{load.point}", f"{path}.{axis}") for axis in "xy")
         force = given(x[0], load.x, x[1]), given(y[0], load.y, y[1])
     return force_at(mechanism, motion, load.point, force, load.link)
@@ -135,7 +137,7 @@ def constant_force(load: ForceOnPoint, mechanism: Mechanism, motion: Motion, pat
 def link_torque(load: TorqueOnLink, motion: Motion, path: str = "") -> AppliedLoads:
     """Return a torque on a link."""
     torque: Value
-    if is_known(motion.grid.angle):
+    if is_traced(motion.grid.angle):
         key = f"link_torque.{load.link}"
         if callable(load.torque):
             torque = curve_over_angle(load.torque, angle_of(motion.grid), key, f"{path}.torque")
@@ -161,7 +163,7 @@ class StatedTable:
         """Return the values at some abscissas."""
         return self.table(abscissas if self.table.period else np.clip(abscissas, self.table.at[0], self.table.at[-1]))
 
-    def between(self, abscissa: float, argument: Known) -> Known:
+    def between(self, abscissa: float, argument: TracedValue) -> TracedValue:
         """Return the value at one abscissa, interpolated between two points."""
         x, y, period = np.array(self.table.at), np.array(self.table.values), self.table.period
         turn = 0.0
@@ -183,7 +185,7 @@ class StatedTable:
         return curve_between(self.key, argument, point(first), point(first + 1), is_straight=is_straight)
 
 
-def curve_over_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Known:
+def curve_over_angle(curve: Curve, angle: TracedValue, key: str, path: str = "") -> TracedValue:
     """Return a curve over the crank angle. [rad]
 
     `curve`: a table, or a function that may have `corners` [rad].
@@ -192,10 +194,10 @@ def curve_over_angle(curve: Curve, angle: Known, key: str, path: str = "") -> Kn
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], f"{path}[1]")
     function = StatedTable(curve, key, path) if isinstance(curve, LoadTable) else curve
-    return Known(Table(function, "given", corners, argument=angle), key)
+    return TracedValue(Tabulated(function, "given", corners, argument=angle), key)
 
 
-def curve_over_column(curve: Curve, over: OverCycle, column: str, key: str, path: str = "") -> Known:
+def curve_over_column(curve: Curve, over: CycleInterpolant, column: str, key: str, path: str = "") -> TracedValue:
     """Return a curve over a column, with its corners at the crank angles where the column passes them.
 
     `column`: its key among the columns over the cycle.
@@ -205,9 +207,9 @@ def curve_over_column(curve: Curve, over: OverCycle, column: str, key: str, path
     known, corners = over.columns[column], _corners(curve)
     passed = [angle for corner in corners for angle in over.crossings(column, corner).tolist()]
     if not isinstance(curve, LoadTable):
-        return Known(Table(curve, "given", passed, argument=known), key)
+        return TracedValue(Tabulated(curve, "given", passed, argument=known), key)
     low, high = curve.at[0], curve.at[-1]
-    law = Known(Table(StatedTable(curve, key, path), "given", passed, argument=known), key)
+    law = TracedValue(Tabulated(StatedTable(curve, key, path), "given", passed, argument=known), key)
     margin = _MARGIN * max(abs(low), abs(high))
     ends = sorted([*over.crossings(column, low - margin).tolist(), *over.crossings(column, high + margin).tolist()])
     ends = [*ends, float(over.edges[-1])]
@@ -215,7 +217,7 @@ def curve_over_column(curve: Curve, over: OverCycle, column: str, key: str, path
     is_inside = (values > low - margin) & (values < high + margin)
     if is_inside.all():
         return law
-    return Known(Pieces(ends, tuple(law if inside else absent(key) for inside in is_inside)), key)
+    return TracedValue(Piecewise(ends, tuple(law if inside else absent(key) for inside in is_inside)), key)
 
 
 def _corners(curve: Curve) -> tuple[float, ...]:

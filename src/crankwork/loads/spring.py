@@ -8,10 +8,10 @@ import numpy as np
 
 from crankwork.errors import GeometryError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import absent, given, is_known, named
+from crankwork.formula.traced_value import absent, given, is_traced, named
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedLoads, check_name, force_between, force_on_slider
-from crankwork.locale import Refusal
+from crankwork.loads.applied_loads import AppliedLoads, check_name, force_between, force_on_slider
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.mechanism import Mechanism
 
 
@@ -57,7 +57,7 @@ def _stated(
     load: Spring | SliderSpring, free: float, name: str, length: Value, path: str
 ) -> tuple[Value, Value, Value]:
     """Return stiffness, free length and preload of a spring, traced if its length is traced."""
-    if not is_known(length):
+    if not is_traced(length):
         return load.stiffness, free, load.preload
     pull, at_free = load.preload, given(f"spring_length.{name}.free", free, f"{path}.free_length")
     return (
@@ -75,8 +75,8 @@ def point_spring(load: Spring, mechanism: Mechanism, motion: Motion, path: str =
     x, y = end.x.position - start.x.position, end.y.position - start.y.position
     name = f"{load.start}.{load.end}"
     length = named(spring_length(x, y), f"spring_length.{name}")
-    if not is_known(length) and np.any(length == 0):
-        raise GeometryError(Refusal("spring_shut", start=load.start, end=load.end))
+    if not is_traced(length) and np.any(length == 0):
+        raise GeometryError(ErrorMessage("spring_shut", start=load.start, end=load.end))
     stiffness, free, preload = _stated(load, load.free_length, name, length, path)
     force = named(spring_force(stiffness, length, free, preload), f"spring_force.{name}")
     return force_between(

@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, Pieces, absent, given
+from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given
 from crankwork.loads.gas import piston_area
 from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 _TEXT = "eastop_mcconkey_1993, ch. 12"
 
@@ -182,10 +182,10 @@ class Valves:
 class Flow(NamedTuple):
     """Derivatives of a volume by the driver's coordinate, speed and acceleration of that coordinate, and pi."""
 
-    rate: Known
-    rate_2: Known
-    speed: Known
-    change: Known
+    rate: TracedValue
+    rate_2: TracedValue
+    speed: TracedValue
+    change: TracedValue
     pi: float
 
 
@@ -197,16 +197,16 @@ class StatedValves:
     path: str
     own: str = ""
 
-    def _given(self, key: str, name: str) -> Known:
+    def _given(self, key: str, name: str) -> TracedValue:
         value = getattr(self.valves, name)
         return absent(key) if value is None else given(f"{key}{self.own}", value, f"{self.path}.{name}")
 
     @property
-    def pressures(self) -> tuple[Known, Known]:
+    def pressures(self) -> tuple[TracedValue, TracedValue]:
         """Pressures of suction and discharge. [Pa]"""
         return self._given("suction_pressure", "suction"), self._given("discharge_pressure", "discharge")
 
-    def at_points(self, points: Mapping[str, DiagramPoint]) -> dict[str, Known]:
+    def at_points(self, points: Mapping[str, DiagramPoint]) -> dict[str, TracedValue]:
         """Return the pressures of points with a stated pressure."""
         low, high = self.pressures
         return {
@@ -216,12 +216,12 @@ class StatedValves:
         }
 
     @property
-    def temperature(self) -> Known:
+    def temperature(self) -> TracedValue:
         """Temperature of suction. [K]"""
         return self._given("suction_temperature", "temperature")
 
     @property
-    def exponents(self) -> tuple[Known, Known] | None:
+    def exponents(self) -> tuple[TracedValue, TracedValue] | None:
         """Exponents of compression and expansion, of a gas."""
         if self.valves.exponents is None:
             return None
@@ -242,13 +242,13 @@ class StatedValves:
             return
         most = self.valves.suction * min((1 + swept / clearance) ** exponent for exponent in exponents)
         if self.valves.discharge >= most:
-            raise DiagramError(f"{self.path}.discharge", Refusal("valves_closed", most=most / 1e6))
+            raise DiagramError(f"{self.path}.discharge", ErrorMessage("valves_closed", most=most / 1e6))
 
-    def remembered(self, diagram: IndicatorDiagram) -> IndicatorDiagram:
+    def traced(self, diagram: IndicatorDiagram) -> IndicatorDiagram:
         """Return the diagram with traced pressures and exponents as operands of its laws."""
         exponents, (low, high) = self.exponents, self.pressures
         compression, expansion = exponents or (None, None)
-        laws: dict[str, dict[str, tuple[Known | None, ...]]] = {
+        laws: dict[str, dict[str, tuple[TracedValue | None, ...]]] = {
             "polytropic": {"d": (high, expansion), "a": (low, compression)},
             "constant": {"d": (low,), "e": (low,), "c": (high,)},
         }
@@ -260,13 +260,13 @@ class StatedValves:
         )
         return replace(diagram, segments=segments, jumps=())
 
-    def through_pipes(self, pressure: Known, diagram: IndicatorDiagram, flow: Flow) -> Known:
+    def through_pipes(self, pressure: TracedValue, diagram: IndicatorDiagram, flow: Flow) -> TracedValue:
         """Return the pressure in the chamber; `pressure`: outside its pipes, `diagram`: its strokes."""
         laws = tuple(self._pipe_pressure(segment.origin == "d", flow) for segment in diagram.segments)
-        taken = Pieces([segment.end for segment in diagram.segments], laws, diagram.breaks.tolist())
-        return (pressure - Known(taken, f"pipe_pressure{self.own}")).named(pressure.key)
+        taken = Piecewise([segment.end for segment in diagram.segments], laws, diagram.breaks.tolist())
+        return (pressure - TracedValue(taken, f"pipe_pressure{self.own}")).named(pressure.key)
 
-    def _pipe_pressure(self, is_suction: bool, flow: Flow) -> Known:  # noqa: FBT001 - which of two strokes
+    def _pipe_pressure(self, is_suction: bool, flow: Flow) -> TracedValue:  # noqa: FBT001 - which of two strokes
         """Return the pressure loss in a pipe, zero without a pipe."""
         name = "suction_pipe" if is_suction else "discharge_pipe"
         pipe = getattr(self.valves, name)
@@ -277,26 +277,32 @@ class StatedValves:
         length = given(f"pipe_length{own}", pipe.length, f"{path}.length")
         diameter = given(f"pipe_diameter{own}", pipe.diameter, f"{path}.diameter")
         area = piston_area(flow.pi, diameter).named(f"pipe_area{own}")
-        pressure: Known = acceleration_pressure(density, length, area, flow.rate_2, flow.speed, flow.rate, flow.change)
+        pressure: TracedValue = acceleration_pressure(
+            density, length, area, flow.rate_2, flow.speed, flow.rate, flow.change
+        )
         pressure = pressure.named(f"acceleration_pressure{own}")
         if not pipe.friction:
             return pressure
         factor = given(f"pipe_friction{own}", pipe.friction, f"{path}.friction")
-        lost: Known = friction_pressure(factor, length, diameter, density, flow.rate, flow.speed, area)
+        lost: TracedValue = friction_pressure(factor, length, diameter, density, flow.rate, flow.speed, area)
         lost = lost.named(f"friction_pressure{own}")
         return pressure + lost if is_suction else pressure - lost
 
     def delivery(
-        self, clearance: Known, swept: Known, power: Known, per_time: Callable[[Known], Known]
-    ) -> dict[str, Known]:
+        self,
+        clearance: TracedValue,
+        swept: TracedValue,
+        power: TracedValue,
+        per_time: Callable[[TracedValue], TracedValue],
+    ) -> dict[str, TracedValue]:
         """Return the delivery of the valves by key; `per_time`: from a volume of a cycle to a flow."""
         values = self.drawn(clearance, swept)
         return values | self.passed(per_time(values[f"induced_volume{self.own}"]), power)
 
-    def drawn(self, clearance: Known, swept: Known) -> dict[str, Known]:
+    def drawn(self, clearance: TracedValue, swept: TracedValue) -> dict[str, TracedValue]:
         """Return the volume drawn in during a cycle, and the expanded clearance volume, by key."""
         own, exponents, (low, high) = self.own, self.exponents, self.pressures
-        volume, volumes = swept.named(f"induced_volume{own}"), list[Known]()
+        volume, volumes = swept.named(f"induced_volume{own}"), list[TracedValue]()
         if exponents is not None and not clearance.is_absent:
             left = expanded_volume(clearance, high, low, exponents[1]).named(f"expanded_volume{own}")
             volume = induced_volume(swept, clearance, left).named(volume.key)
@@ -304,12 +310,12 @@ class StatedValves:
         share = drawn_share(volume, swept).named(f"clearance_volumetric_efficiency{own}")
         return {value.key: value for value in (*volumes, volume, share)}
 
-    def passed(self, flow: Known, power: Known) -> dict[str, Known]:
+    def passed(self, flow: TracedValue, power: TracedValue) -> dict[str, TracedValue]:
         """Return flows, temperature and isothermal power by key, from the inlet flow and the power of the gas."""
         values = {value.key: value for value in self._passed(flow.named(f"inlet_flow{self.own}"), power)}
         return {key: value for key, value in values.items() if not value.is_absent}
 
-    def _passed(self, flow: Known, power: Known) -> Iterator[Known]:
+    def _passed(self, flow: TracedValue, power: TracedValue) -> Iterator[TracedValue]:
         own, exponents, (low, high) = self.own, self.exponents, self.pressures
         yield flow
         if self.valves.delivered is not None:

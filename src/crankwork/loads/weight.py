@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import given, is_known, named
+from crankwork.formula.traced_value import given, is_traced, named
 from crankwork.kinematics.bodies import broadcast, centre_of_mass
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.applied import AppliedForce, AppliedLoads
+from crankwork.loads.applied_loads import AppliedForce, AppliedLoads
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.method import STANDARD_GRAVITY
 
@@ -31,7 +31,7 @@ def weight_along(m_i: Value, g: Value, cos_ga: Value) -> Value:
 def weight(load: Weight, mechanism: Mechanism, motion: Motion) -> AppliedLoads:
     """Return the weights of the bodies of a mechanism."""
     gravity: Value = load.gravity
-    if is_known(motion.grid.angle):
+    if is_traced(motion.grid.angle):
         gravity = given("gravity", load.gravity, "method.gravity")
     forces = []
     for body in mechanism.bodies:

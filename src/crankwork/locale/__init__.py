@@ -29,7 +29,7 @@ def texts(room: str, language: Language) -> MappingProxyType[str, str]:
     return MappingProxyType(room_texts)
 
 
-def say(key: str, language: Language, **values: object) -> str:
+def translate(key: str, language: Language, **values: object) -> str:
     """Return a text with values inserted at its braces; without values the text is not formatted.
 
     Examples
@@ -70,7 +70,7 @@ def capital(words: str) -> str:
     return words[:1].upper() + words[1:]
 
 
-class Refusal(str):
+class ErrorMessage(str):
     """An error message in English that keeps its key and values, so that `told` can translate it.
 
     The name is that of a text in the file `refusals`, or `room.name`. Entries of a tuple are joined by "or", those of a
@@ -94,14 +94,14 @@ class Refusal(str):
         return self
 
     def __reduce__(self) -> tuple[object, tuple[()]]:
-        return functools.partial(Refusal, self.name, **self.values), ()
+        return functools.partial(ErrorMessage, self.name, **self.values), ()
 
-    def cleaned(self, clean: Callable[[str], str]) -> Refusal:
+    def cleaned(self, clean: Callable[[str], str]) -> ErrorMessage:
         """Return the message with a function applied to every text inserted in it."""
-        return Refusal(self.name, **{name: _each(value, clean) for name, value in self.values.items()})
+        return ErrorMessage(self.name, **{name: _each(value, clean) for name, value in self.values.items()})
 
 
-def told(message: str, language: Language) -> str:
+def in_language(message: str, language: Language) -> str:
     """Return an error message in a language; other text is unchanged.
 
     Examples
@@ -109,7 +109,7 @@ def told(message: str, language: Language) -> str:
     >>> told(Refusal("same", others=["a", "b"]), "ru")
     'задаёт то же, что a и b; оставьте что-то одно'
     """
-    return _filled(message.name, message.values, language) if isinstance(message, Refusal) else message
+    return _filled(message.name, message.values, language) if isinstance(message, ErrorMessage) else message
 
 
 def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
@@ -124,7 +124,7 @@ def _filled(name: str, values: Mapping[str, object], language: Language) -> str:
             case float():
                 return _Printed(value, language)
             case str():
-                return told(value, language)
+                return in_language(value, language)
             case _:
                 return str(value)
 
@@ -145,7 +145,7 @@ class _Printed(NamedTuple):
 
 def _each(value: object, clean: Callable[[str], str]) -> object:
     match value:
-        case Refusal():
+        case ErrorMessage():
             return value.cleaned(clean)
         case float():
             return value

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from crankwork.errors import GeometryError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Branch, Guide, Point
 from crankwork.mechanism.mechanism import Crank, LinkPoint, Mechanism, body_at
 
@@ -108,7 +108,7 @@ def crank_shaper(crank: float, pivot_distance: float, lever: float, link: float,
         Links `lever` and `link`, sliding pieces `block` and `ram`; at a crank angle of zero the crank stands upright.
     """
     if not crank < pivot_distance:
-        raise GeometryError(Refusal("lever_turns", crank=crank * 1e3, pivot=pivot_distance * 1e3))
+        raise GeometryError(ErrorMessage("lever_turns", crank=crank * 1e3, pivot=pivot_distance * 1e3))
     lever_dyad = RPR("crank_pin", "lever_pivot", "lever", "block")
     ram = RRP("tip", "ram_pin", "link", link, guide_point=(0.0, ram_height), block="ram")
     return Mechanism(
@@ -134,7 +134,7 @@ def whitworth(crank: float, pivot_distance: float, arm: float, link: float, ram_
         Height of the guide above the lever's pivot. [m]
     """
     if not crank > pivot_distance:
-        raise GeometryError(Refusal("lever_swings", crank=crank * 1e3, pivot=pivot_distance * 1e3))
+        raise GeometryError(ErrorMessage("lever_swings", crank=crank * 1e3, pivot=pivot_distance * 1e3))
     ram = RRP("tip", "ram_pin", "link", link, guide_point=(0.0, ram_height - pivot_distance), block="ram")
     return Mechanism(
         Crank(crank),

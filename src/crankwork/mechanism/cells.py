@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from crankwork.errors import Problem
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.dyads import RRP, Bar, Branch, Point
 from crankwork.mechanism.mechanism import Body, Crank, LinkPoint, Mechanism
 
@@ -70,14 +70,14 @@ def crank_cells(mechanism: Mechanism) -> CrankCells:
     """Return the cells of a mechanism; NoCellsError if it has a driver or a dyad of another kind."""
     crank = mechanism.driver
     if not isinstance(crank, Crank) or crank.law is not None or crank.geared:
-        raise NoCellsError(Refusal("cells_driver"))
+        raise NoCellsError(ErrorMessage("cells_driver"))
     points = {point.name: point for point in mechanism.points}
     on_crank = {name: complex(point.along, point.across) for name, point in points.items() if point.link == crank.link}
     on_crank[crank.pin] = complex(crank.radius)
     cells = dict[str, Cell]()
     for dyad in mechanism.dyads:
         if not isinstance(dyad, RRP) or dyad.guide_link:
-            raise NoCellsError(Refusal("cells_dyad", name=_names(dyad)))
+            raise NoCellsError(ErrorMessage("cells_dyad", name=_names(dyad)))
         cell = _cell(dyad, crank)
         if dyad.joint in on_crank:
             cell = replace(cell, pin=dyad.joint)
@@ -85,10 +85,10 @@ def crank_cells(mechanism: Mechanism) -> CrankCells:
             cell = _on_master(cell, points.get(dyad.joint), cells, mechanism.bars)
         cells[cell.link] = cell
     if not cells:
-        raise NoCellsError(Refusal("cells_driver"))
+        raise NoCellsError(ErrorMessage("cells_driver"))
     pins = {cell.pin: on_crank[cell.pin] for cell in cells.values()}
     if any(abs(abs(pin) - crank.radius) > _SAME * crank.radius for pin in pins.values()):
-        raise NoCellsError(Refusal("cells_radii"))
+        raise NoCellsError(ErrorMessage("cells_radii"))
     return _with_bodies(CrankCells(crank, tuple(cells.values()), pins, Part()), mechanism, on_crank)
 
 
@@ -111,7 +111,7 @@ def _on_master(cell: Cell, joint: LinkPoint | None, cells: Mapping[str, Cell], b
     """Return a cell whose rod turns on a point of another rod."""
     master = cells.get(joint.link) if joint is not None else None
     if joint is None or master is None or master.master:
-        raise NoCellsError(Refusal("cells_joint", name=cell.link))
+        raise NoCellsError(ErrorMessage("cells_joint", name=cell.link))
     return replace(
         cell, pin=master.pin, master=master.link, knuckle=_along_rod((joint.along, joint.across), bars.get(master.link))
     )

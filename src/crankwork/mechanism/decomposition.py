@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from crankwork.errors import Problem
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.chain import Chain, ChainLink, Slide
 from crankwork.mechanism.driver import Cylinder
 from crankwork.mechanism.dyads import PRP, RPP, RPR, RRP, RRR, Bar, Branch, Dyad, Guide, Point
@@ -171,7 +171,7 @@ class _Order:
         for name in self.linkage.branches:
             if name not in self.branched:
                 choice = ", ".join(sorted(self.branched))
-                message = Refusal("branch_absent" if choice else "branch_none", name=name, known=choice)
+                message = ErrorMessage("branch_absent" if choice else "branch_none", name=name, known=choice)
                 self.problems.append(Problem(f"branch.{name}", message))
 
     def _joints(self, member: Member) -> list[str]:
@@ -221,7 +221,9 @@ class _Order:
             if anchor is None or (not member.guide and sum(name in drawn for name in member.points) < 2):
                 key = f"{'sliders' if member.guide else 'links'}.{member.name}"
                 self.problems.append(
-                    Problem(key, Refusal("positions_needed", name=member.name, joints=", ".join(self._joints(member))))
+                    Problem(
+                        key, ErrorMessage("positions_needed", name=member.name, joints=", ".join(self._joints(member)))
+                    )
                 )
                 continue
             angle, (u, v) = self._drawn_angle(member.name, drawn), member.points[anchor]

@@ -13,8 +13,8 @@ from crankwork.mechanism.dyads import RRP
 
 if TYPE_CHECKING:
     from crankwork.mechanism.chain import Chain
+    from crankwork.mechanism.change_point import ChangePointPassage
     from crankwork.mechanism.dyads import Bar, Branch, Dyad, Point
-    from crankwork.mechanism.passage import ChangePointPassage
 
 
 _TURN = 360.0

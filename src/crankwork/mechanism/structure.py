@@ -8,8 +8,8 @@ from itertools import combinations
 
 from crankwork.errors import Problem
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known, absent, given
-from crankwork.locale import Refusal
+from crankwork.formula.traced_value import TracedValue, absent, given
+from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Cylinder, LinkMotor, rod_name
 from crankwork.mechanism.linkage import GROUND, Linkage, Member
 
@@ -68,7 +68,7 @@ def _first_number(links: str) -> int:
     return int(links.partition("+")[0])
 
 
-def mobility(linkage: Linkage) -> Known:
+def mobility(linkage: Linkage) -> TracedValue:
     """Return the degrees of freedom of a linkage.
 
     `linkage`: crank, links and sliding pieces; a pin of k links counts k - 1 joints. Source: artobolevsky_1988, ch.
@@ -76,7 +76,7 @@ def mobility(linkage: Linkage) -> Known:
     """
     links, joints = given("moving_links", float(len(links_of(linkage)))), given("lower_pairs", float(_joints(linkage)))
     meshes = given("gear_meshes", float(len(linkage.geared))) if linkage.geared else absent("gear_meshes")
-    freedom: Known = chain_mobility(links, joints, meshes)
+    freedom: TracedValue = chain_mobility(links, joints, meshes)
     return freedom
 
 
@@ -230,25 +230,25 @@ def _underconstrained(linkage: Linkage) -> list[Problem]:
     return problems
 
 
-def _underconstrained_message(member: Member, joints: list[str], owners: Mapping[str, Sequence[str]]) -> Refusal:
+def _underconstrained_message(member: Member, joints: list[str], owners: Mapping[str, Sequence[str]]) -> ErrorMessage:
     if not joints:
-        return Refusal("hangs_on_guide" if member.guide else "hangs_alone", name=member.name)
+        return ErrorMessage("hangs_on_guide" if member.guide else "hangs_alone", name=member.name)
     alone = tuple(name for name in member.points if len(owners[name]) == 1 and name != member.centre)
     key = "hangs_on_one_also" if alone else "hangs_on_one"
-    return Refusal(key, name=member.name, joint=joints[0], alone=alone)
+    return ErrorMessage(key, name=member.name, joint=joints[0], alone=alone)
 
 
-def _too_free(linkage: Linkage, rest: list[str]) -> Refusal:
+def _too_free(linkage: Linkage, rest: list[str]) -> ErrorMessage:
     freedom, rest = float(mobility(linkage).value), _described(linkage, rest)
-    return Refusal("free_some" if len(rest) > 1 else "free_one", mobility=freedom, names=", ".join(rest))
+    return ErrorMessage("free_some" if len(rest) > 1 else "free_one", mobility=freedom, names=", ".join(rest))
 
 
 def _too_stiff(linkage: Linkage, group: tuple[str, ...], solved: Iterable[str]) -> Problem:
     freedom, names = float(mobility(linkage).value), _described(linkage, group)
     if not names:
         key = "driver.cylinder" if isinstance(linkage.driver, Cylinder) else "driver.between"
-        return Problem(key, Refusal("driver_held", names=_described(linkage, sorted(solved)), mobility=freedom))
-    message = Refusal("stiff_some" if len(names) > 1 else "stiff_one", names=names, mobility=freedom)
+        return Problem(key, ErrorMessage("driver_held", names=_described(linkage, sorted(solved)), mobility=freedom))
+    message = ErrorMessage("stiff_some" if len(names) > 1 else "stiff_one", names=names, mobility=freedom)
     return Problem(_key(linkage, names[0]), message)
 
 
@@ -257,8 +257,8 @@ def _described(linkage: Linkage, members: Iterable[str]) -> list[str]:
     return [name for name in members if name != linkage.driver.link]
 
 
-def _too_still(slider: str, group: tuple[str, ...], carrier: str) -> Refusal:
-    return Refusal("still_slider", slider=slider, names=list(group), bearer=carrier)
+def _too_still(slider: str, group: tuple[str, ...], carrier: str) -> ErrorMessage:
+    return ErrorMessage("still_slider", slider=slider, names=list(group), bearer=carrier)
 
 
 def _key(linkage: Linkage, name: str) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from crankwork.note.document import Block, Citation, Reference, Runs
 from crankwork.note.material import Material
 from crankwork.note.parts import At, Head, Lines, Places, Rows, Section, Shown, Text, When, every, has, turning
-from crankwork.note.words import in_display_unit, named
+from crankwork.note.wording import in_display_unit, named
 
 _BALANCE = "den_hartog_1956, ch. 5"
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")

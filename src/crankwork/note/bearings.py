@@ -25,7 +25,7 @@ from crankwork.note.parts import (
     has,
     turning,
 )
-from crankwork.note.words import named
+from crankwork.note.wording import named
 
 _SOURCE = "kolchin_demidov_2008, ch. 9"
 _ON_CRANKPIN = (

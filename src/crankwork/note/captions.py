@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime as dt
 import re
 
-from crankwork.locale import Language, capital, say
+from crankwork.locale import Language, capital, translate
 
 # what is called as something else is called already
 _SAME = {
@@ -63,18 +63,18 @@ LANGUAGE_TAGS: dict[Language, str] = {"en": "en-GB", "ru": "ru-RU", "vi": "vi-VN
 
 def note_text(key: str, language: Language, **values: str) -> str:
     """Return a text of a note, also one under another key; headings and captions have a capital letter."""
-    text = say(_SAME.get(key, key), language, **values)
+    text = translate(_SAME.get(key, key), language, **values)
     return text if key.startswith("columns.") else capital(text)
 
 
 def caption(kind: str, number: str, title: str, language: Language) -> str:
     """Return the line under a `figure` or over a `table`; a table without a title goes on."""
-    return say(f"note.{kind}", language, number=number, title=title) if title else continued(number, language)
+    return translate(f"note.{kind}", language, number=number, title=title) if title else continued(number, language)
 
 
 def continued(number: str, language: Language) -> str:
     """Return the caption above the continuation of a table."""
-    return say("note.continued", language, number=number)
+    return translate("note.continued", language, number=number)
 
 
 def place_in_source(place: str, language: Language) -> str:
@@ -87,7 +87,7 @@ def place_in_source(place: str, language: Language) -> str:
     """
     # a remark in parentheses is in English
     place = place if language == "en" else _REMARK.sub("", place)
-    return _PLACE.sub(lambda match: say(f"places.{match[0]}", language), place)
+    return _PLACE.sub(lambda match: translate(f"places.{match[0]}", language), place)
 
 
 def printed_date(date: dt.date, language: Language) -> str:

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.analysis.rounding import without_rounding
-from crankwork.analysis.solved import Notice
-from crankwork.locale import say
+from crankwork.analysis.prepared import Notice
+from crankwork.analysis.rounding_noise import without_rounding
+from crankwork.locale import translate
 from crankwork.note import balance, bearings, flywheel
 from crankwork.note.data import GEAR, cycle_keys
 from crankwork.note.document import Bibliography, Block, Cell, ItemList, Math, Paragraph, Reference, Runs, Table
@@ -19,9 +19,9 @@ from crankwork.note.parts import Head, Section, Shown, Text, When, drawn, has, l
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
-from crankwork.note.words import Words, named
+from crankwork.note.wording import Words, named
 from crankwork.report.comparison import comparison_rows, shown_names
-from crankwork.report.language import display_key, displayed, key_unit, label
+from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.look import kind_of
 from crankwork.report.notices import notice_text
 from crankwork.report.tables import any_nonzero
@@ -94,7 +94,7 @@ def _compared(material: Material) -> Iterator[Block]:
         titles += [(other,), ("Δ",)]
     rows = [
         (
-            label(display_key(key, results) if key in results.memory else key, words.language),
+            label(display_key(key, results) if key in results.trace else key, words.language),
             printed_unit(key_unit(key, per_area=per_area), words.language) or "–",
             words.number(values[0]),
             # after the own value come another and how far it is above it
@@ -139,7 +139,7 @@ def _checks(material: Material) -> Iterator[Block]:
 
 def _identity(key: str, words: Words) -> Cell:
     """Return the identity that a check tests: in words, or symbols where it is an equation."""
-    text = say(f"report.{key}", words.language)
+    text = translate(f"report.{key}", words.language)
     return Math(text) if "²" in text else text
 
 
@@ -193,7 +193,7 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
 
 def _item(key: str, results: Results, words: Words) -> Runs:
     unit = printed_unit(key_unit(key), words.language)
-    name = say("report.exact", words.language) if key.endswith(".exact") else ""
+    name = translate("report.exact", words.language) if key.endswith(".exact") else ""
     own = display_key(key, results).removesuffix(".exact")
     title = label(own, words.language) + (f", {name}" if name else "")
     value = words.number(displayed(key, results.summary[key]), digits=5)

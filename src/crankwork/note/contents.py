@@ -7,14 +7,14 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, cast
 
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.note.document import Note
 from crankwork.note.options import NoteOptions
 from crankwork.note.pdf import pdf
 from crankwork.note.sections import note_of_sections
 from crankwork.note.web import web
 from crankwork.note.word import word
-from crankwork.report.language import for_readers, reader_units
+from crankwork.report.display import for_readers, reader_units
 from crankwork.report.summary import provenance
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf as page
@@ -39,7 +39,7 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
     """Return the drawing sheets of a machine in every format, by the ending of their files."""
     options = options or NoteOptions()
     if results.machine.turning is not None:
-        raise CrankworkError(Refusal("sheets_of_shaft"))
+        raise CrankworkError(ErrorMessage("sheets_of_shaft"))
     # few notes have sheets
     from crankwork.note import sheets  # noqa: PLC0415 - loaded where it is needed
 
@@ -61,12 +61,12 @@ _MODULES: dict[str, dict[str, str]] = {".pdf": {"typst": "report"}, ".docx": {"d
 def check_format(name: str, *, with_sheets: bool = False) -> None:
     """Raise unless a note of this format can be written, before anything is computed."""
     if PurePath(name).suffix.lower() not in WRITERS:
-        raise CrankworkError(Refusal("note_ending", name=name, known=", ".join(WRITERS)))
+        raise CrankworkError(ErrorMessage("note_ending", name=name, known=", ".join(WRITERS)))
     modules = _MODULES[PurePath(name).suffix.lower()]
     if with_sheets:
         modules = modules | {"typst": "report", "ezdxf": "report"}
     if extras := missing_extras(modules):
-        raise MissingExtraError(Refusal("extra_note"), *extras)
+        raise MissingExtraError(ErrorMessage("extra_note"), *extras)
 
 
 def written_note(note: Note, name: str) -> bytes:

@@ -6,9 +6,9 @@ import itertools
 import math
 from collections.abc import Iterator
 
-from crankwork.analysis.stated import StatedChamber, StatedLoad, stated_chambers, stated_charges, stated_loads
-from crankwork.formula.known import Given, Node, in_order
-from crankwork.locale import say
+from crankwork.analysis.input_loads import ChamberInput, LoadInput, stated_chambers, stated_charges, stated_loads
+from crankwork.formula.traced_value import Input, Node, in_order
+from crankwork.locale import translate
 from crankwork.machine import Bearings, Engine, TransferTable
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, Segment
 from crankwork.mechanism.linkage import Member
@@ -19,9 +19,9 @@ from crankwork.note.material import Material
 from crankwork.note.parts import Head, Lines, Section, Text, When, driven, has, lacks, machine_has, school
 from crankwork.note.symbols import subscript
 from crankwork.note.tables import Column, position_tables, value_row, value_table
-from crankwork.note.words import Words, in_display_unit
+from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import cycle as cycle_quantities
-from crankwork.report.language import called, key_unit
+from crankwork.report.display import key_unit, link_label
 from crankwork.report.summary import results_method
 
 GEAR = ("rotational_speed", "angular_acceleration", "stroke", "crank_radius", "rod_length", "rod_ratio", "offset")
@@ -71,7 +71,7 @@ def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
     """Yield the rows of the input data."""
     words, machine = material.words, material.machine
     # values calculated from them are in the equations after the table
-    known = {value.key: value.value for value in in_order(material.results.memory.values()) if _is_stated(value.node)}
+    known = {value.key: value.value for value in in_order(material.results.trace.values()) if _is_stated(value.node)}
     if "crank_radius" in known:
         known.pop("stroke", None)
     known |= {"rotational_speed": machine.speed, "angular_acceleration": machine.angular_acceleration}
@@ -94,7 +94,7 @@ def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
 
 
 def _is_stated(node: Node) -> bool:
-    return isinstance(node, Given) and bool(node.path) and not node.is_absent
+    return isinstance(node, Input) and bool(node.path) and not node.is_absent
 
 
 def _cylinder(material: Material) -> Iterator[tuple[Cell, ...]]:
@@ -121,8 +121,8 @@ def _masses(material: Material) -> Iterator[tuple[Cell, ...]]:
 
 def _rod(material: Material) -> dict[str, float]:
     """Return the mass of the rod and its centre, for a rod whose parts follow from them."""
-    memory = material.results.memory
-    behind = in_order([memory[key] for key in ("reciprocating_mass", "correction_couple") if key in memory])
+    trace = material.results.trace
+    behind = in_order([trace[key] for key in ("reciprocating_mass", "correction_couple") if key in trace])
     known = {traced.key: traced.value for traced in behind if traced.key in _OF_ROD and isinstance(traced.value, float)}
     if "small_end_share" in known:
         known.pop("rod_centre_distance", None)
@@ -210,7 +210,7 @@ def _links(material: Material) -> Table:
         number = numbers[member.name]
         shared = [name for name in member.points if len(owners[name]) > 1]
         rows.append((
-            str(number), called(member.name, words.language), ", ".join(shared), _length(member, shared, words),
+            str(number), link_label(member.name, words.language), ", ".join(shared), _length(member, shared, words),
             words.shown("body_mass", member.mass) if member.mass else "–",
             words.shown("body_inertia", member.inertia) if member.inertia else "–", _centre(member, words),
         ))  # fmt: skip
@@ -257,7 +257,7 @@ def _places(material: Material) -> Iterator[Table]:
         yield words.table("guides", ("guide", "carrier", *axes, "angle"), lines, "ccrrr")
 
 
-def _outer_load(load: StatedLoad, words: Words) -> Runs:
+def _outer_load(load: LoadInput, words: Words) -> Runs:
     """Return a load in words."""
     amounts = {
         name: "…" if value is None else words.amount(value, unit) for name, (value, unit) in load.amounts.items()
@@ -283,7 +283,7 @@ def _chambers(material: Material) -> Iterator[Block]:
             yield words.paragraph("charge_polytrope", exponent=words.number(charge.exponent), **parts)
 
 
-def _of_chamber(chamber: StatedChamber, material: Material) -> Iterator[str]:
+def _of_chamber(chamber: ChamberInput, material: Material) -> Iterator[str]:
     """Yield name, faces, areas, clearance, pressure around, and what gives the pressure of a chamber."""
     words, results = material.words, material.results
     yield chamber.name
@@ -296,11 +296,13 @@ def _of_chamber(chamber: StatedChamber, material: Material) -> Iterator[str]:
     # of gauge pressures the ambient pressure is not known
     yield words.number(in_display_unit("ambient_pressure", [chamber.ambient])[0]) if chamber.ambient else "–"
     amounts = {name: words.amount(value, unit) for name, (value, unit) in chamber.amounts.items()}
-    pressure = say(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
+    pressure = translate(f"sentences.of_{chamber.kind}", words.language, **chamber.names, **amounts)
     if chamber.delay:
-        pressure = say("sentences.of_later", words.language, text=pressure, delay=words.amount(chamber.delay, "deg"))
+        pressure = translate(
+            "sentences.of_later", words.language, text=pressure, delay=words.amount(chamber.delay, "deg")
+        )
     if chamber.factor != 1:
-        pressure = say("sentences.of_factor", words.language, text=pressure, factor=words.number(chamber.factor))
+        pressure = translate("sentences.of_factor", words.language, text=pressure, factor=words.number(chamber.factor))
     yield pressure
 
 
@@ -356,7 +358,7 @@ def _segments(law: Law, words: Words, *, turns: bool) -> Table:
 
 
 def _moves(segment: Segment, words: Words) -> str:
-    return words.kind(segment.kind) if isinstance(segment.kind, str) else say("memory.own_law", words.language)
+    return words.kind(segment.kind) if isinstance(segment.kind, str) else translate("memory.own_law", words.language)
 
 
 def _table(material: Material) -> Iterator[Block]:

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from crankwork.formula.calculation_lines import FormulaLine, Line
 from crankwork.formula.expression import Expression, Formula
-from crankwork.formula.lines import FormulaLine, Line
 from crankwork.quantities import Language
 from crankwork.show.scene import Drawing
 from crankwork.units import METRIC, DisplayUnits

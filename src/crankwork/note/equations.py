@@ -13,9 +13,9 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
+from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.formula.expression import Formula, Operation, Symbol, record, takes_angle, text
-from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
-from crankwork.locale import say, texts
+from crankwork.locale import texts, translate
 from crankwork.locale.numbers import number
 from crankwork.note.definitions import definition_box, definition_text
 from crankwork.note.document import Equation
@@ -39,8 +39,8 @@ from crankwork.note.math import enough_digits, formula_box, is_exact_pi, whole_d
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
-from crankwork.report.language import displayed, key_unit
-from crankwork.report.language import symbol as key_symbol
+from crankwork.report.display import displayed, key_unit
+from crankwork.report.display import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
 
 LINE_WIDTH = 33.0
@@ -324,5 +324,7 @@ def legend_rows(block: Equation, language: Language) -> list[tuple[str, Box, str
     ends = [";"] * (len(block.legend) - 1) + ["."]
     rows = []
     for k, (entry, end) in enumerate(zip(block.legend, ends, strict=True) if block.legend else ()):
-        rows.append((say("note.where", language) if k == 0 else "", symbol_box(entry.symbol), f" – {entry.text}{end}"))
+        rows.append(
+            (translate("note.where", language) if k == 0 else "", symbol_box(entry.symbol), f" – {entry.text}{end}")
+        )
     return rows

@@ -8,24 +8,24 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 from crankwork.analysis.results import Results
-from crankwork.description.origins import Origin
-from crankwork.formula.explained import Explained, Explanation, has_argument_symbol, is_given
+from crankwork.description.source_locations import Origin
+from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine, without_noise
+from crankwork.formula.explanation import ExplainedValue, Explanation, has_argument_symbol, is_given
 from crankwork.formula.expression import symbol
-from crankwork.formula.known import (
+from crankwork.formula.traced_value import (
+    AngleFunction,
+    AngleUnwrap,
     Arithmetic,
     Component,
     Delayed,
-    Found,
-    Given,
-    HalfTurns,
-    Known,
-    OfAngle,
-    Table,
-    Total,
-    Use,
+    FormulaCall,
+    Input,
+    ProcedureValue,
+    Sum,
+    Tabulated,
+    TracedValue,
 )
-from crankwork.formula.lines import FormulaLine, Line, ValueLine, without_noise
-from crankwork.locale import capital, has_text, say, texts
+from crankwork.locale import capital, has_text, texts, translate
 from crankwork.locale.numbers import number
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text, integral_text
@@ -34,7 +34,7 @@ from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
-from crankwork.report.language import display_key, in_own_units, label
+from crankwork.report.display import display_key, in_own_units, label
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 
@@ -66,7 +66,7 @@ def explanation(
     `place`: says where a value comes from that is said to stand at a path of the machine file.
     """
     value = results.value(key, at)
-    known = results.memory.get(key)
+    known = results.trace.get(key)
     degrees, places = 0.0 if at is None else results.degrees_of(at), _Places(results.period, language)
     is_constant = known is not None and not known.varies
     explained = None if known is None else Explanation(known, degrees, type(results.grid).from_degrees)
@@ -76,7 +76,7 @@ def explanation(
     shown = " = ".join([f"{value_symbol(display_key(key, results), language)}{where}", *_values(key, value, language)])
     head = [f"{capital(label(display_key(key, results), language)) if _has_label(key) else key}: {shown}"]
     if explained is None:
-        return "\n".join([*head, "", say("explain.no_memory", language)]) + "\n"
+        return "\n".join([*head, "", translate("explain.no_memory", language)]) + "\n"
     return "\n".join([*head, *_Printed(explained, places, place, _shown_rows(results))]) + "\n"
 
 
@@ -86,7 +86,7 @@ def key_lines(results: Results, language: Language = "en") -> list[str]:
     keys = dict.fromkeys((*results.columns, *results.summary))
     wide = max(map(len, keys))
     sign = f"({QUANTITIES['time' if results.period else 'crank_angle'].symbol(language)})"
-    varying = {key for key in keys if key in results.columns and results.memory[key].varies}
+    varying = {key for key in keys if key in results.columns and results.trace[key].varies}
     return [
         f"{key:<{wide}}  {sign if key in varying else '   '}  {label(display_key(key, results), language)}".rstrip()
         for key in keys
@@ -102,7 +102,7 @@ def _shown_rows(results: Results) -> list[float]:
 
 def place_text(origin: Origin, language: Language) -> str:
     """Return where the machine file states a value, in words."""
-    return say(f"explain.{origin.kind}", language, path=origin.path, line=origin.line)
+    return translate(f"explain.{origin.kind}", language, path=origin.path, line=origin.line)
 
 
 def _has_label(key: str) -> bool:
@@ -135,11 +135,11 @@ class _Places(NamedTuple):
     @property
     def steady(self) -> str:
         """The heading of what stands still."""
-        return say("explain.steady_time" if self.period else "explain.steady", self.language)
+        return translate("explain.steady_time" if self.period else "explain.steady", self.language)
 
     def at(self, degrees: float) -> str:
         """Return the heading of what stands at an angle of the tables."""
-        return say("explain.at_time" if self.period else "explain.at", self.language, angle=self(degrees))
+        return translate("explain.at_time" if self.period else "explain.at", self.language, angle=self(degrees))
 
 
 class _Printed:
@@ -174,29 +174,29 @@ class _Printed:
         yield from self._given([item for item in explained if is_given(item)])
         yield from self._legend(explained)
         if self._sources:
-            yield from ("", say("explain.sources", self._language))
+            yield from ("", translate("explain.sources", self._language))
             yield from (f"  [{count}] {cite(source)}" for source, count in self._sources.items())
 
-    def _angle_of(self, entry: Explained) -> float | None:
+    def _angle_of(self, entry: ExplainedValue) -> float | None:
         """Return the crank angle that a line belongs to."""
-        return entry.known.node.at if isinstance(entry.known.node, Found) else entry.degrees
+        return entry.known.node.at if isinstance(entry.known.node, ProcedureValue) else entry.degrees
 
-    def _section(self, title: str, entries: Iterable[Explained]) -> Iterator[str]:
+    def _section(self, title: str, entries: Iterable[ExplainedValue]) -> Iterator[str]:
         lines = dict.fromkeys(self._lines(entries))
         if lines:
             yield from ("", title, *lines)
 
-    def _lines(self, entries: Iterable[Explained]) -> Iterator[str]:
+    def _lines(self, entries: Iterable[ExplainedValue]) -> Iterator[str]:
         for entry in entries:
             line = self._line(entry)
             if line:
                 yield f"  {line}"
                 yield from self._rows_of_columns(entry)
 
-    def _rows_of_columns(self, entry: Explained) -> Iterator[str]:
+    def _rows_of_columns(self, entry: ExplainedValue) -> Iterator[str]:
         """Yield the columns that a value over the cycle is taken from, at some rows of the tables."""
         node = entry.known.node
-        if not isinstance(node, Found | Table) or node.word not in _OVER_CYCLE:
+        if not isinstance(node, ProcedureValue | Tabulated) or node.word not in _OVER_CYCLE:
             return
         for column in (part for part in node.operands if part.key and part.varies):
             samples: list[str] = []
@@ -209,9 +209,9 @@ class _Printed:
             yield from textwrap.wrap(head + "; ".join(samples), 116, initial_indent="    ", subsequent_indent="      ",
                                      break_long_words=False, break_on_hyphens=False)  # fmt: skip
 
-    def _symbol(self, known: Known, argument: str = "") -> str:
+    def _symbol(self, known: TracedValue, argument: str = "") -> str:
         match known.node:
-            case OfAngle(function=function, multiple=multiple, shift=shift) if not has_own_symbol(known):
+            case AngleFunction(function=function, multiple=multiple, shift=shift) if not has_own_symbol(known):
                 return of_angle(function, multiple, shift, self._language)
         if known.key and not has_argument_symbol(known, argument):
             return self._own.get(known.key) or value_symbol(known.key, self._language)
@@ -226,18 +226,18 @@ class _Printed:
                  if argument.quantity in self._own and not argument.extra}  # fmt: skip
         return symbols | {name: self._own[key] for name, key in step.named if key in self._own}
 
-    def _line(self, entry: Explained) -> str:
+    def _line(self, entry: ExplainedValue) -> str:
         """Return the line of a value."""
         known, language = entry.known, self._language
         parts = [self._symbol(known, entry.argument)]
         parts += [value_symbol(entry.own, language)] if entry.own not in ("", known.key) else []
         match known.node:
-            case OfAngle():
+            case AngleFunction():
                 return " = ".join(_once([*parts, *self._angle_parts(entry)]))
-            case Use() | Arithmetic() | Total():
+            case FormulaCall() | Arithmetic() | Sum():
                 step = without_noise(self._explanation.moment(entry.degrees).step(known))
                 parts = ["0"] if entry.residual else parts
-                parts += [say(f"memory.{entry.word}", language)] if entry.word else []
+                parts += [translate(f"memory.{entry.word}", language)] if entry.word else []
                 line_texts = line_parts(step, language, self._symbols(step))
                 parts += line_texts[: -len(distinct_values(step))] if entry.residual else line_texts
                 source = step.formula.source if isinstance(step, FormulaLine) else ""
@@ -245,50 +245,50 @@ class _Printed:
             case Delayed(of=column, by=shift, cycle=cycle) if entry.degrees is not None:
                 before = _angle((entry.degrees - shift) % cycle, language)
                 parts = [f"{parts[0]}({_angle(entry.degrees, language)})", f"{self._symbol(column)}({before})"]
-            case Found(word="at", operands=operands, at=angle) if angle is not None:
+            case ProcedureValue(word="at", operands=operands, at=angle) if angle is not None:
                 parts += [f"{self._symbol(column)}({self._places(angle)})" for column in operands[:1]]
-            case Found(word="sine" | "cosine" as word, operands=(operand,)):
+            case ProcedureValue(word="sine" | "cosine" as word, operands=(operand,)):
                 of_degrees = _angle(float(from_si(operand.value, "deg")), language)
                 parts.append(f"{'sin' if word == 'sine' else 'cos'} {of_degrees}")
-            case Found(word=word, operands=operands, at=angle):
+            case ProcedureValue(word=word, operands=operands, at=angle):
                 defined = definition_text(known.key, language) if known.key else ""
                 parts += [defined] if defined else []
                 parts.append(self._found(word, operands, angle))
-            case Table(word=word, operands=operands):
+            case Tabulated(word=word, operands=operands):
                 integral = integral_text(operands[0].key, language) if operands and word == "integral" else ""
-                parts += [*([integral] if integral else []), say(f"memory.{word}", language)]
+                parts += [*([integral] if integral else []), translate(f"memory.{word}", language)]
             case Component():
-                parts.append(say("explain.root", language))
-            case HalfTurns():
-                parts.append(say("explain.half_turns", language))
+                parts.append(translate("explain.root", language))
+            case AngleUnwrap():
+                parts.append(translate("explain.half_turns", language))
         return " = ".join(_once([*parts, *self._own_values(entry)])) + self._held(entry)
 
-    def _found(self, word: str, operands: tuple[Known, ...], angle: float | None) -> str:
+    def _found(self, word: str, operands: tuple[TracedValue, ...], angle: float | None) -> str:
         """Return a procedure and its operands as text, with the keys of columns that are not followed here."""
         columns = ", ".join(
             self._symbol(part) + (f": {label(part.key.partition('.')[0], self._language)}" if angle is None else "")
             for part in operands
             if part.key and part.varies
         )
-        words = say(f"memory.{word}", self._language)
-        where = "" if angle is None else say("explain.where", self._language, angle=self._places(angle))
+        words = translate(f"memory.{word}", self._language)
+        where = "" if angle is None else translate("explain.where", self._language, angle=self._places(angle))
         return f"{words}{f' ({columns})' if columns else ''}{where}"
 
-    def _own_values(self, entry: Explained) -> list[str]:
+    def _own_values(self, entry: ExplainedValue) -> list[str]:
         return [value_text(*pair, self._language) for pair in self._shown(entry)]
 
-    def _shown(self, entry: Explained) -> list[tuple[float, str]]:
+    def _shown(self, entry: ExplainedValue) -> list[tuple[float, str]]:
         """Return a value in the units in which it is printed, each with its unit."""
         node, key = entry.known.node, entry.known.key
-        if isinstance(node, Given) and node.unit:
+        if isinstance(node, Input) and node.unit:
             return [(entry.value, node.unit)]
         if key and base_key(key) in QUANTITIES:
             return shown_values(ValueLine(key, entry.value))
         return [(entry.value, argument_unit(entry.argument) if entry.argument in ARGUMENTS else "")]
 
-    def _angle_parts(self, entry: Explained) -> list[str]:
+    def _angle_parts(self, entry: ExplainedValue) -> list[str]:
         node, degrees = entry.known.node, entry.degrees
-        if not isinstance(node, OfAngle) or degrees is None:
+        if not isinstance(node, AngleFunction) or degrees is None:
             return []
         angle = _angle(node.multiple * degrees + node.shift, self._language)
         turned = of_angle(node.function, node.multiple, node.shift, self._language)
@@ -297,11 +297,11 @@ class _Printed:
         name = {"one_minus_sin": "1 − sin ", "one_plus_sin": "1 + sin "}.get(node.function, f"{node.function} ")
         return [turned, f"{name}{angle}", number(entry.value, self._language)]
 
-    def _held(self, entry: Explained) -> str:
+    def _held(self, entry: ExplainedValue) -> str:
         if entry.stretch is None:
             return ""
         start, end = (self._places(edge) for edge in entry.stretch)
-        return f"   ({say('explain.holds', self._language, start=start, end=end)})"
+        return f"   ({translate('explain.holds', self._language, start=start, end=end)})"
 
     def _cited(self, source: str) -> str:
         if not source:
@@ -309,39 +309,39 @@ class _Printed:
         self._sources.setdefault(source.partition(",")[0], len(self._sources) + 1)
         return f"   {Numbering((), {}, self._sources, self._language).citation(source)}"
 
-    def _given(self, entries: list[Explained]) -> Iterator[str]:
+    def _given(self, entries: list[ExplainedValue]) -> Iterator[str]:
         lines = []
         for entry in entries:
             node = entry.known.node
-            if not isinstance(node, Given):
+            if not isinstance(node, Input):
                 continue
             shown = self._shown(entry)
             si = float(to_si(entry.value, node.unit)) if node.unit in UNITS else entry.value
             numbers = [si, *(number for number, _ in shown)]
             file, _, row = node.path.partition(":")
             if row:
-                where = say("explain.line", self._language, path=file, line=row)
+                where = translate("explain.line", self._language, path=file, line=row)
             else:
-                where = self._place(node.path, numbers) if node.path else say("explain.taken", self._language)
+                where = self._place(node.path, numbers) if node.path else translate("explain.taken", self._language)
             values = [self._symbol(entry.known, entry.argument), *(value_text(*pair, self._language) for pair in shown)]
             lines.append(f"  {' = '.join(values)}   {where}")
         if lines:
-            yield from ("", capital(say("captions.data", self._language)), *dict.fromkeys(lines))
+            yield from ("", capital(translate("captions.data", self._language)), *dict.fromkeys(lines))
 
-    def _legend(self, explained: list[Explained]) -> Iterator[str]:
+    def _legend(self, explained: list[ExplainedValue]) -> Iterator[str]:
         """Yield the meanings of the symbols: each quantity once, whatever its point or link."""
         meanings = dict.fromkeys(self._meaning(entry) for entry in explained)
         entries = [f"{shown} – {words}".replace(" ", "\u00a0", 2) for shown, words in meanings if words]
         if entries:
             yield ""
-            yield capital(say("note.where", self._language))
+            yield capital(translate("note.where", self._language))
             yield from textwrap.wrap("; ".join(entries), 116, initial_indent="  ", subsequent_indent="  ",
                                      break_long_words=False, break_on_hyphens=False)  # fmt: skip
 
-    def _meaning(self, entry: Explained) -> tuple[str, str]:
+    def _meaning(self, entry: ExplainedValue) -> tuple[str, str]:
         """Return a symbol as it stands for all its points and links, and its words."""
         known, language = entry.known, self._language
-        if isinstance(known.node, OfAngle) and not has_own_symbol(known):
+        if isinstance(known.node, AngleFunction) and not has_own_symbol(known):
             return value_symbol("crank_angle", language), label("crank_angle", language)
         if not known.key or has_argument_symbol(known, entry.argument):
             return meaning_of_argument(entry.argument, language)
@@ -385,7 +385,7 @@ def distinct_symbols(keys: Iterable[str], language: Language) -> dict[str, str]:
     return symbols
 
 
-def _later(calculated: list[Explained]) -> set[int]:
+def _later(calculated: list[ExplainedValue]) -> set[int]:
     """Return the nodes that belong to a crank angle, and all that depend on them."""
     varying: set[int] = set()
     for entry in calculated:
@@ -394,19 +394,19 @@ def _later(calculated: list[Explained]) -> set[int]:
     return varying
 
 
-def _is_made_of(known: Known, nodes: set[int]) -> bool:
+def _is_made_of(known: TracedValue, nodes: set[int]) -> bool:
     parts = known.node.operands
     written = (part for part in parts if isinstance(part.node, Arithmetic) and not part.key)
     return any(id(part.node) in nodes for part in parts) or any(_is_made_of(operand, nodes) for operand in written)
 
 
-def _is_at_angle(entry: Explained) -> bool:
+def _is_at_angle(entry: ExplainedValue) -> bool:
     """Return whether a procedure took a value from columns at a crank angle."""
     node = entry.known.node
-    return isinstance(node, Found) and node.at is not None and bool(node.operands)
+    return isinstance(node, ProcedureValue) and node.at is not None and bool(node.operands)
 
 
-def has_own_symbol(known: Known) -> bool:
+def has_own_symbol(known: TracedValue) -> bool:
     """Return whether a function of the crank angle goes by a name of its own."""
     return bool(known.key) and not known.key.startswith("crank_")
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.linkage import torque_by_routes
-from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.mechanism import torque_by_routes
+from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -29,7 +29,7 @@ from crankwork.note.parts import (
     works,
 )
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
-from crankwork.report.notices import not_drawn
+from crankwork.report.notices import skipped_figure_notes
 from crankwork.report.tables import any_nonzero
 
 _STATICS, _WORK = "artobolevsky_1988, ch. 13", "artobolevsky_1988, ch. 15"
@@ -87,7 +87,7 @@ def _to_six_decimals(material: Material) -> Table | None:
 
 def _undrawn(material: Material) -> Iterator[Block]:
     """Yield which figures are left out, and why."""
-    for notice in not_drawn(material.results, material.words.language):
+    for notice in skipped_figure_notes(material.results, material.words.language):
         yield Paragraph((f"{notice[0].upper()}{notice[1:]}.",))
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from crankwork.analysis.stated import StatedFriction, stated_friction
+from crankwork.analysis.input_loads import FrictionInput, stated_friction
 from crankwork.note.document import Block, Citation, ItemList, Math, Run, Runs
 from crankwork.note.material import Material
 from crankwork.note.parts import At, Head, Lines, Places, Section, Shown, Text, When, amount, drawn, every, has, number
-from crankwork.note.words import Words, named
+from crankwork.note.wording import Words, named
 from crankwork.report.tables import any_nonzero
 
 _SOURCE = "artobolevsky_1988, ch. 11, 14"
@@ -25,7 +25,7 @@ def _joints(material: Material) -> Iterator[Block]:
     yield ItemList(tuple(_friction_of_joint(joint, material.words) for joint in joints))
 
 
-def _friction_of_joint(joint: StatedFriction, words: Words) -> Runs:
+def _friction_of_joint(joint: FrictionInput, words: Words) -> Runs:
     """Return the friction of a joint in words."""
     runs: list[Run] = []
     for key, (value, unit) in joint.amounts.items():

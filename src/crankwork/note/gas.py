@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from crankwork.analysis.input_loads import stated_chambers
 from crankwork.analysis.polytropes import Polytropes, polytropes
-from crankwork.analysis.stated import stated_chambers
+from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine
 from crankwork.formula.expression import symbol
-from crankwork.formula.known import Pieces
-from crankwork.formula.known import Table as TableOfValues
-from crankwork.formula.lines import FormulaLine, Line, ValueLine
-from crankwork.locale import has_text, say
+from crankwork.formula.traced_value import Piecewise
+from crankwork.formula.traced_value import Tabulated as TableOfValues
+from crankwork.locale import has_text, translate
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.data import cycle_keys
 from crankwork.note.document import Block, Cell, Citation, Math, Reference, Runs, Table
@@ -32,9 +32,9 @@ from crankwork.note.parts import (
 )
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.tables import Column, column_table, folded, quantity_column, value_row, value_table
-from crankwork.note.words import Words, in_display_unit
+from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.report.language import FILE_KEYS, displayed
+from crankwork.report.display import FILE_KEYS, displayed
 from crankwork.units import UNITS
 
 # stage of the calculation: what it gives
@@ -147,7 +147,7 @@ def _heat_balance(material: Material) -> Table | None:
         return None
     parts = [(name, key) for name, key in _SHARES if f"heat_share.{name}" in summary and key in summary]
     columns = [
-        Column((words.column("row"),), [say(f"report.{name}", words.language) for name, _ in parts]),
+        Column((words.column("row"),), [translate(f"report.{name}", words.language) for name, _ in parts]),
         Column((words.column("heat", "kW"),), words.column_texts([displayed(key, summary[key]) for _, key in parts])),
         Column(
             (words.column("share"),), words.column_texts([summary[f"heat_share.{name}"] * 100 for name, _ in parts])
@@ -227,8 +227,8 @@ def _points(material: Material) -> Table | None:
 def _laws(material: Material) -> Table | None:
     """Return the law of the pressure on each stretch of the cycle, where it has several."""
     words, results = material.words, material.results
-    known = results.memory.get("diagram_pressure")
-    if known is None or not isinstance(known.node, Pieces):
+    known = results.trace.get("diagram_pressure")
+    if known is None or not isinstance(known.node, Piecewise):
         return None
     rows: list[tuple[Cell, ...]] = []
     start = 0.0
@@ -238,7 +238,7 @@ def _laws(material: Material) -> Table | None:
         if isinstance(step, FormulaLine):
             law_text: Cell = Math(step)
         elif isinstance(law, TableOfValues):
-            law_text = say(f"memory.{law.word}", words.language)
+            law_text = translate(f"memory.{law.word}", words.language)
         else:
             law_text = words.amount(step.value, "MPa")
         rows.append((words.number(start, digits=5), words.number(end, digits=5), law_text))

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
+from crankwork.formula.calculation_lines import FormulaLine, symbols_of
 from crankwork.formula.expression import Formula, record, symbol
-from crankwork.formula.lines import FormulaLine, symbols_of
-from crankwork.locale import has_text, say
+from crankwork.locale import has_text, translate
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
 from crankwork.note.document import Block, Equation, Explanation
 from crankwork.note.equations import equation_symbol, own_key, value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.report.language import label
+from crankwork.report.display import label
 
 # parts of a quantity that are no cylinder or point, and arguments made of a quantity
 _PARTS = {"inertia": "note.of_inertia", "drive": "note.of_drive", "of_cylinder": "report.of_cylinder"}
@@ -86,15 +86,15 @@ def _unit(name: str, key: str) -> str:
 def words_of(name: str, language: Language) -> str:
     """Return the meaning of an argument whose symbol is not that of a quantity alone."""
     if has_text(f"arguments.{name}"):
-        return say(f"arguments.{name}", language)
+        return translate(f"arguments.{name}", language)
     entry = ARGUMENTS[name]
-    return f"{label(entry.quantity, language)}, {say(f'note.{_DERIVED[entry.pattern]}', language)}"
+    return f"{label(entry.quantity, language)}, {translate(f'note.{_DERIVED[entry.pattern]}', language)}"
 
 
 def _meaning(key: str, language: Language) -> str:
     """Return the name of a quantity, and of a part of it that is no cylinder or point what it is for."""
     kind, _, part = key.partition(".")
-    return label(kind, language) + (f" {say(_PARTS[part], language)}" if part in _PARTS else "")
+    return label(kind, language) + (f" {translate(_PARTS[part], language)}" if part in _PARTS else "")
 
 
 def explained_keys(step: FormulaLine | Formula) -> set[str]:

@@ -1,4 +1,4 @@
-"""Which lines of the memory a note shows, by subject and in their order."""
+"""Which lines of the trace a note shows, by subject and in their order."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.analysis.engine import own_key
-from crankwork.formula.known import Delayed, Found, Given, Known, Use, in_order
-from crankwork.formula.lines import FormulaLine, Line, Moment, ValueLine, symbols_of
+from crankwork.analysis.one_cylinder import own_key
+from crankwork.formula.calculation_lines import FormulaLine, Line, Snapshot, ValueLine, symbols_of
+from crankwork.formula.traced_value import Delayed, FormulaCall, Input, ProcedureValue, TracedValue, in_order
 from crankwork.machine import Engine, Machine
 from crankwork.notation import ARGUMENTS
 
@@ -171,10 +171,10 @@ def lines_of(results: Results, degrees: float | None = None, force_degrees: floa
 
 def _of_piston(results: Results, angle: float, force_angle: float | None) -> Iterator[Group]:
     """Yield the groups of lines of a piston, and of the cylinders beside it."""
-    machine, memory = results.machine, results.memory
+    machine, trace = results.machine, results.trace
     force_angle = machine.cycle - _TURN + angle if force_angle is None else force_angle
     moving, loaded = results.moment(angle), results.moment(force_angle)
-    has_forces, has_gas = "piston_force" in memory, results.solved.space is not None
+    has_forces, has_gas = "piston_force" in trace, results.solved.space is not None
     yield Group("cycle", tuple(_cycle(results)))
     yield Group("geometry", _own(moving, results, _GEOMETRY))
     yield Group("speed", _own(moving, results, _SPEED))
@@ -188,7 +188,7 @@ def _of_piston(results: Results, angle: float, force_angle: float | None) -> Ite
         yield Group("reduction", _own(loaded, results, _of_cylinder(machine, _PISTON_REDUCTION)), force_angle)
     yield Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES))
     yield Group("power", _own(loaded, results, _of_cylinder(machine, _POWER if has_gas else ())))
-    yield Group("delivery", _own(loaded, results, DELIVERY if "induced_volume" in memory else ()))
+    yield Group("delivery", _own(loaded, results, DELIVERY if "induced_volume" in trace else ()))
     if machine.engine is None:
         return
     yield Group("firing", _own(loaded, results, _FIRING))
@@ -200,7 +200,7 @@ def _of_piston(results: Results, angle: float, force_angle: float | None) -> Ite
     yield Group("bearing_loads", _own(loaded, results, _LOADS))
     yield Group("torque_harmonics", _own(loaded, results, _major_harmonics(results)))
     yield Group("uniformity", _own(loaded, results, _uniformity(results)))
-    yield Group("flywheel", tuple(loaded.step(known) for known in values_by_method(memory)))
+    yield Group("flywheel", tuple(loaded.step(known) for known in values_by_method(trace)))
     orders = (*_orders(results, machine.engine), *_ROTATING, *_weights(results))
     yield Group("balance", _own(loaded, results, orders))
 
@@ -220,15 +220,15 @@ def _uniformity(results: Results) -> tuple[str, ...]:
     return tuple(key for key in _UNIFORMITY if key not in ("whole_inertia", "flywheel_inertia"))
 
 
-def _own(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
+def _own(moment: Snapshot, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
     """Return the lines of keys, of a key that ends in a point those of all its parts; inputs have none."""
-    memory = results.memory
-    keys = (key for kind in keys for key in (_parts(results, kind) if kind.endswith(".") else (kind,)) if key in memory)
-    return tuple(moment.step(memory[key]) for key in keys if not isinstance(memory[key].node, Given))
+    trace = results.trace
+    keys = (key for kind in keys for key in (_parts(results, kind) if kind.endswith(".") else (kind,)) if key in trace)
+    return tuple(moment.step(trace[key]) for key in keys if not isinstance(trace[key].node, Input))
 
 
 def _parts(results: Results, start: str) -> list[str]:
-    return [key for key in results.memory if key.startswith(start)]
+    return [key for key in results.trace if key.startswith(start)]
 
 
 def _space(results: Results) -> tuple[str, ...]:
@@ -239,22 +239,22 @@ def _space(results: Results) -> tuple[str, ...]:
 
 def _points(results: Results) -> list[str]:
     """Return volumes and pressures at the points of a diagram."""
-    return [key for key, known in results.memory.items() if key.startswith(_POINTS) and not known.varies]
+    return [key for key, known in results.trace.items() if key.startswith(_POINTS) and not known.varies]
 
 
 def _later_forces(results: Results) -> list[str]:
     """Return the tangential forces that are those of cylinder 1, only later."""
-    memory, later = results.memory, []
+    trace, later = results.trace, []
     for key in _parts(results, "tangential_force."):
-        node = memory[key].node
-        if isinstance(node, Delayed) and node.of.node is memory["tangential_force"].node:
+        node = trace[key].node
+        if isinstance(node, Delayed) and node.of.node is trace["tangential_force"].node:
             later.append(key)
     return later
 
 
-def _followed(moment: Moment, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
+def _followed(moment: Snapshot, results: Results, keys: Iterable[str]) -> tuple[Line, ...]:
     """Return the lines of keys after those of everything they are made of."""
-    return tuple(moment.steps(results.memory[key] for key in keys if key in results.memory))
+    return tuple(moment.steps(results.trace[key] for key in keys if key in results.trace))
 
 
 def cycle_lines(results: Results) -> tuple[Line, ...]:
@@ -306,7 +306,7 @@ def _articulated(results: Results, engine: Engine, degrees: float) -> Group:
     """Return motion and forces of the first cylinder with an articulated rod, at its own crank angle."""
     number, angle, own = first_articulated(engine), degrees, []
     for key in _OF_ARTICULATED:
-        known = results.memory.get(f"{key}.{number}")
+        known = results.trace.get(f"{key}.{number}")
         if known is None:
             continue
         if isinstance(known.node, Delayed):
@@ -317,7 +317,7 @@ def _articulated(results: Results, engine: Engine, degrees: float) -> Group:
 
 def first_articulated(engine: Engine) -> int:
     """Return the number of the first cylinder with an articulated rod, 0 if none has one."""
-    return next((number for number, rod in enumerate(engine.slaves, start=1) if rod is not None), 0)
+    return next((number for number, rod in enumerate(engine.articulated_rods, start=1) if rod is not None), 0)
 
 
 def _major_harmonics(results: Results) -> Iterator[str]:
@@ -326,7 +326,7 @@ def _major_harmonics(results: Results) -> Iterator[str]:
     pairs = zip(columns["harmonic_order"].tolist(), columns["phase_sum"].tolist(), strict=True)
     major = [f"{order:g}" for order, star in pairs if abs(star - count) < _ROUNDING][:_SHOWN_HARMONICS]
     for order in major:
-        if isinstance(results.memory[f"total_harmonic_amplitude.{order}"].node, Use):
+        if isinstance(results.trace[f"total_harmonic_amplitude.{order}"].node, FormulaCall):
             yield from (f"{kind}.{order}" for kind in _OF_HARMONIC)
 
 
@@ -346,7 +346,7 @@ def _weights(results: Results) -> Iterator[str]:
         return
     seen: set[float] = set()
     for key in _parts(results, "counterweight_moment."):
-        known = results.memory[key]
+        known = results.trace[key]
         if key.count(".") == 1 and known.value and known.value not in seen:
             seen.add(known.value)
             yield from (f"{key}.", key)
@@ -391,8 +391,8 @@ def _of_links(results: Results, degrees: float | None) -> Iterator[Group]:
 
 def _of_shaft(results: Results) -> Iterator[Group]:
     """Yield the groups of lines of a shaft, at the position nearest to the greatest value of its torque."""
-    peaks = (results.memory.get(f"{key}_max") for key in ("turning_moment", "load_torque"))
-    angle = next((peak.node.at for peak in peaks if peak is not None and isinstance(peak.node, Found)), None)
+    peaks = (results.trace.get(f"{key}_max") for key in ("turning_moment", "load_torque"))
+    angle = next((peak.node.at for peak in peaks if peak is not None and isinstance(peak.node, ProcedureValue)), None)
     row = int(np.argmin(np.abs(results.grid.degrees - (angle or 0.0))))
     new, turning = _LineFilter(results, float(results.grid.degrees[row])), results.machine.turning
     given = turning.diagrams if turning is not None else {}
@@ -410,11 +410,11 @@ class _LineFilter:
     """Lines at one crank angle, each shown once."""
 
     def __init__(self, results: Results, degrees: float) -> None:
-        self._memory, self.degrees = results.memory, degrees
+        self._trace, self.degrees = results.trace, degrees
         self._moment = results.moment(degrees)
         self._shown: set[tuple[str, str]] = set()
 
-    def of(self, values: Iterable[Known]) -> tuple[Line, ...]:
+    def of(self, values: Iterable[TracedValue]) -> tuple[Line, ...]:
         """Return the lines of values that were not shown before; of plain numbers only those asked for."""
         lines, present = [], [traced for traced in values if not traced.is_absent]
         keys = {value.key for value in present}
@@ -427,9 +427,9 @@ class _LineFilter:
         return tuple(lines)
 
     def lines(self, kinds: Iterable[str]) -> tuple[Line, ...]:
-        """Return the lines of what the memory has of some kinds."""
+        """Return the lines of what the trace has of some kinds."""
         kinds = tuple(kinds)
-        return self.of(known for key, known in self._memory.items() if key.partition(".")[0] in kinds)
+        return self.of(known for key, known in self._trace.items() if key.partition(".")[0] in kinds)
 
     def group(self, name: str, kinds: Iterable[str]) -> Group:
         """Return these lines as a group."""
@@ -446,21 +446,21 @@ def _centres(results: Results, new: _LineFilter) -> Group:
         return Group("instant_centres", ())
     nearest = float(shown[np.argmin(np.abs(shown - new.degrees))])
     moment = results.moment(nearest)
-    return Group("instant_centres", tuple(moment.step(results.memory[key]) for key in keys), nearest)
+    return Group("instant_centres", tuple(moment.step(results.trace[key]) for key in keys), nearest)
 
 
 class Extreme(NamedTuple):
     """The extreme of a column: its key, what it is and how it came about, and where it is reached. [deg]"""
 
     key: str
-    known: Known
+    known: TracedValue
     at: float
 
 
 def extreme_of(results: Results, key: str) -> Extreme | None:
     """Return the extreme that a single value is or depends on; None if there is none."""
-    for traced in in_order([results.memory[key]]) if key in results.memory else ():
-        if isinstance(traced.node, Found) and traced.node.at is not None:
+    for traced in in_order([results.trace[key]]) if key in results.trace else ():
+        if isinstance(traced.node, ProcedureValue) and traced.node.at is not None:
             return Extreme(traced.key, traced, traced.node.at)
     return None
 
@@ -481,32 +481,32 @@ def _transmission(results: Results) -> Iterator[Line]:
         extreme = extreme_of(results, key)
         if extreme is not None:
             yield moment.step(extreme.known)
-            yield moment.step(results.memory[key])
+            yield moment.step(results.trace[key])
 
 
-def _first_harmonic(results: Results) -> Iterator[Known]:
+def _first_harmonic(results: Results) -> Iterator[TracedValue]:
     """Yield the amplitude of the first harmonic of the torque, for which the harmonics are worked."""
-    key = next((key for key in results.memory if key.startswith("total_harmonic_amplitude.")), None)
+    key = next((key for key in results.trace if key.startswith("total_harmonic_amplitude.")), None)
     if results.machine.linkage is not None and key is not None:
-        yield results.memory[key]
+        yield results.trace[key]
 
 
-def _inertia(results: Results) -> Iterator[Known]:
+def _inertia(results: Results) -> Iterator[TracedValue]:
     """Yield inertia forces and torques, which the forces in the joints remember."""
-    forces = [known for key, known in results.memory.items() if key.partition(".")[0] in _JOINTS]
+    forces = [known for key, known in results.trace.items() if key.partition(".")[0] in _JOINTS]
     yield from (known for known in in_order(forces) if known.key.partition(".")[0] in _INERTIA)
 
 
 def _efficiency(results: Results) -> Iterator[Line]:
     """Yield the efficiencies of a chain of joints, and what they come to before it is rounded."""
-    drive, memory = results.machine.drive, results.memory
-    if drive.chain is None or "efficiency" not in memory:
+    drive, trace = results.machine.drive, results.trace
+    if drive.chain is None or "efficiency" not in trace:
         return
     moment = results.moment()
-    for known in in_order([memory["efficiency"]]):
+    for known in in_order([trace["efficiency"]]):
         # an efficiency of its own stands in the line of its share
-        is_alone = known.key == "efficiency" and isinstance(known.node, Given)
-        if known.key and not is_alone and not isinstance(known.node, Found):
+        is_alone = known.key == "efficiency" and isinstance(known.node, Input)
+        if known.key and not is_alone and not isinstance(known.node, ProcedureValue):
             yield moment.step(known)
 
 
@@ -514,9 +514,9 @@ def _friction(results: Results, new: _LineFilter) -> Group:
     """Return the lines of the friction in each joint, and of the efficiency where the forces are known."""
     moment = results.moment(new.degrees)
     keys = [key for key in results.columns if key.partition(".")[0] in _FRICTION]
-    if not all(math.isfinite(moment.value(results.memory[key])) for key in keys):
+    if not all(math.isfinite(moment.value(results.trace[key])) for key in keys):
         return Group("friction", ())
-    ratio = results.memory.get("instantaneous_efficiency")
+    ratio = results.trace.get("instantaneous_efficiency")
     has_ratio = ratio is not None and math.isfinite(moment.value(ratio))
     lines = (*new.lines(_FRICTION), *((moment.step(ratio),) if ratio is not None and has_ratio else ()))
     return Group("friction", (*lines, *new.lines(("mean_efficiency",))), new.degrees)
@@ -524,10 +524,10 @@ def _friction(results: Results, new: _LineFilter) -> Group:
 
 def _flywheel(results: Results, new: _LineFilter) -> Iterator[Line]:
     """Yield the flywheel by every method; the excess work of each is found over the turn."""
-    memory = results.memory
-    if "excess_work" not in memory:
+    trace = results.trace
+    if "excess_work" not in trace:
         return
-    for known in values_by_method(memory):
+    for known in values_by_method(trace):
         if known.key.startswith("excess_work"):
             yield ValueLine(known.key, known.value)
         else:
@@ -535,10 +535,10 @@ def _flywheel(results: Results, new: _LineFilter) -> Iterator[Line]:
     yield from new.lines(["work_per_cycle", "energy_fluctuation", *WHEEL_SIZES])
 
 
-def values_by_method(memory: Mapping[str, Known]) -> Iterator[Known]:
+def values_by_method(trace: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
     """Yield the excess work, slopes and inertias of each method of finding the flywheel."""
-    for key in memory:
-        for known in in_order([memory[key]]) if key.startswith("flywheel_inertia.") else ():
+    for key in trace:
+        for known in in_order([trace[key]]) if key.startswith("flywheel_inertia.") else ():
             kind = known.key.partition(".")[0]
-            if kind == "excess_work" or (kind in _WHEEL and isinstance(known.node, Use) and known.value > 0):
+            if kind == "excess_work" or (kind in _WHEEL and isinstance(known.node, FormulaCall) and known.value > 0):
                 yield known

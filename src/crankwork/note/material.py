@@ -11,20 +11,20 @@ from functools import cached_property
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.forces import force_functions
-from crankwork.analysis.plans import POSITION_STEP, positions, worked_position
-from crankwork.analysis.rounding import summary_without_rounding, without_rounding
+from crankwork.analysis.cylinder_forces import force_functions
+from crankwork.analysis.rounding_noise import summary_without_rounding, without_rounding
+from crankwork.analysis.vector_polygons import POSITION_STEP, positions, worked_position
+from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, ValueLine
 from crankwork.formula.expression import Expression, Operation, Symbol
-from crankwork.formula.lines import DelayedLine, FormulaLine, Line, ValueLine
-from crankwork.locale import capital, has_text, say
+from crankwork.locale import capital, has_text, translate
 from crankwork.machine import Machine
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
-from crankwork.note.words import Words, named
+from crankwork.note.wording import Words, named
+from crankwork.report.display import is_per_area, key_unit, label
 from crankwork.report.figures import drawings
-from crankwork.report.language import is_per_area, key_unit, label
 from crankwork.report.look import figure_title, kind_of
 from crankwork.report.tables import any_nonzero
 from crankwork.show.scene import Drawing
@@ -142,7 +142,7 @@ class Material:
 
     @cached_property
     def groups(self) -> dict[str, Group]:
-        """Lines of the memory by the name of their group, those of a linkage worked where its plans are drawn."""
+        """Lines of the trace by the name of their group, those of a linkage worked where its plans are drawn."""
         is_drawn = self.machine.linkage is not None and not self.has_piston
         position = worked_position(self.results) if is_drawn else None
         return {group.name: group for group in lines_of(self.results, position)}
@@ -294,7 +294,7 @@ class Material:
             title = capital(drawing.title)
         text = seen(name, self)
         if not text and has_text(f"seen.{kind}"):
-            return Figure(drawing, title, say(f"seen.{kind}", self.words.language), label=f"f:{name}")
+            return Figure(drawing, title, translate(f"seen.{kind}", self.words.language), label=f"f:{name}")
         return Figure(drawing, title, f"{title}. {text}".rstrip(". ") + ".", label=f"f:{name}")
 
 

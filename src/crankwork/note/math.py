@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine
 from crankwork.formula.expression import (
     Expression,
     Number,
@@ -26,7 +27,6 @@ from crankwork.formula.expression import (
     symbol,
     takes_angle,
 )
-from crankwork.formula.lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine
 from crankwork.note.layout import (
     DOT,
     MINUS,

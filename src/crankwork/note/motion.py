@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from crankwork.analysis.moving import transfer_ratios
-from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.rounding_noise import without_rounding
+from crankwork.analysis.sampled_motion import transfer_ratios
 from crankwork.note.closing import errors
 from crankwork.note.document import Block, Citation, Reference, Run
 from crankwork.note.material import Material
@@ -27,7 +27,7 @@ from crankwork.note.parts import (
     has,
 )
 from crankwork.note.tables import Column, tabulated
-from crankwork.note.words import named
+from crankwork.note.wording import named
 
 _NOUNS = ("piston_displacement", "piston_velocity", "piston_acceleration")
 _ROD = ("rod_angle", "rod_angular_velocity", "rod_angular_acceleration")

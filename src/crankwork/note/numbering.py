@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
+from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import Formula
-from crankwork.formula.lines import FormulaLine
 from crankwork.note.captions import place_in_source
 from crankwork.note.document import (
     Block,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from crankwork.note.document import Block, Citation, Reference, Run, Runs, Table
 from crankwork.note.material import Material
 from crankwork.note.tables import angle_table, listing_table, tabulated
-from crankwork.note.words import named
+from crankwork.note.wording import named
 
 Condition = Callable[[Material], bool]
 Value = str | Reference | Citation | Callable[[Material], Run | Runs]

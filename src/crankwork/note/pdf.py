@@ -9,9 +9,9 @@ import re
 from collections.abc import Iterator
 
 from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import Expression, text
-from crankwork.formula.lines import FormulaLine
-from crankwork.locale import Refusal, say
+from crankwork.locale import ErrorMessage, translate
 from crankwork.note.captions import LANGUAGE_TAGS, caption, continued
 from crankwork.note.characters import typst_string
 from crankwork.note.document import (
@@ -39,7 +39,7 @@ from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.symbols import symbol_box
 from crankwork.note.table_width import SIZES, fits, one_line_widths
 from crankwork.quantities import Language
-from crankwork.show.place import MM
+from crankwork.show.chart_layout import MM
 from crankwork.show.svg import svg
 from crankwork.sources import cite
 
@@ -99,7 +99,7 @@ def pdf(note: Note) -> bytes:
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError(Refusal("extra_writing", names="PDF"), "report") from None
+        raise MissingExtraError(ErrorMessage("extra_writing", names="PDF"), "report") from None
     source = typst_source(note, numbering(note)).encode("utf-8")
     try:
         return typst.compile(source, format="pdf", ignore_system_fonts=True, pdf_standards="a-2a")
@@ -114,7 +114,7 @@ def _missing_character(text: str) -> CrankworkError:
     # Typst writes rare characters as \u{1f600}
     shown = re.sub(r"\\u\{([0-9a-fA-F]+)\}", lambda code: chr(int(code[1], 16)), text)
     codes = " ".join(f"U+{ord(character):04X}" for character in shown)
-    return CrankworkError(Refusal("glyph_missing", character=shown, codes=codes))
+    return CrankworkError(ErrorMessage("glyph_missing", character=shown, codes=codes))
 
 
 def typst_source(note: Note, numbers: Numbering) -> str:
@@ -156,7 +156,7 @@ def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterato
         case PageBreak():
             yield "#pagebreak(weak: true)"
         case Contents():
-            title = typst_string(say("note.contents", note.language))
+            title = typst_string(translate("note.contents", note.language))
             yield f"#outline(title: {title}, depth: 2, indent: 1em)"
         case TitlePage():
             yield _title_page(block, note)

@@ -7,7 +7,7 @@ import re
 from crankwork.formula.expression import Formula
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.report.language import key_unit
+from crankwork.report.display import key_unit
 from crankwork.units import UNITS
 
 _DIGIT = re.compile(r"(?<=[A-Za-zА-Яа-я])([23])(?!\d)")

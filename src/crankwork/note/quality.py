@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.analysis.quality import USUAL, USUAL_PRESSURE
+from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.note.document import Block, Citation, Reference, Runs, Table
 from crankwork.note.lines import WORST_ANGLES, extreme_of, worst_angles
 from crankwork.note.material import Material
 from crankwork.note.parts import Section, drawn
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.tables import tabulated
-from crankwork.note.words import Words, named
-from crankwork.report.language import displayed, key_unit
+from crankwork.note.wording import Words, named
+from crankwork.report.display import displayed, key_unit
 
 _SOURCE = "norton_2012, ch. 4"
 _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}

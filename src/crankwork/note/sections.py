@@ -8,9 +8,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from crankwork.analysis import Results
-from crankwork.analysis.whole_engine import as_engine
+from crankwork.analysis.all_cylinders import with_engine_results
 from crankwork.errors import CrankworkError
-from crankwork.locale import Language, say
+from crankwork.locale import Language, translate
 from crankwork.machine import Document
 from crankwork.note import (
     balance,
@@ -108,7 +108,7 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     """
     if options.order not in _CRANK_GEAR:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
-    material = Material(as_engine(results), options, has_engine=results.machine.engine is not None)
+    material = Material(with_engine_results(results), options, has_engine=results.machine.engine is not None)
     document, words = material.machine.document, material.words
     if options.author.strip():
         document = replace(document, author=(options.author,))
@@ -155,7 +155,9 @@ def _complete(blocks: Iterable[Block]) -> Iterator[Block]:
 
 def cover(document: Document, language: Language, subtitle: str) -> TitlePage:
     """Return the cover; `subtitle` names the kind of note where the document does not."""
-    named = {key: say(f"note.cover_{key}", language, name=getattr(document, key)) for key in ("subject", "variant")}
+    named = {
+        key: translate(f"note.cover_{key}", language, name=getattr(document, key)) for key in ("subject", "variant")
+    }
     institution = (document.ministry, document.institution, document.faculty, document.department)
     above = (document.work, named["subject"] if document.subject else "")
     below = (document.subtitle or subtitle, document.designation, named["variant"] if document.variant else "")
@@ -165,7 +167,7 @@ def cover(document: Document, language: Language, subtitle: str) -> TitlePage:
         above=tuple(filter(None, above)),
         below=tuple(filter(None, below)),
         people=tuple(person for key in _PEOPLE[language] if (person := _person(document, key, language)).names),
-        place=say("note.cover_place", language, city=document.city, when=when) if document.city else when,
+        place=translate("note.cover_place", language, city=document.city, when=when) if document.city else when,
     )
 
 
@@ -173,7 +175,7 @@ def _person(document: Document, key: str, language: Language) -> Person:
     value = getattr(document, key)
     # a name left open in the file gets no line
     names = tuple(name for name in ((value,) if isinstance(value, str) else value) if name.strip())
-    label = say(f"note.cover_{'several_' if len(names) > 1 else ''}{key}", language)
+    label = translate(f"note.cover_{'several_' if len(names) > 1 else ''}{key}", language)
     return Person(label, names, signs=language == "ru" and key in _SIGN)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from crankwork.analysis.linkage import four_bar_type
+from crankwork.analysis.mechanism import four_bar_type
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.driver import Cylinder, rod_name
 from crankwork.mechanism.dyads import PRP, RRP, RRR, Dyad

@@ -24,7 +24,7 @@ from crankwork.note.layout import (
 )
 from crankwork.quantities import Language
 from crankwork.quantities.quantity import own_name
-from crankwork.report.language import called
+from crankwork.report.display import link_label
 
 _FUNCTION = re.compile(r"(?P<name>sin|cos|tan|tg|ctg|arcsin|arccos|arctan|arctg|ln|lg|exp) ?(?P<rest>\S.*)")
 _SUM = re.compile(r" ?([+−=]) ?")
@@ -155,7 +155,10 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     # of the centre of mass of a link
     owner, *parts = shown_name.split(" ", 1) if shown_name.startswith("S ") else shown_name.split(".")
     marks = texts("marks", language)
-    names = [called(owner, language), *(marks[part] if part in _PARTS else called(part, language) for part in parts)]
+    names = [
+        link_label(owner, language),
+        *(marks[part] if part in _PARTS else link_label(part, language) for part in parts),
+    ]
     name = subscript(".".join(names))
     if "_i" in shown and not kind.startswith("indicated"):
         return shown.replace("_i", f"_{name}", 1)

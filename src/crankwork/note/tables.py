@@ -14,8 +14,8 @@ from crankwork.note.document import Cell, Math, Runs, Table
 from crankwork.note.material import Material
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
-from crankwork.note.words import Words
-from crankwork.report.language import displayed, key_unit, label, row_name
+from crankwork.note.wording import Words
+from crankwork.report.display import displayed, key_unit, label, row_name
 
 # rows that fit on a page, and parts and columns of a table that stand side by side
 _LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10

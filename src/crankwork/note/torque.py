@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from crankwork.formula.known import in_order
 from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import in_order
 from crankwork.note.document import Block, Citation, Equation, Math, Reference, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -91,7 +91,7 @@ def _over_positions(caption: str, label: str, *keys: str) -> Callable[[Material]
 def _of_bodies(material: Material) -> list[Column]:
     """Return the terms of the bodies in the reduced inertia."""
     results = material.results
-    traced_values = in_order([results.memory["reduced_inertia"]])
+    traced_values = in_order([results.trace["reduced_inertia"]])
     known = {traced.key: traced for traced in traced_values if traced.key.startswith("reduced_inertia.")}
     rows = Program(known)(results.grid)
     return quantity_columns(material, [key for key in known if rows[key].any()], rows)
@@ -103,7 +103,7 @@ def _at_all(key: str) -> Callable[[Material], Iterator[Block]]:
     def equations(material: Material) -> Iterator[Block]:
         results, shown = material.results, material.words.symbol(key)
         for number, degrees in enumerate(results.grid.degrees.tolist(), start=1):
-            yield Equation(results.moment(degrees).step(results.memory[key]), symbol=_numbered(shown, number))
+            yield Equation(results.moment(degrees).step(results.trace[key]), symbol=_numbered(shown, number))
 
     return equations
 

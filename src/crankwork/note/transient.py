@@ -11,8 +11,8 @@ from crankwork.note.document import Block, Citation, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Section, Shown, Text, amount, turning
 from crankwork.note.tables import Column, quantity_columns
-from crankwork.note.words import named
-from crankwork.report.language import row_name
+from crankwork.note.wording import named
+from crankwork.report.display import row_name
 
 _DYNAMICS = "artobolevsky_1988, ch. 15"
 _ROWS = 21

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from crankwork.browser import script, style
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.note.captions import caption
 from crankwork.note.characters import xml_text
 from crankwork.note.document import (
@@ -27,7 +27,7 @@ from crankwork.note.document import (
     TitlePage,
 )
 from crankwork.note.equations import legend_rows, printed_equation
-from crankwork.note.live import bar, controls, look, page_data, stored, symbol_html
+from crankwork.note.interactive import bar, controls, look, page_data, stored_data_element, symbol_html
 from crankwork.note.mathml import mathml_box
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.word_parts import inline_box
@@ -148,7 +148,10 @@ def web(note: Note) -> bytes:
             parts.append(f'<figure id="machine">{inline_film(film, "machine")}{own}</figure>')
     parts.append("</main>")
     if results is not None:
-        parts += [stored(page_data(results, drawn, film, note.language)), f"<script>{script('page')}</script>"]
+        parts += [
+            stored_data_element(page_data(results, drawn, film, note.language)),
+            f"<script>{script('page')}</script>",
+        ]
     return "\n".join([*parts, "</body>\n</html>\n"]).encode("utf-8")
 
 
@@ -241,7 +244,7 @@ def _contents(note: Note, numbers: Numbering) -> str:
         for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True))
         if isinstance(block, Heading) and block.level <= 2
     )
-    return f'<nav><p class="contents">{say("note.contents", note.language)}</p><ul>{items}</ul></nav>'
+    return f'<nav><p class="contents">{translate("note.contents", note.language)}</p><ul>{items}</ul></nav>'
 
 
 def _title_page(page: TitlePage, note: Note) -> str:

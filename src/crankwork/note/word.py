@@ -18,7 +18,7 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.errors import MissingExtraError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.note.captions import LANGUAGE_TAGS, caption
 from crankwork.note.characters import plain_text
 from crankwork.note.document import (
@@ -57,8 +57,8 @@ from crankwork.note.word_parts import (
     text_run,
 )
 from crankwork.quantities import Language
+from crankwork.show.chart_layout import MM
 from crankwork.show.pdf import pngs
-from crankwork.show.place import MM
 from crankwork.show.scene import CAP_HEIGHT, text_width
 from crankwork.show.svg import svg
 from crankwork.sources import cite
@@ -125,7 +125,7 @@ def word(note: Note) -> bytes:
     try:
         import docx  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError(Refusal("extra_writing", names="DOCX"), "report") from None
+        raise MissingExtraError(ErrorMessage("extra_writing", names="DOCX"), "report") from None
     numbers = numbering(note)
     document = docx.Document()
     _set_properties(document, note)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from crankwork.formula.calculation_lines import FormulaLine
 from crankwork.formula.expression import Expression
-from crankwork.formula.lines import FormulaLine
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.note.captions import caption
 from crankwork.note.characters import xml_text
 from crankwork.note.document import (
@@ -224,7 +224,7 @@ def contents_xml(headings: list[tuple[int, str]], language: Language) -> Iterato
 
     A list that Word gathers itself would stay without pages everywhere else.
     """
-    yield paragraph(text_run(say("note.contents", language)), "ContentsTitle")
+    yield paragraph(text_run(translate("note.contents", language)), "ContentsTitle")
     for k, (level, text) in enumerate(headings):
         if level <= 2:
             link = f'<w:hyperlink w:anchor="{bookmark(k)}">{text_run(text)}<w:r><w:tab/></w:r>{_page(k)}</w:hyperlink>'

@@ -9,22 +9,22 @@ from typing import Any
 from crankwork.analysis import Results
 from crankwork.browser import script, style
 from crankwork.errors import CrankworkError, InputError
-from crankwork.locale import capital, say, told
+from crankwork.locale import capital, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.note.equations import value_symbol
 from crankwork.note.explain import Place
-from crankwork.note.live import bar, controls, look, page_data, stored, symbol_html, words
-from crankwork.page.memories import TraceExport
+from crankwork.note.interactive import bar, controls, look, page_data, stored_data_element, symbol_html, words
 from crankwork.page.sliders import LivePage, SliderDesigns, scale
+from crankwork.page.trace_export import TraceExport
 from crankwork.quantities import Language
+from crankwork.report.display import display_key, displayed, in_own_units, key_unit, label
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
-from crankwork.report.language import display_key, displayed, in_own_units, key_unit, label
 from crankwork.report.notices import notice_text
-from crankwork.report.summary import by_subject, met, provenance, results_method
-from crankwork.show.alt import alt_text
+from crankwork.report.summary import by_subject, check_status, provenance, results_method
+from crankwork.show.alt_text import alt_text
+from crankwork.show.animation import Animation
 from crankwork.show.inline import inline_film, inline_svg
-from crankwork.show.moving import Animation
 from crankwork.show.scene import Drawing
 
 
@@ -72,7 +72,7 @@ def page(
         f"<footer><p>{html.escape(provenance(results))}</p></footer></main>",
         f'<aside id="explanation" tabindex="-1" hidden aria-label="{words("explanation", language)}">',
         f'<button aria-label="{words("close", language)}">×</button><div class="body"></div></aside>',
-        stored(data),
+        stored_data_element(data),
         f"<script>{steps}{script('slid' if steps else 'page')}</script></body></html>\n",
     ]
     return "\n".join(parts).encode()
@@ -139,7 +139,7 @@ def _sliders(live: LivePage, moved: SliderDesigns, language: Language) -> list[s
 
 def _cause(error: CrankworkError, language: Language) -> str:
     """Return why there is no machine: the first of several messages."""
-    return told(error.problems[0].message if isinstance(error, InputError) else error.args[0], language)
+    return in_language(error.problems[0].message if isinstance(error, InputError) else error.args[0], language)
 
 
 def _machine(film: Animation, language: Language, *, is_filed: bool) -> list[str]:
@@ -154,7 +154,7 @@ def tables(results: Results, data: dict[str, Any], language: Language) -> list[d
     for name, keys in results.tables.items():
         known = [key for key in keys if key in data["columns"]]
         if known:
-            listed.append({"n": say(f"tables.{name}", language), "k": [data["axis"], *known]})
+            listed.append({"n": translate(f"tables.{name}", language), "k": [data["axis"], *known]})
     return listed
 
 
@@ -184,16 +184,16 @@ def values(results: Results, explained: Container[str], language: Language, live
             _value_row(results, key, value, language, is_explained=key in explained, marks=_value_marks(live, key))
             for key, value in values_of_subject.items()
         ]
-        parts += _small_table(say(f"subjects.{subject}", language), rows)
+        parts += _small_table(translate(f"subjects.{subject}", language), rows)
     if results.checks:
         parts += _small_table(
-            say("report.checks", language), [_check_row(results, key, language) for key in results.checks]
+            translate("report.checks", language), [_check_row(results, key, language) for key in results.checks]
         )
     parts.append("</div>")
     if results.notices:
         texts = (html.escape(notice_text(notice.code, notice.values, language)) for notice in results.notices)
         parts += [
-            f"<h3>{html.escape(say('report.notices', language))}</h3><ul class=filed>",
+            f"<h3>{html.escape(translate('report.notices', language))}</h3><ul class=filed>",
             *(f"<li>{text}</li>" for text in texts),
         ]
         parts.append("</ul>")
@@ -227,5 +227,5 @@ def _value_row(
 
 
 def _check_row(results: Results, key: str, language: Language) -> str:
-    shown, status = number(results.checks[key], language, digits=2), html.escape(met(results, key, language))
-    return f"<tr class=filed><th>{html.escape(say(f'report.{key}', language))}<td>{shown}<td>{status}"
+    shown, status = number(results.checks[key], language, digits=2), html.escape(check_status(results, key, language))
+    return f"<tr class=filed><th>{html.escape(translate(f'report.{key}', language))}<td>{shown}<td>{status}"

@@ -13,24 +13,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.rounding import rounding_of_extremes
+from crankwork.analysis.rounding_noise import rounding_of_extremes
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Delayed, Found, Given, Known, in_order
+from crankwork.formula.traced_value import Delayed, Input, ProcedureValue, TracedValue, in_order
 from crankwork.kernel.compiled import CONVERGED, Kernel
-from crankwork.kernel.script import Script
-from crankwork.kernel.trace import DesignTraces, Lowering
-from crankwork.locale import Language, Refusal
+from crankwork.kernel.javascript import Script
+from crankwork.kernel.lowering import DesignTraces, Lowering
+from crankwork.locale import ErrorMessage, Language
 from crankwork.locale.numbers import number
-from crankwork.page.joints import bind_to_joints, is_label, joints_of
+from crankwork.page.joint_bindings import bind_to_joints, is_label, joints_of
 from crankwork.quantities import QUANTITIES, base_key
+from crankwork.report.display import displayed
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
-from crankwork.report.language import displayed
+from crankwork.show.animation import Animation
 from crankwork.show.inline import frame_data, frame_marks
-from crankwork.show.moving import Animation
 from crankwork.show.scene import (
     Arc,
-    Box,
+    ChartBox,
     Circle,
     Drawing,
     Hatch,
@@ -112,7 +112,7 @@ class LivePage:
         `further`: more of these results, for checks.
         """
         self._moved, self._results, self._language = moved, moved.results, language
-        self.traces = [dict(result.memory) for result in self._results]
+        self.traces = [dict(result.trace) for result in self._results]
         stated = self._results[0]
         self._angles_at, self._cycle = type(stated.grid).from_degrees, stated.machine.cycle
         self._designs = DesignTraces(self.traces, moved.designs, ())
@@ -125,7 +125,7 @@ class LivePage:
         self._columns = [key for key in keys if self.traces[0][key].varies]
         self._singles = [key for key in keys if not self.traces[0][key].varies]
         if not keys:
-            raise CrankworkError(Refusal("slider_nothing", keys=[slider.key for slider in moved.sliders]))
+            raise CrankworkError(ErrorMessage("slider_nothing", keys=[slider.key for slider in moved.sliders]))
         self._drawings = [drawings(result, language=language, only=only) for result in self._results]
         self.drawn = self._drawings[0]
         self._between = FigureInterpolation(
@@ -171,7 +171,7 @@ class LivePage:
     def name(self, slider: Slider) -> str:
         """Return the key of the quantity of a field if a formula uses it, otherwise an empty text."""
         for known in in_order(self.traces[0].values()):
-            if isinstance(known.node, Given) and known.node.path == slider.key and base_key(known.key) in QUANTITIES:
+            if isinstance(known.node, Input) and known.node.path == slider.key and base_key(known.key) in QUANTITIES:
                 return known.key
         return ""
 
@@ -216,7 +216,7 @@ class LivePage:
         """Return the conversion of a single value to its display unit, and its rounding error."""
         return [*scale(key), self._rounding.get(key, 0.0)]
 
-    def nodes(self, traced: Iterable[Known]) -> list[str]:
+    def nodes(self, traced: Iterable[TracedValue]) -> list[str]:
         """Return the names of intermediate values in the calculation, empty for those that are not calculated."""
         names = []
         for index, known in enumerate(traced):
@@ -226,8 +226,8 @@ class LivePage:
             except KeyError:
                 names.append("")
                 continue
-            for memory, counterpart in zip(self.traces, counterparts, strict=True):
-                memory[name] = Known(counterpart, known.key)
+            for trace, counterpart in zip(self.traces, counterparts, strict=True):
+                trace[name] = TracedValue(counterpart, known.key)
             names.append(name)
         live = set(self._followed(self._trace.compiling(key for key in names if key)))
         self._used |= dict.fromkeys(key for key in names if key in live)
@@ -301,8 +301,8 @@ class LivePage:
         if len(plots) < len(drawn):
             return graph
         # a column equal to another one at the samples may differ elsewhere
-        memory = self.traces[0]
-        own = {name for name in plots[0].curves if name in memory and memory[name].varies}
+        trace = self.traces[0]
+        own = {name for name in plots[0].curves if name in trace and trace[name].varies}
         lost = {name for name in own if name not in self._columns and self.differs(name)}
         for name in plots[0].curves:
             if all(name in plot.curves for plot in plots):
@@ -339,7 +339,7 @@ class LivePage:
         """Return the row of a legend item, its number, and the single value that the number is in every design."""
         row, numbers = number_in_legend(index, drawn) or (0, [])
         for key in self._singles if numbers else ():
-            values = [float(f"{displayed(key, memory[key].value):.4g}") for memory in self.traces]
+            values = [float(f"{displayed(key, trace[key].value):.4g}") for trace in self.traces]
             if [number(value, self._language, digits=9) for value in values] == numbers:
                 self._rely(key)
                 return [row, numbers[0], key, *scale(key)]
@@ -352,7 +352,7 @@ class LivePage:
         if np.ptp(wanted) == 0:
             return []
         for key in self._singles:
-            singles = np.array([memory[key].value for memory in self.traces])
+            singles = np.array([trace[key].value for trace in self.traces])
             factor = (singles @ wanted) / (singles @ singles) if singles.any() else 0.0
             if np.max(np.abs(factor * singles - wanted)) <= _SAME * np.max(np.abs(wanted)):
                 self._rely(key)
@@ -441,13 +441,13 @@ class LivePage:
             and not self._is_right(key, values[is_exact], is_exact, left_out[is_exact])
         }
         if self._wrong & self._relied:
-            raise CrankworkError(Refusal("slider_nothing", keys=[slider.key for slider in self._moved.sliders]))
+            raise CrankworkError(ErrorMessage("slider_nothing", keys=[slider.key for slider in self._moved.sliders]))
 
     def _is_right(self, key: str, values: Array, is_exact: NDArray[np.bool_], left_out: Array) -> bool:
         """Return whether a single value is equal to that of analyses of the designs."""
         known = self.traces[0][key]
         count = len(self.traces)
-        traces = (*self.traces, *(result.memory for result in self._compared[count:]))
+        traces = (*self.traces, *(result.trace for result in self._compared[count:]))
         all_traced = [trace.get(key) for trace in traces][: is_exact.size]
         if key.startswith("#"):
             # intermediate values are available for the traced designs only
@@ -459,7 +459,7 @@ class LivePage:
         # the position of an extreme has half as many exact digits
         is_place = "angle" in known.key or "time_ratio" in known.key
         # the mean of a column may be rounding noise
-        operands = known.node.operands if isinstance(known.node, Found) else ()
+        operands = known.node.operands if isinstance(known.node, ProcedureValue) else ()
         columns = [self._results[0].columns.get(operand.key, 0.0) for operand in operands]
         size = max(float(np.max(np.abs(column), initial=0.0)) for column in (expected, *columns, _SAME))
         return bool(
@@ -510,7 +510,7 @@ def _is_near_scale(plot: Plot, other_plot: Plot) -> list[bool]:
     ]
 
 
-def is_within(item: Item, boxes: Iterable[Box]) -> bool:
+def is_within(item: Item, boxes: Iterable[ChartBox]) -> bool:
     """Return whether the middle of an item lies within one of the boxes."""
     match item:
         case Text(place=place):
@@ -522,7 +522,7 @@ def is_within(item: Item, boxes: Iterable[Box]) -> bool:
     return any(0 <= x - box.left <= box.width and 0 <= y - box.bottom <= box.height for box in boxes)
 
 
-def is_title(item: Item, boxes: Iterable[Box]) -> bool:
+def is_title(item: Item, boxes: Iterable[ChartBox]) -> bool:
     """Return whether an item is the title of an axis of a graph: upright left of it, or below its middle."""
     if not isinstance(item, Text):
         return False
@@ -535,7 +535,7 @@ def is_title(item: Item, boxes: Iterable[Box]) -> bool:
     )
 
 
-def is_near(item: Item, boxes: Iterable[Box]) -> bool:
+def is_near(item: Item, boxes: Iterable[ChartBox]) -> bool:
     """Return whether an item lies within one of the boxes or its margin for labels."""
     return is_within(item, (box.inset(*[-_MARGIN] * 4) for box in boxes))
 

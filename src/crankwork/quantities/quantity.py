@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from crankwork.locale import Language, say
+from crankwork.locale import Language, translate
 from crankwork.units import coherent_unit, shown_unit
 
 # how the name of what a point, link, slider or joint has ends
@@ -45,7 +45,7 @@ class Quantity(NamedTuple):
     def symbol(self, language: Language = "en") -> str:
         """Return the symbol used in books of that language, the name of a point or link in its subscript."""
         kind, part = self._split()
-        shown = say(f"symbols.{kind}", language)
+        shown = translate(f"symbols.{kind}", language)
         if part and shown.endswith("_i") and not kind.startswith("indicated"):
             # the name takes the place of the index
             return f"{shown.removesuffix('i')}{part}"
@@ -54,7 +54,7 @@ class Quantity(NamedTuple):
     def label(self, language: Language = "en") -> str:
         """Return the name of the quantity in that language."""
         kind, part = self._split()
-        name = say(f"quantities.{kind}", language)
+        name = translate(f"quantities.{kind}", language)
         return owned_name(name, part.replace(".", ", "))
 
     def _split(self) -> tuple[str, str]:

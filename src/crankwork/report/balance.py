@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.engine_diagrams import Locus
-from crankwork.locale import say
-from crankwork.report.language import units_of
+from crankwork.analysis.load_diagrams import Locus
+from crankwork.locale import translate
+from crankwork.report.display import units_of
 from crankwork.report.look import Drawn
+from crankwork.show.canvas import BLACK, WIDER, Canvas, text_width
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, round_ticks, small_text
-from crankwork.show.paper import BLACK, WIDER, Canvas, text_width
-from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.chart_layout import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID
 from crankwork.units import use_units
 
@@ -140,7 +140,7 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         key: max((max(heights.values(), default=0.0) for heights in sizes[key].values()), default=0.0) for key in sizes
     }
     panels = [panel for panel in sizes if most[panel] > _free(engine, panel)] or ["force"]
-    texts = [say(f"report.{kind}", language) for kind in kinds]
+    texts = [translate(f"report.{kind}", language) for kind in kinds]
     head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
     height = scaled_height(150.0)
     paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
@@ -150,8 +150,8 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         with use_units(units_of(engine.results, key, most[panel])):
             # of forces that cancel rounding is left
             size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
-        free = f"{say(f'drawing.{key}', language)} {engine.symbol(key)}"
-        text = say("drawing.hardly_free", language, free=free, size=size)
+        free = f"{translate(f'drawing.{key}', language)} {engine.symbol(key)}"
+        text = translate("drawing.hardly_free", language, free=free, size=size)
         paper.text(current_layout().left, TOP + head - 9.4, text, size=8.5)
     orders = [float(part.order) for part in balance.reciprocating]
     graphs: dict[str, Graph] = {}
@@ -164,8 +164,8 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
             ]
             box = ChartBox(current_layout().left, TOP + head + index * (height + 28), current_layout().inner, height)
             graphs[panel] = bar_graph(engine, paper, box, bars, orders, fills)
-            graphs[panel].y_title(f"{say(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
-    graphs[panels[-1]].x_title(say("report.order", language, order="$q$"))
+            graphs[panel].y_title(f"{translate(f'drawing.{key}', language)} {engine.symbol(key)}, {engine.unit(key)}")
+    graphs[panels[-1]].x_title(translate("report.order", language, order="$q$"))
     return paper, graphs
 
 
@@ -183,7 +183,7 @@ def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the closed curves in which the free forces of each order run, before and after balancing."""
     loci, language = engine.diagrams.loci, engine.language
     is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
-    rows = [say("drawing.before", language), say("drawing.after", language)] if is_balanced else []
+    rows = [translate("drawing.before", language), translate("drawing.after", language)] if is_balanced else []
     columns = 2 if len(loci) > 1 else 1
     lines = -(-len(loci) // columns)
     side, gap = (scaled_height(170.0), 56.0) if columns == 2 else (scaled_height(240.0), 0.0)
@@ -200,7 +200,7 @@ def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
             start + (index % columns) * (side + gap), TOP + head + (index // columns) * (side + 52), side, side
         )
         graphs[str(order)] = _locus(engine, paper, box, before, after, is_balanced=is_balanced)
-        small_text(paper, box.left + side / 2, box.top - 5, say("report.order", language, order=order))
+        small_text(paper, box.left + side / 2, box.top - 5, translate("report.order", language, order=order))
         title = f"{engine.symbol('free_force')}, {engine.unit('free_force')}"
         graphs[str(order)].x_title(title)
         if not index % columns:

@@ -10,10 +10,11 @@ import numpy as np
 
 from crankwork.analysis import Array
 from crankwork.analysis.bearing_diagrams import CrankpinLoad, PolarDiagram, WearRing, wear_rings
-from crankwork.analysis.engine_diagrams import crankpin_of_one
+from crankwork.analysis.load_diagrams import crankpin_of_one
 from crankwork.analysis.results import Listing
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.report.look import Drawn
+from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines
 from crankwork.show.chart import (
     ARROW,
     BOTTOM,
@@ -28,9 +29,8 @@ from crankwork.show.chart import (
     sheet,
     small_text,
 )
-from crankwork.show.labels import label_marks, mark_point
-from crankwork.show.paper import GREY, WIDER, Canvas, fitted_lines
-from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.label_placement import label_marks, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES
 
 _HEIGHT, _MARGIN, _LOWEST = 340.0, 1.12, 0.55
@@ -71,7 +71,7 @@ def _pin_polar(engine: Drawn, load: CrankpinLoad, pin: str = "crankpin") -> tupl
     """Draw the polar diagram of a crankpin with the inertia force of its rods from its pole."""
     rods, inertia = load.rods, load.inertia
     count = f"{rods} " if rods > 1 else ""
-    pole = say("drawing.pole_rods" if rods > 1 else "drawing.pole", engine.language)
+    pole = translate("drawing.pole_rods" if rods > 1 else "drawing.pole", engine.language)
     force = (
         f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
     )
@@ -101,8 +101,8 @@ def small_end_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 def _rod_polar(engine: Drawn, key: str) -> tuple[Canvas, Mapping[str, Graph]]:
     unit = engine.unit(key)
     titles = (
-        f"{engine.symbol(key)} {say('drawing.across_rod', engine.language)}, {unit}",
-        f"{engine.symbol(key)} {say('drawing.along_rod', engine.language)}, {unit}",
+        f"{engine.symbol(key)} {translate('drawing.across_rod', engine.language)}, {unit}",
+        f"{engine.symbol(key)} {translate('drawing.along_rod', engine.language)}, {unit}",
     )
     return _polar(engine, key, engine.diagrams.rod_bearings[key], [], titles)
 
@@ -133,7 +133,7 @@ def _polar(
         text = f"{engine.named(mean_key)}, {engine.value(mean_key, mean)}"
         rows = [*rows, Row(text, DASHED, _MEAN if wide == 1 else 0.0)]
     if wide > 1:
-        rows = [*rows, Row(say("drawing.wider_across", engine.language, factor=wide), width=0.0)]
+        rows = [*rows, Row(translate("drawing.wider_across", engine.language, factor=wide), width=0.0)]
     # marks cannot be distinguished on a lower diagram
     paper, box = sheet(_HEIGHT * max(1.0, _LOWEST / current_layout().tall), rows)
     # a circle where scales are equal, which would be an ellipse elsewhere
@@ -359,12 +359,12 @@ def _rings(engine: Drawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str
             small_text(paper, box.left + side / 2, top - 4 - below, engine.row_text(thing, name))
         if ring.hole.arc < 360:
             angle = engine.number(ring.hole.angle, 4)
-            hole = say("drawing.oil_hole_at", engine.language, angle=angle)
+            hole = translate("drawing.oil_hole_at", engine.language, angle=angle)
             small_text(paper, box.left + side / 2, top - 3, hole)
     unit = engine.unit("wear_sum")
-    largest = say("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
-    text = f"{engine.symbol('wear_sum')} – {largest}; {say('drawing.worn', engine.language)}"
-    frame = say(f"drawing.{'crank_up' if thing == 'crankpin' else engine.shaft_frame}", engine.language)
+    largest = translate("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
+    text = f"{engine.symbol('wear_sum')} – {largest}; {translate('drawing.worn', engine.language)}"
+    frame = translate(f"drawing.{'crank_up' if thing == 'crankpin' else engine.shaft_frame}", engine.language)
     rows = [row for line_text in (text, frame) for row in fitted_lines(line_text, 8, current_layout().width / WIDER)]
     for index, row in enumerate(rows):
         paper.text(current_layout().width / 2, paper.height - 35 + 12 * index, row, size=8, anchor="middle")

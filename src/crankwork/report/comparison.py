@@ -7,9 +7,9 @@ from typing import Any
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.compare import Comparison
-from crankwork.locale import Language, say
+from crankwork.locale import Language, translate
 from crankwork.locale.numbers import number, unit_name
-from crankwork.report.language import (
+from crankwork.report.display import (
     display_key,
     displayed,
     in_own_units,
@@ -62,13 +62,16 @@ def comparison_text(results: Results, language: Language = "en", *, per_area: bo
     if compared is None:
         return ""
     own, *names = compared.names
-    titles = [own, *(title for name in names for title in (name, say("report.less", language, name=name, other=own)))]
+    titles = [
+        own,
+        *(title for name in names for title in (name, translate("report.less", language, name=name, other=own))),
+    ]
     table = [["", "", *titles]]
     for key, values in comparison_rows(results, per_area=per_area).items():
         unit = unit_name(key_unit(key, per_area=per_area), language)
-        name = label(display_key(key, results) if key in results.memory else key, language)
+        name = label(display_key(key, results) if key in results.trace else key, language)
         table.append([name, unit, *(_shown(value, language) for value in values)])
-    return "\n".join([say(_heading(compared), language), *_aligned(table)])
+    return "\n".join([translate(_heading(compared), language), *_aligned(table)])
 
 
 def _heading(compared: Comparison) -> str:

@@ -7,14 +7,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.compare import Comparison, beside, difference
+from crankwork.analysis.compare import Comparison, comparison_key, difference_key
 from crankwork.errors import CrankworkError
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.report.comparison import shown_names
-from crankwork.report.language import displayed, in_own_units, key_unit, symbol
+from crankwork.report.display import displayed, in_own_units, key_unit, symbol
 from crankwork.report.look import PLAIN, Style, axis_title, displayed_values, drive_graph, math_symbol, quantity_of
+from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import (
     BOTTOM,
     LEGEND_ROW,
@@ -30,9 +31,8 @@ from crankwork.show.chart import (
     sheet,
     write_method,
 )
-from crankwork.show.labels import mark_point
-from crankwork.show.paper import Canvas, plain
-from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.label_placement import mark_point
 from crankwork.show.scene import STYLES, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -103,7 +103,7 @@ def curves(
     dead = "; ".join(f"{number(round(limit, 2), style.language)}°" for limit in style.limits)
     zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
     remarks = [
-        say("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
+        translate("drawing.dead_positions", style.language, angles=dead) if dead and not style.period else "",
         f"{' = '.join(zero)} = 0" if zero else "",
         remark,
     ]
@@ -193,9 +193,9 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
     looks = zip(named, _looks(compared.names), strict=True)
     rows = [Row(shown, style, 1.2, colour) for shown, (_, style, colour) in looks]
     if len(other_names) == 1:
-        rows.append(Row(f"Δ: {say('report.less', language, name=named[1], other=named[0])}", width=0.0))
+        rows.append(Row(f"Δ: {translate('report.less', language, name=named[1], other=named[0])}", width=0.0))
     else:
-        rows.append(Row(f"Δ: {say('report.less_own', language, other=named[0])}", width=0.0))
+        rows.append(Row(f"Δ: {translate('report.less_own', language, other=named[0])}", width=0.0))
     room = (_TALLEST_NOTE - LEGEND_ROW * len(rows)) / len(keys) - 1.5 * _BETWEEN
     upper, lower = (min(most, share * room) for most, share in ((_UPPER, 0.63), (_LOWER, 0.37)))
     paper, box = sheet(len(keys) * (upper + lower + 1.5 * _BETWEEN) - _BETWEEN, rows)
@@ -205,8 +205,13 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
         scale, unit = displayed(key, 1.0, per_area=area), unit_name(key_unit(key, per_area=per_area), language)
         sign = QUANTITIES[key.partition(".")[0]]._replace(key=key).symbol(language)
         for names, place, tall, mark in (
-            ([(beside(key, name), name) for name in compared.names], top, upper, f"${sign}$"),
-            ([(difference(key, name), name) for name in other_names], top + upper + _BETWEEN / 2, lower, f"$Δ{sign}$"),
+            ([(comparison_key(key, name), name) for name in compared.names], top, upper, f"${sign}$"),
+            (
+                [(difference_key(key, name), name) for name in other_names],
+                top + upper + _BETWEEN / 2,
+                lower,
+                f"$Δ{sign}$",
+            ),
         ):
             is_last = key == keys[-1] and place > top
             curves = {name: columns[column] * scale for column, name in names}
@@ -220,7 +225,7 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
             if is_last:
                 graph.x_title(_x_title(results, language))
         top += upper + lower + 1.5 * _BETWEEN
-    return paper.drawing(say("figures.comparison", language), language)
+    return paper.drawing(translate("figures.comparison", language), language)
 
 
 def drawn_keys(compared: Comparison) -> list[str]:
@@ -233,7 +238,7 @@ def drawn_keys(compared: Comparison) -> list[str]:
 
 
 def _own(compared: Comparison, key: str) -> str:
-    return beside(key, compared.names[0])
+    return comparison_key(key, compared.names[0])
 
 
 def _looks(names: tuple[str, ...]) -> list[tuple[str, Dashes, str]]:

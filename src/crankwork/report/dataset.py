@@ -11,10 +11,10 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.report.language import displayed_column, in_own_units, key_unit, label, symbol
-from crankwork.report.summary import about
+from crankwork.report.display import displayed_column, in_own_units, key_unit, label, symbol
+from crankwork.report.summary import provenance_data
 from crankwork.report.tables import table_column
 from crankwork.units import coherent_unit
 
@@ -57,7 +57,7 @@ def dataset(results: Results, *, shown: bool = False) -> xr.Dataset:
     index = results.grid.degrees if along == "crank_angle" else results.columns["time"]
     joined = xr.merge([*parts, xr.Dataset(coords={along: index})], join="outer", compat="no_conflicts")
     joined[along].attrs = {"units": "deg" if along == "crank_angle" else "s", "long_name": label(along, "en")}
-    return joined.assign_attrs(about(results))
+    return joined.assign_attrs(provenance_data(results))
 
 
 class _Variables:
@@ -155,7 +155,7 @@ def frame(results: Results, *, shown: bool = False) -> pd.DataFrame:
         for key in keys
     }
     table = pd.DataFrame(columns, index=pd.Index(index, name=f"{along} [{'deg' if along == 'crank_angle' else 's'}]"))
-    table.attrs.update(about(results), units=units)
+    table.attrs.update(provenance_data(results), units=units)
     return table
 
 
@@ -163,7 +163,7 @@ def written(results: Results, name: str) -> bytes:
     """Return results as the file that the ending of a name asks for: NetCDF, Parquet or MAT, in SI."""
     ending = PurePath(name).suffix.lower()
     if ending not in _MODULES:
-        raise CrankworkError(Refusal("data_ending", name=name[-60:], known=", ".join(_MODULES)))
+        raise CrankworkError(ErrorMessage("data_ending", name=name[-60:], known=", ".join(_MODULES)))
     check_extras(_MODULES[ending], "xarray", "pandas")
     stream = io.BytesIO()
     if ending == ".parquet":
@@ -191,4 +191,4 @@ def _variables(data: xr.Dataset) -> Iterator[tuple[str, object]]:
 def check_extras(*modules: str) -> None:
     """Refuse with the extras that bring modules which are not installed."""
     if extras := missing_extras(dict.fromkeys(modules, "data")):
-        raise MissingExtraError(Refusal("extra_data"), *extras)
+        raise MissingExtraError(ErrorMessage("extra_data"), *extras)

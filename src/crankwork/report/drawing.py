@@ -9,11 +9,11 @@ from functools import partial
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.moving import Course, course, moving
-from crankwork.analysis.moving_engine import FORCES, engine_moving
+from crankwork.analysis.sampled_cylinders import FORCES, engine_moving
+from crankwork.analysis.sampled_motion import AnimationPath, animation_path, sample_motion
 from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
 from crankwork.errors import CrankworkError, GeometryError
-from crankwork.locale import Refusal, capital, say
+from crankwork.locale import ErrorMessage, capital, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import Cylinder, rod_name
@@ -22,15 +22,15 @@ from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
+from crankwork.report.display import displayed, for_readers, key_unit, label, link_label, symbol
 from crankwork.report.drawn_cylinders import engine_sketch
 from crankwork.report.drawn_links import linkage_sketch
-from crankwork.report.language import called, displayed, for_readers, key_unit, label, symbol
 from crankwork.report.look import scale_text
 from crankwork.report.sketch import Sketch
+from crankwork.show.animation import Animation, Part, part
+from crankwork.show.canvas import WIDER, marked
 from crankwork.show.formats import FILMS, FORMATS, Progress
-from crankwork.show.moving import Animation, Part, part
-from crankwork.show.paper import WIDER, marked
-from crankwork.show.scene import SMALL, TEXT, Box, Drawing, Item, Text, flow_rows, line, text_width
+from crankwork.show.scene import SMALL, TEXT, ChartBox, Drawing, Item, Text, flow_rows, line, text_width
 from crankwork.show.theme import Theme
 
 _MARGIN, _FOOT, _ROW, _KEY, _NARROWEST = 8.0, 14.0, 8.0, 4.5, 80.0
@@ -49,7 +49,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
     language: Language = "en",
     seconds: float = 4.0,
     frames: int = 0,
-    path: Course | None = None,
+    path: AnimationPath | None = None,
     forces: bool = False,
     still: int | None = None,
 ) -> Animation:
@@ -78,7 +78,7 @@ def moving_drawing(  # noqa: PLR0913 - a machine, and how it is shown
         shape = skeleton(path.mechanism, _links(known))
         columns = _columns(results, path.degrees, forces=forces) if results is not None else {}
         sketch = linkage_sketch(
-            shape, moving(path.mechanism, path.degrees), known, columns, _named_forces(columns, language), still
+            shape, sample_motion(path.mechanism, path.degrees), known, columns, _named_forces(columns, language), still
         )
         keys = _acting(path.mechanism, shape, _named_forces(columns, language), language)
         about = [*_lengths(path.mechanism, None, language), *_members(shape, language), time]
@@ -114,26 +114,26 @@ def drawn(  # noqa: PLR0913 - what is drawn, and how
     """
     machine = results.machine
     if machine.transfer is not None or machine.turning is not None:
-        raise CrankworkError(Refusal("nothing_moves"))
+        raise CrankworkError(ErrorMessage("nothing_moves"))
     if results.period and angle_or_time is not None and not 0 <= angle_or_time <= results.period:
-        raise CrankworkError(Refusal("time_outside", time=angle_or_time, period=results.period))
+        raise CrankworkError(ErrorMessage("time_outside", time=angle_or_time, period=results.period))
     path = _path_of_crank(machine, machine.mechanism, 0)
     if angle_or_time is not None:
         path, rest = _through(path, results.degrees_of(angle_or_time))
     still = None if angle_or_time is None else rest
     film = moving_drawing(results, language=language, forces=forces, path=path, still=still)
     if forces and not any(item.name.startswith("force.") for item in film.parts):
-        raise CrankworkError(Refusal("forces_unknown"))
+        raise CrankworkError(ErrorMessage("forces_unknown"))
     if angle_or_time is None and ending in FILMS:
         return FILMS[ending](film, theme, progress)
     return FORMATS[ending](film.still(still), theme)
 
 
-def _through(path: Course, angle: float) -> tuple[Course, int]:
+def _through(path: AnimationPath, angle: float) -> tuple[AnimationPath, int]:
     """Return a path with a frame at a crank angle, and the number of that frame. [deg]"""
     low, high = float(path.degrees.min()), float(path.degrees.max())
     if not low <= angle <= high:
-        raise CrankworkError(Refusal("still_outside", angle=angle, low=f"{low:.4g}", high=f"{high:.4g}"))
+        raise CrankworkError(ErrorMessage("still_outside", angle=angle, low=f"{low:.4g}", high=f"{high:.4g}"))
     degrees, frame = path.degrees.copy(), int(np.argmin(np.abs(path.degrees[:-1] - angle)))
     degrees[frame] = angle
     return path._replace(degrees=degrees), frame
@@ -142,16 +142,16 @@ def _through(path: Course, angle: float) -> tuple[Course, int]:
 def _columns(results: Results, degrees: Array, *, forces: bool) -> dict[str, Array]:
     """Return volume and pressure of chambers by key, and the forces in joints where they are wanted. [SI]"""
     kinds = ("cylinder_volume.", "gas_pressure.", *(("joint_force_x.", "joint_force_y.") if forces else ()))
-    keys = [key for key in results.memory if key.startswith(kinds)]
+    keys = [key for key in results.trace if key.startswith(kinds)]
     return results.columns_at(np.mod(degrees, results.machine.cycle), keys)
 
 
-def _path_of_crank(machine: Machine | None, mechanism: Mechanism, frames: int) -> Course:
+def _path_of_crank(machine: Machine | None, mechanism: Mechanism, frames: int) -> AnimationPath:
     """Return the path of the crank: that of an engine through its cycle, any other over its range."""
     if machine is None or machine.lengths is None:
-        return course(mechanism, frames or _FRAMES)
+        return animation_path(mechanism, frames or _FRAMES)
     frames = frames or (_FRAMES if machine.cycle <= _TURN else _FRAMES_OF_CYCLE)
-    return Course(np.arange(frames + 1) * machine.cycle / frames, mechanism, turns=True)
+    return AnimationPath(np.arange(frames + 1) * machine.cycle / frames, mechanism, turns=True)
 
 
 def _links(machine: Machine | None) -> Sequence[str]:
@@ -162,7 +162,7 @@ def _links(machine: Machine | None) -> Sequence[str]:
     return analysed.links if analysed else ()
 
 
-def _passage(path: Course, seconds: float) -> float:
+def _passage(path: AnimationPath, seconds: float) -> float:
     """Return the time of one passage. [s]"""
     turns = (path.degrees[-1] - path.degrees[0]) / _TURN if path.turns else 1.0
     return path.own_time or seconds * max(1.0, float(turns))
@@ -170,7 +170,7 @@ def _passage(path: Course, seconds: float) -> float:
 
 def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
     sketch: Sketch,
-    path: Course,
+    path: AnimationPath,
     seconds: float,
     machine: Machine | None,
     about: str,
@@ -227,19 +227,23 @@ def _acting(mechanism: Mechanism, shape: Skeleton, symbols: Mapping[str, str], l
         for joint in joints(mechanism)
     ]  # fmt: skip
     texts = [f"{sign} {other} → {link}" for sign, other, link in rows if sign and None not in (other, link)]
-    return [f"{say('drawing.acts_on', language)} {texts[0]}", *texts[1:]] if texts else []
+    return [f"{translate('drawing.acts_on', language)} {texts[0]}", *texts[1:]] if texts else []
 
 
-def _views(sketch: Sketch, height: float, language: Language) -> tuple[tuple[str, Box], ...]:
+def _views(sketch: Sketch, height: float, language: Language) -> tuple[tuple[str, ChartBox], ...]:
     """Return views by name, with where they are from the top left corner of the paper. [mm]"""
     if len(sketch.views) < 2:
         return ()
     views = []
     for cylinders, low, high in sketch.views:
         numbers = ", ".join(map(str, cylinders))
-        name = say("drawing.from_side", language, numbers=numbers) if cylinders else say("drawing.along", language)
+        name = (
+            translate("drawing.from_side", language, numbers=numbers)
+            if cylinders
+            else translate("drawing.along", language)
+        )
         (left, low_end), (right, top) = low - _AROUND, high + _AROUND
-        views.append((name, Box(float(left), height - float(top), float(right - left), float(top - low_end))))
+        views.append((name, ChartBox(float(left), height - float(top), float(right - left), float(top - low_end))))
     return tuple(views)
 
 
@@ -268,7 +272,7 @@ def period_of(mechanism: Mechanism) -> float:
     return 0.0 if mechanism.driver.law is None else mechanism.driver.law.period
 
 
-def _readouts(path: Course, language: Language) -> tuple[str, ...]:
+def _readouts(path: AnimationPath, language: Language) -> tuple[str, ...]:
     """Return the crank angle or the time at each frame."""
     frames, period = len(path.degrees) - 1, path.own_time or period_of(path.mechanism)
     if period:
@@ -279,7 +283,7 @@ def _readouts(path: Course, language: Language) -> tuple[str, ...]:
 
 
 def _title(title: str, language: Language) -> str:
-    what = say("drawing.moving_drawing", language)
+    what = translate("drawing.moving_drawing", language)
     own = "".join(letter for letter in title if letter.isprintable()).strip()
     return f"{own}: {what}" if own else capital(what)
 
@@ -297,11 +301,11 @@ def _lengths(mechanism: Mechanism, machine: Machine | None, language: Language) 
 
 def _members(shape: Skeleton, language: Language) -> list[str]:
     """Return the names of the numbered links."""
-    return [f"{number} – {called(name, language)}" for number, name in numbered(shape)]
+    return [f"{number} – {link_label(name, language)}" for number, name in numbered(shape)]
 
 
-def _time(path: Course, seconds: float, language: Language) -> str:
+def _time(path: AnimationPath, seconds: float, language: Language) -> str:
     """Return the time of a turn or of a passage to and fro, in words."""
     key = "one_period" if period_of(path.mechanism) else "one_revolution" if path.turns else "to_and_fro"
     key, seconds = ("in_its_time", path.own_time) if path.own_time else (key, seconds)
-    return say(f"drawing.{key}", language, seconds=number(seconds, language))
+    return translate(f"drawing.{key}", language, seconds=number(seconds, language))

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis import Array
-from crankwork.analysis.moving_engine import CylinderMoving, EngineMoving
+from crankwork.analysis.sampled_cylinders import SampledCylinder, SampledEngine
 from crankwork.machine import Bearings, Machine
 from crankwork.report.drawn_links import hatched
 from crankwork.report.sketch import Sketch, forces_of, tints, with_forces
-from crankwork.show.moving import Part, part
-from crankwork.show.scene import Box, Circle, Item, Pen, Polyline, Text, line, placed, rectangle, text_width
+from crankwork.show.animation import Part, part
+from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, line, rectangle, text_width, use_layout
 
 _TALL, _WIDE, _WIDE_ALONE, _GAP = 125.0, 250.0, 130.0, 14.0
 _NONE, _PALE = Pen(0.0), Pen(0.15, grey=0.55)
@@ -31,7 +31,7 @@ _JOURNAL = 0.3
 
 
 def engine_sketch(
-    machine: Machine, engine: EngineMoving, forces: Mapping[str, str] | None = None, frame: int | None = None
+    machine: Machine, engine: SampledEngine, forces: Mapping[str, str] | None = None, frame: int | None = None
 ) -> Sketch:
     """Return an engine as it is drawn over all its angles.
 
@@ -53,9 +53,9 @@ def engine_sketch(
     return _side_by_side([side.seen(), *rows])._replace(scale=scale, force_scale=side.force_scale)
 
 
-def _rows(engine: EngineMoving) -> list[list[CylinderMoving]]:
+def _rows(engine: SampledEngine) -> list[list[SampledCylinder]]:
     """Return the cylinders of each view from the side: a bank or two that lie opposite, of one throw only its first."""
-    rows: list[list[CylinderMoving]] = []
+    rows: list[list[SampledCylinder]] = []
     if len(engine.cylinders) == 1:
         return rows
     for cylinder in engine.cylinders:
@@ -68,7 +68,7 @@ def _rows(engine: EngineMoving) -> list[list[CylinderMoving]]:
     return rows if max(cylinder.place.throw for cylinder in engine.cylinders) else rows[:1]
 
 
-def _scale(engine: EngineMoving, size: Sizes, banks: list[list[CylinderMoving]]) -> float:
+def _scale(engine: SampledEngine, size: Sizes, banks: list[list[SampledCylinder]]) -> float:
     """Return the scale, in millimetres of the paper per metre."""
     wide, tall = np.ptp(reach(engine, size), axis=0)
     if not banks:
@@ -78,7 +78,7 @@ def _scale(engine: EngineMoving, size: Sizes, banks: list[list[CylinderMoving]])
     return float(min((_WIDE - _GAP) / (wide + long), 1.35 * _TALL / max(tall, rows)))
 
 
-def _ends(row: list[CylinderMoving], size: Sizes) -> list[float]:
+def _ends(row: list[SampledCylinder], size: Sizes) -> list[float]:
     """Return the upper and lower ends of a view from the side. [m]"""
     around = max(size.crank + 1.4 * size.pin, size.counterweight)
     heads = [size.head(cylinder) * (1 if cylinder.axis @ row[0].axis > 0 else -1) for cylinder in row]
@@ -108,15 +108,15 @@ def _side_by_side(views: list[Sketch]) -> Sketch:
 class _Engine:
     """An engine on paper, in millimetres."""
 
-    def __init__(self, engine: EngineMoving, size: Sizes) -> None:
+    def __init__(self, engine: SampledEngine, size: Sizes) -> None:
         self._engine, self._size, self._cylinders = engine, size, engine.cylinders
         filled = [cylinder for cylinder in self._cylinders if cylinder.pressure is not None]
         seen = tints([cylinder.pressure for cylinder in filled if cylinder.pressure is not None])
         self._tints = {cylinder.place.number: tint for cylinder, tint in zip(filled, seen, strict=True)}
 
-    def fronts(self) -> list[CylinderMoving]:
+    def fronts(self) -> list[SampledCylinder]:
         """Return the cylinder of each bank that is nearest to who looks along the shaft."""
-        near: dict[tuple[float, float], CylinderMoving] = {}
+        near: dict[tuple[float, float], SampledCylinder] = {}
         for cylinder in sorted(self._cylinders, key=lambda item: item.place.throw):
             near.setdefault((cylinder.place.axis, cylinder.offset), cylinder)
         return list(near.values())
@@ -150,7 +150,7 @@ class _Engine:
         margin = np.array([3.0, 3.0 + 2 * _LABEL])
         return Sketch(items, _named("side", parts), places.min(axis=0) - margin, places.max(axis=0) + margin, 0.0)
 
-    def _centre_lines(self, fronts: list[CylinderMoving]) -> list[Item]:
+    def _centre_lines(self, fronts: list[SampledCylinder]) -> list[Item]:
         r = self._size.crank
         items: list[Item] = [Circle((0.0, 0.0), r, Pen(0.2, (6.0, 1.5, 1.0, 1.5), 0.4))]
         items.append(line((-r - 4, 0.0), (r + 4, 0.0), "axis"))
@@ -161,11 +161,11 @@ class _Engine:
             )
         return items
 
-    def _walls(self, cylinder: CylinderMoving) -> list[Item]:
+    def _walls(self, cylinder: SampledCylinder) -> list[Item]:
         """Return liner and head."""
-        return [placed(item, _across(cylinder, cylinder.offset), _turn(cylinder)) for item in self._liner(cylinder)]
+        return [use_layout(item, _across(cylinder, cylinder.offset), _turn(cylinder)) for item in self._liner(cylinder)]
 
-    def _liner(self, cylinder: CylinderMoving, *, is_close: bool = False) -> list[Item]:
+    def _liner(self, cylinder: SampledCylinder, *, is_close: bool = False) -> list[Item]:
         """Return the walls of a cylinder along the x axis, hatched where neighbours leave room for it."""
         start, head, half = cylinder.bottom - self._size.skirt, self._size.head(cylinder), self._size.bore / 2 + 0.3
         corners = [np.array(corner) for corner in ((start, half), (head, half), (head, -half), (start, -half))]
@@ -175,7 +175,7 @@ class _Engine:
             items += wall[:1] if is_close and side != 1 else wall
         return items
 
-    def _number(self, cylinder: CylinderMoving) -> Item:
+    def _number(self, cylinder: SampledCylinder) -> Item:
         """Return the numbers of a bank above its head."""
         bank = [each.place.number for each in self._cylinders if each.place.axis == cylinder.place.axis]
         runs = len(bank) > 2 and bank == list(range(bank[0], bank[-1] + 1))
@@ -191,7 +191,7 @@ class _Engine:
     def _written(text: str, position: Array) -> Text:
         return Text((float(position[0]), float(position[1]) - _LABEL / 2), text, _LABEL, "middle", halo=True)
 
-    def _gas(self, cylinder: CylinderMoving) -> Iterator[Part]:
+    def _gas(self, cylinder: SampledCylinder) -> Iterator[Part]:
         """Yield the gas between piston and head, the darker the higher its pressure."""
         if cylinder.pressure is not None:
             top, depth = (
@@ -200,26 +200,26 @@ class _Engine:
             )
             yield self._gas_part(cylinder, top, _turn(cylinder) + 180.0, depth)
 
-    def _depth(self, cylinder: CylinderMoving) -> Array:
+    def _depth(self, cylinder: SampledCylinder) -> Array:
         return self._size.head(cylinder) - cylinder.along - self._size.crown
 
-    def _gas_part(self, cylinder: CylinderMoving, position: ArrayLike, turn: float, depth: Array) -> Part:
-        body = rectangle(Box(0.0, -self._size.bore / 2, 1.0, self._size.bore), "thin", 0.0)
+    def _gas_part(self, cylinder: SampledCylinder, position: ArrayLike, turn: float, depth: Array) -> Part:
+        body = rectangle(ChartBox(0.0, -self._size.bore / 2, 1.0, self._size.bore), "thin", 0.0)
         body = body._replace(kind=_NONE, name="gas")
         tint = self._tints[cylinder.place.number]
         return part(f"gas.{cylinder.place.number}", [body], position, turn, stretch=depth, tint=tint)
 
-    def _piston(self, cylinder: CylinderMoving) -> Part:
+    def _piston(self, cylinder: SampledCylinder) -> Part:
         return part(f"piston.{cylinder.place.number}", self._piston_items(), cylinder.piston, _turn(cylinder))
 
     def _piston_items(self) -> list[Item]:
         """Return a piston whose crown looks along the x axis, its pin at the origin."""
         size, half = self._size, self._size.bore / 2 - 0.15
-        body = rectangle(Box(-size.skirt, -half, size.skirt + size.crown, 2 * half), "medium", _PISTON)
+        body = rectangle(ChartBox(-size.skirt, -half, size.skirt + size.crown, 2 * half), "medium", _PISTON)
         rings = [size.crown * share for share in (0.9, 0.78, 0.66)]
         return [body, *(line((ring, -half), (ring, half), "thin") for ring in rings)]
 
-    def _rod(self, cylinder: CylinderMoving) -> Part:
+    def _rod(self, cylinder: SampledCylinder) -> Part:
         size, rod = self._size, cylinder.piston - cylinder.joint
         turns, length = np.unwrap(np.arctan2(rod[:, 1], rod[:, 0])), float(np.hypot(*rod[0]))
         knuckles = [each for each in self._cylinders if each.place.master == cylinder.place.number]
@@ -236,7 +236,7 @@ class _Engine:
         items += [Circle((distance, 0.0), radius, "thin", 1.0) for distance, radius in eyes]
         return part(f"rod.{cylinder.place.number}", items, cylinder.joint, np.degrees(turns))
 
-    def _knuckles(self, cylinder: CylinderMoving, carried: list[CylinderMoving], turn: float) -> Iterator[Item]:
+    def _knuckles(self, cylinder: SampledCylinder, carried: list[SampledCylinder], turn: float) -> Iterator[Item]:
         """Yield the disc that knuckle pins stand in, as the master rod sees it."""
         away = np.array([each.joint[0] - cylinder.joint[0] for each in carried])
         cos, sin = math.cos(turn), math.sin(turn)
@@ -246,7 +246,7 @@ class _Engine:
         for x, y in seen.tolist():
             yield Circle((x, y), pin, "thin", 1.0)
 
-    def _crank(self, cylinder: CylinderMoving) -> Part:
+    def _crank(self, cylinder: SampledCylinder) -> Part:
         size, length = self._size, float(np.hypot(*cylinder.pin[0]))
         turns = np.degrees(np.unwrap(np.arctan2(cylinder.pin[:, 1], cylinder.pin[:, 0])))
         items: list[Item] = []
@@ -261,13 +261,13 @@ class _Engine:
         items.append(Circle((0.0, 0.0), size.main, "medium", 1.0))
         return part(f"crank.{cylinder.place.crankpin + 1}", items, (0.0, 0.0), turns)
 
-    def _flash(self, cylinder: CylinderMoving) -> Part:
+    def _flash(self, cylinder: SampledCylinder) -> Part:
         position = (
             _across(cylinder, cylinder.offset) + (self._size.head(cylinder) - 0.16 * self._size.bore) * cylinder.axis
         )
         return self._flash_part(cylinder, position)
 
-    def _flash_part(self, cylinder: CylinderMoving, position: ArrayLike) -> Part:
+    def _flash_part(self, cylinder: SampledCylinder, position: ArrayLike) -> Part:
         """Return a star that is seen from when a cylinder fires."""
         rays = np.radians(np.arange(16) * 22.5)
         radii = np.where(np.arange(16) % 2, 0.07, 0.16) * self._size.bore
@@ -288,7 +288,7 @@ class _Engine:
         texts = {name: self._written(f"/{{{name}}}", np.zeros(2)) for name in places}
         return [part(f"text.{name}", [texts[name]], position) for name, position in places.items()]
 
-    def row(self, bank: list[CylinderMoving]) -> Sketch:
+    def row(self, bank: list[SampledCylinder]) -> Sketch:
         """Return a bank from the side, in its own plane: the shaft across, cylinders upward, those opposite down."""
         size, up, on = self._size, bank[0].axis, bank
         half = size.journal_length / 2
@@ -318,10 +318,12 @@ class _Engine:
         size = self._size
         for station in size.journals:
             yield rectangle(
-                Box(station - size.journal_length / 2, -size.main, size.journal_length, 2 * size.main), "medium", 1.0
+                ChartBox(station - size.journal_length / 2, -size.main, size.journal_length, 2 * size.main),
+                "medium",
+                1.0,
             )
 
-    def _throws(self, up: Array, shown: list[CylinderMoving]) -> Iterator[Part]:
+    def _throws(self, up: Array, shown: list[SampledCylinder]) -> Iterator[Part]:
         """Yield webs, counterweights and crankpins, each between its main journals, the rods of a bank upon them."""
         size = self._size
         for throw in range(len(size.journals) - 1):
@@ -337,17 +339,17 @@ class _Engine:
             for index, (crankpin, cylinder) in enumerate(pins.items()):
                 height = cylinder.pin @ up
                 start = left + web + index * room
-                body = [rectangle(Box(start, -size.pin, room, 2 * size.pin), "medium", 1.0)]
+                body = [rectangle(ChartBox(start, -size.pin, room, 2 * size.pin), "medium", 1.0)]
                 body += [self._big_end(each) for each in shown if each.place.crankpin == crankpin]
                 yield part(f"crankpin.{crankpin + 1}", body, _upward(height))
                 ways = ([left + web / 2] if index == 0 else []) + ([right - web / 2] if index == len(pins) - 1 else [])
                 for count, middle in enumerate(ways, start=1):
                     yield from self._web(f"{crankpin + 1}.{count}", middle, web, height, cylinder.pin @ _clockwise(up))
 
-    def _big_end(self, cylinder: CylinderMoving) -> Polyline:
+    def _big_end(self, cylinder: SampledCylinder) -> Polyline:
         wide, half = min(1.1 * self._size.pin, 0.3 * self._size.bore), 1.35 * self._size.pin
         return rectangle(
-            Box(self._size.stations[cylinder.place.number] - wide / 2, -half, wide, 2 * half), "medium", 1.0
+            ChartBox(self._size.stations[cylinder.place.number] - wide / 2, -half, wide, 2 * half), "medium", 1.0
         )
 
     def _web(self, name: str, middle: float, wide: float, height: Array, across: Array) -> Iterator[Part]:
@@ -363,27 +365,27 @@ class _Engine:
             yield _bar(f"weight.{name}", middle, (rim.min(axis=0), np.maximum(rim.max(axis=0), 0.0)), wide, _WEIGHT)
         yield _bar(f"web.{name}", middle, (low, high), wide, _WEB)
 
-    def _standing(self, cylinder: CylinderMoving, sign: float, *, is_close: bool) -> Iterator[Item]:
+    def _standing(self, cylinder: SampledCylinder, sign: float, *, is_close: bool) -> Iterator[Item]:
         """Yield liner, centre line and number of a cylinder."""
         station, head = self._size.stations[cylinder.place.number], self._size.head(cylinder)
         for item in self._liner(cylinder, is_close=is_close):
-            yield placed(item, (station, 0.0), 90.0 * sign)
+            yield use_layout(item, (station, 0.0), 90.0 * sign)
         yield line((station, 0.0), (station, sign * (head + 3)), "axis")
         yield self._written(str(cylinder.place.number), np.array([station, sign * (head + 3.4 + _LABEL)]))
 
-    def _behind(self, cylinder: CylinderMoving, sign: float, up: Array) -> Iterator[Part]:
+    def _behind(self, cylinder: SampledCylinder, sign: float, up: Array) -> Iterator[Part]:
         """Yield gas and rod of a cylinder."""
         size, station, number = self._size, self._size.stations[cylinder.place.number], cylinder.place.number
         if cylinder.pressure is not None:
             yield self._gas_part(cylinder, (station, sign * size.head(cylinder)), -90.0 * sign, self._depth(cylinder))
         ends = np.sort(np.stack([cylinder.joint @ up, sign * cylinder.along]), axis=0)
         wide = min(0.8 * size.pin, 0.25 * size.bore)
-        body = rectangle(Box(0.0, -wide / 2, 1.0, wide), "thin", 1.0)._replace(kind=_NONE)
+        body = rectangle(ChartBox(0.0, -wide / 2, 1.0, wide), "thin", 1.0)._replace(kind=_NONE)
         # its ends are stretched, and hidden
         sides = [line((0.0, side), (1.0, side), "medium") for side in (wide / 2, -wide / 2)]
         yield part(f"rod.{number}", [body, *sides], _upward(ends[0], station), 90.0, stretch=ends[1] - ends[0])
 
-    def _in_front(self, cylinder: CylinderMoving, sign: float) -> Iterator[Part]:
+    def _in_front(self, cylinder: SampledCylinder, sign: float) -> Iterator[Part]:
         """Yield piston and flash of a cylinder."""
         size, station = self._size, self._size.stations[cylinder.place.number]
         yield part(
@@ -398,7 +400,7 @@ class _Engine:
 
 def _bar(name: str, station: float, ends: tuple[Array, Array], wide: float, fill: float) -> Part:
     """Return an upright bar whose ends move, without lines, because it is stretched."""
-    body = rectangle(Box(0.0, -wide / 2, 1.0, wide), "thin", fill)._replace(kind=_NONE)
+    body = rectangle(ChartBox(0.0, -wide / 2, 1.0, wide), "thin", fill)._replace(kind=_NONE)
     return part(name, [body], _upward(ends[0], station), 90.0, stretch=ends[1] - ends[0])
 
 
@@ -411,12 +413,12 @@ def _clockwise(up: Array) -> Array:
     return np.array([up[1], -up[0]])
 
 
-def _across(cylinder: CylinderMoving, distance: float) -> Array:
+def _across(cylinder: SampledCylinder, distance: float) -> Array:
     """Return a vector across the axis of a cylinder, towards the crankpin at 90 degrees."""
     return np.asarray(distance * _clockwise(cylinder.axis))
 
 
-def _turn(cylinder: CylinderMoving) -> float:
+def _turn(cylinder: SampledCylinder) -> float:
     return 90.0 - cylinder.place.axis
 
 
@@ -439,7 +441,7 @@ def _named(view: str, parts: Iterable[Part]) -> list[Part]:
     return [part_._replace(name=f"{view}.{part_.name}") for part_ in parts]
 
 
-def _scaled(cylinder: CylinderMoving, scale: float) -> CylinderMoving:
+def _scaled(cylinder: SampledCylinder, scale: float) -> SampledCylinder:
     lengths = ("offset", "pin", "joint", "piston", "top", "bottom")
     return cylinder._replace(**{name: getattr(cylinder, name) * scale for name in lengths})
 
@@ -469,12 +471,12 @@ class Sizes(NamedTuple):
         }
         return Sizes(**lengths, stations=stations, journals=journals)
 
-    def head(self, cylinder: CylinderMoving) -> float:
+    def head(self, cylinder: SampledCylinder) -> float:
         """Return the distance of the head of a cylinder from the shaft, along its axis."""
         return cylinder.top + self.crown + self.clearance
 
 
-def sizes(machine: Machine, engine: EngineMoving) -> Sizes:
+def sizes(machine: Machine, engine: SampledEngine) -> Sizes:
     """Return the sizes of a machine with cylinders."""
     first, radius = engine.cylinders[0], float(np.hypot(*engine.cylinders[0].pin[0]))
     stroke, bore = first.top - first.bottom, machine.cylinder.bore if machine.cylinder else 2 * radius
@@ -516,7 +518,7 @@ def _has_counterweights(machine: Machine) -> bool:
     return engine is not None and bool(engine.counterweight or engine.rotating_share or engine.reciprocating_share)
 
 
-def _along_shaft(engine: EngineMoving, bore: float) -> tuple[dict[int, float], tuple[float, ...]]:
+def _along_shaft(engine: SampledEngine, bore: float) -> tuple[dict[int, float], tuple[float, ...]]:
     """Return positions of cylinders and main journals, by default at a usual distance. [m]"""
     places, given = engine.layout.places, engine.layout.journal_positions
     throws = 1 + max(place.throw for place in places)
@@ -528,7 +530,7 @@ def _along_shaft(engine: EngineMoving, bore: float) -> tuple[dict[int, float], t
     return stations, tuple((index - 0.5 - middle) * pitch for index in range(throws + 1))
 
 
-def reach(engine: EngineMoving, size: Sizes) -> Array:
+def reach(engine: SampledEngine, size: Sizes) -> Array:
     """Return places that an engine seen along the shaft reaches, shape (k, 2). [m]"""
     around = max(size.crank + 1.4 * size.pin, size.counterweight)
     corners = [np.array([[side * around, side * around] for side in (1, -1)])]

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array
-from crankwork.analysis.moving import Moving
-from crankwork.analysis.skeleton import Member, Pose, Skeleton, guide_pose, tracks
+from crankwork.analysis.sampled_motion import SampledMotion
+from crankwork.analysis.skeleton import Member, MovingFrame, Skeleton, guide_pose, tracks
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import rod_name
 from crankwork.mechanism.linkage import GROUND
 from crankwork.report.sketch import Sketch, forces_in_joints, tints, with_forces
-from crankwork.show.moving import Part, part
-from crankwork.show.scene import Box, Circle, Item, Pen, Polyline, Text, line, literal, rectangle
+from crankwork.show.animation import Part, part
+from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, line, literal, rectangle
 
 BLOCK = (14.0, 8.0)
 RAM = (22.0, 13.0)
@@ -63,7 +63,7 @@ class Slot(NamedTuple):
     """A slot that a link carries, from `start` to `end` along its line."""
 
     carrier: str
-    line: Pose
+    line: MovingFrame
     start: float
     end: float
 
@@ -72,7 +72,7 @@ class Block(NamedTuple):
     """A sliding piece: its middle at each angle, the direction of its line, half its length and width."""
 
     name: str
-    pose: Pose
+    pose: MovingFrame
     half: tuple[float, float]
     is_still: bool
     kind: str = "block"
@@ -82,7 +82,7 @@ class Rail(NamedTuple):
     """A fixed guide: two walls beside what slides in it, by its name, from `start` to `end` along its line."""
 
     name: str
-    line: Pose
+    line: MovingFrame
     start: float
     end: float
     half: float
@@ -103,7 +103,7 @@ class Scene(NamedTuple):
         return next((bar for bar in self.bars if bar.name == name), None)
 
 
-def scene(shape: Skeleton, moving: Moving, size: float) -> tuple[Scene, float]:
+def scene(shape: Skeleton, moving: SampledMotion, size: float) -> tuple[Scene, float]:
     """Return the parts of a linkage and the scale, units of the picture per metre."""
     metres = tracks(shape, moving)
     slides = _slides(shape, moving, metres)
@@ -141,17 +141,17 @@ class _Slide(NamedTuple):
     """A piece on its line: where it is, how far along, and on which side its rod leaves it."""
 
     member: Member
-    line: Pose
+    line: MovingFrame
     anchor: Array
     along: Array
     side: int
 
     def scaled(self, scale: float) -> _Slide:
-        line = Pose(self.line.origin * scale, self.line.along)
+        line = MovingFrame(self.line.origin * scale, self.line.along)
         return self._replace(line=line, anchor=self.anchor * scale, along=self.along * scale)
 
 
-def _slides(shape: Skeleton, moving: Moving, metres: dict[str, Array]) -> list[_Slide]:
+def _slides(shape: Skeleton, moving: SampledMotion, metres: dict[str, Array]) -> list[_Slide]:
     slides = []
     middle = np.mean([np.mean(place, axis=0) for place in metres.values()], axis=0)
     for member in shape.members:
@@ -197,7 +197,9 @@ def _add_slots(drawn: Scene, slides: list[_Slide]) -> None:
         if guide is None:
             continue
         low, high = float(slide.along.min()) - _SLOT_MARGIN, float(slide.along.max()) + _SLOT_MARGIN
-        drawn.blocks.append(Block(slide.member.name, Pose(slide.anchor, slide.line.along), BLOCK, is_still=False))
+        drawn.blocks.append(
+            Block(slide.member.name, MovingFrame(slide.anchor, slide.line.along), BLOCK, is_still=False)
+        )
         for index, slot in enumerate(drawn.slots):
             offset = slot.line.seen(slide.line.origin)[0]
             if slot.carrier == guide.link and abs(offset[1]) < 0.5 and _is_parallel(slot.line, slide.line):
@@ -209,7 +211,7 @@ def _add_slots(drawn: Scene, slides: list[_Slide]) -> None:
             drawn.slots.append(Slot(guide.link, slide.line, low, high))
 
 
-def _is_parallel(first: Pose, second: Pose) -> bool:
+def _is_parallel(first: MovingFrame, second: MovingFrame) -> bool:
     return abs(abs(float(first.along[0] @ second.along[0])) - 1) < 1e-6
 
 
@@ -219,7 +221,9 @@ def _add_rails(drawn: Scene, slides: list[_Slide]) -> None:
         low, high = float(slide.along.min()), float(slide.along.max())
         if not slide.member.has_rod:
             half_along = RAM[0]
-            drawn.blocks.append(Block(slide.member.name, Pose(slide.anchor, slide.line.along), RAM, is_still=True))
+            drawn.blocks.append(
+                Block(slide.member.name, MovingFrame(slide.anchor, slide.line.along), RAM, is_still=True)
+            )
             reach = half_along + _RAIL_MARGIN
             drawn.rails.append(Rail(slide.member.name, slide.line, low - reach, high + reach, RAM[1] + _AIR))
             continue
@@ -271,7 +275,7 @@ def _runs_along(bar: Bar, slot: Slot) -> bool:
 
 def linkage_sketch(
     shape: Skeleton,
-    moving: Moving,
+    moving: SampledMotion,
     machine: Machine | None = None,
     columns: Mapping[str, Array] | None = None,
     forces: Mapping[str, str] | None = None,
@@ -358,7 +362,7 @@ def _parts(drawn: Scene) -> Iterator[Part]:
             yield _link(bar, _LINK, next(numbers[bar.name]))
     for index, slot in enumerate(drawn.slots, start=1):
         middle, half = slot_middle(slot)
-        yield _carried(f"slot.{slot.carrier}.{index}", Pose(middle, slot.line.along), _slotted(half), 1.0)
+        yield _carried(f"slot.{slot.carrier}.{index}", MovingFrame(middle, slot.line.along), _slotted(half), 1.0)
     for block in (block_ for block_ in drawn.blocks if not block_.is_still):
         yield _block(block)
     for bar in (bar_ for bar_ in drawn.bars if bar_.name == driver.name):
@@ -384,7 +388,7 @@ def _slotted(half: float) -> Array:
     return np.vstack([end, -end])
 
 
-def _carried(name: str, pose: Pose, outline: Array, fill: float) -> Part:
+def _carried(name: str, pose: MovingFrame, outline: Array, fill: float) -> Part:
     """Return an area that follows a frame."""
     turns = np.degrees(np.unwrap(np.arctan2(pose.along[:, 1], pose.along[:, 0])))
     return part(name, [Polyline(outline * UNIT, "medium", closed=True, fill=fill)], pose.origin * UNIT, turns)
@@ -610,7 +614,7 @@ class _Piston(NamedTuple):
     """A piece that closes a chamber: its line, where its pin is on it, shape (n,), and half its bore. [m]"""
 
     name: str
-    line: Pose
+    line: MovingFrame
     along: Array
     half: float
     area: float  # [m2]
@@ -629,7 +633,7 @@ class Space(NamedTuple):
 
 
 def spaces(
-    machine: Machine | None, shape: Skeleton, moving: Moving, columns: Mapping[str, Array], block: float = 0.0
+    machine: Machine | None, shape: Skeleton, moving: SampledMotion, columns: Mapping[str, Array], block: float = 0.0
 ) -> list[Space]:
     """Return the chambers between pistons on fixed guides whose volume and pressure are known.
 
@@ -669,7 +673,7 @@ def _rods(
     return lengths
 
 
-def _pistons(machine: Machine | None, name: str, shape: Skeleton, moving: Moving) -> list[_Piston]:
+def _pistons(machine: Machine | None, name: str, shape: Skeleton, moving: SampledMotion) -> list[_Piston]:
     """Return the pistons of a chamber; none where they do not face each other, or a guide moves."""
     pistons, places = [], tracks(shape, moving)
     for face in machine.chambers[name].faces if machine else ():
@@ -718,7 +722,7 @@ def with_pistons(drawn: Scene, chambers: Sequence[Space], scale: float) -> Scene
     rams = {block.name for block in blocks if block.is_still}
     for name, (piston, low, high) in pistons.items():
         middle, half = piston.line.place(piston.along + (low + high) / 2) * scale, (high - low) / 2 * scale
-        blocks.append(Block(name, Pose(middle, piston.line.along), (half, piston.half * scale), is_still=True))
+        blocks.append(Block(name, MovingFrame(middle, piston.line.along), (half, piston.half * scale), is_still=True))
         if low > 0 or high < 0:
             near = low if low > 0 else high
             bars.append(
@@ -735,7 +739,7 @@ def gas(chambers: Sequence[Space], scale: float) -> tuple[list[Polyline], list[P
     pistons = _ends(chambers)
     for space, seen in zip(chambers, tints([chamber.pressure for chamber in chambers]), strict=True):
         first, depth = space.pistons[0], np.abs(space.end - space.start)
-        body = rectangle(Box(0.0, -first.half * scale, 1.0, 2 * first.half * scale), "thin", 0.0)
+        body = rectangle(ChartBox(0.0, -first.half * scale, 1.0, 2 * first.half * scale), "thin", 0.0)
         turn = _turn(first.line) + (0.0 if first.side > 0 else 180.0)
         place = first.line.place(space.start) * scale
         item = body._replace(kind=_NO_LINE, name="gas")
@@ -758,6 +762,6 @@ def _walls(space: Space, pistons: Mapping[str, tuple[_Piston, float, float]], sc
     return [line(start, end, "thick") for start, end in ends_of]
 
 
-def _turn(guide: Pose) -> float:
+def _turn(guide: MovingFrame) -> float:
     x, y = guide.along[0]
     return math.degrees(math.atan2(y, x))

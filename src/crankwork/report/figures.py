@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.analysis.moving import moving
-from crankwork.analysis.plans import driver_rates
-from crankwork.locale import say
+from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.analysis.vector_polygons import driver_rates
+from crankwork.locale import translate
 from crankwork.quantities import Language
 from crankwork.report.balance import balance_ellipses, balance_orders
 from crankwork.report.bearings import (
@@ -26,6 +26,7 @@ from crankwork.report.bearings import (
     small_end_polar,
 )
 from crankwork.report.curves import comparison_figure, curves, drawn_keys
+from crankwork.report.display import for_readers, symbol
 from crankwork.report.flywheel import (
     crank_speed,
     excess_work,
@@ -37,7 +38,6 @@ from crankwork.report.flywheel import (
 from crankwork.report.forces import forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
 from crankwork.report.gas import chamber_indicator, indicator, pressure
 from crankwork.report.harmonics import phase_stars, torque_harmonics
-from crankwork.report.language import for_readers, symbol
 from crankwork.report.lever import has_lever, lever_figure
 from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of
 from crankwork.report.motion import brix, centrodes, has_centrodes, kinematics, tolle
@@ -52,8 +52,8 @@ from crankwork.report.torque import (
     total_torque,
     turning_moment,
 )
+from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import Graph
-from crankwork.show.paper import Canvas, plain
 from crankwork.show.scene import DASHED, SOLID, Drawing, Style
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
@@ -79,7 +79,7 @@ class Diagram(NamedTuple):
         """Return it, with the method that made it."""
         title = kind_of(self.name) + (f"_{self.number}" if self.number else "")
         frame = self.frame(machine) if callable(self.frame) else self.frame
-        remark = say(f"drawing.{frame}", machine.language) if frame else ""
+        remark = translate(f"drawing.{frame}", machine.language) if frame else ""
         paper, _ = self.draw(machine)
         return machine.finished(title, paper, remark, forces=self.is_of_forces, owner=self.owner)
 
@@ -108,7 +108,7 @@ class Curves(NamedTuple):
     def picture(self, machine: Drawn) -> Drawing:
         """Return it."""
         reached, style, panels = machine.reached, machine.style, self.panels(machine)
-        title = say(self.title, style.language) if self.title else figure_title(self.name, style.language)
+        title = translate(self.title, style.language) if self.title else figure_title(self.name, style.language)
         return curves(reached.degrees, reached.columns, panels, title, style, self.remark(machine))
 
 
@@ -215,7 +215,7 @@ def _gives_work(machine: Drawn) -> str:
     driving = machine.reached.columns.get("driving_torque")
     gives = driving is not None and bool(np.any(driving)) and np.nanmean(driving) < 0
     sign = f"${symbol('driving_torque', machine.language)}$"
-    return say("drawing.gives_work", machine.language, symbol=sign) if gives else ""
+    return translate("drawing.gives_work", machine.language, symbol=sign) if gives else ""
 
 
 def _friction(machine: Drawn) -> list[Sequence[str]]:
@@ -245,7 +245,7 @@ def _transient(machine: Drawn) -> Drawing:
     time = columns["time"]
     panels = [tuple(key for key in panel if key in columns and np.any(columns[key])) for panel in _IN_TIME]
     style = machine.style._replace(period=float(time[-1]))
-    title = say("tables.transient", machine.language)
+    title = translate("tables.transient", machine.language)
     return curves(360.0 * time / time[-1], columns, [panel for panel in panels if panel], title, style)
 
 
@@ -263,7 +263,7 @@ def _plan(order: int) -> Callable[[Drawn], Drawing]:
     def picture(machine: Drawn) -> Drawing:
         reached, mechanism = machine.reached, machine.results.machine.mechanism
         rates = driver_rates(machine.results, reached.columns)
-        moved, (first, second) = moving(mechanism, reached.degrees), (float(rate[reached.row]) for rate in rates)
+        moved, (first, second) = sample_motion(mechanism, reached.degrees), (float(rate[reached.row]) for rate in rates)
         if order == 1:
             return velocity_plan(mechanism, moved, reached.row, first, machine.style)
         return acceleration_plan(mechanism, moved, reached.row, first, second, machine.style)

@@ -9,12 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.diagrams import Fluctuation, Tangents, tangents
-from crankwork.analysis.turning import turning_diagram
-from crankwork.locale import say
+from crankwork.analysis.constructions import Fluctuation, Tangents, tangents
+from crankwork.analysis.given_torques import turning_diagram
+from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.language import symbol
+from crankwork.report.display import symbol
 from crankwork.report.look import (
     Drawn,
     axis_title,
@@ -24,10 +24,10 @@ from crankwork.report.look import (
     quantity_of,
     scale_text,
 )
+from crankwork.show.canvas import GREY, Canvas
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_method
-from crankwork.show.labels import label_marks, label_points, mark_point
-from crankwork.show.paper import GREY, Canvas
-from crankwork.show.place import current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.label_placement import label_marks, label_points, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
 from crankwork.units import METRIC, use_units
 
@@ -101,7 +101,7 @@ def crank_speed(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     rows = [
         Row(engine.named("crank_speed")),
         Row(
-            f"{engine.symbol('speed')} – {say('report.mean', language)},"
+            f"{engine.symbol('speed')} – {translate('report.mean', language)},"
             f" {engine.value('speed', engine.results.solved.speed)}",
             DASHED,
         ),
@@ -151,7 +151,7 @@ def wittenbauer(machine: Drawn) -> Drawing:
         shown = f"{number(construction.flywheel, language, digits=4)} {unit_name('kg*m2', language)}"
         tan = "tg" if language == "ru" else "tan"
         formula = f"$μ_J$ $kl$/({tan} $ψ_max$ − {tan} $ψ_min$) = {shown}"
-        foot = f"$kl$ = {cut} {unit_name('mm', language)}; {say('drawing.flywheel', language)}: {formula}"
+        foot = f"$kl$ = {cut} {unit_name('mm', language)}; {translate('drawing.flywheel', language)}: {formula}"
         write_method(paper, style.method, foot)
         return paper.drawing(figure_title("wittenbauer", language), language)
 
@@ -218,7 +218,7 @@ def inside(ends: tuple[Sequence[float], Sequence[float]], y: tuple[float, float]
 def _angle(scale: float, slope: float, name: str, language: Language) -> str:
     """Return the angle of a tangent on paper, in words of the legend."""
     angle = math.degrees(math.atan(slope * scale))
-    words = say("drawing.slope", language)
+    words = translate("drawing.slope", language)
     unit = f"{unit_name('J', language)}/({unit_name('kg*m2', language)})"
     return f"$ψ_{name}$ = {number(angle, language, digits=6)}°; {words} {number(slope, language, digits=4)} {unit}"
 

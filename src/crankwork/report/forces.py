@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.force_plans import ForcePlan, PlanForce, force_plans
+from crankwork.analysis.force_plans import ForcePolygon, PolygonForce, force_plans
 from crankwork.analysis.skeleton import skeleton
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.report.gas import HEIGHT, banded_sheet, strokes
@@ -25,10 +25,10 @@ from crankwork.report.look import (
     position_text,
     scale_text,
 )
+from crankwork.show.canvas import GREY, Canvas, plain
 from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, write_method
-from crankwork.show.labels import label_marks
-from crankwork.show.paper import GREY, Canvas, plain
-from crankwork.show.place import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
 
 _HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 34.0
@@ -81,7 +81,7 @@ def curves_over_cycle(
     return paper, {curves[0].key: graph}
 
 
-def _plans(machine: Drawn) -> list[ForcePlan]:
+def _plans(machine: Drawn) -> list[ForcePolygon]:
     reached = machine.reached
     plans = force_plans(machine.results, float(reached.degrees[reached.row]))
     return [plan for plan in plans if len(plan.forces) >= _FEWEST][:_MOST]
@@ -116,24 +116,24 @@ def plans_of_forces(machine: Drawn) -> Drawing:
     shown = f"{position_sign(style)} = {position_text(degrees, style)}"
     paper.text(current_layout().width - 14, paper.height - 20, shown, anchor="end")
     remarks = ["force_plan", *(["own_scales"] if len(scales) > 1 else [])]
-    write_method(paper, style.method, "; ".join(say(f"drawing.{remark}", style.language) for remark in remarks))
+    write_method(paper, style.method, "; ".join(translate(f"drawing.{remark}", style.language) for remark in remarks))
     return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
 
 
-def _scale(plan: ForcePlan, width: float, height: float) -> float:
+def _scale(plan: ForcePolygon, width: float, height: float) -> float:
     """Return the scale at which a polygon has room beside its list. [displayed unit/mm]"""
     # beside it letters stand between it and the list
     room = np.array([width - _LIST - 4 * _MARGIN, height - 2 * _MARGIN])
     return round_scale(float(points_per_mm() * np.max(np.ptp(_ends(plan), axis=0) / room)), FINE)
 
 
-def _needed(plan: ForcePlan, most: float, columns: int) -> float:
+def _needed(plan: ForcePolygon, most: float, columns: int) -> float:
     """Return the height of a plan, at most `most`. [pt]"""
     scale = _scale(plan, current_layout().width / columns, most)
     return float(np.ptp(_ends(plan), axis=0)[1]) * points_per_mm() / scale + 2 * _MARGIN
 
 
-def _plan(paper: Canvas, plan: ForcePlan, place: ChartBox, numbers: dict[str, int], language: Language) -> float:
+def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str, int], language: Language) -> float:
     """Draw the polygon of a group to its own scale, which is returned, and its forces beside it."""
     left, top, width, height = place
     row, ends, scale = QUANTITIES["joint_force"], _ends(plan), _scale(plan, width, height)
@@ -154,7 +154,7 @@ def _plan(paper: Canvas, plan: ForcePlan, place: ChartBox, numbers: dict[str, in
         marks.append((_symbol(force, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
     label_marks(paper, marks, dot=0.0)
     links = ", ".join(str(numbers.get(link, link)) for link in plan.links)
-    head = say("drawing.links" if len(plan.links) > 1 else "drawing.link", language, links=links)
+    head = translate("drawing.links" if len(plan.links) > 1 else "drawing.link", language, links=links)
     paper.text(left + 14, top + 10, f"{head}: {scale_text('μ_F', scale, row.unit, language)}")
     for count, force in enumerate(plan.forces):
         shown = number(float(f"{_size(force):.4g}"), language)
@@ -166,7 +166,7 @@ def _plan(paper: Canvas, plan: ForcePlan, place: ChartBox, numbers: dict[str, in
     return scale
 
 
-def _ends(plan: ForcePlan) -> Array:
+def _ends(plan: ForcePolygon) -> Array:
     """Return the corners of the polygon of a group, shape (n, 2). [displayed unit]"""
     ends = np.vstack([np.zeros(2), np.cumsum([(force.x, force.y) for force in plan.forces], axis=0)])
     return displayed_values(QUANTITIES["joint_force"], ends)
@@ -194,12 +194,12 @@ def _lie_over(first: Array, second: Array) -> bool:
     return bool(np.all(distance < _NEAR)) and min(along.max(), length) - max(along.min(), 0.0) > _LANE
 
 
-def _size(force: PlanForce) -> float:
+def _size(force: PolygonForce) -> float:
     values: Array = displayed_values(QUANTITIES["joint_force"], np.array(force.size))
     return float(values)
 
 
-def _symbol(force: PlanForce, numbers: dict[str, int], language: Language) -> str:
+def _symbol(force: PolygonForce, numbers: dict[str, int], language: Language) -> str:
     """Return the symbol of a force: that of its joint, of its guide, of the loads on its link, or of the driver."""
     if force.kind == "driver":
         return math_symbol(QUANTITIES["driver_force"].symbol(language))

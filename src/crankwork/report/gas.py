@@ -10,12 +10,12 @@ from itertools import pairwise
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.chambers import indicators
-from crankwork.locale import say
+from crankwork.analysis.gas_chambers import indicators
+from crankwork.locale import translate
 from crankwork.report.look import Drawn, axis_title, displayed_values, quantity_of
+from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, write_method
-from crankwork.show.labels import label_marks
-from crankwork.show.paper import Canvas, plain
+from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES, Drawing
 
 HEIGHT = 216.0
@@ -41,7 +41,7 @@ def pressure(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
     degrees, values = engine.degrees, engine.values("gas_pressure")
     other_pressures = engine.other_pressures
-    names = [say("drawing.cylinder", engine.language, number=number) for number in (1, *other_pressures)]
+    names = [translate("drawing.cylinder", engine.language, number=number) for number in (1, *other_pressures)]
     rows = [Row(name, style) for name, style in zip(names, itertools.cycle(STYLES), strict=False)]
     paper, box = banded_sheet(engine, HEIGHT, rows if other_pressures else ())
     graph = over_cycle(paper, box, limits(values, *other_pressures.values()), engine.cycle, engine.language)
@@ -101,7 +101,7 @@ def strokes(engine: Drawn, graph: Graph) -> None:
     lines = [(end, top - _BAND, end, top) for end in ends]
     graph.paper.segments(np.array([*lines, (ends[0], top - _BAND, ends[-1], top - _BAND)]), width=0.4)
     for name, (left, right) in zip(names, pairwise(ends), strict=True):
-        small_text(graph.paper, float(left + right) / 2, top - 3.5, say(f"drawing.{name}", engine.language))
+        small_text(graph.paper, float(left + right) / 2, top - 3.5, translate(f"drawing.{name}", engine.language))
 
 
 def _names(engine: Drawn) -> tuple[str, ...]:
@@ -123,7 +123,7 @@ def indicator(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     if sharp is not None:
         absolute = sharp.pressure(engine.degrees, engine.columns["cylinder_volume"])
         pressures.append(engine.shown("gas_pressure", space.gauge(absolute)))
-    rows = [Row(engine.named("gas_pressure")), Row(say("drawing.sharp", engine.language), DASHED, 0.9)]
+    rows = [Row(engine.named("gas_pressure")), Row(translate("drawing.sharp", engine.language), DASHED, 0.9)]
     paper, box = sheet(_INDICATOR + _ABOVE, rows if sharp is not None else ())
     box = box._replace(top=box.top + _ABOVE, height=box.height - _ABOVE)
     ends, reach = limits(*pressures), 1.06 * float(np.max(volume))
@@ -189,7 +189,7 @@ def _dead_centres(engine: Drawn, graph: Graph) -> None:
         x = float(graph.across(volume))
         down = np.array([box.top - 6, box.top + box.height])
         paper.line([x, x], down, style=DASH_DOT, width=0.6)
-        small_text(paper, x, box.top - 17, say(f"drawing.{name}", engine.language))
+        small_text(paper, x, box.top - 17, translate(f"drawing.{name}", engine.language))
     level = box.top - 4
     spans = (("clearance_volume", 0.0, volumes[0]), ("swept_volume", volumes[0], volumes[1]))
     for key, start, end in spans:
@@ -221,4 +221,4 @@ def chamber_indicator(machine: Drawn) -> Drawing:
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
     write_method(paper, style.method)
-    return paper.drawing(say("figures.indicator", style.language), style.language)
+    return paper.drawing(translate("figures.indicator", style.language), style.language)

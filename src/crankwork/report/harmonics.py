@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.report.balance import Bars, bar_graph, swatches
 from crankwork.report.look import Drawn
+from crankwork.show.canvas import Canvas
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, small_text
-from crankwork.show.labels import label_marks
-from crankwork.show.paper import Canvas
-from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.label_placement import label_marks
 
 
 def torque_harmonics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -29,7 +29,9 @@ def torque_harmonics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         for name, key in kinds.items()
     ]
     texts = [
-        f"{engine.symbol(key)} – {say(f'drawing.{name}', engine.language)}" if engine.cylinders else engine.named(key)
+        f"{engine.symbol(key)} – {translate(f'drawing.{name}', engine.language)}"
+        if engine.cylinders
+        else engine.named(key)
         for name, key in kinds.items()
     ]
     height = scaled_height(200.0)
@@ -64,7 +66,11 @@ def phase_stars(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
         small_text(paper, box.left + side / 2, box.top - 3, text)
     paper.text(
-        current_layout().width / 2, paper.height - 18, say("drawing.star_sum", engine.language), size=8, anchor="middle"
+        current_layout().width / 2,
+        paper.height - 18,
+        translate("drawing.star_sum", engine.language),
+        size=8,
+        anchor="middle",
     )
     return paper, graphs
 

@@ -9,18 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.lever import Lever, LeverForce, LeverTorque, zhukovsky_lever
 from crankwork.analysis.skeleton import skeleton
-from crankwork.locale import say
+from crankwork.analysis.zhukovsky_lever import Lever, LeverForce, LeverTorque, zhukovsky_lever
+from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.language import displayed, key_unit, symbol
+from crankwork.report.display import displayed, key_unit, symbol
 from crankwork.report.look import Drawn, figure_title, math_symbol, position_text, scale_text
 from crankwork.report.plans import draw_vectors, node_name
+from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, write_method
-from crankwork.show.labels import label_marks
-from crankwork.show.paper import GREY, WIDER, Canvas, fitted_lines, plain, text_width
-from crankwork.show.place import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 
 _TALL, _MARGIN, _ROW, _FOOT = 400.0, 30.0, 14.0, 14.0
@@ -78,7 +78,7 @@ def lever_figure(machine: Drawn) -> Drawing:
     paper.text(14, high + 4, scale_text("μ_v", scale, "m/s", language))
     for index, row in enumerate(rows):
         paper.text(14, high + 4 + _ROW * (index + 1), row)
-    write_method(paper, style.method, say("drawing.lever", language))
+    write_method(paper, style.method, translate("drawing.lever", language))
     title = f"{figure_title('zhukovsky_lever', language)}, {position_text(degrees, style)}"
     return paper.drawing(title, language)
 

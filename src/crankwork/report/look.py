@@ -12,21 +12,21 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.bearing_diagrams import BearingDiagrams, JointDiagrams
-from crankwork.analysis.diagrams import fine_columns
-from crankwork.analysis.engine_diagrams import EngineDiagrams
-from crankwork.analysis.moving import reached_angles
-from crankwork.analysis.plans import worked_position
-from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.constructions import fine_columns
+from crankwork.analysis.load_diagrams import EngineDiagrams
+from crankwork.analysis.rounding_noise import without_rounding
+from crankwork.analysis.sampled_motion import reached_angles
+from crankwork.analysis.vector_polygons import worked_position
 from crankwork.errors import CrankworkError
-from crankwork.formula.known import Found, breaks_of
-from crankwork.locale import has_text, say
+from crankwork.formula.traced_value import ProcedureValue, breakpoints_of
+from crankwork.locale import has_text, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
-from crankwork.report.language import displayed, key_unit, row_name, symbol
+from crankwork.report.display import displayed, key_unit, row_name, symbol
 from crankwork.report.summary import results_method
+from crankwork.show.canvas import GREY, Canvas, plain
 from crankwork.show.chart import ChartBox, Graph, round_ticks, write_method
-from crankwork.show.paper import GREY, Canvas, plain
 from crankwork.show.scene import DASH_DOT, Drawing, printable
 from crankwork.units import from_si
 
@@ -49,7 +49,7 @@ def figure_title(name: str, language: Language) -> str:
     number = name.removeprefix(kind).removeprefix("_")
     # some are called what their table is
     room = "figures" if has_text(f"figures.{kind}") else "tables"
-    return say(f"{room}.{kind}", language) + (f", {number}" if number else "")
+    return translate(f"{room}.{kind}", language) + (f", {number}" if number else "")
 
 
 class Style(NamedTuple):
@@ -160,7 +160,7 @@ def drive_graph(
         paper.line([x, x], [graph.box.top, graph.box.top + graph.box.height], style=DASH_DOT, width=0.8, colour=GREY)
     if is_last:
         sign = math_symbol(QUANTITIES["crank_angle"].symbol(style.language))
-        angle = f"{say(f'drawing.angle_of_{style.turns}', style.language)} {sign}, °"
+        angle = f"{translate(f'drawing.angle_of_{style.turns}', style.language)} {sign}, °"
         graph.x_title(axis_title(QUANTITIES["time"], style.language) if style.period else angle)
     return graph
 
@@ -285,7 +285,7 @@ class Drawn:
     def finished(self, name: str, paper: Canvas, remark: str = "", *, forces: bool = False, owner: str = "") -> Drawing:
         """Return a figure, with the method that made it; `owner`: what it is of, for its title."""
         if forces and self.per_area:
-            remark = "; ".join(text for text in (remark, say("report.per_area", self.language)) if text)
+            remark = "; ".join(text for text in (remark, translate("report.per_area", self.language)) if text)
         write_method(paper, results_method(self.results, self.language), remark)
         title = figure_title(name, self.language)
         return paper.drawing(f"{title}, {owner}" if owner else title, self.language)
@@ -342,9 +342,11 @@ def drawn_of(results: Results, language: Language, *, per_area: bool = False) ->
 
 def _with_corners(results: Results, degrees: Array) -> Array:
     """Return crank angles with those of extremes, and on both sides of where a load jumps or bends. [deg]"""
-    breaks = breaks_of([results.memory[key] for key in results.columns if key in results.memory], results.machine.cycle)
-    single = (results.memory[key].node for key in results.summary if key in results.memory)
-    extremes = [node.at for node in single if isinstance(node, Found) and node.at is not None]
+    breaks = breakpoints_of(
+        [results.trace[key] for key in results.columns if key in results.trace], results.machine.cycle
+    )
+    single = (results.trace[key].node for key in results.summary if key in results.trace)
+    extremes = [node.at for node in single if isinstance(node, ProcedureValue) and node.at is not None]
     breaks = np.concatenate([breaks, breaks + _AFTER, extremes])
     return np.union1d(degrees, breaks[(breaks >= degrees[0]) & (breaks <= degrees[-1])])
 

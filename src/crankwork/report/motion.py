@@ -8,15 +8,16 @@ from itertools import combinations
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.diagrams import BrixPoints, brix_points, tangent_ends, tolle_parabola, tolle_points
-from crankwork.analysis.moving import Frame, Moving, moving
+from crankwork.analysis.constructions import BrixPoints, brix_points, tangent_ends, tolle_parabola, tolle_points
+from crankwork.analysis.sampled_motion import Frame, SampledMotion, sample_motion
 from crankwork.analysis.skeleton import Member, skeleton
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import QUANTITIES
+from crankwork.report.display import symbol
 from crankwork.report.forces import Line
-from crankwork.report.language import symbol
 from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text
+from crankwork.show.canvas import GREY, Canvas, plain
 from crankwork.show.chart import (
     BOTTOM,
     DOT,
@@ -30,9 +31,8 @@ from crankwork.show.chart import (
     sheet,
     write_method,
 )
-from crankwork.show.labels import label_marks
-from crankwork.show.paper import GREY, Canvas, plain
-from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 
 _PANEL, _PANEL_GAP = 126.0, 38.0
@@ -91,9 +91,11 @@ def brix(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     difference = f"{engine.number(error, 2)} {engine.unit('piston_displacement')}"
     half = f"{engine.symbol('rod_ratio')}{engine.symbol('crank_radius')}/2"
     rows = [
-        Row(f"{say('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}"),
+        Row(f"{translate('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}"),
         Row(
-            say("drawing.brix_error", engine.language, symbol=engine.symbol("piston_displacement"), value=difference),
+            translate(
+                "drawing.brix_error", engine.language, symbol=engine.symbol("piston_displacement"), value=difference
+            ),
             width=0.0,
         ),
     ]
@@ -169,11 +171,11 @@ def tolle(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     parabola = radius * along, unit * up
     rows = [
         Row(engine.title("piston_acceleration").rpartition(",")[0]),
-        Row(say("drawing.tangents", engine.language), width=0.5),
+        Row(translate("drawing.tangents", engine.language), width=0.5),
     ]
     differs = float(np.max(np.abs(np.interp(x, *parabola) - y))) > 2e-3 * unit
     if differs:
-        rows.insert(1, Row(say("drawing.parabola", engine.language), DOTTED, 1.0))
+        rows.insert(1, Row(translate("drawing.parabola", engine.language), DOTTED, 1.0))
     paper, box = sheet(270.0, rows)
     low, high = limits(np.array([corner[1] for corner in corners.values()]), y, margin=0.09)
     room = 0.04 * 2 * radius
@@ -204,11 +206,11 @@ def _numbered(graph: Graph, tangents: Array) -> list[tuple[str, float, float]]:
     return numbered + [(f"{index}′", *graph.point(*row[2:])) for index, row in enumerate(tangents.tolist(), start=1)]
 
 
-def _coupler(machine: Drawn) -> tuple[str, Moving]:
+def _coupler(machine: Drawn) -> tuple[str, SampledMotion]:
     """Return the coupler whose instant centre is near most of the time, none where all are far away."""
     reached = machine.reached
     names = [key.partition(".")[2] for key in reached.columns if key.startswith("instant_centre_x.")]
-    moved = moving(machine.results.machine.mechanism, reached.degrees)
+    moved = sample_motion(machine.results.machine.mechanism, reached.degrees)
     reach = _reach(np.vstack([point.place for point in moved.points.values()]))
     seen = {name: _seen(instant_centres(moved.frames[name], reached.row)[0], reach)
             for name in names if name in moved.frames}  # fmt: skip
@@ -233,12 +235,12 @@ def centrodes(machine: Drawn) -> Drawing:
     centre = symbol("instant_centre_x", style.language).partition("_")[2]
     centre += "₀" if centre in letters.values() else ""
     rows = [
-        Row(say("drawing.fixed_centrode", style.language, link=plain(coupler))),
+        Row(translate("drawing.fixed_centrode", style.language, link=plain(coupler))),
         Row(
-            f"{say('drawing.moving_centrode', style.language)}, {position_text(float(degrees[row]), style)}",
+            f"{translate('drawing.moving_centrode', style.language)}, {position_text(float(degrees[row]), style)}",
             _ROLLING,
         ),
-        Row(f"${centre}$ – {say('drawing.instant_centre', style.language)}", DOT),
+        Row(f"${centre}$ – {translate('drawing.instant_centre', style.language)}", DOT),
     ]
     paper, box = sheet(scaled_height(_HIGH), rows)
     graph = _graph(paper, box, np.vstack([point.place * scale for point in moved.points.values()]), style)

@@ -10,16 +10,16 @@ from pathlib import Path, PurePath
 
 from crankwork import files
 from crankwork.analysis import Results
-from crankwork.analysis.rounding import summary_without_rounding
+from crankwork.analysis.rounding_noise import summary_without_rounding
 from crankwork.errors import CrankworkError, UnknownKeyError
-from crankwork.locale import Refusal, say
+from crankwork.locale import ErrorMessage, translate
 from crankwork.locale.numbers import number
 from crankwork.quantities import Language
+from crankwork.report.display import displayed, in_own_units, key_unit, label, symbol
 from crankwork.report.drawing import film_of
-from crankwork.report.language import displayed, in_own_units, key_unit, label, symbol
 from crankwork.report.summary import results_method
+from crankwork.show.animated_svg import moving_svg
 from crankwork.show.formats import FORMATS
-from crankwork.show.moving_svg import moving_svg
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
 from crankwork.show.theme import THEMES, Theme
@@ -46,14 +46,14 @@ class Picture:
     def styled(self, theme: Theme) -> Picture:
         """Return it in another theme."""
         if theme not in THEMES:
-            raise CrankworkError(Refusal("theme_unknown", name=str(theme)[:40], known=", ".join(THEMES)))
+            raise CrankworkError(ErrorMessage("theme_unknown", name=str(theme)[:40], known=", ".join(THEMES)))
         return replace(self, theme=theme)
 
     def save(self, path: str | Path, *, overwrite: bool = False) -> None:
         """Write it in the format that the ending of the name asks for: SVG, PDF, PNG or DXF."""
         ending = PurePath(path).suffix.lower().removeprefix(".")
         if ending not in FORMATS:
-            raise CrankworkError(Refusal("figure_ending", name=str(path)[-60:], known=", ".join(FORMATS)))
+            raise CrankworkError(ErrorMessage("figure_ending", name=str(path)[-60:], known=", ".join(FORMATS)))
         files.check_files(path, overwrite=overwrite)
         files.write_files({path: FORMATS[ending](self.drawing, self.theme)}, overwrite=overwrite)
 
@@ -67,7 +67,7 @@ def picture(results: Results, name: str, language: Language) -> Picture:
     if name not in drawn:
         known = figure_names(results, language)
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.5) or known
-        raise UnknownKeyError(Refusal("figure_unknown", name=name[:60], known=", ".join(near)))
+        raise UnknownKeyError(ErrorMessage("figure_unknown", name=name[:60], known=", ".join(near)))
     return Picture(drawn[name], name)
 
 
@@ -102,5 +102,5 @@ def page(results: Results, language: Language = "en") -> str:
     method = html.escape(results_method(results, language))
     return (
         f"<div><p><b>{html.escape(machine.title)}</b><br>{method}</p>{drawn}"
-        f"<details><summary>{say('report.summary', language)}</summary><table>{table}</table></details></div>"
+        f"<details><summary>{translate('report.summary', language)}</summary><table>{table}</table></details></div>"
     )

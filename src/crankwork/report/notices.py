@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from crankwork.analysis import Results
 from crankwork.formula.expression import symbol
-from crankwork.locale import decimal, has_text, say, told
+from crankwork.locale import decimal, has_text, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
-from crankwork.report.language import FILE_KEYS, label
+from crankwork.report.display import FILE_KEYS, label
 from crankwork.report.tables import any_nonzero
 
 _DRAWN = ("reduced_inertia", "static_torque", "dynamic_torque", "driving_torque", "joint_force")
@@ -32,14 +32,14 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
         elif key == "angles":
             shown[key] = decimal(str(value), language).replace("-", "−")
         elif isinstance(value, str):
-            shown[key] = told(value, language)
+            shown[key] = in_language(value, language)
         else:
             # pressure steps are the only values with a unit of their own, MPa
             shown[key] = number(value / 1e6 if key == "step" else value, language, digits=5)
     if "argument" in values:
         unit = unit_name(argument_unit(str(values["argument"])), language)
         shown |= {key: f"{shown[key]} {unit}".rstrip() for key in ("value", "high")}
-    return say(f"notices.{code}", language, **shown)
+    return translate(f"notices.{code}", language, **shown)
 
 
 def _meanings(names: str, language: Language) -> str:
@@ -53,13 +53,13 @@ def _meanings(names: str, language: Language) -> str:
     )
 
 
-def not_drawn(results: Results, language: Language) -> Iterator[str]:
+def skipped_figure_notes(results: Results, language: Language) -> Iterator[str]:
     """Yield sentences about figures that are left out."""
     names = list(dict.fromkeys(label(kind, language) for kind in _zero(results)))
     if names:
-        yield say("report.not_drawn_zero", language, names=", ".join(names))
+        yield translate("report.not_drawn_zero", language, names=", ".join(names))
     if results.machine.linkage is not None and _has_no_groups(results):
-        yield say("report.no_force_plans", language)
+        yield translate("report.no_force_plans", language)
 
 
 def _zero(results: Results) -> Iterator[str]:

@@ -8,13 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.moving import Moving
-from crankwork.analysis.plans import Kind, Plan, Vector, accelerations, velocities
-from crankwork.locale import say
+from crankwork.analysis.sampled_motion import SampledMotion
+from crankwork.analysis.vector_polygons import Kind, Vector, VectorPolygon, accelerations, velocities
+from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities import Language
-from crankwork.report.language import symbol
+from crankwork.report.display import symbol
 from crankwork.report.look import (
     PLAIN,
     Style,
@@ -25,10 +25,10 @@ from crankwork.report.look import (
     position_text,
     scale_text,
 )
+from crankwork.show.canvas import WIDER, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, write_method
-from crankwork.show.labels import label_points
-from crankwork.show.paper import WIDER, Canvas, plain, text_width
-from crankwork.show.place import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.label_placement import label_points
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -65,7 +65,7 @@ class _Kind(NamedTuple):
 
 def velocity_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
     mechanism: Mechanism,
-    moving: Moving,
+    moving: SampledMotion,
     index: int,
     speed: float,
     style: Style = PLAIN,
@@ -80,7 +80,7 @@ def velocity_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
 
 def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is shown
     mechanism: Mechanism,
-    moving: Moving,
+    moving: SampledMotion,
     index: int,
     speed: float,
     angular_acceleration: float = 0.0,
@@ -97,17 +97,17 @@ def acceleration_plan(  # noqa: PLR0913 - a machine, its state, and how it is sh
     return _figure(plan, kind, moving.degrees[index], style, position, among)
 
 
-def size_of(plan: Plan) -> Size:
+def size_of(plan: VectorPolygon) -> Size:
     """Return width and height of a plan, in its unit."""
     width, height = np.ptp(_places(_seen(plan)), axis=0)
     return float(width), float(height)
 
 
-def _longest(plan: Plan) -> float:
+def _longest(plan: VectorPolygon) -> float:
     return max((vector.length for vector in plan.vectors), default=0.0)
 
 
-def _seen(plan: Plan) -> list[Vector]:
+def _seen(plan: VectorPolygon) -> list[Vector]:
     """Return the vectors above rounding noise."""
     least = 1e-9 * max(_longest(plan), _STILL)
     return [vector for vector in plan.vectors if vector.length > least]
@@ -128,7 +128,7 @@ def _scale(size: Size, among: Sequence[Size], room: tuple[float, float]) -> floa
 
 
 def _figure(
-    plan: Plan, kind: _Kind, degrees: float, style: Style, position: int | None, among: Sequence[Size]
+    plan: VectorPolygon, kind: _Kind, degrees: float, style: Style, position: int | None, among: Sequence[Size]
 ) -> Drawing:
     """Draw a plan, and beside it the values of its vectors and the angular rates of the links."""
     language, seen, size = style.language, _seen(plan), size_of(plan)
@@ -162,7 +162,7 @@ def _figure(
     scale_shown = scale_text(f"μ_{kind.sign}", scale, kind.unit, language)
     if position is not None:
         scale_shown = scale_shown if seen else f"${kind.sign}$ = 0"
-        shown = f"{say('sheets.position', language)} {position}: {scale_shown}"
+        shown = f"{translate('sheets.position', language)} {position}: {scale_shown}"
         paper.text(current_layout().width / 2, high - 20, shown, anchor="middle")
     else:
         paper.text(14, high - 20, scale_shown)
@@ -173,15 +173,17 @@ def _figure(
     return paper.drawing(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
 
 
-def _remark(plan: Plan, kind: _Kind, language: Language) -> str:
+def _remark(plan: VectorPolygon, kind: _Kind, language: Language) -> str:
     """Return the meaning of the sign of turning, and of points with the number of a link."""
-    remarks = [say("drawing.anticlockwise", language, symbol=kind.turning)]
+    remarks = [translate("drawing.anticlockwise", language, symbol=kind.turning)]
     if plan.beneath:
         named_points = list(plan.beneath.items())[:_UNDER]
         points, links = (plain(name) for name, _ in named_points), (str(link) for _, (link, _) in named_points)
         link_points = (plain(point) for _, (_, point) in named_points)
         joined = {"points": ", ".join(points), "links": ", ".join(links), "others": ", ".join(link_points)}
-        remarks.append(say("drawing.beneath" if len(named_points) > 1 else "drawing.one_beneath", language, **joined))
+        remarks.append(
+            translate("drawing.beneath" if len(named_points) > 1 else "drawing.one_beneath", language, **joined)
+        )
     return "; ".join(remarks)
 
 
@@ -196,7 +198,7 @@ def draw_vectors(graph: Graph, vectors: list[Vector], unit: float, thin: float =
             graph.paper.line([start[0], end[0]], [start[1], end[1]], width=thin * width, style=line)
 
 
-def _nodes(graph: Graph, plan: Plan, pole: str, unit: float) -> None:
+def _nodes(graph: Graph, plan: VectorPolygon, pole: str, unit: float) -> None:
     """Name the pole and the ends of the vectors."""
     taken = {node_name(name) for name in plan.nodes}
     points = [(next(letter for letter in (pole, "o", f"{pole}₀") if letter not in taken), 0.0, 0.0)]
@@ -210,11 +212,11 @@ def node_name(letter: str) -> str:
     return letter[0].lower() + letter[1:] if len(letter) <= 3 else letter
 
 
-def _rows(vectors: list[Vector], plan: Plan, kind: _Kind, language: Language) -> list[str]:
+def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Language) -> list[str]:
     """Return the magnitudes of the vectors and the turning of the links."""
     rows, unit = [], unit_name(kind.unit, language)
     for vector in vectors:
-        mark = _MARKS[vector.kind].format(say("marks.tangential", language)) if kind.sign == "a" else ""
+        mark = _MARKS[vector.kind].format(translate("marks.tangential", language)) if kind.sign == "a" else ""
         name = math_symbol(f"{kind.sign}_{vector.of}", mark)
         rows.append(f"{name} = {_four_digits(vector.length, language)} {unit}")
     unit = unit_name(kind.turning_unit, language)

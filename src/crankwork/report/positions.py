@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.moving import Moving, moving
-from crankwork.analysis.skeleton import Pose, Skeleton, skeleton
+from crankwork.analysis.sampled_motion import SampledMotion, sample_motion
+from crankwork.analysis.skeleton import MovingFrame, Skeleton, skeleton
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.report.drawn_links import HATCH, SLOT, Rail, Scene, corners, scene, slot_middle, walls
 from crankwork.report.look import (
@@ -22,10 +22,10 @@ from crankwork.report.look import (
     position_text,
     scale_text,
 )
+from crankwork.show.canvas import BLACK, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, write_method
-from crankwork.show.labels import label_marks, label_points
-from crankwork.show.paper import BLACK, Canvas, plain, text_width
-from crankwork.show.place import FINE, current_layout, font_size, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import FINE, current_layout, font_size, points_per_mm, round_scale, scaled_height
+from crankwork.show.label_placement import label_marks, label_points
 from crankwork.show.scene import DASH_DOT, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
 
@@ -73,7 +73,7 @@ def position_plans(
     if not degrees.size:
         degrees = np.array([(first + last) / 2])
     main = int(np.argmin(np.abs(degrees - worked)))
-    moved = moving(mechanism, np.union1d(np.append(np.arange(first, last, _STEP), last), degrees))
+    moved = sample_motion(mechanism, np.union1d(np.append(np.arange(first, last, _STEP), last), degrees))
     plans = [int(np.argmin(np.abs(moved.degrees - angle))) for angle in degrees]
     drawn, paper = _scaled(shape, moved)
     sheet = _sheet(drawn, plans, main, style)
@@ -105,7 +105,7 @@ def _sheet(drawn: Scene, plans: list[int], main: int, style: Style) -> _Sheet:
     return _Sheet(graph, drawn, plans, main)
 
 
-def _scaled(shape: Skeleton, moved: Moving) -> tuple[Scene, float]:
+def _scaled(shape: Skeleton, moved: SampledMotion) -> tuple[Scene, float]:
     """Return a linkage as large as its paper takes it, and how many of its millimetres are one of paper."""
     room = _UNITS * (current_layout().width - 2 * _MARGIN)
     drawn, scale = scene(shape, moved, room)
@@ -170,7 +170,7 @@ def _plan(sheet: _Sheet, row: int, *, is_main: bool) -> None:
     for slot in sheet.drawn.slots:
         middle, half = slot_middle(slot)
         if is_main:
-            _rectangle(graph, Pose(middle, slot.line.along), (half, SLOT), row, WHITE)
+            _rectangle(graph, MovingFrame(middle, slot.line.along), (half, SLOT), row, WHITE)
         else:
             ends = np.array([slot.line.place(end)[row] for end in (slot.start, slot.end)])
             _line_of(graph, ends, width=width, colour=colour)
@@ -186,7 +186,7 @@ def _plan(sheet: _Sheet, row: int, *, is_main: bool) -> None:
             graph.paper.dot(*place, 0.9, fill=_THIN)
 
 
-def _rectangle(graph: Graph, pose: Pose, half: tuple[float, float], row: int, fill: str) -> None:
+def _rectangle(graph: Graph, pose: MovingFrame, half: tuple[float, float], row: int, fill: str) -> None:
     u, v = half
     _area_of(graph, np.array([pose.place(x, y)[row] for x, y in ((u, v), (-u, v), (-u, -v), (u, -v))]), fill)
 

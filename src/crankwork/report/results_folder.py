@@ -6,27 +6,27 @@ import json
 from collections.abc import Iterator, Sequence
 
 from crankwork.analysis import Results
-from crankwork.analysis.moving import free_course
+from crankwork.analysis.sampled_motion import transient_animation_path
 from crankwork.errors import MissingExtraError, missing_extras
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.quantities import Language
 from crankwork.report.drawing import film_of, moving_drawing
 from crankwork.report.figures import drawings
 from crankwork.report.summary import summary_data
 from crankwork.report.tables import csv_of_sheet, sheets
 from crankwork.report.workbook import workbook
+from crankwork.show.animated_svg import moving_svg
 from crankwork.show.formats import FORMATS
-from crankwork.show.moving_svg import moving_svg
 from crankwork.show.theme import Theme
 
 # What some files of the folder need that the base installation lacks: extra by module.
 _WORKBOOK = {"xlsxwriter": "tables"}
 
 
-def left_out() -> MissingExtraError | None:
+def missing_writers() -> MissingExtraError | None:
     """Return the extras to install for files that a results folder lacks, if there are any."""
     missing = missing_extras(_WORKBOOK)
-    return MissingExtraError(Refusal("extra_writing", names=["tables.xlsx"]), *missing) if missing else None
+    return MissingExtraError(ErrorMessage("extra_writing", names=["tables.xlsx"]), *missing) if missing else None
 
 
 def results_folder(
@@ -38,7 +38,7 @@ def results_folder(
     formats: Sequence[str] = ("svg",),
     theme: Theme = "print",
 ) -> Iterator[dict[str, bytes]]:
-    """Yield the files of a results folder in steps, so that progress can be shown; `left_out` says what is not made.
+    """Yield the files of a results folder in steps, so that progress can be shown; `missing_writers` says what is not made.
 
     `formats`: of the figures, none for none.
     """
@@ -56,7 +56,7 @@ def results_folder(
     film = film_of(results, language=language)
     if film is not None:
         yield {"machine.svg": moving_svg(film, on_screen)}
-    free = free_course(results)
+    free = transient_animation_path(results)
     if free is not None:
         yield {"transient.svg": moving_svg(moving_drawing(results, language=language, path=free), on_screen)}
     if formats:

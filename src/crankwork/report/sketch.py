@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.analysis import Array
-from crankwork.analysis.moving_engine import CylinderMoving
-from crankwork.report.language import displayed
-from crankwork.show.moving import Part, part
-from crankwork.show.place import round_scale
-from crankwork.show.scene import Box, Circle, Item, Pen, Polyline, Text, extent, moved, placed
+from crankwork.analysis.sampled_cylinders import SampledCylinder
+from crankwork.report.display import displayed
+from crankwork.show.animation import Part, part
+from crankwork.show.chart_layout import round_scale
+from crankwork.show.scene import ChartBox, Circle, Item, Pen, Polyline, Text, extent, moved, use_layout
 
 # how much of gas is seen at its least and its greatest pressure
 _THIN, _THICK = 0.06, 0.75
@@ -58,7 +58,7 @@ class Sketch(NamedTuple):
 
     def moved(self, shift: Array) -> Sketch:
         """Return it elsewhere. [mm]"""
-        items = [placed(item, shift) for item in self.items]
+        items = [use_layout(item, shift) for item in self.items]
         parts = [part._replace(shift=part.shift + shift) for part in self.parts]
         views = tuple(view._replace(low=view.low + shift, high=view.high + shift) for view in self.views)
         return self._replace(items=items, parts=parts, low=self.low + shift, high=self.high + shift, views=views)
@@ -130,7 +130,7 @@ def _of(part_: Part, frame: int) -> int:
     return frame if len(part_.shift) > 1 else 0
 
 
-def _place_near_tip(text: Text, tip: Array, ahead: Array, taken: Sequence[Box]) -> tuple[Array, Box]:
+def _place_near_tip(text: Text, tip: Array, ahead: Array, taken: Sequence[ChartBox]) -> tuple[Array, ChartBox]:
     """Return the offset of the name of a force from its tip, clear of other names, and the box it covers. [mm]"""
     ways = []
     for turn, reach in product(_TURNS, _REACHES):
@@ -166,7 +166,7 @@ def _arrow(arrow: Arrow, length: Array, ends: Array) -> list[Part]:
     ]
 
 
-def forces_of(cylinder: CylinderMoving, labels: Mapping[str, str]) -> list[Arrow]:
+def forces_of(cylinder: SampledCylinder, labels: Mapping[str, str]) -> list[Arrow]:
     """Return the forces on pins and wall of a cylinder on its paper, as far as they are known."""
     arm, rod = cylinder.pin, cylinder.joint - cylinder.piston
     axis, number = np.full(len(arm), 90.0 - cylinder.place.axis), cylinder.place.number

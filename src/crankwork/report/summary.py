@@ -6,18 +6,18 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from crankwork.analysis import Results
-from crankwork.analysis.rounding import summary_without_rounding
-from crankwork.locale import Refusal, say
+from crankwork.analysis.rounding_noise import summary_without_rounding
+from crankwork.locale import ErrorMessage, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import SUBJECTS, Language, subject
 from crankwork.report.comparison import comparison_data, comparison_text
-from crankwork.report.language import (
-    called,
+from crankwork.report.display import (
     display_key,
     displayed,
     in_own_units,
     key_unit,
     label,
+    link_label,
     method_name,
     rounded,
     symbol,
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from crankwork.mechanism.structure import Structure
 
 
-def about(results: Results) -> dict[str, str]:
+def provenance_data(results: Results) -> dict[str, str]:
     """Return the provenance of an export: program, file, method."""
     from importlib.metadata import version  # noqa: PLC0415 - slow to load, and what the screen shows has no need of it
 
@@ -43,7 +43,7 @@ def about(results: Results) -> dict[str, str]:
 
 def provenance(results: Results) -> str:
     """Return where results come from in one line, for documents that have one for it."""
-    data = about(results)
+    data = provenance_data(results)
     parts = [data["source"], data["method"], f"sha256 {data['machine_file_sha256']}"]
     return "; ".join(parts if results.machine.digest else parts[:2])
 
@@ -53,7 +53,7 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
     """Return the summary as plain data: where it comes from, value and unit by key, checks and notices."""
     area = results.summary["piston_area"] if per_area else None
     return {
-        **about(results),
+        **provenance_data(results),
         "summary": {
             key: {"value": rounded(displayed(key, value, per_area=area)), "unit": key_unit(key, per_area=per_area)}
             for values in by_subject(results).values()
@@ -72,25 +72,30 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     """Return the summary as aligned text."""
     area = results.summary["piston_area"] if per_area else None
     lines = [results.machine.title] if results.machine.title else []
-    lines.append(f"{say('report.method', language)}: {results_method(results, language)}")
+    lines.append(f"{translate('report.method', language)}: {results_method(results, language)}")
     if per_area:
-        lines.append(say("report.per_area", language))
+        lines.append(translate("report.per_area", language))
     subjects = by_subject(results)
     rows = aligned([_row(results, entry, language, area) for values in subjects.values() for entry in values.items()])
     for name, values in subjects.items():
-        lines += ["", *([say(f"subjects.{name}", language)] if len(subjects) > 1 else [])]
+        lines += ["", *([translate(f"subjects.{name}", language)] if len(subjects) > 1 else [])]
         lines += rows[: len(values)]
         rows = rows[len(values) :]
     if results.checks:
-        lines += ["", say("report.checks", language)]
+        lines += ["", translate("report.checks", language)]
         lines += aligned(
             [
-                (say(f"report.{key}", language), "", number(value, language, digits=2), met(results, key, language))
+                (
+                    translate(f"report.{key}", language),
+                    "",
+                    number(value, language, digits=2),
+                    check_status(results, key, language),
+                )
                 for key, value in results.checks.items()
             ]
         )
     if results.notices:
-        lines += ["", say("report.notices", language)]
+        lines += ["", translate("report.notices", language)]
         lines += [f"  {notice_text(notice.code, notice.values, language)}" for notice in results.notices]
     if results.compared is not None:
         lines += ["", comparison_text(results, language, per_area=per_area)]
@@ -109,13 +114,13 @@ def by_subject(results: Results) -> dict[str, dict[str, float]]:
     return {name: values for name, values in values_of.items() if values}
 
 
-def met(results: Results, key: str, language: Language) -> str:
+def check_status(results: Results, key: str, language: Language) -> str:
     """Return the status of a check: that it is not met, or that an approximate method explains its residual."""
     if key in results.unmet:
-        return say("report.not_met", language)
+        return translate("report.not_met", language)
     if key not in results.allowed:
         return ""
-    return say("report.within_error", language, error=number(results.allowed[key], language, digits=2))
+    return translate("report.within_error", language, error=number(results.allowed[key], language, digits=2))
 
 
 def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
@@ -132,7 +137,7 @@ def aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:
 def results_method(results: Results, language: Language) -> str:
     """Return the method of results in words."""
     if results.has_positions:
-        return say("report.tabulated", language)
+        return translate("report.tabulated", language)
     method, masses = results.method, results.machine.masses
     rod = method.rod if masses is not None and "rod_length" in results.summary else ""
     # without a moment of inertia of its own it is its two masses
@@ -144,17 +149,17 @@ def results_method(results: Results, language: Language) -> str:
 def warning_text(results: Results, language: Language = "en") -> str:
     """Return in a sentence why results are not to be used as they are, or nothing."""
     if results.unmet:
-        names = ", ".join(say(f"report.{key}", language) for key in results.unmet)
+        names = ", ".join(translate(f"report.{key}", language) for key in results.unmet)
         counts = {"count": len(results.unmet), "all": len(results.checks)}
-        return say("check.unmet", language, names=names, **counts)
+        return translate("check.unmet", language, names=names, **counts)
     partial = next((notice for notice in results.notices if notice.code == "partial"), None)
     if partial is None:
         return ""
     notice = notice_text(partial.code, partial.values, language).partition(": ")[0]
     match partial.values["message"]:
-        case Refusal(name="branch_first", values=values):
-            return say("check.partial_branch", language, notice=notice, written=values["written"])
-    return say("check.partial", language, notice=notice)
+        case ErrorMessage(name="branch_first", values=values):
+            return translate("check.partial_branch", language, notice=notice, written=values["written"])
+    return translate("check.partial", language, notice=notice)
 
 
 @in_own_units
@@ -182,29 +187,29 @@ def _headline(machine: Machine, summary: Mapping[str, float], language: Language
     if machine.engine is not None:
         layout = machine.engine.layout
         count, order = len(layout.places), "-".join(map(str, layout.firing_order))
-        kind = layout.kind if language == "en" else say(f"kinds.{layout.kind}", language)
+        kind = layout.kind if language == "en" else translate(f"kinds.{layout.kind}", language)
         key = "check.engine" if count > 1 else "check.engine_of_one"
-        lines.append(say(key, language, kind=kind, count=count, order=order))
+        lines.append(translate(key, language, kind=kind, count=count, order=order))
     if machine.transfer is not None:
         bodies, positions = len(machine.transfer.bodies), len(machine.transfer.angles)
-        lines.append(say("check.table", language, bodies=bodies, positions=positions))
+        lines.append(translate("check.table", language, bodies=bodies, positions=positions))
     if machine.turning is not None:
-        lines.append(say("check.turning", language, cycle=f"{machine.cycle:g}"))
+        lines.append(translate("check.turning", language, cycle=f"{machine.cycle:g}"))
     if machine.linkage is not None:
         lines += _drawing_lines(machine, language)
     if machine.chambers:
-        lines.append(say("check.chambers", language, names=", ".join(machine.chambers)))
+        lines.append(translate("check.chambers", language, names=", ".join(machine.chambers)))
     return lines
 
 
 def _crank_gear_lines(machine: Machine, summary: Mapping[str, float], language: Language) -> list[str]:
     """Return that it is a slider-crank, and what is known of it besides."""
-    parts = [say("check.offset_slider_crank" if summary.get("offset") else "check.slider_crank", language)]
+    parts = [translate("check.offset_slider_crank" if summary.get("offset") else "check.slider_crank", language)]
     gas = machine.gas
     if gas:
         source = "measured_gas" if gas.measured else "pieces_of_gas" if gas.calculated is None else "calculated_gas"
-        parts.append(say(f"check.{source}", language, count=len(gas.pieces), cycle=f"{gas.cycle:g}"))
-    parts.append(say("check.with_masses" if machine.masses else "check.motion_only", language))
+        parts.append(translate(f"check.{source}", language, count=len(gas.pieces), cycle=f"{gas.cycle:g}"))
+    parts.append(translate("check.with_masses" if machine.masses else "check.motion_only", language))
     return [", ".join(parts)]
 
 
@@ -215,13 +220,15 @@ def _drawing_lines(machine: Machine, language: Language) -> list[str]:
 
     analysed, _ = structure(machine.drawn)
     if analysed is None:
-        return [say("check.linkage", language)]
-    numbered = ", ".join(f"{number} {called(name, language)}" for number, name in enumerate(analysed.links, start=1))
+        return [translate("check.linkage", language)]
+    numbered = ", ".join(
+        f"{number} {link_label(name, language)}" for number, name in enumerate(analysed.links, start=1)
+    )
     count, number = len(analysed.links), "I" * analysed.number if analysed.number < 4 else analysed.number
     return [
-        say("check.links", language, count=count, names=numbered),
+        translate("check.links", language, count=count, names=numbered),
         _mobility(analysed, language),
-        say("check.structure", language, formula=analysed.formula, number=number),
+        translate("check.structure", language, formula=analysed.formula, number=number),
         *_grashof_lines(machine, language),
     ]
 
@@ -230,16 +237,16 @@ def _mobility(analysed: Structure, language: Language) -> str:
     """Return the mobility by the formula, with pairs of gears where there are some."""
     values = {"links": len(analysed.links), "joints": analysed.joints, "mobility": analysed.mobility}
     if analysed.meshes:
-        return say("check.mobility_geared", language, meshes=analysed.meshes, **values)
-    return say("check.mobility", language, **values)
+        return translate("check.mobility_geared", language, meshes=analysed.meshes, **values)
+    return translate("check.mobility", language, **values)
 
 
 def _grashof_lines(machine: Machine, language: Language) -> list[str]:
     """Return the type of a four-bar linkage by Grashof."""
-    from crankwork.analysis.linkage import four_bar_type  # noqa: PLC0415 - engines do not load it
+    from crankwork.analysis.mechanism import four_bar_type  # noqa: PLC0415 - engines do not load it
 
     kind = four_bar_type(machine)
     if not kind:
         return []
-    shown = kind if language == "en" else say(f"kinds.{kind.replace(' ', '_')}", language)
-    return [say("check.grashof", language, kind=shown)]
+    shown = kind if language == "en" else translate(f"kinds.{kind.replace(' ', '_')}", language)
+    return [translate("check.grashof", language, kind=shown)]

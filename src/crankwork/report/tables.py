@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.report.comparison import comparison_columns
-from crankwork.report.language import displayed_column, in_own_units, key_unit
+from crankwork.report.display import displayed_column, in_own_units, key_unit
 
 
 def table_column(results: Results, key: str, *, per_area: bool = False) -> Array:

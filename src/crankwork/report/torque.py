@@ -8,15 +8,16 @@ from collections.abc import Mapping
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.analysis.engine import own_key
-from crankwork.analysis.turning import TurningDiagram, turning_diagram
-from crankwork.locale import say
+from crankwork.analysis.given_torques import TurningDiagram, turning_diagram
+from crankwork.analysis.one_cylinder import own_key
+from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language
+from crankwork.report.display import row_name
 from crankwork.report.forces import Line, curves_over_cycle
 from crankwork.report.gas import FOUR_STROKE
-from crankwork.report.language import row_name
 from crankwork.report.look import Drawn, angle_ticks, axis_title, displayed_values, figure_title, math_symbol
+from crankwork.show.canvas import BLACK, Canvas, plain, text_width
 from crankwork.show.chart import (
     BOTTOM,
     TOP,
@@ -32,9 +33,8 @@ from crankwork.show.chart import (
     true_slices,
     write_method,
 )
-from crankwork.show.labels import label_marks, label_points
-from crankwork.show.paper import BLACK, Canvas, plain, text_width
-from crankwork.show.place import current_layout, scaled_height
+from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.label_placement import label_marks, label_points
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
 from crankwork.units import from_si
 
@@ -53,7 +53,7 @@ _LINES = (("turning_moment", "torque", SOLID), ("load_torque", "load", DASHED))
 
 def torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the crank torque of one cylinder and its mean."""
-    values, known = engine.values("crank_torque"), engine.results.memory[own_key(engine.results.machine, "mean_torque")]
+    values, known = engine.values("crank_torque"), engine.results.trace[own_key(engine.results.machine, "mean_torque")]
     mean = -known.value if known.key == "mean_driving_torque" else known.value
     if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
         mean = 0.0
@@ -78,7 +78,7 @@ def total_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         Row(engine.named("total_torque"), width=_NAMED),
         Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED),
         *_of_cylinders(engine, len(shown)),
-        Row(f"▼ – {say('drawing.fires', language)}", width=0.0),
+        Row(f"▼ – {translate('drawing.fires', language)}", width=0.0),
     ]
     paper, box = sheet(225.0 + _FIRING, rows)
     box = box._replace(top=box.top + _FIRING, height=box.height - _FIRING)
@@ -109,7 +109,7 @@ def _of_cylinders(engine: Drawn, count: int) -> list[Row]:
     for first in range(min(count, len(_DASHES))):
         numbers = ", ".join(str(index + 1) for index in range(first, count, len(_DASHES)))
         key = "drawing.cylinders" if "," in numbers else "drawing.cylinder"
-        which = say(key, engine.language, number=numbers)
+        which = translate(key, engine.language, number=numbers)
         other = _LIGHTER if "," in numbers else ""
         rows.append(Row(f"{engine.named('crank_torque')}, {which}", _DASHES[first], _THIN, other=other))
     return rows
@@ -193,7 +193,7 @@ def _rows(results: Results, language: Language) -> list[Row]:
     rows = []
     for key, table, line in _LINES:
         name = plain(QUANTITIES[key].label(language))
-        name = name if table in given else say("drawing.constant", language, name=name)
+        name = name if table in given else translate("drawing.constant", language, name=name)
         rows.append(Row(f"{math_symbol(QUANTITIES[key].symbol(language))} – {name}", line))
     return rows
 
@@ -273,7 +273,7 @@ def _energy(paper: Canvas, box: ChartBox, results: Results, drawn: TurningDiagra
             paper.dot(*graph.point(x, y), 1.3)
     graph.y_title(axis_title(row, language))
     signed = math_symbol(QUANTITIES["crank_angle"].symbol(language))
-    graph.x_title(f"{say('drawing.angle_of_shaft', language)} {signed}, °")
+    graph.x_title(f"{translate('drawing.angle_of_shaft', language)} {signed}, °")
 
 
 def _frame(graph: Graph, *, is_last: bool) -> None:

@@ -13,11 +13,11 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.locale import Refusal, capital, say
+from crankwork.locale import ErrorMessage, capital, translate
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import Language
-from crankwork.report.language import display_key, displayed, in_own_units, key_unit, label, row_name, symbol
-from crankwork.report.summary import by_subject, met, provenance
+from crankwork.report.display import display_key, displayed, in_own_units, key_unit, label, row_name, symbol
+from crankwork.report.summary import by_subject, check_status, provenance
 from crankwork.report.tables import Sheet, sheets
 from crankwork.units import from_si
 
@@ -129,7 +129,7 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
         import xlsxwriter  # noqa: PLC0415 - an optional part
         from xlsxwriter.exceptions import FileCreateError  # noqa: PLC0415
     except ImportError:
-        raise MissingExtraError(Refusal("extra_writing", names="XLSX"), "tables") from None
+        raise MissingExtraError(ErrorMessage("extra_writing", names="XLSX"), "tables") from None
     stream, tables = io.BytesIO(), sheets(results, per_area=per_area)
     cells = sum(len(column) for table in tables.values() for column in table.columns.values())
     # rows that are written wait in files, which takes longer where they are few
@@ -145,7 +145,7 @@ def workbook(results: Results, *, language: Language = "en", per_area: bool = Fa
             _givens(results, writer, language)
             _checks(results, writer, language)
             for name, table in tables.items():
-                _fill(writer, capital(say(f"tables.{name}", language)), table, language)
+                _fill(writer, capital(translate(f"tables.{name}", language)), table, language)
             book.close()
         except (OSError, FileCreateError) as error:
             raise _full(error) from None
@@ -161,20 +161,20 @@ def _full(error: Exception) -> CrankworkError:
     """Return the refusal for a place that could not take the rows of a workbook."""
     full = error if isinstance(error, OSError) else error.args[0]
     reason = str(getattr(full, "strerror", None) or full).lower()
-    return CrankworkError(Refusal("place_unwritable", path=tempfile.gettempdir(), reason=reason))
+    return CrankworkError(ErrorMessage("place_unwritable", path=tempfile.gettempdir(), reason=reason))
 
 
 @in_own_units
 def _values(results: Results, writer: _Writer, language: Language, *, per_area: bool) -> None:
     """Write the single values, by subject."""
     area = results.summary["piston_area"] if per_area else None
-    sheet = writer.sheet(capital(say("headings.results", language)))
+    sheet = writer.sheet(capital(translate("headings.results", language)))
     sheet.set_column(0, 0, _WORDS)
     sheet.set_column(1, 3, _WIDTH)
     _headings(sheet, writer, ("columns.quantity", "columns.symbol", "columns.value", "columns.unit"), language)
     row = 1
     for subject, values in by_subject(results).items():
-        sheet.write_string(row, 0, capital(say(f"subjects.{subject}", language)), writer.heading)
+        sheet.write_string(row, 0, capital(translate(f"subjects.{subject}", language)), writer.heading)
         row += 1
         for key, value in values.items():
             sheet.write_string(row, 0, label(display_key(key, results), language))
@@ -190,7 +190,7 @@ def _givens(results: Results, writer: _Writer, language: Language) -> None:
     """Write the numbers of the machine file as they are stated."""
     if not results.machine.stated:
         return
-    sheet = writer.sheet(capital(say("headings.data", language)))
+    sheet = writer.sheet(capital(translate("headings.data", language)))
     sheet.set_column(0, 0, _WORDS)
     sheet.set_column(1, 2, _WIDTH)
     _headings(sheet, writer, ("columns.quantity", "columns.value", "columns.unit"), language)
@@ -205,20 +205,20 @@ def _checks(results: Results, writer: _Writer, language: Language) -> None:
     """Write the identities that were checked, with their residuals."""
     if not results.checks:
         return
-    sheet = writer.sheet(capital(say("headings.checks", language)))
+    sheet = writer.sheet(capital(translate("headings.checks", language)))
     sheet.set_column(0, 0, _WORDS + _WIDTH)
     sheet.set_column(1, 2, _WIDTH)
     _headings(sheet, writer, ("columns.identity", "columns.residual"), language)
     for row, (key, value) in enumerate(results.checks.items(), start=1):
-        sheet.write_string(row, 0, say(f"report.{key}", language))
+        sheet.write_string(row, 0, translate(f"report.{key}", language))
         if math.isfinite(value):
             sheet.write_number(row, 1, value * 100, writer.format("0.0E+00"))
-        sheet.write_string(row, 2, met(results, key, language))
+        sheet.write_string(row, 2, check_status(results, key, language))
 
 
 def _headings(sheet: Any, writer: _Writer, keys: Sequence[str], language: Language) -> None:  # noqa: ANN401
     for column, key in enumerate(keys):
-        sheet.write_string(0, column, capital(say(key, language)), writer.heading)
+        sheet.write_string(0, column, capital(translate(key, language)), writer.heading)
 
 
 def _fill(writer: _Writer, title: str, table: Sheet, language: Language) -> None:
@@ -228,7 +228,7 @@ def _fill(writer: _Writer, title: str, table: Sheet, language: Language) -> None
     first = 1 if table.names else 0
     if table.names:
         sheet.set_column(0, 0, 2 * _WIDTH)
-        sheet.write_string(0, 0, capital(say("report.row", language)), writer.heading)
+        sheet.write_string(0, 0, capital(translate("report.row", language)), writer.heading)
     formats = [writer.format(_number_format(values)) for values in table.columns.values()]
     for number, (key, shown) in enumerate(zip(table.columns, formats, strict=True), start=first):
         sheet.set_column(number, number, _WIDTH, shown)

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from crankwork.dynamics.reduction import kinetic_energy
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.shaft.curve import Curve, Extremes
 
 # the speed that a file states is the mean over the time, or that of the extremes
@@ -52,9 +52,9 @@ def fluctuation_of_energy(L_exc: Value, W_c: Value) -> Value:
     return L_exc / W_c
 
 
-def share_of_work(excess: Known, work: Known) -> Known:
+def share_of_work(excess: TracedValue, work: TracedValue) -> TracedValue:
     """Return the ratio of the excess work to the work of a cycle."""
-    share: Known = fluctuation_of_energy(excess, work if work.value > 0 else -work)
+    share: TracedValue = fluctuation_of_energy(excess, work if work.value > 0 else -work)
     return share
 
 
@@ -142,7 +142,7 @@ def true_speed(
     excess, reach, balanced = work.curve, work.extremes, torque - work.mean_torque
     inertia_1, mean_inertia = inertia.derivative, inertia.mean
     if not mean_inertia > 0:
-        raise MethodError(Refusal("masses_missing"))
+        raise MethodError(ErrorMessage("masses_missing"))
     floor = -reach.least
     slope_0 = balanced * inertia - excess * inertia_1 if np.any(inertia_1.coefficients) else None
 
@@ -172,7 +172,7 @@ def true_speed(
             break
         energy, extremes = following, extremes_at(following)
     if abs(miss) > 1e-12 * mean_speed:
-        raise MethodError(Refusal("machine_stops", speed=mean_speed, angle=float(np.degrees(extremes.at_least))))
+        raise MethodError(ErrorMessage("machine_stops", speed=mean_speed, angle=float(np.degrees(extremes.at_least))))
     fluctuation = (extremes.largest - extremes.least) / mean_speed
     energy, extremes = of_time or (energy, extremes)
     return TrueSpeed(inertia, inertia_1, excess, balanced, energy, extremes, fluctuation)

@@ -7,12 +7,12 @@ from typing import Literal, NamedTuple
 
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.shaft.curve import Curve, extremes_of
 from crankwork.shaft.fluctuation import ExcessWork, excess_work
 
 FlywheelMethod = Literal["energy", "mertsalov", "wittenbauer", "exact"]
-WAYS: tuple[FlywheelMethod, ...] = ("energy", "mertsalov", "wittenbauer", "exact")
+FLYWHEEL_METHODS: tuple[FlywheelMethod, ...] = ("energy", "mertsalov", "wittenbauer", "exact")
 
 
 @formula("flywheel_inertia", "artobolevsky_1988, ch. 16")
@@ -104,7 +104,7 @@ def check_fluctuation(fluctuation: float, mean_speed: float) -> None:
     `fluctuation` and `mean_speed`: greatest less least speed over the mean; the mean [rad/s].
     """
     if not 0 < fluctuation < 2 or mean_speed <= 0:
-        raise MethodError(Refusal("fluctuation_wild", fluctuation=fluctuation, speed=mean_speed))
+        raise MethodError(ErrorMessage("fluctuation_wild", fluctuation=fluctuation, speed=mean_speed))
 
 
 def _slopes(method: FlywheelMethod, w: float, delta: float) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value, formula
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.shaft.flywheel import inertia_on_other_shaft
 
 
@@ -64,7 +64,7 @@ class AsynchronousMotor:
         w_0 = float(synchronous_speed(frequency, pole_pairs, math.pi))
         if not 0 < rated_speed < w_0 or overload <= 1:
             raise MethodError(
-                Refusal(
+                ErrorMessage(
                     "motor_speed",
                     pairs=pole_pairs,
                     idle=w_0 * 30 / math.pi,

@@ -72,7 +72,7 @@ class Harmonic(NamedTuple):
     cosine: float
 
 
-class Stroke(NamedTuple):
+class WorkStroke(NamedTuple):
     """Work in a stretch of the period; over no angle it is done at once."""
 
     work: float  # [J]
@@ -111,7 +111,7 @@ class TorqueDiagram:
     constant: float = 0.0  # [N m]
     points: tuple[tuple[float, float], ...] = ()  # Corners: angles that do not descend, torques [rad], [N m]
     harmonics: tuple[Harmonic, ...] = ()
-    strokes: tuple[Stroke, ...] = ()
+    strokes: tuple[WorkStroke, ...] = ()
     delays: tuple[float, ...] = (0.0,)  # By which the same torque comes again, for each cylinder [rad]
     loops: tuple[float, ...] = ()  # Work of each loop about the mean [J]
     excess: float | None = None  # Fluctuation of the energy [J]
@@ -172,7 +172,7 @@ class TorqueDiagram:
         return np.asarray(periods * work[-1] + work[line] + area(line, rest) - area(line, starts[line]))
 
 
-class Turning(NamedTuple):
+class ShaftTorques(NamedTuple):
     """Driving and load torque of a shaft; one that is not given is constant."""
 
     torque: TorqueDiagram | None

@@ -12,14 +12,14 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.shaft.fitted import Fitted
 from crankwork.shaft.fluctuation import acceleration_of_crank
 from crankwork.shaft.gauss_step import POINTS, Step, gauss_step
 from crankwork.shaft.motor import Motor
-from crankwork.shaft.slipping import Slipping, State
+from crankwork.shaft.piecewise_fit import PiecewiseFit
+from crankwork.shaft.transient_friction import FrictionState, TransientFriction
 
 Direction = Literal[1, -1]
-EventWord = Literal[
+EventKind = Literal[
     "turns_back", "comes_to_rest", "stop", "reaches_speed", "dead_position", "change_point", "end_of_way",
     "steady", "interrupted", "many_steps", "lost",
 ]  # fmt: skip
@@ -47,18 +47,18 @@ class Event(NamedTuple):
     """Something that happens: when, what, where and how fast. [s], [unit of the coordinate]"""
 
     time: float
-    word: EventWord
+    word: EventKind
     coordinate: float
     rate: float
 
 
 @dataclass(frozen=True)
-class FreeMachine:
+class TransientSystem:
     """A machine as its coordinate feels it."""
 
     # Over the coordinate: inertia, potential energy, what loads without one push while it grows and while it falls,
     # damping, the derivative of the crank angle by it, and last the derivatives of inertia and potential energy
-    reduced: Fitted
+    reduced: PiecewiseFit
     # Coordinates at which a law of the loads changes, ascending, first and last those of the period or range
     breaks: tuple[float, ...]
     torque: float = 0.0  # Constant torque on the crank [N m]
@@ -68,7 +68,7 @@ class FreeMachine:
     # Coordinates at which it is stopped, and what part of its speed it then gets back [-]
     stops: tuple[float, float] = (-math.inf, math.inf)
     restitution: float = 0.0
-    slipping: Slipping | None = None  # Joints with friction, whose rows follow
+    slipping: TransientFriction | None = None  # Joints with friction, whose rows follow
     _known: dict[tuple[float, float], Array] = field(default_factory=dict, repr=False, compare=False)
 
     @property
@@ -101,7 +101,7 @@ class FreeMachine:
         J, _, grows, falls, damping, rate, J_1, V_1 = rows[:OWN]
         torque = (grows if direction > 0 else falls) - V_1 - damping * v + self.drive(rate * v) * rate
         if self.slipping is not None:
-            free = State(v, acceleration_of_crank(torque, v, J, J_1), J)
+            free = FrictionState(v, acceleration_of_crank(torque, v, J, J_1), J)
             frictions = self.slipping.frictions(rows, direction, self._senses(low, high), free)
             torque = torque + np.sum(self.slipping.rates(rows) * frictions, axis=0)
         return np.asarray(acceleration_of_crank(torque, v, J, J_1))
@@ -166,10 +166,10 @@ class _Stretch(NamedTuple):
     high: float
 
 
-class Run:
+class Integrator:
     """One motion, from a coordinate and a rate."""
 
-    def __init__(self, machine: FreeMachine, coordinate: float, rate: float) -> None:
+    def __init__(self, machine: TransientSystem, coordinate: float, rate: float) -> None:
         self.machine, self.trajectory = machine, Trajectory()
         self.time, self.q, self.v, self.base = 0.0, coordinate, rate, 0.0
         self.direction: Direction = 1 if rate >= 0 else -1
@@ -188,7 +188,7 @@ class Run:
         self.stretch = self._stretch_at()
 
     def until(
-        self, end: float, *, watched: Sequence[float] = (), each: Callable[[Run], bool] | None = None
+        self, end: float, *, watched: Sequence[float] = (), each: Callable[[Integrator], bool] | None = None
     ) -> Trajectory:
         """Go on to a time, or until `each`, asked after every step, says that it is enough. [s]
 
@@ -345,7 +345,7 @@ class Run:
             self.record_event("comes_to_rest")
             self.is_over = True
 
-    def _set_off(self, word: EventWord | None = None) -> None:
+    def _set_off(self, word: EventKind | None = None) -> None:
         """Set off from rest in the direction of the forces, if any; `word` is the kind of the event."""
         directions: list[Direction] = [1, -1]
         for direction in directions:
@@ -384,7 +384,7 @@ class Run:
                 _, v, _ = step.at(np.array(time))
                 self.trajectory.events.append(Event(time, "change_point", place + self.base, float(v)))
 
-    def record_event(self, word: EventWord) -> None:
+    def record_event(self, word: EventKind) -> None:
         """Note that something happens now."""
         self.trajectory.events.append(Event(self.time, word, self.q + self.base, self.v))
 

@@ -13,8 +13,8 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale.numbers import number
 from crankwork.quantities import Language
 from crankwork.show import scene
-from crankwork.show.paper import BLACK, GREY, LIGHT, WIDER, Canvas, fitted_lines, marked, text_width
-from crankwork.show.place import current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.canvas import BLACK, GREY, LIGHT, WIDER, Canvas, fitted_lines, marked, text_width
+from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.scene import DASH_DOT, SOLID, Anchor, Style
 
 BOTTOM, TOP = 45.0, 10.0
@@ -111,7 +111,7 @@ class Graph:
         # width of the numbers of the vertical axis [pt]
         self._numbers = 0.0
         titles = self._titles if to_scale or not current_layout().is_sheet else {}
-        paper.plot(scene.Plot(scene.Box(*box), x, y, over, self._angles, self.curves, titles, self._frame))
+        paper.plot(scene.Plot(scene.ChartBox(*box), x, y, over, self._angles, self.curves, titles, self._frame))
 
     @property
     def powers(self) -> tuple[int, int]:

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale.numbers import number
+from crankwork.show.canvas import WIDER, text_width
 from crankwork.show.chart import Graph
-from crankwork.show.paper import WIDER, text_width
 
 # size of numbers, distance between numbers, and from the edges of the graph [pt]
 _SIZE, _SPACING, _EDGE = 7.5, 30.0, 9.0

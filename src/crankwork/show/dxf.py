@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.errors import MissingExtraError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.show.scene import (
     PENS,
     Arc,
@@ -55,7 +55,7 @@ def dxf(drawing: Drawing, _: Theme = "print") -> bytes:
     try:
         import ezdxf  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError(Refusal("extra_writing", names="DXF"), "report") from None
+        raise MissingExtraError(ErrorMessage("extra_writing", names="DXF"), "report") from None
     # ezdxf does not declare all that it exports
     library: Any = ezdxf
     was_fixed = library.options.write_fixed_meta_data_for_testing

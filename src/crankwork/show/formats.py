@@ -10,10 +10,10 @@ from itertools import pairwise
 from typing import Any
 
 from crankwork.errors import CrankworkError, MissingExtraError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
+from crankwork.show.animated_svg import moving_svg
+from crankwork.show.animation import Animation
 from crankwork.show.dxf import dxf
-from crankwork.show.moving import Animation
-from crankwork.show.moving_svg import moving_svg
 from crankwork.show.pdf import pdf, png, pngs
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
@@ -34,7 +34,7 @@ def gif(film: Animation, theme: Theme = "colour", progress: Progress = lambda _:
         from PIL import Image  # noqa: PLC0415 - an optional part
         from PIL.PngImagePlugin import PngImageFile  # noqa: PLC0415
     except ImportError:
-        raise MissingExtraError(Refusal("extra_writing", names="GIF"), "report") from None
+        raise MissingExtraError(ErrorMessage("extra_writing", names="GIF"), "report") from None
     frames = [PngImageFile(io.BytesIO(picture)).convert("RGB") for picture in _pictures(film, theme, progress)]
     # colours of all frames: gas and flashes are not visible on each
     wide, tall = frames[0].size
@@ -58,7 +58,7 @@ def mp4(film: Animation, theme: Theme = "colour", progress: Progress = lambda _:
     """Return one cycle of an animation as MP4."""
     program = shutil.which("ffmpeg")
     if program is None:
-        raise CrankworkError(Refusal("ffmpeg_missing"))
+        raise CrankworkError(ErrorMessage("ffmpeg_missing"))
     rate, even = f"{film.frames / film.seconds:.6g}", "pad=ceil(iw/2)*2:ceil(ih/2)*2"
     read = ["-f", "image2pipe", "-c:v", "png", "-framerate", rate, "-i", "-"]
     # output to a pipe cannot be rewound to write the header
@@ -73,7 +73,7 @@ def mp4(film: Animation, theme: Theme = "colour", progress: Progress = lambda _:
     )
     if ran.returncode or not ran.stdout:
         messages = ran.stderr.decode("utf-8", "replace").strip().splitlines()
-        raise CrankworkError(Refusal("ffmpeg_failed", reason=(messages or [str(ran.returncode)])[-1][:200]))
+        raise CrankworkError(ErrorMessage("ffmpeg_failed", reason=(messages or [str(ran.returncode)])[-1][:200]))
     return ran.stdout
 
 

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.show.alt import alt_text
+from crankwork.show.alt_text import alt_text
+from crankwork.show.animated_svg import film_body
+from crankwork.show.animation import Animation
+from crankwork.show.canvas import marked
 from crankwork.show.chart import true_slices
-from crankwork.show.moving import Animation
-from crankwork.show.moving_svg import film_body
-from crankwork.show.paper import marked
 from crankwork.show.scene import CAP_HEIGHT, Drawing, Item, LineKind, Pen, Plot, Polyline, Run, Text, pen_of, runs
 from crankwork.show.svg import SvgWriter
 from crankwork.show.theme import KINDS, Theme, curve_kind, fill_colours, palette_of

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from crankwork.errors import MissingExtraError
-from crankwork.locale import Refusal
-from crankwork.show.alt import alt_text
+from crankwork.locale import ErrorMessage
+from crankwork.show.alt_text import alt_text
 from crankwork.show.scene import Drawing
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
@@ -47,7 +47,7 @@ def _placed(
     try:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
-        raise MissingExtraError(Refusal("extra_writing", names=name), "report") from None
+        raise MissingExtraError(ErrorMessage("extra_writing", names=name), "report") from None
     first = drawings[0]
     inputs = {
         "title": first.title,

@@ -70,7 +70,7 @@ def shade_of(pen: Pen) -> float:
     return int(pen.colour[1:3], 16) / 255 if pen.colour else pen.grey
 
 
-class Box(NamedTuple):
+class ChartBox(NamedTuple):
     """A rectangle. [mm]"""
 
     left: float
@@ -88,9 +88,9 @@ class Box(NamedTuple):
         """Its upper side. [mm]"""
         return self.bottom + self.height
 
-    def inset(self, left: float, bottom: float, right: float, top: float) -> Box:
+    def inset(self, left: float, bottom: float, right: float, top: float) -> ChartBox:
         """Return the box within margins."""
-        return Box(self.left + left, self.bottom + bottom, self.width - left - right, self.height - bottom - top)
+        return ChartBox(self.left + left, self.bottom + bottom, self.width - left - right, self.height - bottom - top)
 
 
 class Polyline(NamedTuple):
@@ -161,7 +161,7 @@ class Plot(NamedTuple):
     `powers` of ten, and the range of its `items`; `metre`: its length if joints of a linkage are drawn to scale. [mm]
     """
 
-    box: Box
+    box: ChartBox
     x: tuple[float, float]
     y: tuple[float, float]
     over: str
@@ -188,7 +188,7 @@ def line(start: ArrayLike, end: ArrayLike, kind: LineKind = "thin") -> Polyline:
     return Polyline(np.array([start, end], dtype=float), kind)
 
 
-def rectangle(box: Box, kind: LineKind = "thin", fill: float | None = None) -> Polyline:
+def rectangle(box: ChartBox, kind: LineKind = "thin", fill: float | None = None) -> Polyline:
     """Return the sides of a rectangle."""
     corners = [(box.left, box.bottom), (box.right, box.bottom), (box.right, box.top), (box.left, box.top)]
     return Polyline(np.array(corners), kind, closed=True, fill=fill)
@@ -298,7 +298,7 @@ def moved(item: Item, right: float, up: float, larger: float = 1.0) -> Item:
     return item._replace(points=larger * item.points + shift, kind=_broader(item.kind, larger))
 
 
-def placed(item: Item, shift: ArrayLike, turn: float = 0.0, stretch: float = 1.0) -> Item:
+def use_layout(item: Item, shift: ArrayLike, turn: float = 0.0, stretch: float = 1.0) -> Item:
     """Return an item stretched along x, rotated anticlockwise about the origin, shifted; circles stay round. [deg]"""
     cos, sin = np.cos(np.radians(turn)), np.sin(np.radians(turn))
     matrix = np.array([[stretch * cos, stretch * sin], [-sin, cos]])
@@ -318,7 +318,7 @@ def placed(item: Item, shift: ArrayLike, turn: float = 0.0, stretch: float = 1.0
 def moved_plot(plot: Plot, right: float, up: float, larger: float = 1.0) -> Plot:
     """Return a graph enlarged about the origin, then shifted. [mm]"""
     left, bottom, width, height = (larger * length for length in plot.box)
-    return plot._replace(box=Box(left + right, bottom + up, width, height))
+    return plot._replace(box=ChartBox(left + right, bottom + up, width, height))
 
 
 def _broader(kind: LineKind | Pen, larger: float) -> LineKind | Pen:
@@ -329,7 +329,7 @@ def _broader(kind: LineKind | Pen, larger: float) -> LineKind | Pen:
     return kind._replace(width=width, dashes=tuple(larger * dash for dash in kind.dashes))
 
 
-def extent(item: Item) -> Box:
+def extent(item: Item) -> ChartBox:
     """Return the bounding box of an item, of letters an estimate. [mm]"""
     match item:
         case Text():
@@ -347,7 +347,7 @@ def extent(item: Item) -> Box:
         case _:
             points = item.points
     low, high = points.min(axis=0), points.max(axis=0)
-    return Box(float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
+    return ChartBox(float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
 
 
 # invisible deviation of a line [mm]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.show.alt import alt_text
+from crankwork.show.alt_text import alt_text
 from crankwork.show.scene import (
     CAP_HEIGHT,
     INDEX,

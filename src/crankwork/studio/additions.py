@@ -12,12 +12,12 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.description.document import Description
 from crankwork.description.expand import linkage_of
-from crankwork.description.kinds import MeasuredValue, Quantity, Reader
 from crankwork.description.load_keys import LOADING
 from crankwork.description.machine_file import file_keys, parse, template, template_names
 from crankwork.description.schema import TableSpec
-from crankwork.description.written import with_table_entry
-from crankwork.locale import Language, say
+from crankwork.description.toml_edit import with_table_entry
+from crankwork.description.value_types import MeasuredValue, Quantity, Reader
+from crankwork.locale import Language, translate
 from crankwork.studio.form import first_value
 from crankwork.units import from_si
 
@@ -47,8 +47,8 @@ class Addition(NamedTuple):
     def label(self, language: Language) -> str:
         """Return the label: of a table of the file its meaning, otherwise a text of its own."""
         if self.name in _TABLES:
-            return say(f"fields.file.{self.name}", language)
-        return say(f"studio.add_{self.name}", language, of=self.target)
+            return translate(f"fields.file.{self.name}", language)
+        return translate(f"studio.add_{self.name}", language, of=self.target)
 
 
 def additions(description: Description, results: Results | None) -> list[Addition]:
@@ -275,9 +275,9 @@ def _torque(results: Results | None) -> float | None:
 
 def _mean_torque(results: Results | None) -> float:
     """Return the mean torque that an engine gives, negative where it is driven; 0 for other machines. [N·m]"""
-    if results is None or results.machine.lengths is None or "mean_torque" not in results.memory:
+    if results is None or results.machine.lengths is None or "mean_torque" not in results.trace:
         return 0.0
-    mean = results.memory["mean_torque"]
+    mean = results.trace["mean_torque"]
     return -mean.value if mean.key == "mean_driving_torque" else mean.value
 
 

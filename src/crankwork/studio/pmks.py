@@ -15,9 +15,9 @@ from itertools import takewhile
 from typing import Any, NamedTuple
 from urllib.parse import unquote
 
-from crankwork.description.written import with_table_entry
+from crankwork.description.toml_edit import with_table_entry
 from crankwork.errors import CrankworkError
-from crankwork.locale import Language, Refusal, say
+from crankwork.locale import ErrorMessage, Language, translate
 from crankwork.studio.sketch import Pin, along_across, linkage, with_branch_positions
 
 _DIGITS = string.digits + string.ascii_uppercase + string.ascii_lowercase + "_-"
@@ -74,7 +74,7 @@ def from_pmks(text: str, language: Language) -> str:
     try:
         return _machine((match or [""])[1], language)
     except (ValueError, IndexError, KeyError, RuntimeError):
-        raise CrankworkError(Refusal("pmks_damaged")) from None
+        raise CrankworkError(ErrorMessage("pmks_damaged")) from None
 
 
 def _machine(word: str, language: Language) -> str:
@@ -93,11 +93,11 @@ def _machine(word: str, language: Language) -> str:
     parts = {key: body.joints for key, body in links.items() if not body.is_piston and not ground >= {*body.joints}}
     drivers = [key for key, joint in joints.items() if joint.flags & _DRIVES]
     if len(drivers) > 1:
-        raise CrankworkError(Refusal("pmks_inputs", names=", ".join(joints[key].name or key for key in drivers)))
+        raise CrankworkError(ErrorMessage("pmks_inputs", names=", ".join(joints[key].name or key for key in drivers)))
     driver = next(iter(drivers), "")
     driving = next((key for key, ends in parts.items() if driver in ends), "")
     if driver not in pins or not pins[driver].ground or not driving:
-        raise CrankworkError(Refusal("pmks_no_input"))
+        raise CrankworkError(ErrorMessage("pmks_no_input"))
     order = {key: sorted(ends, key=partial(_rank, driver, parts, pins)) for key, ends in parts.items()}
     named = {key: [pins[end].name for end in ends] for key, ends in order.items()}
     values = linkage(
@@ -117,8 +117,8 @@ def _machine(word: str, language: Language) -> str:
         link = merged.get(force.link, force.link)
         tables[link].setdefault("points", {})[force.name] = _place(frames[link], force.start, unit)
     turning = ", ".join(force.name for force in forces if force.is_local)
-    head = f"# {say('studio.pmks_turning', language, names=turning)}\n" if turning else ""
-    text = with_branch_positions({"title": say("studio.pmks", language)} | values)
+    head = f"# {translate('studio.pmks_turning', language, names=turning)}\n" if turning else ""
+    text = with_branch_positions({"title": translate("studio.pmks", language)} | values)
     for force in forces:
         text = with_table_entry(text, "loads", _load(force, force_unit))
     return head + text
@@ -175,7 +175,7 @@ def _pin(key: str, joints: Mapping[str, _Joint], links: Iterable[_Link]) -> Pin:
     held = [link.joints for link in links if key in link.joints]
     guides = [joints[other] for ends in held for other in ends if joints[other].flags & _SLIDES]
     if len(guides) > 1 or (joint.flags & _WELDED and len(held) > 1):
-        raise CrankworkError(Refusal("pmks_joint", name=joint.name or key))
+        raise CrankworkError(ErrorMessage("pmks_joint", name=joint.name or key))
     x, y = joint.position
     name = joint.name if joint.name.isalnum() else key
     return Pin(name, x, -y, bool(joint.flags & _GROUND), _degrees(guides[0].angle) if guides else None)

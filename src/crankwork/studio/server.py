@@ -31,10 +31,10 @@ from crankwork import files
 from crankwork.browser import script, style
 from crankwork.description.machine_file import template, template_names, template_title
 from crankwork.errors import CrankworkError
-from crankwork.locale import LANGUAGES, Language, Refusal, say, texts, told
-from crankwork.note.live import bar, look
+from crankwork.locale import LANGUAGES, ErrorMessage, Language, in_language, texts, translate
+from crankwork.note.interactive import bar, look
 from crankwork.show.formats import FORMATS
-from crankwork.studio.answers import Session, StoppedError
+from crankwork.studio.session import Session, StoppedError
 
 _NAME = "recent.json"
 _MAX_ENTRIES = 8
@@ -126,16 +126,16 @@ def shell(language: Language) -> str:
         f'<p id="notice" role="alert" hidden></p><script type="application/json" id="words">{stored}</script>',
         "<main>",
         *_left(language),
-        f'<section id="machine" aria-label="{html.escape(say("page.machine", language))}">',
+        f'<section id="machine" aria-label="{html.escape(translate("page.machine", language))}">',
         '<div id="film"></div><output id="chip" hidden></output>',
         '<p id="turn" hidden></p>',
         f'<p class="hint">{_text("hint", language)}</p></section>',
-        f'<section id="diagrams" aria-label="{html.escape(say("page.diagrams", language))}">',
+        f'<section id="diagrams" aria-label="{html.escape(translate("page.diagrams", language))}">',
         f'<select id="add" aria-label="{_text("add", language)}"></select><div class="figures"></div>',
         f'<details id="trial"><summary>{_text("vary", language)}</summary></details></section>',
         f'<section id="results" aria-label="{_text("results", language)}"></section>',
-        f'<aside id="explanation" tabindex="-1" hidden aria-label="{html.escape(say("page.explanation", language))}">',
-        f'<button aria-label="{html.escape(say("page.close", language))}">×</button><div class="body"></div></aside>',
+        f'<aside id="explanation" tabindex="-1" hidden aria-label="{html.escape(translate("page.explanation", language))}">',
+        f'<button aria-label="{html.escape(translate("page.close", language))}">×</button><div class="body"></div></aside>',
         "</main>",
         f'<dialog id="commands" aria-label="{_text("commands", language)}"><input role="combobox" aria-expanded="true"',
         f' aria-controls="found" aria-autocomplete="list" aria-label="{_text("commands", language)}">',
@@ -146,7 +146,7 @@ def shell(language: Language) -> str:
 
 
 def _text(key: str, language: Language) -> str:
-    return html.escape(say(f"studio.{key}", language))
+    return html.escape(translate(f"studio.{key}", language))
 
 
 def _header(language: Language) -> list[str]:
@@ -238,10 +238,10 @@ class ServerState:
         """Return a recent machine, with its file if it has one."""
         machine = next((entry for entry in recent() if entry.name == name), None)
         if machine is None:
-            raise CrankworkError(Refusal("recent_none", name=name[:200]))
+            raise CrankworkError(ErrorMessage("recent_none", name=name[:200]))
         text, path = machine.text, ""
         if text is None:
-            text, path = files.read_text(name, advice=Refusal("check_recent")), name
+            text, path = files.read_text(name, advice=ErrorMessage("check_recent")), name
             self.paths.add(path)
         return {"text": text, "path": path, "recent": named(recent(machine))}
 
@@ -369,7 +369,7 @@ async def _export(state: ServerState, request: Request) -> Response:
     try:
         data = await run_in_threadpool(session.export, wanted["text"], wanted["name"])
     except CrankworkError as error:
-        return PlainTextResponse(told(error.args[0], language), HTTPStatus.UNPROCESSABLE_ENTITY)
+        return PlainTextResponse(in_language(error.args[0], language), HTTPStatus.UNPROCESSABLE_ENTITY)
     return _sealed(data, "application/octet-stream", **{"Content-Disposition": "attachment"})
 
 
@@ -417,7 +417,9 @@ async def _lines(session: Session, request: dict[str, Any]) -> AsyncIterator[str
             pass
         except Exception:  # noqa: BLE001 - any failure of a calculation is reported, and the page goes on
             _log.exception("a trial failed")
-            send({"found": {"refusals": [{"text": say("studio.failed", session.language), "key": "", "line": 0}]}})
+            send(
+                {"found": {"refusals": [{"text": translate("studio.failed", session.language), "key": "", "line": 0}]}}
+            )
 
     working = asyncio.create_task(run_in_threadpool(work))
     try:
@@ -507,10 +509,10 @@ def _answer(state: ServerState, session: Session, request: dict[str, Any]) -> di
     except CrankworkError as error:
         # a deleted file is removed from the recent ones
         offered = {"recent": named(recent())} if request["do"] == "recent" else {}
-        return {"refusals": [{"text": told(error.args[0], session.language), "key": "", "line": 0}], **offered}
+        return {"refusals": [{"text": in_language(error.args[0], session.language), "key": "", "line": 0}], **offered}
     except Exception:  # noqa: BLE001 - any failure of a calculation is reported, and the page goes on
         _log.exception("an answer failed")
-        return {"refusals": [{"text": say("studio.failed", session.language), "key": "", "line": 0}]}
+        return {"refusals": [{"text": translate("studio.failed", session.language), "key": "", "line": 0}]}
 
 
 def serve(opening: StartupOptions, language: Language, port: int, *, opens: bool, says: Callable[[str], None]) -> None:
@@ -524,7 +526,7 @@ def serve(opening: StartupOptions, language: Language, port: int, *, opens: bool
             listening.listen(64)
         except OSError as error:
             raise CrankworkError(
-                Refusal("port_taken", port=str(port), reason=(error.strerror or "unknown reason").lower())
+                ErrorMessage("port_taken", port=str(port), reason=(error.strerror or "unknown reason").lower())
             ) from None
         state.port = listening.getsockname()[1]
         address = f"http://{HOST}:{state.port}/?token={state.token}"

@@ -10,18 +10,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from crankwork.description.document import Description
-from crankwork.description.kinds import Reader
 from crankwork.description.load_keys import LOADING
-from crankwork.description.written import document
+from crankwork.description.toml_edit import document
+from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError, InputError
-from crankwork.locale import Language, Refusal, say, told
+from crankwork.locale import ErrorMessage, Language, in_language, translate
 from crankwork.machine import Machine
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Guide
 from crankwork.mechanism.linkage import Linkage, Member
 from crankwork.mechanism.mechanism import Crank
 from crankwork.mechanism.structure import chain_mobility, structure
 from crankwork.studio.form import stated_text
-from crankwork.study.sought import kind_of
+from crankwork.study.numeric_field import kind_of
 from crankwork.units import from_si, parse
 
 _SPEED = "60 rpm"
@@ -54,11 +54,11 @@ def sketched(request: Mapping[str, Any], language: Language) -> str:
     pins, links = _read(request)
     first = _driving(pins, links)
     if first is None:
-        raise CrankworkError(Refusal("sketch_no_crank"))
+        raise CrankworkError(ErrorMessage("sketch_no_crank"))
     driving = sorted(links[first], key=lambda name: not pins[name].ground)
     driven = {name: joins for name, joins in links.items() if name != first}
     values = linkage(pins, driving, driven, _millimetres, _SPEED)
-    return with_branch_positions({"title": say("studio.own", language)} | values)
+    return with_branch_positions({"title": translate("studio.own", language)} | values)
 
 
 def _driving(pins: Mapping[str, Pin], links: Mapping[str, Sequence[str]]) -> str | None:
@@ -82,14 +82,14 @@ def missing(request: Mapping[str, Any], language: Language) -> str:
     free_pins = [name for joins in links.values() for name in joins[:2] if held.count(name) == 1 and name not in fixed]
     first = _driving(pins, links)
     if first is None:
-        advice = say("studio.driver_missing", language)
+        advice = translate("studio.driver_missing", language)
     elif freedom > 1 and free_pins:
-        advice = say(f"studio.loose_{'ground' if freedom > 2 else 'slide'}", language, pin=free_pins[-1])
+        advice = translate(f"studio.loose_{'ground' if freedom > 2 else 'slide'}", language, pin=free_pins[-1])
     elif freedom != 1:
-        advice = say(f"studio.too_{'free' if freedom > 1 else 'stiff'}", language)
+        advice = translate(f"studio.too_{'free' if freedom > 1 else 'stiff'}", language)
     else:
         group, problems = structure(_drawn(first, links, fixed, slid))
-        advice = group.formula if group else told(problems[0].message, language)
+        advice = group.formula if group else in_language(problems[0].message, language)
     return f"W = {freedom} · {advice}"
 
 
@@ -153,7 +153,7 @@ def swapped(stated: Description, name: str, machine: Machine) -> str:
     known = dyads(machine) if machine.linkage else []
     now = next((dyad["branch"] for dyad in known if dyad["name"] == name), None)
     if now is None:
-        raise CrankworkError(Refusal("branch_absent", name=name[:60], known=", ".join(stated.get("branch", {}))))
+        raise CrankworkError(ErrorMessage("branch_absent", name=name[:60], known=", ".join(stated.get("branch", {}))))
     stated[f"branch.{name}"] = -now
     for key in _idle(stated, "position_unused", "position_idle"):
         del stated[key]
@@ -165,7 +165,7 @@ def swapped(stated: Description, name: str, machine: Machine) -> str:
 def measured(typed: Sequence[str], language: Language) -> dict[str, Any]:
     """Return a typed length [mm] and direction [deg], parsed as fields of the file."""
     if len(typed) != len(_TYPED) or not all(isinstance(text, str) for text in typed):
-        raise CrankworkError(Refusal("sketch_damaged"))
+        raise CrankworkError(ErrorMessage("sketch_damaged"))
     stated, values = Description(_LINK), dict[str, Any]()
     for (key, name, unit), text in zip(_TYPED, typed, strict=True):
         if not text:
@@ -173,7 +173,7 @@ def measured(typed: Sequence[str], language: Language) -> dict[str, Any]:
         reader, path = Reader(), f"crank.{key}"
         measure = kind_of(stated.values, path).read(stated_text(stated, path, text, language), path, reader)
         if measure is None:
-            return {"refusal": told(reader.problems[0].message, language)}
+            return {"refusal": in_language(reader.problems[0].message, language)}
         values[name] = float(from_si(measure.value, unit))
     return values
 
@@ -263,12 +263,12 @@ def _read(request: Mapping[str, Any]) -> tuple[dict[str, Pin], dict[str, list[st
                 for pin in request["pins"]]  # fmt: skip
         links = {str(link["name"])[:8]: [str(name) for name in link["pins"]] for link in request["links"]}
     except (KeyError, TypeError, ValueError, AttributeError):
-        raise CrankworkError(Refusal("sketch_damaged")) from None
+        raise CrankworkError(ErrorMessage("sketch_damaged")) from None
     known = {pin.name: pin for pin in pins}
     is_valid = all(math.isfinite(pin.x) and math.isfinite(pin.y) and pin.name.isalnum() for pin in pins)
     is_joined = all(name.isalnum() and len(link) > 1 and known.keys() >= {*link} for name, link in links.items())
     if not is_valid or not is_joined or len(pins) > 200:
-        raise CrankworkError(Refusal("sketch_damaged"))
+        raise CrankworkError(ErrorMessage("sketch_damaged"))
     # the first pin on the ground is the origin
     origin = next((pin for pin in pins if pin.ground), pins[0] if pins else Pin("", 0.0, 0.0))
     return {name: pin._replace(x=pin.x - origin.x, y=pin.y - origin.y) for name, pin in known.items()}, links

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
-from crankwork.report.language import key_unit
-from crankwork.study.machines import MachineVariants
+from crankwork.locale import ErrorMessage
+from crankwork.report.display import key_unit
 from crankwork.study.ranking import Histogram, Index, Moments, Shares, best_designs, feasible, pareto_front, thin_front
 from crankwork.study.roots import reason_of
 from crankwork.study.study_file import GRID, LIST, Study
+from crankwork.study.variants import MachineVariants
 from crankwork.units import coherent_unit, use_units
 
 # designs of a chunk: with sampled angles, with exact extremes, and analysed one by one
@@ -106,7 +106,7 @@ class PreparedStudy:
 
 def outside(key: str) -> CrankworkError:
     """Return the error of a drawn value outside the range of its field."""
-    return CrankworkError(Refusal("vary_outside", key=key))
+    return CrankworkError(ErrorMessage("vary_outside", key=key))
 
 
 _cache: dict[str, PreparedStudy] = {}
@@ -189,7 +189,7 @@ def calculate_chunk(study: Study, chunk: int) -> StudyAggregate:
     for design in sorted(refused):
         _count(aggregate.refused, reason_of(refused[design]), 1)
     if absent > 0:
-        _count(aggregate.refused, Refusal("vary_unlooked"), absent)
+        _count(aggregate.refused, ErrorMessage("vary_unlooked"), absent)
     for key, row in zip(study.keys, values, strict=True):
         finite, near = row[np.isfinite(row)], study.stated[key]
         aggregate.moments[key] = Moments.of(finite, near)
@@ -249,7 +249,7 @@ def by_kind(reasons: Iterable[str]) -> Counter[str]:
 
 
 def _count(refused: dict[str, tuple[int, str]], reason: str, count: int) -> None:
-    kind = reason.name if isinstance(reason, Refusal) else "other"
+    kind = reason.name if isinstance(reason, ErrorMessage) else "other"
     before, first = refused.get(kind, (0, reason))
     refused[kind] = before + count, first
 
@@ -342,7 +342,7 @@ def _arrays(values: dict[str, Any]) -> dict[str, Any]:
 def _to_json(reason: object) -> Any:  # noqa: ANN401 - plain data
     """Return a message as JSON data from which it can be translated again."""
     match reason:
-        case Refusal():
+        case ErrorMessage():
             return {"name": reason.name, "values": {key: _to_json(value) for key, value in reason.values.items()}}
         case tuple() | list():
             return [isinstance(reason, tuple), [_to_json(entry) for entry in reason]]
@@ -355,7 +355,7 @@ def _to_json(reason: object) -> Any:  # noqa: ANN401 - plain data
 def _reason(data: Any) -> Any:  # noqa: ANN401 - plain data
     match data:
         case {"name": name, "values": values}:
-            return Refusal(name, **{key: _reason(value) for key, value in values.items()})
+            return ErrorMessage(name, **{key: _reason(value) for key, value in values.items()})
         case [bool(is_tuple), list(entries)]:
             return tuple(map(_reason, entries)) if is_tuple else [_reason(entry) for entry in entries]
         case _:

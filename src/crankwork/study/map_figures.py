@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Language, capital, say
+from crankwork.locale import Language, capital, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Quantity
-from crankwork.report.language import FILE_KEYS, displayed_column, key_unit, label
+from crankwork.report.display import FILE_KEYS, displayed_column, key_unit, label
+from crankwork.show.canvas import plain
 from crankwork.show.chart import CIRCLE, Graph, Row, limits, round_ticks, sheet
 from crankwork.show.contour import Field, contours
-from crankwork.show.paper import plain
 from crankwork.show.scene import Drawing
-from crankwork.study.found_text import axis_title
-from crankwork.study.mapped import Map
+from crankwork.study.parameter_map import Map
+from crankwork.study.study_text import axis_title
 from crankwork.units import coherent_unit, from_si, use_units
 
 _TALL, _WIDE_TALL = 250.0, 190.0
@@ -55,12 +55,12 @@ def _drawing(parameter_map: Map, key: str, language: Language) -> Drawing:
     values, over = _dependent(parameter_map, key)
     rows = [Row(_largest(parameter_map, key, over, values, language), CIRCLE)]
     rows += [
-        Row(say("study.same_at", language, field=_symbol(parameter_map, field, language)), width=0.0)
+        Row(translate("study.same_at", language, field=_symbol(parameter_map, field, language)), width=0.0)
         for field in parameter_map.fields
         if field not in over
     ]
     if np.isnan(values).any():
-        rows.append(Row(say("study.hatched", language), width=0.0))
+        rows.append(Row(translate("study.hatched", language), width=0.0))
     drawn = _surface if values.ndim == 2 else _curve
     return drawn(parameter_map, key, over, values, rows, language)
 
@@ -73,7 +73,7 @@ def _largest(parameter_map: Map, key: str, over: list[str], values: Array, langu
         text = _shown(float(_at(parameter_map, field)[index]), parameter_map.fields[field].unit, language)
         positions.append(f"{_symbol(parameter_map, field, language)} = {text}")
     value = _shown(float(values[place]), key_unit(key), language)
-    return say("study.largest", language, value=value, where=", ".join(positions))
+    return translate("study.largest", language, value=value, where=", ".join(positions))
 
 
 def _shown(value: float, unit: str, language: Language) -> str:
@@ -110,7 +110,7 @@ def _ends(values: Array) -> tuple[float, float]:
 
 
 def _title(key: str, language: Language) -> str:
-    return say("study.map_of", language, name=label(key, language))
+    return translate("study.map_of", language, name=label(key, language))
 
 
 def _surface(

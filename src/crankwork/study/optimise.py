@@ -13,9 +13,9 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
-from crankwork.report.language import key_unit
-from crankwork.study.box import DesignSpace
+from crankwork.locale import ErrorMessage
+from crankwork.report.display import key_unit
+from crankwork.study.design_space import DesignSpace
 from crankwork.study.search import REACHED, Candidate, Problem, SearchMethod, searched, written_limits
 from crankwork.study.study_file import Study
 from crankwork.study.sweep import Swept, units_of
@@ -152,7 +152,7 @@ def optimise(  # noqa: PLR0913 - problem and options of the search
     0.22
     """
     if way not in get_args(SearchMethod):
-        raise CrankworkError(Refusal("way_unknown", way=str(way)[:40], known=", ".join(get_args(SearchMethod))))
+        raise CrankworkError(ErrorMessage("way_unknown", way=str(way)[:40], known=", ".join(get_args(SearchMethod))))
     stated_limits = written_limits(limits)
     keys = list(dict.fromkeys([objective, *(limit.key for limit in stated_limits)]))
     designs: list[Array] = []
@@ -244,7 +244,7 @@ def _contradiction(problem: Problem, best: Candidate) -> CrankworkError:
     ]
     _, worst = max(missed, key=lambda item: item[0])
     return CrankworkError(
-        Refusal(
+        ErrorMessage(
             "limits_contradict", key=worst.key, value=_shown(worst.key, values[worst.key]),
             limit=f"{worst.key} {worst.sense} {_shown(worst.key, worst.level)}",
         )

@@ -13,14 +13,14 @@ import numpy as np
 from crankwork.description.document import Description
 from crankwork.description.machine_file import settings_of
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Language, capital, say
+from crankwork.locale import Language, capital, translate
 from crankwork.locale.numbers import aligned, number, unit_name
-from crankwork.report.language import displayed, displayed_column, displayed_size, key_unit, label, plain, rounded
+from crankwork.report.display import displayed, displayed_column, displayed_size, key_unit, label, plain, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
-from crankwork.study.found_text import value_text, with_unit
 from crankwork.study.optimise import ActiveConstraint, Optimum
 from crankwork.study.study_file import Study
-from crankwork.study.varied import VariedField
+from crankwork.study.study_text import value_text, with_unit
+from crankwork.study.varied_field import VariedField
 from crankwork.units import from_si, use_units
 
 _DIGITS = 8
@@ -96,20 +96,20 @@ def _lines(study: Study, optimum: Optimum, language: Language) -> Iterator[str]:
     name = label(optimum.objective, language)
     value = value_text(optimum.objective, optimum.value, language, _DIGITS)
     before = value_text(optimum.objective, study.stated[optimum.objective], language, _DIGITS)
-    yield say(f"study.best_{optimum.sense}", language, name=capital(name), value=value, stated=before)
-    yield from ("", say("study.best_design", language))
+    yield translate(f"study.best_{optimum.sense}", language, name=capital(name), value=value, stated=before)
+    yield from ("", translate("study.best_design", language))
     fields = zip(study.varied, optimum.fields.values(), strict=True)
     yield from aligned(
         [(field.key, _field(field, value, language), _stated(field, language)) for field, value in fields]
     )
     if len(optimum.values) > 1:
         values = [(label(key, language), value_text(key, x, language, _DIGITS)) for key, x in optimum.values.items()]
-        yield from ("", say("study.best_values", language), *aligned(values[1:]))
+        yield from ("", translate("study.best_values", language), *aligned(values[1:]))
     yield ""
-    yield say("study.held_by" if optimum.holding else "study.held_by_nothing", language, name=name)
+    yield translate("study.held_by" if optimum.holding else "study.held_by_nothing", language, name=name)
     yield from aligned([_held(study, optimum, constraint, language) for constraint in optimum.holding])
     if optimum.rest > _EXPLAINED:
-        yield say("study.unexplained", language, share=number(100 * optimum.rest, language, digits=2))
+        yield translate("study.unexplained", language, share=number(100 * optimum.rest, language, digits=2))
 
 
 def _field(field: VariedField, value: float, language: Language) -> str:

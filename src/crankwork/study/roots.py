@@ -12,7 +12,7 @@ from numpy.polynomial import Chebyshev
 
 from crankwork.errors import CrankworkError, InputError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 Kind = Literal["rising", "falling", "touching"]
 
@@ -51,7 +51,7 @@ class Sample(NamedTuple):
     @property
     def state(self) -> str:
         """Key that is equal for samples of one interval: empty with a value, the kind of reason without."""
-        return self.reason.name if isinstance(self.reason, Refusal) else self.reason
+        return self.reason.name if isinstance(self.reason, ErrorMessage) else self.reason
 
 
 class Root(NamedTuple):
@@ -152,7 +152,7 @@ class _Search:
             value = self._function(place)
         except CrankworkError as error:
             return Sample(place, math.nan, reason_of(error))
-        return Sample(place, value) if math.isfinite(value) else Sample(place, math.nan, Refusal("value_none"))
+        return Sample(place, value) if math.isfinite(value) else Sample(place, math.nan, ErrorMessage("value_none"))
 
     def _runs(self, samples: Sequence[Sample]) -> list[list[Sample]]:
         """Return the samples as runs of one state, bisected to the ends of each."""

@@ -16,10 +16,10 @@ import numpy as np
 
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.report.dataset import check_extras
-from crankwork.study.box import PARTS, DesignSpace, LocalModel
-from crankwork.study.wanted import level
+from crankwork.study.design_space import PARTS, DesignSpace, LocalModel
+from crankwork.study.target import level
 
 SearchMethod = Literal["slsqp", "trust-constr", "evolution"]
 # relative tolerances of a satisfied limit and of an active one
@@ -379,6 +379,6 @@ def written_limits(texts: Sequence[str]) -> list[WrittenLimit]:
     for text in texts:
         form = _FORM.fullmatch(text)
         if form is None or len(text) > 200:
-            raise CrankworkError(Refusal("limit_form", limit=text[:60], example=_EXAMPLE))
+            raise CrankworkError(ErrorMessage("limit_form", limit=text[:60], example=_EXAMPLE))
         limits.append(WrittenLimit(form["key"], form["sense"], form["level"]))  # type: ignore[arg-type]
     return limits

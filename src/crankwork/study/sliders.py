@@ -10,14 +10,14 @@ import numpy as np
 
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
-from crankwork.description.kinds import shown
 from crankwork.description.machine_file import Setting
+from crankwork.description.value_types import shown
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.page.sliders import Slider, SliderDesigns
-from crankwork.study.mapped import ends_of
-from crankwork.study.sought import NumericField, limit, numeric_field
+from crankwork.study.numeric_field import NumericField, limit, numeric_field
+from crankwork.study.parameter_map import ends_of
 
 _OPTION = "--slider"
 _OPTION_FORM = re.compile(r"\s*(?P<key>[^=\s]+)\s*(?:=\s*(?P<low>[^:]+?)\s*\.\.\s*(?P<high>[^:]+?)\s*)?")
@@ -45,15 +45,15 @@ def moved(
     that cannot be analysed.
     """
     if len(options) > _MAX_SLIDERS:
-        raise CrankworkError(Refusal("slider_many", most=str(_MAX_SLIDERS)))
+        raise CrankworkError(ErrorMessage("slider_many", most=str(_MAX_SLIDERS)))
     values = description.values_with(overrides)
     ranges = [_range(values, text, around) for text in options]
     keys = [number.key for number, *_ in ranges]
     if len(set(keys)) < len(keys):
-        raise CrankworkError(Refusal("slider_twice", key=next(key for key in keys if keys.count(key) > 1)))
+        raise CrankworkError(ErrorMessage("slider_twice", key=next(key for key in keys if keys.count(key) > 1)))
     if "crank_range" in stated.summary:
         # limit positions move with the design
-        raise CrankworkError(Refusal("slider_swings"))
+        raise CrankworkError(ErrorMessage("slider_swings"))
     machines = _Machines(description, overrides, [number for number, *_ in ranges], stated)
     now = machines.now
     sliders, rows, analysed = [], [now], [stated]
@@ -66,7 +66,7 @@ def moved(
             rows.append(np.where(np.arange(now.size) == index, reached, now))
             analysed.append(results)
         if not ends[0] < ends[1]:
-            raise CrankworkError(Refusal("slider_fixed", key=number.key)) from stop
+            raise CrankworkError(ErrorMessage("slider_fixed", key=number.key)) from stop
         sliders.append(Slider(number.key, float(now[index]), ends[0], ends[1], number.unit, stop))
     together = _JOINT_SHARE
     # the ends are enough for one slider
@@ -106,18 +106,18 @@ def _range(values: dict[str, object], text: str, around: float) -> tuple[Numeric
     """Return the number that an option names, and its range. [SI]"""
     match = _OPTION_FORM.fullmatch(text)
     if match is None:
-        raise CrankworkError(Refusal("slider_form", text=text[:60]))
+        raise CrankworkError(ErrorMessage("slider_form", text=text[:60]))
     key = match["key"]
     try:
         number = numeric_field(values, key)
     except CrankworkError as error:
         mistake = error.args[0]
         if mistake.name.startswith("sought"):
-            raise CrankworkError(Refusal("slider_no_number", key=key[:60])) from None
+            raise CrankworkError(ErrorMessage("slider_no_number", key=key[:60])) from None
         mistake = mistake.values["mistake"] if mistake.name == "option_key_wrong" else mistake
-        raise CrankworkError(Refusal("option_wrong", option=f"{_OPTION} {key[:60]}", mistake=mistake)) from None
+        raise CrankworkError(ErrorMessage("option_wrong", option=f"{_OPTION} {key[:60]}", mistake=mistake)) from None
     if number.now is None:
-        raise CrankworkError(Refusal("slider_unstated", key=key))
+        raise CrankworkError(ErrorMessage("slider_unstated", key=key))
     if match["low"] is None:
         reach = around * abs(number.now) or around * min(number.high, 1.0)
         return number, max(number.low, number.now - reach), min(number.high, number.now + reach)
@@ -126,9 +126,9 @@ def _range(values: dict[str, object], text: str, around: float) -> tuple[Numeric
     ends = [limit(number, bound, option) for bound in (low, high)]
     assert ends[0] is not None and ends[1] is not None  # noqa: S101, PT018 - both are stated
     if not ends[0] < ends[1]:
-        raise CrankworkError(Refusal("slider_empty", key=key, start=low, end=high))
+        raise CrankworkError(ErrorMessage("slider_empty", key=key, start=low, end=high))
     if not ends[0] <= number.now <= ends[1]:
-        raise CrankworkError(Refusal("slider_beside", key=key, now=shown(number.written(number.now))))
+        raise CrankworkError(ErrorMessage("slider_beside", key=key, now=shown(number.written(number.now))))
     return number, ends[0], ends[1]
 
 
@@ -153,7 +153,7 @@ class _Machines:
         ]
         results = analyse(self._description.machine([*self._overrides, *settings]))
         if "crank_range" in results.summary and "crank_range" not in self._stated.summary:
-            raise CrankworkError(Refusal("slider_no_turn"))
+            raise CrankworkError(ErrorMessage("slider_no_turn"))
         return results
 
     def reached(self, index: int, end: float) -> tuple[float, Results, CrankworkError | None]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from crankwork.locale import Language, capital, say, told
+from crankwork.locale import Language, capital, in_language, translate
 from crankwork.locale.numbers import number, unit_name
-from crankwork.report.language import displayed, key_unit, label, rounded
+from crankwork.report.display import displayed, key_unit, label, rounded
 from crankwork.study.roots import Interval
 from crankwork.study.solve import Solution
 from crankwork.units import from_si, use_units
@@ -23,26 +23,28 @@ def solution_text(solution: Solution, language: Language = "en") -> str:
 def _text(solution: Solution, language: Language) -> str:
     shown = _Shown(solution, language)
     result, lines = solution.found, [solution.title] if solution.title else []
-    lines += [shown.question(), shown.range(), say("study.missed", language)]
+    lines += [shown.question(), shown.range(), translate("study.missed", language)]
     key = solution.sought.key
     if result.roots:
-        rows = [(key, shown.number(root.at), shown.unit, say(f"study.{root.kind}", language)) for root in result.roots]
-        lines += ["", say("study.solutions", language), *_aligned(rows)]
+        rows = [
+            (key, shown.number(root.at), shown.unit, translate(f"study.{root.kind}", language)) for root in result.roots
+        ]
+        lines += ["", translate("study.solutions", language), *_aligned(rows)]
     if result.zero:
         rows = [(key, shown.stretch(interval), shown.unit, "") for interval in result.zero]
-        lines += ["", say("study.all_along", language), *_aligned(rows)]
+        lines += ["", translate("study.all_along", language), *_aligned(rows)]
     if not result.roots and not result.zero:
-        lines += ["", say("study.none", language), *shown.nearest()]
+        lines += ["", translate("study.none", language), *shown.nearest()]
     if result.jumps:
         rows = [
             (key, shown.number(jump.at), shown.unit,
-             say("study.jumps_over", language, before=shown.value(jump.before), after=shown.value(jump.after)))
+             translate("study.jumps_over", language, before=shown.value(jump.before), after=shown.value(jump.after)))
             for jump in result.jumps
         ]  # fmt: skip
-        lines += ["", say("study.jumps", language), *_aligned(rows)]
+        lines += ["", translate("study.jumps", language), *_aligned(rows)]
     if result.without:
-        rows = [(key, shown.stretch(gap), shown.unit, told(gap.reason, language)) for gap in result.without]
-        lines += ["", say("study.without", language), *_aligned(rows)]
+        rows = [(key, shown.stretch(gap), shown.unit, in_language(gap.reason, language)) for gap in result.without]
+        lines += ["", translate("study.without", language), *_aligned(rows)]
     return "\n".join(lines)
 
 
@@ -72,11 +74,11 @@ class _Shown:
         counted = {"field": self._solution.sought.key, "steps": len(values) - 1, **ends}
         if is_even:
             step = self.number(float(values[1] - values[0]), digits=4)
-            text = say("study.range_even", self._language, **counted, step=step)
+            text = translate("study.range_even", self._language, **counted, step=step)
         else:
             ratio = number(float(values[1] / values[0]), self._language, digits=4)
-            text = say("study.range_ratio", self._language, **counted, ratio=ratio)
-        return text if is_stated else f"{text}; {say('study.range_chosen', self._language)}"
+            text = translate("study.range_ratio", self._language, **counted, ratio=ratio)
+        return text if is_stated else f"{text}; {translate('study.range_chosen', self._language)}"
 
     def number(self, value: float, *, digits: int = _DIGITS) -> str:
         """Return a value of the unknown."""
@@ -99,7 +101,7 @@ class _Shown:
         if sample is None:
             return []
         place = f"{self._solution.sought.key} = {self.number(sample.at, digits=8)} {self.unit}".rstrip()
-        return [f"  {say('study.nearest', self._language, value=self.value(sample.value), at=place)}"]
+        return [f"  {translate('study.nearest', self._language, value=self.value(sample.value), at=place)}"]
 
 
 def _aligned(rows: list[tuple[str, str, str, str]]) -> list[str]:

@@ -9,11 +9,11 @@ from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError, UnknownKeyError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
+from crankwork.study.numeric_field import NumericField, SearchPoints, numeric_field, search_points
 from crankwork.study.roots import Interval, Jump, Root, RootSearchResult, Sample, find_roots
-from crankwork.study.sought import NumericField, SearchPoints, numeric_field, search_points
-from crankwork.study.wanted import Target, TargetText, is_rounding, parse_target, split_target, value_function
+from crankwork.study.target import Target, TargetText, is_rounding, parse_target, split_target, value_function
 from crankwork.units import System
 
 STEPS = 400
@@ -123,7 +123,7 @@ def solve(  # noqa: PLR0913 - equation, unknown and options of the search
     [0.072126]
     """
     if not _MIN_STEPS <= steps <= _MAX_STEPS:
-        raise CrankworkError(Refusal("steps_outside", fewest=str(_MIN_STEPS), most=str(_MAX_STEPS)))
+        raise CrankworkError(ErrorMessage("steps_outside", fewest=str(_MIN_STEPS), most=str(_MAX_STEPS)))
     parts = split_target(equation)
     number = numeric_field(description.values_with(overrides), sought)
     where = search_points(number, *limits, steps)
@@ -141,7 +141,7 @@ def solve(  # noqa: PLR0913 - equation, unknown and options of the search
         try:
             return value(machine_with(field_value)) - target.level
         except UnknownKeyError:
-            raise CrankworkError(Refusal("value_absent", key=target.key)) from None
+            raise CrankworkError(ErrorMessage("value_absent", key=target.key)) from None
 
     result = find_roots(above, where.values, abs(target.level), told)
     shown = results.machine
@@ -166,10 +166,10 @@ def _first_with_value(
         try:
             return parse_target(parts, results), machine, results
         except CrankworkError as error:
-            if not isinstance(error.args[0], Refusal) or error.args[0].name not in _LOCAL_ERRORS:
+            if not isinstance(error.args[0], ErrorMessage) or error.args[0].name not in _LOCAL_ERRORS:
                 raise
             first = first or error
-    raise first or CrankworkError(Refusal("value_none"))
+    raise first or CrankworkError(ErrorMessage("value_none"))
 
 
 def _is_zero(target: Target, machine_with: Callable[[float | None], Machine], where: SearchPoints) -> bool:

@@ -17,11 +17,11 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.study.chunks import by_kind
-from crankwork.study.machines import MachineVariants
+from crankwork.study.numeric_field import NumericField, numeric_field
 from crankwork.study.roots import reason_of
-from crankwork.study.sought import NumericField, numeric_field
+from crankwork.study.variants import MachineVariants
 
 SAMPLES = 2000
 _MIN_SAMPLES, _MAX_SAMPLES = 100, 1_000_000
@@ -154,9 +154,9 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
     0.2
     """
     if not _MIN_SAMPLES <= samples <= _MAX_SAMPLES:
-        raise CrankworkError(Refusal("samples_outside", fewest=str(_MIN_SAMPLES), most=str(_MAX_SAMPLES)))
+        raise CrankworkError(ErrorMessage("samples_outside", fewest=str(_MIN_SAMPLES), most=str(_MAX_SAMPLES)))
     if not 0 < within <= _MAX_WITHIN:
-        raise CrankworkError(Refusal("within_outside", most=f"{_MAX_WITHIN:g}"))
+        raise CrankworkError(ErrorMessage("within_outside", most=f"{_MAX_WITHIN:g}"))
     neighbours = _Neighbours(description, overrides, seed)
     stated = neighbours.stated
     known = {key: value for key, value in stated.summary.items() if np.isfinite(value) and (not keys or key in keys)}
@@ -164,7 +164,7 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
         if key not in stated.summary:
             # raises an error with the nearest keys
             stated.value(key)
-            raise CrankworkError(Refusal("spread_single", key=key[:60]))
+            raise CrankworkError(ErrorMessage("spread_single", key=key[:60]))
     neighbours.near = near = _Near(list(known), np.array(list(known.values())), math.radians(stated.machine.cycle))
     middle = near.middle
     first, second = neighbours.alone(told)
@@ -223,7 +223,7 @@ class _Neighbours:
         self._description, self._overrides = description, list(overrides)
         deviations = description.machine(overrides).deviations
         if not deviations:
-            raise CrankworkError(Refusal("no_deviation"))
+            raise CrankworkError(ErrorMessage("no_deviation"))
         values = description.values_with(overrides)
         self._numbers: dict[str, NumericField] = {key: numeric_field(values, key) for key in deviations}
         self.given = {key: (number.now or 0.0, deviations[key]) for key, number in self._numbers.items()}

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from crankwork.locale import Language, say, told
+from crankwork.locale import Language, in_language, translate
 from crankwork.locale.numbers import number, unit_name
-from crankwork.report.language import displayed, displayed_size, key_unit, label, rounded
+from crankwork.report.display import displayed, displayed_size, key_unit, label, rounded
 from crankwork.study.spread import Spreads
 from crankwork.units import use_units
 
@@ -24,7 +24,7 @@ def _text(spreads: Spreads, language: Language) -> str:
     title = spreads.results.machine.title
     lines = [title] if title else []
     within = number(spreads.within, language)
-    lines += [say("study.normal", language), say("study.worst", language, within=within), ""]
+    lines += [translate("study.normal", language), translate("study.worst", language, within=within), ""]
     rows = []
     for key, spread in spreads.items():
         causes = ", ".join(
@@ -32,10 +32,10 @@ def _text(spreads: Spreads, language: Language) -> str:
             for cause in spread.causes
             if cause.share > _MIN_SHARE
         )
-        sign = say("study.sampled", language) if spread.is_sampled else ""
+        sign = translate("study.sampled", language) if spread.is_sampled else ""
         if spread.mean is not None:
             mean = number(displayed(key, spread.mean), language, digits=4)
-            causes = f"{say('study.mean', language, value=mean)}; {causes}"
+            causes = f"{translate('study.mean', language, value=mean)}; {causes}"
         # significant digits of sampled deviations
         size = number(displayed_size(key, spread.deviation), language, digits=3 if spread.is_sampled else 6)
         shown = [number(displayed(key, spread.value), language), size]
@@ -44,9 +44,15 @@ def _text(spreads: Spreads, language: Language) -> str:
     wide = [max((len(row[column]) for row in rows), default=0) for column in range(5)]
     lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
     if spreads.samples:
-        lines += ["", say("study.samples", language, count=str(spreads.samples), sign=say("study.sampled", language))]
+        lines += [
+            "",
+            translate("study.samples", language, count=str(spreads.samples), sign=translate("study.sampled", language)),
+        ]
     for reason, count in spreads.refused.items():
-        lines += ["", say("study.draws_refused", language, count=str(count), reason=told(reason, language))]
+        lines += [
+            "",
+            translate("study.draws_refused", language, count=str(count), reason=in_language(reason, language)),
+        ]
     return "\n".join(lines)
 
 

@@ -13,16 +13,16 @@ from typing import Any, NamedTuple, get_args
 from crankwork import __version__, files
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description, load, stated_value
-from crankwork.description.kinds import Choice, Flag, MeasuredValue, Number, Reader, Text, shown
 from crankwork.description.machine_file import Setting, input_error, parse, schema_text
 from crankwork.description.schema import KeySpec, MapOf, OneOrMore, TableSpec, Values
+from crankwork.description.value_types import Choice, Flag, MeasuredValue, Number, Reader, Text, shown
 from crankwork.errors import CrankworkError
-from crankwork.locale import Language, Refusal
-from crankwork.report.language import key_unit
-from crankwork.study.machines import check_single
+from crankwork.locale import ErrorMessage, Language
+from crankwork.report.display import key_unit
+from crankwork.study.numeric_field import NumericField, kind_of, numeric_field, single_kind
 from crankwork.study.search import SearchMethod
-from crankwork.study.sought import NumericField, kind_of, numeric_field, single_kind
-from crankwork.study.varied import VariedField
+from crankwork.study.variants import check_single
+from crankwork.study.varied_field import VariedField
 from crankwork.units import System, parse_in, use_units
 
 # number of points of a Sobol sequence of 30 bits
@@ -43,9 +43,9 @@ class Count(NamedTuple):
         if isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= MAX_DESIGNS:
             return value
         if isinstance(value, int) and not isinstance(value, bool) and value > MAX_DESIGNS:
-            reader.complain(key, _many(value))
+            reader.add_error(key, _many(value))
         else:
-            reader.complain(key, Refusal("whole_range", value=shown(value), low="1", high=str(MAX_DESIGNS)))
+            reader.add_error(key, ErrorMessage("whole_range", value=shown(value), low="1", high=str(MAX_DESIGNS)))
         return None
 
     def schema(self, _: Language, /) -> dict[str, Any]:
@@ -183,8 +183,8 @@ def read_study(
     read = STUDY_FILE.read(values, "", reader) or Values({}, STUDY_FILE)
     if is_search:
         _check_search(read, reader)
-    elif "designs" not in read and not reader.doubts("designs"):
-        reader.complain("designs", Refusal("missing", advice='drawing = "sobol"'))
+    elif "designs" not in read and not reader.has_errors("designs"):
+        reader.add_error("designs", ErrorMessage("missing", advice='drawing = "sobol"'))
     varied = [] if machine is None else list(_varied(read, stated, reader, is_search=is_search))
     results = None if machine is None else _analysed(machine, overrides, reader)
     limits = {} if results is None else _wanted(read, results, reader)
@@ -229,7 +229,7 @@ def _machine(values: Mapping[str, Any], reader: Reader, folder: Path) -> Descrip
     try:
         return load(folder / named)
     except CrankworkError as error:
-        reader.complain("machine", error.args[0])
+        reader.add_error("machine", error.args[0])
         return None
 
 
@@ -280,27 +280,27 @@ def _check_search(read: Values, reader: Reader) -> None:
     """Add an error unless a search has exactly one objective."""
     objectives = read["objectives"] or {}
     if len(objectives) > 1:
-        reader.complain("objectives", Refusal("objectives_several", keys=list(objectives)))
-    elif not objectives and not reader.doubts("objectives"):
-        reader.complain("objectives", Refusal("objective_none"))
+        reader.add_error("objectives", ErrorMessage("objectives_several", keys=list(objectives)))
+    elif not objectives and not reader.has_errors("objectives"):
+        reader.add_error("objectives", ErrorMessage("objective_none"))
 
 
 def _varied(read: Values, stated: dict[str, Any], reader: Reader, *, is_search: bool) -> Iterator[VariedField]:
     """Yield the fields that vary, each read with the type of the machine file."""
     fields = read["vary"]
-    if not fields and not reader.doubts("vary"):
-        reader.complain("vary", Refusal("vary_none"))
+    if not fields and not reader.has_errors("vary"):
+        reader.add_error("vary", ErrorMessage("vary_none"))
     for key, written in fields.items():
         path = f"vary.{key}"
         try:
             kind = kind_of(stated, key)
         except CrankworkError as error:
-            reader.complain(path, error.args[0])
+            reader.add_error(path, error.args[0])
             continue
         designs = {"drawing": None} if is_search else read["designs"] or {}
         variable = _Field(key, path, kind, stated, reader).varied(written, designs)
         if variable is not None and is_search and variable.law not in ("even", "ratios", "uniform"):
-            reader.complain(path, Refusal("vary_ends"))
+            reader.add_error(path, ErrorMessage("vary_ends"))
         elif variable is not None:
             yield variable
 
@@ -324,28 +324,28 @@ class _Field:
         if isinstance(written, list):
             return self._list(written)
         if self._number is None:
-            self._add_error("", Refusal("vary_words"))
+            self._add_error("", ErrorMessage("vary_words"))
             return None
         if isinstance(written, str):
             return self._spread("normal", written, "", drawing)
         if not isinstance(written, dict):
-            self._add_error("", Refusal("vary_form", value=shown(written)))
+            self._add_error("", ErrorMessage("vary_form", value=shown(written)))
             return None
         read = _RANGE.read(written, self._path, self._reader)
-        if read is None or self._reader.doubts(self._path):
+        if read is None or self._reader.has_errors(self._path):
             return None
         if "uniform" in read:
             return self._spread("uniform", read["uniform"], ".uniform", drawing)
         for name in ("from", "to"):
             if name not in read:
-                self._add_error(f".{name}", Refusal("missing", advice=f"{name} = ..."))
+                self._add_error(f".{name}", ErrorMessage("missing", advice=f"{name} = ..."))
                 return None
         return self._range(read, drawing)
 
     def _list(self, written: list[Any]) -> VariedField | None:
         if not 1 <= len(written) <= _MAX_VALUES:
-            wanted = Refusal("entries_between", fewest="1", most=str(_MAX_VALUES))
-            self._add_error("", Refusal("entries", count=len(written), wanted=wanted))
+            wanted = ErrorMessage("entries_between", fewest="1", most=str(_MAX_VALUES))
+            self._add_error("", ErrorMessage("entries", count=len(written), wanted=wanted))
             return None
         values = [self._read(entry, f"[{index}]") for index, entry in enumerate(written, start=1)]
         if any(value is None for value in values):
@@ -360,13 +360,13 @@ class _Field:
             return None
         if not low < high or (read["spacing"] == "ratios" and low <= 0):
             name = "vary_ratios" if low < high else "vary_empty"
-            self._add_error(".to", Refusal(name, start=shown(read["from"]), end=shown(read["to"])))
+            self._add_error(".to", ErrorMessage(name, start=shown(read["from"]), end=shown(read["to"])))
             return None
         if drawing == GRID and "steps" not in read:
-            self._add_error("", Refusal("vary_steps"))
+            self._add_error("", ErrorMessage("vary_steps"))
             return None
         if drawing == LIST or ("steps" in read and drawing in DRAWN):
-            self._add_error("", Refusal("vary_no_grid", drawing=shown(drawing)))
+            self._add_error("", ErrorMessage("vary_no_grid", drawing=shown(drawing)))
             return None
         return VariedField(self._key, read["spacing"], self._number, (low, high), steps=int(read["steps"] or 0))
 
@@ -377,10 +377,10 @@ class _Field:
             return None
         deviation = self._reader.deviations.get(self._path + suffix)
         if not deviation:
-            self._add_error(suffix, Refusal("vary_form", value=shown(written)))
+            self._add_error(suffix, ErrorMessage("vary_form", value=shown(written)))
             return None
         if drawing in (GRID, LIST):
-            self._add_error(suffix, Refusal("vary_distribution", drawing=shown(drawing)))
+            self._add_error(suffix, ErrorMessage("vary_distribution", drawing=shown(drawing)))
             return None
         ends = (value, deviation) if law == "normal" else (value - deviation, value + deviation)
         return VariedField(self._key, law, self._number, ends)
@@ -389,8 +389,8 @@ class _Field:
         result = self._kind.read(value, f"{self._path}{suffix}", self._reader)
         return result.value if isinstance(result, MeasuredValue) else result
 
-    def _add_error(self, suffix: str, message: Refusal) -> None:
-        self._reader.complain(f"{self._path}{suffix}", message)
+    def _add_error(self, suffix: str, message: ErrorMessage) -> None:
+        self._reader.add_error(f"{self._path}{suffix}", message)
 
 
 def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[float, float]]:
@@ -405,11 +405,11 @@ def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[f
         try:
             check_single(results, key)
         except CrankworkError as error:
-            reader.complain(path, error.args[0])
+            reader.add_error(path, error.args[0])
         else:
             known.add(key)
     if not named and not reader.problems:
-        reader.complain("values", Refusal("study_nothing"))
+        reader.add_error("values", ErrorMessage("study_nothing"))
     with use_units(results.machine.units):
         limits = (read["limits"] or {}).items()
         return {key: _limits(key, stated, reader) for key, stated in limits if stated and key in known}
@@ -421,19 +421,19 @@ def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:
     for name, written in stated.items():
         path = f"limits.{key}.{name}"
         if isinstance(written, bool) or not isinstance(written, int | float | str):
-            reader.complain(path, Refusal("level_plain", text=shown(written)))
+            reader.add_error(path, ErrorMessage("level_plain", text=shown(written)))
             continue
         try:
             value = parse_in(str(written), unit) if unit else float(str(written).replace(",", "."))
         except ValueError as error:
-            reader.complain(path, error.args[0] if unit else Refusal("level_plain", text=str(written)[:40]))
+            reader.add_error(path, error.args[0] if unit else ErrorMessage("level_plain", text=str(written)[:40]))
             continue
         if math.isfinite(value):
             ends[name] = value
         else:
-            reader.complain(path, Refusal("level_plain", text=str(written)[:40]))
+            reader.add_error(path, ErrorMessage("level_plain", text=str(written)[:40]))
     if not ends["at_least"] <= ends["at_most"]:
-        reader.complain(f"limits.{key}", Refusal("limits_apart"))
+        reader.add_error(f"limits.{key}", ErrorMessage("limits_apart"))
     return ends["at_least"], ends["at_most"]
 
 
@@ -444,22 +444,22 @@ def _count(read: Values, varied: Sequence[VariedField], reader: Reader) -> int:
     if drawing == GRID:
         count = math.prod(variable.count for variable in varied)
         if count > MAX_DESIGNS:
-            reader.complain("vary", _many(count))
+            reader.add_error("vary", _many(count))
         return count
     if drawing == LIST:
         lengths = {variable.count for variable in varied}
         if len(lengths) > 1:
-            reader.complain("vary", Refusal("vary_lengths", counts=sorted(map(str, lengths))))
+            reader.add_error("vary", ErrorMessage("vary_lengths", counts=sorted(map(str, lengths))))
         return max(lengths, default=0)
     count = int(designs.get("count") or 0)
     if drawing == "saltelli" and count:
         block = len(varied) + 2
         if count < block:
-            reader.complain("designs.count", Refusal("study_block", count=str(block)))
+            reader.add_error("designs.count", ErrorMessage("study_block", count=str(block)))
         return count // block * block
     return count
 
 
-def _many(count: int) -> Refusal:
+def _many(count: int) -> ErrorMessage:
     written = f"{count}" if count < 10**30 else "10^30"
-    return Refusal("study_count", count=written, most=str(MAX_DESIGNS))
+    return ErrorMessage("study_count", count=written, most=str(MAX_DESIGNS))

@@ -14,11 +14,11 @@ from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.report.dataset import check_extras
-from crankwork.report.language import key_unit
-from crankwork.study.machines import MachineVariants
-from crankwork.study.sought import NumericField, numeric_field
+from crankwork.report.display import key_unit
+from crankwork.study.numeric_field import NumericField, numeric_field
+from crankwork.study.variants import MachineVariants
 from crankwork.units import coherent_unit, parse_in, use_units
 
 if TYPE_CHECKING:
@@ -145,7 +145,7 @@ def sweep(
     numbers = {key: numeric_field(values, key) for key in designs}
     columns = [_in_si(numbers[key], column) for key, column in designs.items()]
     if len({len(column) for column in columns}) != 1 or not columns[0]:
-        raise CrankworkError(Refusal("sweep_lengths", keys=", ".join(designs)))
+        raise CrankworkError(ErrorMessage("sweep_lengths", keys=", ".join(designs)))
     all_designs: Array = np.array(columns)
     spans = np.stack([all_designs.min(axis=1), np.median(all_designs, axis=1), all_designs.max(axis=1)], axis=1)
     machines = MachineVariants(description, numbers, spans, keys, overrides)
@@ -168,4 +168,4 @@ def _in_si(number: NumericField, values: Sequence[float | str]) -> list[float]:
     try:
         return [parse_in(value, number.unit) if isinstance(value, str) else float(value) for value in values]
     except ValueError as error:
-        raise CrankworkError(Refusal("option_key_wrong", key=number.key, mistake=error.args[0])) from None
+        raise CrankworkError(ErrorMessage("option_key_wrong", key=number.key, mistake=error.args[0])) from None

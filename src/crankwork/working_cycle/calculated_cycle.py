@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, Protocol
 
-from crankwork.formula.known import Known, Total, Use, absent, in_order
+from crankwork.formula.traced_value import FormulaCall, Sum, TracedValue, absent, in_order
 from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
 
 CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual"]
@@ -17,17 +17,17 @@ class Corners(NamedTuple):
     """Pressures, exponents and ratios that define the theoretical diagram."""
 
     # Absolute pressures at the named points [Pa]
-    p_r: Known
-    p_a: Known
-    p_c: Known
-    p_z: Known
-    p_b: Known
-    rho: Known  # Volume at z over the clearance volume; 1 for combustion at constant volume [-]
+    p_r: TracedValue
+    p_a: TracedValue
+    p_c: TracedValue
+    p_z: TracedValue
+    p_b: TracedValue
+    rho: TracedValue  # Volume at z over the clearance volume; 1 for combustion at constant volume [-]
     # Exponents of compression and expansion [-]
-    n1: Known
-    n2: Known
-    epsilon: Known  # Compression ratio of the closed cylinder [-]
-    psi: Known = absent("lost_stroke")  # Share of the stroke that the ports of a two-stroke engine take [-]
+    n1: TracedValue
+    n2: TracedValue
+    epsilon: TracedValue  # Compression ratio of the closed cylinder [-]
+    psi: TracedValue = absent("lost_stroke")  # Share of the stroke that the ports of a two-stroke engine take [-]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,13 +37,13 @@ class CalculatedCycle:
     kind: CycleKind  # Method of calculation
     angle: float  # Crank angle of the cycle, 720 or 360 [deg]
     corners: Corners  # Of the theoretical diagram
-    memory: Mapping[str, Known]  # Data and results by key, in the order of textbooks
+    trace: Mapping[str, TracedValue]  # Data and results by key, in the order of textbooks
     notices: tuple[Notice, ...] = ()  # Code and numbers of each notice
 
     @property
     def values(self) -> dict[str, float]:
         """Data and results by key. [SI]"""
-        return {key: traced.value for key, traced in self.memory.items()}
+        return {key: traced.value for key, traced in self.trace.items()}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, CalculatedCycle):
@@ -60,24 +60,24 @@ class Calculated(NamedTuple):
 
     diagram: IndicatorDiagram  # Absolute pressure over the cycle
     # Single values by key of the table of quantities, in the order of calculation
-    memory: Mapping[str, Known]
+    trace: Mapping[str, TracedValue]
     notices: tuple[tuple[str, Mapping[str, float | str]], ...]  # Codes and values
     theoretical: Callable[[], IndicatorDiagram] | None = None  # Gives the diagram before its corners were rounded
-    peak: Mapping[str, Known] = {}  # Values at the greatest pressure of a heat release, by key
+    peak: Mapping[str, TracedValue] = {}  # Values at the greatest pressure of a heat release, by key
 
     @property
     def values(self) -> dict[str, float]:
         """Single values by key. [SI]"""
-        return {key: traced.value for key, traced in self.memory.items()}
+        return {key: traced.value for key, traced in self.trace.items()}
 
     @property
-    def worked(self) -> tuple[Known, ...]:
+    def worked(self) -> tuple[TracedValue, ...]:
         """Results of formulas and sums, in the order of calculation."""
-        traced_values = {**self.peak, **self.memory}
+        traced_values = {**self.peak, **self.trace}
         return tuple(
             traced
             for traced in in_order(traced_values.values())
-            if isinstance(traced.node, Use | Total) and (traced.key in traced_values or "." in traced.key)
+            if isinstance(traced.node, FormulaCall | Sum) and (traced.key in traced_values or "." in traced.key)
         )
 
 
@@ -92,5 +92,5 @@ class CalculatedPressure(Protocol):
         """Return the diagram in a cylinder."""
 
     @property
-    def traced(self) -> Callable[[Known, tuple[float, float]], Known] | None:
+    def traced(self) -> Callable[[TracedValue, tuple[float, float]], TracedValue] | None:
         """What gives the pressure as a traced column of volume and dead centres, None without formulas for it."""

@@ -17,14 +17,14 @@ import numpy as np
 import numpy.typing as npt
 
 from crankwork.errors import CrankworkError, MissingExtraError
+from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Found, Known, given
-from crankwork.formula.worked import Worked
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, given
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.indicator import VolumeAt
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, check_heat_release, stages
 
 # a cycle of an engine takes one or two thousand evaluations
@@ -129,7 +129,7 @@ class ClosedGas:
         try:
             from scipy.integrate import solve_ivp  # noqa: PLC0415 - loaded where it is needed
         except ModuleNotFoundError:
-            raise MissingExtraError(Refusal("extra_heat"), "dynamics") from None
+            raise MissingExtraError(ErrorMessage("extra_heat"), "dynamics") from None
         sizes = np.array([self.data.shut_pressure, 1.0, 1.0])
         sizes[1:] = self.data.shut_pressure * self.shut_volume + self.heat
 
@@ -156,7 +156,7 @@ class ClosedGas:
         return solution.sol, solution.y[:, -1]
 
     def _not_followed(self, stage: Stage, angle: float) -> CrankworkError:
-        return CrankworkError(Refusal("heat_unfollowed", start=stage.start, end=stage.end, angle=angle))
+        return CrankworkError(ErrorMessage("heat_unfollowed", start=stage.start, end=stage.end, angle=angle))
 
     def energy_change(self, temperature: float) -> float:
         """Return the change of internal energy since intake closing, at a temperature [K]. [J]"""
@@ -171,7 +171,7 @@ def closed_gas(
     volume_at: VolumeAt,
     volume_rate_at: VolumeAt,
     dead_centres: tuple[float, float],
-    worked: Worked,
+    worked: Calculation,
 ) -> ClosedGas:
     """Return the gas enclosed at intake closing, after calculating its constants."""
     check_heat_release(data)
@@ -180,7 +180,7 @@ def closed_gas(
     _give(worked, data)
     _give_sizes(worked, clearance, largest, data)
     worked.known["V_1"] = volume_when(worked, shut_volume, shut).named("cylinder_volume.1")
-    turn = Known(Found(math.radians(dead_centres[0] + 360.0), "dead_centre"), "top_dead_centre_angle")
+    turn = TracedValue(ProcedureValue(math.radians(dead_centres[0] + 360.0), "dead_centre"), "top_dead_centre_angle")
     advance = given("burning_advance", math.radians(data.burning_advance), data.stated_at("cycle.combustion_start"))
     worked.known["burning_start"] = (turn - advance).named("burning_start")
     for key in ("head_area", "crown_area"):
@@ -189,7 +189,7 @@ def closed_gas(
         worked(fuel_heat)
     mass, heat = worked(gas_mass).value, worked["fuel_heat"].value
     if heat > _MAX_HEAT * mass:
-        raise CrankworkError(Refusal("heat_excessive", heat=heat, share=heat / mass / 1e6))
+        raise CrankworkError(ErrorMessage("heat_excessive", heat=heat, share=heat / mass / 1e6))
     return ClosedGas(
         data=data,
         volume_at=volume_at,
@@ -206,7 +206,7 @@ def closed_gas(
     )
 
 
-def _give_sizes(worked: Worked, clearance: float, largest: float, data: HeatReleaseData) -> None:
+def _give_sizes(worked: Calculation, clearance: float, largest: float, data: HeatReleaseData) -> None:
     """Add area, volumes and mean speed of the piston, from the stroke and the compression ratio of the cylinder."""
     area = gas_formulas.piston_area(math.pi, worked["bore"])
     stroke = given("stroke", (largest - clearance) / area.value, data.stated_at("crank.stroke"))
@@ -216,11 +216,13 @@ def _give_sizes(worked: Worked, clearance: float, largest: float, data: HeatRele
     worked.known |= {traced.key: traced for traced in traced_values}
 
 
-def volume_when(worked: Worked, volume: float, degrees: float) -> Known:
+def volume_when(worked: Calculation, volume: float, degrees: float) -> TracedValue:
     """Return the volume of the cylinder at a crank angle, from the displacement of the piston. [m3]"""
     clearance, area = worked["clearance_volume"], worked["piston_area"]
-    displacement = Known(Found((volume - clearance.value) / area.value, "motion", angle=degrees), "piston_displacement")
-    cylinder_volume: Known = gas_formulas.cylinder_volume(clearance, area, displacement)
+    displacement = TracedValue(
+        ProcedureValue((volume - clearance.value) / area.value, "motion", angle=degrees), "piston_displacement"
+    )
+    cylinder_volume: TracedValue = gas_formulas.cylinder_volume(clearance, area, displacement)
     return cylinder_volume
 
 
@@ -228,7 +230,7 @@ def volume_when(worked: Worked, volume: float, degrees: float) -> Known:
 _OF_FUEL = ("fuel_per_cycle", "heating_value", "burning_efficiency")
 
 
-def _give(worked: Worked, data: HeatReleaseData) -> None:
+def _give(worked: Calculation, data: HeatReleaseData) -> None:
     """Add the data as stated."""
     worked.given("rotational_speed", data.rotational_speed, "crank.speed", "rpm")
     for name, key, path in (

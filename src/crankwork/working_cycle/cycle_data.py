@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Literal
 
-from crankwork.formula.known import absent, given
-from crankwork.formula.worked import Worked
-from crankwork.locale import Refusal
+from crankwork.formula.calculation import Calculation
+from crankwork.formula.traced_value import absent, given
+from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.fuels import FUELS, CycleError, Fuel
 from crankwork.working_cycle.heat_capacities import HeatLaw, law_zero
 from crankwork.working_cycle.performance import MECHANICAL_LOSSES
@@ -118,7 +118,7 @@ def with_usual_values(data: GrinevetskyData) -> tuple[GrinevetskyData, tuple[str
 
 def _losses(key: str) -> tuple[float, float]:
     if key not in MECHANICAL_LOSSES:
-        raise CycleError(Refusal("losses_unknown", name=key, known=", ".join(MECHANICAL_LOSSES)))
+        raise CycleError(ErrorMessage("losses_unknown", name=key, known=", ".join(MECHANICAL_LOSSES)))
     return MECHANICAL_LOSSES[key]
 
 
@@ -140,12 +140,12 @@ _CONSTANTS = {
 _LEFT_OUT = {"power", "stroke", "pi"}
 
 
-def traced_cycle_inputs(data: GrinevetskyData, full: GrinevetskyData) -> Worked:
+def traced_cycle_inputs(data: GrinevetskyData, full: GrinevetskyData) -> Calculation:
     """Return the calculation before its first step: every number of the data as a traced input.
 
     `data` and `full`: as given, and completed with usual values.
     """
-    worked = Worked()
+    worked = Calculation()
     for field in fields(data):
         value, key = getattr(full, field.name), _QUANTITIES.get(field.name, field.name)
         if not isinstance(value, float | int) or field.name in _LEFT_OUT:
@@ -180,25 +180,25 @@ _ANY_SIGN = {"heating", "cooler_drop"}
 def check_data(data: GrinevetskyData) -> None:
     """Raise unless a cycle can follow from the data."""
     if data.kind not in _USUAL:
-        raise CycleError(Refusal("kind_of_fuel", kind=data.kind))
+        raise CycleError(ErrorMessage("kind_of_fuel", kind=data.kind))
     _check_signs(data)
     if data.compression_ratio <= 1:
-        raise CycleError(Refusal("not_above", name="compression_ratio", value=data.compression_ratio, limit=1))
+        raise CycleError(ErrorMessage("not_above", name="compression_ratio", value=data.compression_ratio, limit=1))
     if 1.0 in (data.compression_exponent, data.expansion_exponent):
-        raise CycleError(Refusal("exponent_one"))
+        raise CycleError(ErrorMessage("exponent_one"))
     _check_choices(data)
 
 
 def _check_choices(data: GrinevetskyData) -> None:
     """Raise if data contradict each other."""
     if data.strokes == 4 and data.lost_stroke:
-        raise CycleError(Refusal("lost_stroke_of_two"))
+        raise CycleError(ErrorMessage("lost_stroke_of_two"))
     if data.lost_stroke >= 1:
-        raise CycleError(Refusal("lost_stroke_whole", value=data.lost_stroke))
+        raise CycleError(ErrorMessage("lost_stroke_whole", value=data.lost_stroke))
     if data.power and (data.bore or data.stroke):
-        raise CycleError(Refusal("power_or_size"))
+        raise CycleError(ErrorMessage("power_or_size"))
     if (data.bore is None) != (data.stroke is None):
-        raise CycleError(Refusal("bore_and_stroke"))
+        raise CycleError(ErrorMessage("bore_and_stroke"))
 
 
 def _check_signs(data: GrinevetskyData) -> None:
@@ -210,5 +210,7 @@ def _check_signs(data: GrinevetskyData) -> None:
             if not (value >= limit if limit is not None else value > 0):
                 values = {"name": field.name, "value": value}
                 raise CycleError(
-                    Refusal("not_above", **values, limit=0) if limit is None else Refusal("not_negative", **values)
+                    ErrorMessage("not_above", **values, limit=0)
+                    if limit is None
+                    else ErrorMessage("not_negative", **values)
                 )

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
+from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.worked import Worked
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 
 class CycleError(CrankworkError):
@@ -46,14 +46,14 @@ def air_amount_needed(C_f: Value, H_f: Value, O_f: Value) -> Value:
     return (C_f / 12 + H_f / 4 - O_f / 32) / 0.208
 
 
-def burning(worked: Worked, fuel: Fuel) -> None:
+def burning(worked: Calculation, fuel: Fuel) -> None:
     """Calculate the heat of 1 kg of fuel and the air that it needs.
 
     `fuel`: its heating value is calculated unless it is given.
     """
     elements = fuel[:3]
     if min(elements) < 0 or abs(sum(elements) - 1) > 0.02 or fuel.carbon + fuel.hydrogen <= 0:
-        raise CycleError(Refusal("fuel_shares", carbon=fuel.carbon, hydrogen=fuel.hydrogen, oxygen=fuel.oxygen))
+        raise CycleError(ErrorMessage("fuel_shares", carbon=fuel.carbon, hydrogen=fuel.hydrogen, oxygen=fuel.oxygen))
     if fuel.heating_value is None:
         worked(lower_heating_value)
     worked(air_mass_needed)

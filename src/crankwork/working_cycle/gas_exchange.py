@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from crankwork.formula.known import Known
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import Segment
 from crankwork.loads.monotone import hermite, hermite_slope
@@ -33,7 +33,7 @@ def connecting_cubic(start: Knot, end: Knot) -> Segment:
     return Segment(start[0], end[0], "rounded", ends, np.array([start[1], end[1]]), np.array(slopes))
 
 
-def constant_pressure(start: float, end: float, pressure: Known) -> Segment:
+def constant_pressure(start: float, end: float, pressure: TracedValue) -> Segment:
     """Return a segment of constant pressure.
 
     `start` and `end`: crank angles [deg].

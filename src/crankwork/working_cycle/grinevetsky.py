@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Found, Known, absent, given
-from crankwork.formula.ranges import range_notices
-from crankwork.formula.worked import Worked
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
+from crankwork.formula.validity_ranges import range_notices
 from crankwork.kinematics.slider_crank import mean_piston_speed
 from crankwork.loads.gas import clearance_volume, piston_area, swept_volume
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 from crankwork.working_cycle import charge, engine_size, performance
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners, Notice
 from crankwork.working_cycle.cycle_data import GrinevetskyData, traced_cycle_inputs, with_usual_values
@@ -26,7 +26,7 @@ from crankwork.working_cycle.heat_capacities import (
     residual_heat,
 )
 from crankwork.working_cycle.performance import effective_mean_pressure, mechanical_loss_pressure
-from crankwork.working_cycle.validity import cycle_notices
+from crankwork.working_cycle.usual_ranges import cycle_notices
 
 # inputs that are shown with the results
 _SHOWN = (
@@ -61,13 +61,13 @@ def grinevetsky(data: GrinevetskyData) -> CalculatedCycle:
         notices += sized(worked, full)
         _effective(worked, full)
         heat_balance(worked, full)
-    memory = {key: worked[key] for key in _SHOWN if key in worked.known and key not in worked.found} | worked.found
-    notices += cycle_notices(full.kind, full.heat_capacities, {key: traced.value for key, traced in memory.items()})
-    notices += range_notices(memory.values())
-    return CalculatedCycle(full.kind, 180.0 * full.strokes, _corners(worked), memory, tuple(notices))
+    trace = {key: worked[key] for key in _SHOWN if key in worked.known and key not in worked.found} | worked.found
+    notices += cycle_notices(full.kind, full.heat_capacities, {key: traced.value for key, traced in trace.items()})
+    notices += range_notices(trace.values())
+    return CalculatedCycle(full.kind, 180.0 * full.strokes, _corners(worked), trace, tuple(notices))
 
 
-def _corners(worked: Worked) -> Corners:
+def _corners(worked: Calculation) -> Corners:
     names = (
         "residual_pressure", "intake_pressure", "compression_pressure", "combustion_pressure", "expansion_pressure",
         "cut_off", "compression_exponent", "expansion_exponent", "compression_ratio", "lost_stroke",
@@ -75,7 +75,7 @@ def _corners(worked: Worked) -> Corners:
     return Corners(*(worked[name] for name in names))
 
 
-def _intake(worked: Worked, data: GrinevetskyData) -> None:
+def _intake(worked: Calculation, data: GrinevetskyData) -> None:
     if data.charge_pressure is None:
         worked.known["charge_pressure"] = worked["ambient_pressure"].named("charge_pressure")
     if data.charge_temperature is None and data.charge_pressure is None:
@@ -85,17 +85,17 @@ def _intake(worked: Worked, data: GrinevetskyData) -> None:
         worked(charge.cooled_charge_temperature)
     warm = worked["charge_temperature"].value + worked["charge_heating"].value
     if min(warm, worked["charge_temperature"].value) <= 0:
-        raise CycleError(Refusal("charge_cold", temperature=warm))
+        raise CycleError(ErrorMessage("charge_cold", temperature=warm))
     worked(charge.charge_density)
     if data.intake_pressure is None:
         worked(charge.intake_pressure_loss)
         worked(charge.intake_pressure)
     intake, residual = worked["intake_pressure"].value, worked["residual_pressure"].value
     if data.compression_ratio * data.charge_up * intake <= data.scavenging * residual:
-        raise CycleError(Refusal("intake_weak", intake=intake / 1e6, residual=residual / 1e6))
+        raise CycleError(ErrorMessage("intake_weak", intake=intake / 1e6, residual=residual / 1e6))
 
 
-def _compression(worked: Worked, data: GrinevetskyData) -> None:
+def _compression(worked: Calculation, data: GrinevetskyData) -> None:
     for function in _FILLINGS[data.intake_school]:
         worked(function)
     if data.lost_stroke:
@@ -105,7 +105,7 @@ def _compression(worked: Worked, data: GrinevetskyData) -> None:
     worked(charge.compression_pressure)
     temperature = worked(charge.compression_temperature).value
     if temperature > _HOTTEST:
-        raise CycleError(Refusal("compression_hot", temperature=temperature))
+        raise CycleError(ErrorMessage("compression_hot", temperature=temperature))
 
 
 # residual gas, temperature and volumetric efficiency at the end of intake
@@ -119,7 +119,7 @@ _FILLINGS: dict[str, tuple[Callable[..., Any], ...]] = {
 }
 
 
-def _combustion(worked: Worked, data: GrinevetskyData) -> None:
+def _combustion(worked: Calculation, data: GrinevetskyData) -> None:
     law = data.heat_capacities
     celsius = law == "kolchin"
     worked(molar_change)
@@ -145,7 +145,7 @@ def _combustion(worked: Worked, data: GrinevetskyData) -> None:
     _rise(worked, data)
 
 
-def _rise(worked: Worked, data: GrinevetskyData) -> None:
+def _rise(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate pressure and volume at z."""
     if data.kind == "petrol":
         worked(isochoric_pressure)
@@ -155,10 +155,10 @@ def _rise(worked: Worked, data: GrinevetskyData) -> None:
     worked(dual_pressure)
     rho = worked(cut_off).value
     if not 1 <= rho <= data.compression_ratio:
-        raise CycleError(Refusal("cut_off_low" if rho < 1 else "cut_off_high", ratio=rho))
+        raise CycleError(ErrorMessage("cut_off_low" if rho < 1 else "cut_off_high", ratio=rho))
 
 
-def _expansion(worked: Worked, data: GrinevetskyData) -> None:
+def _expansion(worked: Calculation, data: GrinevetskyData) -> None:
     if data.kind == "diesel":
         worked(afterexpansion)
     expansion_ratio = _whole_expansion(worked, data)
@@ -168,21 +168,21 @@ def _expansion(worked: Worked, data: GrinevetskyData) -> None:
     worked(residual_temperature_deviation)
 
 
-def _whole_expansion(worked: Worked, data: GrinevetskyData) -> dict[str, Known]:
+def _whole_expansion(worked: Calculation, data: GrinevetskyData) -> dict[str, TracedValue]:
     """Return the ratio of the whole expansion as an argument; in petrol engines it equals the compression ratio."""
     if data.kind == "petrol":
         return {"delta_post": worked["compression_ratio"]}
     return {"delta_post": worked["afterexpansion"]}
 
 
-def _indicated(worked: Worked, data: GrinevetskyData) -> None:
+def _indicated(worked: Calculation, data: GrinevetskyData) -> None:
     worked(performance.theoretical_mean_pressure, **_whole_expansion(worked, data))
     worked(performance.filled_mean_pressure)
     worked(performance.indicated_efficiency)
     worked(performance.fuel_consumption, "indicated_fuel_consumption", eta_e=worked["indicated_efficiency"])
 
 
-def _effective(worked: Worked, data: GrinevetskyData) -> None:
+def _effective(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate the effective results and the clearance volume of a sized engine."""
     worked(performance.mechanical_efficiency)
     worked(performance.effective_efficiency)
@@ -362,7 +362,7 @@ def heat_lost_incomplete(alpha_air: Value, L_air: Value) -> Value:
     return 119.95e6 * (1 - alpha_air) * L_air
 
 
-def mixture(worked: Worked) -> None:
+def mixture(worked: Calculation) -> None:
     """Calculate charge and products of 1 kg of fuel.
 
     `worked`: has the fuel, the air that it needs, the excess air and the share of hydrogen in the products of a rich
@@ -378,7 +378,7 @@ def mixture(worked: Worked) -> None:
         for key in ("product_co", "product_h2"):
             worked.absent(key)
     if min(worked(carbon_dioxide).value, worked(water).value) < 0:
-        raise CycleError(Refusal("mixture_rich", value=excess_air))
+        raise CycleError(ErrorMessage("mixture_rich", value=excess_air))
     if is_rich:
         worked.absent("product_o2")
     else:
@@ -392,7 +392,7 @@ def mixture(worked: Worked) -> None:
         worked.absent("heat_lost_incomplete")
 
 
-def work_power(worked: Worked, data: GrinevetskyData) -> None:
+def work_power(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate power, torque and fuel per time of a sized engine."""
     worked(engine_size.effective_power)
     worked(engine_size.effective_torque, pi=data.pi)
@@ -400,7 +400,7 @@ def work_power(worked: Worked, data: GrinevetskyData) -> None:
     worked(engine_size.power_per_litre)
 
 
-def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
+def sized(worked: Calculation, data: GrinevetskyData) -> list[Notice]:
     """Calculate the size of the engine for an indicated mean pressure, with a notice if it was rounded.
 
     Losses depend on the mean piston speed, and that on the unknown stroke: the calculation is repeated until the stroke
@@ -417,7 +417,7 @@ def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
             break
         stroke = following
     else:
-        raise CycleError(Refusal("power_unreached"))
+        raise CycleError(ErrorMessage("power_unreached"))
     if not data.rounds_size:
         _of_power(worked, data, stroke)
         return []
@@ -425,31 +425,31 @@ def sized(worked: Worked, data: GrinevetskyData) -> list[Notice]:
     _of_power(exact_size, data, stroke)
     millimetres = {key: exact_size[key].value * 1e3 for key in ("bore", "stroke")}
     if min(round(value) for value in millimetres.values()) == 0:
-        raise CycleError(Refusal("power_tiny", **millimetres))
+        raise CycleError(ErrorMessage("power_tiny", **millimetres))
     values: dict[str, float | str] = {}
     for key in ("bore", "stroke"):
         exact = worked.keep(exact_size[key].named(key))
         taken = round(exact.value * 1e3) / 1e3
-        worked.known[key] = Known(Found(taken, "rounded", (exact,)), key)
+        worked.known[key] = TracedValue(ProcedureValue(taken, "rounded", (exact,)), key)
         values |= {key: exact.value * 1e3, f"{key}_taken": taken * 1e3}
     _of_size(worked, data)
     return [("cycle_rounded_size", values)]
 
 
-def _effective_pressure(worked: Worked, data: GrinevetskyData) -> None:
+def _effective_pressure(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate the effective mean pressure at a stroke."""
     if not isinstance(data.mechanical_loss, tuple):
-        raise CycleError(Refusal("losses_two"))
+        raise CycleError(ErrorMessage("losses_two"))
     speed = worked(mean_piston_speed).value
     loss = worked(mechanical_loss_pressure).value
     if worked(effective_mean_pressure).value <= 0:
         indicated = worked["indicated_mean_pressure"].value / 1e6
-        raise CycleError(Refusal("losses_all", speed=speed, loss=loss / 1e6, indicated=indicated))
+        raise CycleError(ErrorMessage("losses_all", speed=speed, loss=loss / 1e6, indicated=indicated))
 
 
-def _of_power(worked: Worked, data: GrinevetskyData, stroke: float) -> float:
+def _of_power(worked: Calculation, data: GrinevetskyData, stroke: float) -> float:
     """Calculate the size that the power needs at an assumed stroke, and return the stroke that follows. [m]"""
-    worked.known["stroke"] = Known(Found(stroke, "root"), "stroke")
+    worked.known["stroke"] = TracedValue(ProcedureValue(stroke, "root"), "stroke")
     _effective_pressure(worked, data)
     worked(engine_size.displacement_of_power, N_e=given("effective_power", data.power or 0.0, "cycle.power"))
     worked(engine_size.swept_volume_of_one)
@@ -457,7 +457,7 @@ def _of_power(worked: Worked, data: GrinevetskyData, stroke: float) -> float:
     return worked(engine_size.stroke_of_bore).value
 
 
-def _of_size(worked: Worked, data: GrinevetskyData) -> None:
+def _of_size(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate the size of an engine with given bore and stroke."""
     worked(piston_area, pi=data.pi)
     worked(swept_volume)
@@ -471,7 +471,7 @@ PARTS = {
 }  # fmt: skip
 
 
-def heat_balance(worked: Worked, data: GrinevetskyData) -> None:
+def heat_balance(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate the heat balance of a sized engine: power, coolant, exhaust, unburnt, rest, and their shares.
 
     `worked`: has charge, products, power and fuel; takes the results. Source: kolchin_demidov_2008, ch. 4.
@@ -492,7 +492,7 @@ def heat_balance(worked: Worked, data: GrinevetskyData) -> None:
             worked(engine_size.heat_share, share, Q_part=worked[key])
 
 
-def _exhaust(worked: Worked, data: GrinevetskyData) -> None:
+def _exhaust(worked: Calculation, data: GrinevetskyData) -> None:
     """Calculate the heat of the exhaust gas."""
     law = data.heat_capacities
     hot, cold = (

@@ -11,9 +11,9 @@ import math
 from collections.abc import Callable
 from typing import Any, Literal, NamedTuple
 
+from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.known import Known
-from crankwork.formula.worked import Worked
+from crankwork.formula.traced_value import TracedValue
 from crankwork.working_cycle.charge import compression_celsius
 
 HeatLaw = Literal["kolchin", "vietnamese", "linear"]
@@ -174,18 +174,18 @@ def law_zero(law: HeatLaw) -> float:
     return _LAWS[law].zero
 
 
-def as_counted(worked: Worked, law: HeatLaw, temperature: Known, name: str) -> Known:
+def as_counted(worked: Calculation, law: HeatLaw, temperature: TracedValue, name: str) -> TracedValue:
     """Return a temperature of the gas on the scale of a law.
 
     `worked`: has the zero of the law.
     """
     if not _LAWS[law].zero:
         return temperature
-    counted: Known = compression_celsius(temperature, worked["T_zero"])
+    counted: TracedValue = compression_celsius(temperature, worked["T_zero"])
     return counted.named(f"gas_celsius.{name}")
 
 
-def product_coefficients(worked: Worked, law: HeatLaw) -> None:
+def product_coefficients(worked: Calculation, law: HeatLaw) -> None:
     """Calculate constant and slope of the heat of the products at the end of combustion.
 
     `worked`: has the products, or the excess air; takes the results.
@@ -194,12 +194,12 @@ def product_coefficients(worked: Worked, law: HeatLaw) -> None:
         worked(function)
 
 
-def fresh_heat(worked: Worked, law: HeatLaw, temperature: Known, key: str = "") -> Known:
+def fresh_heat(worked: Calculation, law: HeatLaw, temperature: TracedValue, key: str = "") -> TracedValue:
     """Return the heat of the fresh charge. [kJ/(kmol K)]"""
     return worked(_LAWS[law].fresh, key, **{"t_c" if law == "kolchin" else "T_c": temperature})
 
 
-def residual_heat(worked: Worked, law: HeatLaw, temperature: Known, key: str = "") -> Known:
+def residual_heat(worked: Calculation, law: HeatLaw, temperature: TracedValue, key: str = "") -> TracedValue:
     """Return the heat of the products below combustion temperatures. [kJ/(kmol K)]
 
     `worked`: has the products, or the coefficients of a law that is the same at all temperatures; takes the results.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from crankwork.errors import CrankworkError
-from crankwork.locale import Refusal
+from crankwork.locale import ErrorMessage
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def stages(data: HeatReleaseData, dead_centres: tuple[float, float]) -> tuple[St
     begin = top + 360.0 - data.burning_advance
     end = begin + data.burning_duration
     if begin < shut or end > opens:
-        raise CrankworkError(Refusal("burning_outside", begin=begin, end=end, shut=shut, opens=opens))
+        raise CrankworkError(ErrorMessage("burning_outside", begin=begin, end=end, shut=shut, opens=opens))
     return Stage(shut, begin, False, False), Stage(begin, end, True, True), Stage(end, opens, False, True)  # noqa: FBT003
 
 
@@ -100,13 +100,13 @@ def check_heat_release(data: HeatReleaseData) -> None:
     """Raise unless every number is valid by itself."""
     wrong = [name for name in _POSITIVE if not getattr(data, name) > 0]
     if wrong:
-        raise CrankworkError(Refusal("names_positive", names=", ".join(wrong)))
+        raise CrankworkError(ErrorMessage("names_positive", names=", ".join(wrong)))
     wrong = [name for name in _NOT_NEGATIVE if not getattr(data, name) >= 0]
     if wrong or (data.heat is not None and data.heat < 0):
-        raise CrankworkError(Refusal("names_not_negative", names=", ".join(wrong) or "heat"))
+        raise CrankworkError(ErrorMessage("names_not_negative", names=", ".join(wrong) or "heat"))
     if data.cycle not in (360.0, 720.0):
-        raise CrankworkError(Refusal("cycle_angle", angle=data.cycle))
+        raise CrankworkError(ErrorMessage("cycle_angle", angle=data.cycle))
     if data.heat_ratio + data.heat_ratio_slope * data.shut_temperature <= 1:
-        raise CrankworkError(Refusal("heat_ratio_low"))
+        raise CrankworkError(ErrorMessage("heat_ratio_low"))
     if data.cycle == 360 and data.exhaust_opens < data.intake_opens:
-        raise CrankworkError(Refusal("ports_early", intake=data.intake_opens, exhaust=data.exhaust_opens))
+        raise CrankworkError(ErrorMessage("ports_early", intake=data.intake_opens, exhaust=data.exhaust_opens))

@@ -10,10 +10,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from crankwork.formula.calculation import Calculation
 from crankwork.formula.expression import FORMULAS, Value, formula
-from crankwork.formula.known import Known
-from crankwork.formula.worked import Worked
-from crankwork.locale import Refusal
+from crankwork.formula.traced_value import TracedValue
+from crankwork.locale import ErrorMessage
 from crankwork.notation import ARGUMENTS
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, Corners
 from crankwork.working_cycle.fuels import CycleError
@@ -177,7 +177,7 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
     rise, cut_off = worked["pressure_rise_ratio"], worked["cut_off"]
     if not (worked[hot].value > cold.value and rise.value >= 1 and 1 <= cut_off.value < data.compression_ratio):
         numbers = {"cold": cold.value, "hot": worked[hot].value, "rise": rise.value, "cut_off": cut_off.value}
-        raise CycleError(Refusal("heat_backwards", **numbers, ratio=data.compression_ratio))
+        raise CycleError(ErrorMessage("heat_backwards", **numbers, ratio=data.compression_ratio))
     _results(worked, data, last)
     ratio, exponent = worked["compression_ratio"], worked["gas_heat_ratio"]
     first, peak, end = (worked[key] for key in ("state_pressure.1", heated, f"state_pressure.{last}"))
@@ -189,9 +189,9 @@ def ideal_cycle(data: IdealData) -> CalculatedCycle:
     return CalculatedCycle(data.kind, data.angle, corners, {key: worked[key] for key in shown} | worked.found)
 
 
-def _given(data: IdealData) -> Worked:
+def _given(data: IdealData) -> Calculation:
     """Return the calculation before its first step."""
-    worked = Worked()
+    worked = Calculation()
     worked.given("compression_ratio", data.compression_ratio, "cylinder.compression_ratio")
     worked.given("gas_heat_ratio", data.adiabatic_exponent, "cycle.adiabatic_exponent")
     worked.given("specific_gas_constant", data.gas_constant)
@@ -210,7 +210,9 @@ def _given(data: IdealData) -> Worked:
     return worked
 
 
-def _work(worked: Worked, function: Callable[..., Any], key: str = "", *, later: int = 0, **arguments: Known) -> Known:
+def _work(
+    worked: Calculation, function: Callable[..., Any], key: str = "", *, later: int = 0, **arguments: TracedValue
+) -> TracedValue:
     """Apply a formula whose arguments are numbered states, `later` points further on."""
     states = {
         name: worked[f"{ARGUMENTS[name].quantity}.{int(name[-1]) + later}"]
@@ -220,7 +222,7 @@ def _work(worked: Worked, function: Callable[..., Any], key: str = "", *, later:
     return worked(function, key, **states, **arguments)
 
 
-def _otto(worked: Worked, data: IdealData) -> None:
+def _otto(worked: Calculation, data: IdealData) -> None:
     worked.absent("cut_off", 1.0)
     if data.heat is not None:
         _work(worked, isochorically_heated, "state_temperature.3")
@@ -229,11 +231,11 @@ def _otto(worked: Worked, data: IdealData) -> None:
     elif "state_temperature.3" in worked.known:
         _work(worked, temperature_ratio)
     else:
-        raise CycleError(Refusal("otto_heat"))
+        raise CycleError(ErrorMessage("otto_heat"))
     _work(worked, raised_pressure, "state_pressure.3")
 
 
-def _diesel(worked: Worked, data: IdealData) -> None:
+def _diesel(worked: Calculation, data: IdealData) -> None:
     worked.absent("pressure_rise_ratio", 1.0)
     worked.known["state_pressure.3"] = worked["state_pressure.2"].named("state_pressure.3")
     if data.heat is not None:
@@ -243,12 +245,12 @@ def _diesel(worked: Worked, data: IdealData) -> None:
     elif "state_temperature.3" in worked.known:
         _work(worked, temperature_ratio, "cut_off")
     else:
-        raise CycleError(Refusal("diesel_heat"))
+        raise CycleError(ErrorMessage("diesel_heat"))
 
 
-def _dual(worked: Worked, data: IdealData) -> None:
+def _dual(worked: Calculation, data: IdealData) -> None:
     if data.pressure_ratio is None:
-        raise CycleError(Refusal("dual_rise"))
+        raise CycleError(ErrorMessage("dual_rise"))
     _work(worked, raised_temperature, "state_temperature.3")
     raised = _work(worked, raised_pressure, "state_pressure.3")
     worked.known["state_pressure.4"] = raised.named("state_pressure.4")
@@ -259,7 +261,7 @@ def _dual(worked: Worked, data: IdealData) -> None:
     elif "state_temperature.4" in worked.known:
         _work(worked, temperature_ratio, "cut_off", later=1)
     else:
-        raise CycleError(Refusal("dual_heat"))
+        raise CycleError(ErrorMessage("dual_heat"))
 
 
 _HEATINGS = {"otto": _otto, "ideal-diesel": _diesel, "dual": _dual}
@@ -270,7 +272,7 @@ _HEATS: dict[str, Callable[..., Any]] = {
 }
 
 
-def _results(worked: Worked, data: IdealData, last: int) -> None:
+def _results(worked: Calculation, data: IdealData, last: int) -> None:
     """Calculate expansion, heats, work, efficiency and mean pressure."""
     _work(worked, expanded_temperature, f"state_temperature.{last}", later=last - 4)
     _work(worked, expanded_pressure, f"state_pressure.{last}", later=last - 4)
@@ -288,17 +290,17 @@ def _results(worked: Worked, data: IdealData, last: int) -> None:
 def _check(data: IdealData) -> None:
     """Raise unless the data are those of one cycle."""
     if data.kind not in _HEATINGS:
-        raise CycleError(Refusal("kind_of_cycle", kind=data.kind, known=", ".join(_HEATINGS)))
+        raise CycleError(ErrorMessage("kind_of_cycle", kind=data.kind, known=", ".join(_HEATINGS)))
     for name in ("pressure", "temperature", "gas_constant"):
         if not getattr(data, name) > 0:
-            raise CycleError(Refusal("not_above", name=name, value=getattr(data, name), limit=0))
+            raise CycleError(ErrorMessage("not_above", name=name, value=getattr(data, name), limit=0))
     for name in ("compression_ratio", "adiabatic_exponent"):
         if not getattr(data, name) > 1:
-            raise CycleError(Refusal("not_above", name=name, value=getattr(data, name), limit=1))
+            raise CycleError(ErrorMessage("not_above", name=name, value=getattr(data, name), limit=1))
     statements = [data.heat, data.peak_temperature, data.cut_off]
     statements += [] if data.kind == "dual" else [data.pressure_ratio]
     if sum(statement is not None for statement in statements) > 1:
-        raise CycleError(Refusal("heat_said_twice"))
+        raise CycleError(ErrorMessage("heat_said_twice"))
     if (data.kind == "otto" and data.cut_off) or (data.kind == "ideal-diesel" and data.pressure_ratio):
         wrong = "cut_off" if data.cut_off else "pressure_ratio"
-        raise CycleError(Refusal("cycle_has_no", kind=data.kind, name=wrong))
+        raise CycleError(ErrorMessage("cycle_has_no", kind=data.kind, name=wrong))

@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Known, KnownAngle, Pieces, plain
+from crankwork.formula.traced_value import Piecewise, TracedAngle, TracedValue, to_number
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Law, Piece
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
-from crankwork.loads.retold import column, curve_laws
+from crankwork.loads.traced_diagram import column, curve_laws
 
 # prefix of the names of points that only shape a curve
 AUXILIARY = "~"
@@ -74,17 +74,20 @@ def to_points_and_pieces(
 def inside_cycle(parts: Sequence[DiagramPart], cycle: float) -> list[DiagramPart]:
     """Return the parts with a length, from 0 to the end of the cycle."""
     inside = [piece for part in parts for piece in _within(part, cycle)]
-    return sorted(inside, key=lambda part: plain(part.points[0].angle))
+    return sorted(inside, key=lambda part: to_number(part.points[0].angle))
 
 
 def traced_pressure_of_parts(
-    parts: Sequence[DiagramPart], cycle: float, volume: Known, references: Mapping[str, tuple[Known, Known]]
-) -> Known:
+    parts: Sequence[DiagramPart],
+    cycle: float,
+    volume: TracedValue,
+    references: Mapping[str, tuple[TracedValue, TracedValue]],
+) -> TracedValue:
     """Return the pressure of traced parts as a piecewise column; each cubic between two knots is a piece. [Pa]
 
     `references`: pressure and volume of the states that polytropes pass through.
     """
-    degrees, ends, laws = KnownAngle().degrees, list[Value](), list[Known]()
+    degrees, ends, laws = TracedAngle().degrees, list[Value](), list[TracedValue]()
     for part in inside_cycle(parts, cycle):
         if part.law == "rounded":
             knots = _shaped(part)
@@ -94,11 +97,13 @@ def traced_pressure_of_parts(
             continue
         ends.append(part.points[-1].angle)
         laws.append(part.points[0].pressure if part.law == "constant" else _on_polytrope(part, references, volume))
-    return Known(Pieces([*ends[:-1], cycle], tuple(laws)), "diagram_pressure")
+    return TracedValue(Piecewise([*ends[:-1], cycle], tuple(laws)), "diagram_pressure")
 
 
-def _on_polytrope(part: DiagramPart, references: Mapping[str, tuple[Known, Known]], volume: Known) -> Known:
-    law: Known = polytropic_pressure(*references[part.reference or ""], volume, part.exponent)
+def _on_polytrope(
+    part: DiagramPart, references: Mapping[str, tuple[TracedValue, TracedValue]], volume: TracedValue
+) -> TracedValue:
+    law: TracedValue = polytropic_pressure(*references[part.reference or ""], volume, part.exponent)
     return law
 
 
@@ -121,7 +126,7 @@ def _is_same(point: DiagramPoint, added: NamedPoint) -> bool:
 
 def _within(part: DiagramPart, cycle: float) -> list[DiagramPart]:
     """Return a part shifted into the cycle, in two if it crosses its end."""
-    start, end = plain(part.points[0].angle), plain(part.points[-1].angle)
+    start, end = to_number(part.points[0].angle), to_number(part.points[-1].angle)
     if end - start < _ANGLE_TOLERANCE:
         return []
     turn = cycle * float(np.floor((start + _ANGLE_TOLERANCE) / cycle))
@@ -135,18 +140,18 @@ def _moved(part: DiagramPart, shift: float, cycle: float) -> DiagramPart:
     """Return a part shifted along the crank angle, with the ends of the cycle hit exactly."""
     moved = [point._replace(angle=point.angle + shift) for point in part.points]
     snapped = [
-        point._replace(angle=edge) if abs(plain(point.angle) - edge) < _ANGLE_TOLERANCE else point
+        point._replace(angle=edge) if abs(to_number(point.angle) - edge) < _ANGLE_TOLERANCE else point
         for point in moved
-        for edge in [0.0 if plain(point.angle) < cycle / 2 else cycle]
+        for edge in [0.0 if to_number(point.angle) < cycle / 2 else cycle]
     ]
     return DiagramPart(part.law, tuple(snapped), part.slopes, part.exponent, part.reference)
 
 
 def _halves(part: DiagramPart, cut: float) -> tuple[DiagramPart, DiagramPart]:
     """Return the parts before and after a crank angle; the curve stays the same."""
-    before = tuple(point for point in part.points if plain(point.angle) < cut - _ANGLE_TOLERANCE)
-    after = tuple(point for point in part.points if plain(point.angle) > cut + _ANGLE_TOLERANCE)
-    at_cut = [point for point in part.points if abs(plain(point.angle) - cut) <= _ANGLE_TOLERANCE]
+    before = tuple(point for point in part.points if to_number(point.angle) < cut - _ANGLE_TOLERANCE)
+    after = tuple(point for point in part.points if to_number(point.angle) > cut + _ANGLE_TOLERANCE)
+    at_cut = [point for point in part.points if abs(to_number(point.angle) - cut) <= _ANGLE_TOLERANCE]
     slope: Value = 0.0
     if part.law == "rounded":
         knots = _shaped(part)

@@ -17,13 +17,13 @@ from numpy.polynomial import legendre
 
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value
-from crankwork.formula.known import Known, Procedure, chosen, plain
+from crankwork.formula.traced_value import FunctionValue, TracedValue, select, to_number
 from crankwork.kinematics.crank_grid import Array
-from crankwork.kinematics.extremes import solve_monotone
+from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
-from crankwork.loads.retold import RememberedVolume
-from crankwork.locale import Refusal
+from crankwork.loads.traced_diagram import TracedVolume
+from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.calculated_cycle import Notice
 from crankwork.working_cycle.gas_exchange import clip_segment, from_before_zero
 from crankwork.working_cycle.rounded_pieces import (
@@ -77,16 +77,20 @@ def rounded_diagram(
 
 
 def traced_rounded_pressure(
-    theory: Mapping[str, Known], timing: Timing, rounding: Rounding, volume: Known, dead_centres: tuple[float, float]
-) -> Known:
+    theory: Mapping[str, TracedValue],
+    timing: Timing,
+    rounding: Rounding,
+    volume: TracedValue,
+    dead_centres: tuple[float, float],
+) -> TracedValue:
     """Return the pressure of the rounded diagram as a traced column; sharp without timing."""
-    corners = corners_of(theory, timing, rounding, RememberedVolume(volume), dead_centres)
+    corners = corners_of(theory, timing, rounding, TracedVolume(volume), dead_centres)
     exchange = exchange_parts(corners)
     if theory["psi"].value and not timing.exhaust_opens:
         # only the share of the stroke that the ports take is given
         shut = theory["epsilon"] * corners.clearance
         opens, shuts = (
-            RememberedVolume(volume).reached(shut, corners.top, end) for end in (corners.bottom, corners.bottom - 360.0)
+            TracedVolume(volume).reached(shut, corners.top, end) for end in (corners.bottom, corners.bottom - 360.0)
         )
         corners = corners._replace(start=shuts, opens=opens, start_volume=shut)
         ends = NamedPoint("e", opens, theory["p_a"]), NamedPoint("a", shuts + timing.cycle, theory["p_a"])
@@ -201,16 +205,18 @@ class FillingOfPolynomials:
 
 def traced_filling_factor(
     value: float,
-    theory: Mapping[str, Known],
+    theory: Mapping[str, TracedValue],
     timing: Timing,
-    columns: tuple[Known, Known],
+    columns: tuple[TracedValue, TracedValue],
     centres: tuple[float, float],
-) -> Known:
+) -> TracedValue:
     """Return the filling factor as the value of a function of the columns of pressure and volume."""
-    corners = corners_of(theory, timing, Rounding(), RememberedVolume(columns[1]), centres)
-    end = corners.bottom if timing.cycle > 360 else plain(corners.opens)
-    function = FillingOfPolynomials(tuple(theory), (plain(corners.start), corners.top, end), timing.cycle)
-    return Known(Procedure(value, "integral", (*columns, *theory.values()), function, 0), "filling_factor.diagram")
+    corners = corners_of(theory, timing, Rounding(), TracedVolume(columns[1]), centres)
+    end = corners.bottom if timing.cycle > 360 else to_number(corners.opens)
+    function = FillingOfPolynomials(tuple(theory), (to_number(corners.start), corners.top, end), timing.cycle)
+    return TracedValue(
+        FunctionValue(value, "integral", (*columns, *theory.values()), function, 0), "filling_factor.diagram"
+    )
 
 
 def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: tuple[float, float, float]) -> float:
@@ -296,7 +302,7 @@ class RoundedCorners(NamedTuple):
     theory: Mapping[str, Value]
     timing: Timing
     rounding: Rounding
-    volume_at: VolumeAt | RememberedVolume
+    volume_at: VolumeAt | TracedVolume
     dead_centres: tuple[float, float]
     kind: Literal["petrol", "diesel", "motored"]
     start: Value
@@ -320,7 +326,7 @@ class RoundedCorners(NamedTuple):
 
     def volumes(self, *angles: Value) -> list[Value]:
         """Return the volumes at crank angles. [m3]"""
-        degrees: Any = angles if isinstance(self.volume_at, RememberedVolume) else np.array(angles)
+        degrees: Any = angles if isinstance(self.volume_at, TracedVolume) else np.array(angles)
         volumes: list[Value] = self.volume_at(degrees).tolist()
         return volumes
 
@@ -332,7 +338,7 @@ class RoundedCorners(NamedTuple):
 
     def angle_of_volume(self, volume: Value) -> Value:
         """Return the angle at which the expansion reaches a volume. [deg]"""
-        if isinstance(self.volume_at, RememberedVolume):
+        if isinstance(self.volume_at, TracedVolume):
             return self.volume_at.reached(volume, self.top, self.bottom)
         return solve_monotone(self.volume_at, volume, self.top, self.bottom)
 
@@ -341,7 +347,7 @@ def corners_of(
     theory: Mapping[str, Value],
     timing: Timing,
     rounding: Rounding,
-    volume_at: VolumeAt | RememberedVolume,
+    volume_at: VolumeAt | TracedVolume,
     dead_centres: tuple[float, float],
 ) -> RoundedCorners:
     """Return the corners of a theoretical diagram."""
@@ -359,7 +365,7 @@ def corners_of(
         rounding,
         volume_at,
         dead_centres,
-        "diesel" if plain(rho) > 1 else "petrol",
+        "diesel" if to_number(rho) > 1 else "petrol",
         start,
         top,
         bottom,
@@ -371,15 +377,17 @@ def corners_of(
 
 
 def _check(theory: Mapping[str, Value], timing: Timing) -> None:
-    missing = [name for name in ("p_r", "p_a", "p_z", "n1", "n2") if not plain(theory.get(name, 0.0)) > 0]
+    missing = [name for name in ("p_r", "p_a", "p_z", "n1", "n2") if not to_number(theory.get(name, 0.0)) > 0]
     if missing:
-        raise CrankworkError(Refusal("theory_missing", names=", ".join(missing)))
+        raise CrankworkError(ErrorMessage("theory_missing", names=", ".join(missing)))
     if timing.cycle not in (360.0, 720.0):
-        raise CrankworkError(Refusal("cycle_angle", angle=timing.cycle))
+        raise CrankworkError(ErrorMessage("cycle_angle", angle=timing.cycle))
     if timing.ignition_advance and timing.ignition_delay >= timing.ignition_advance:
-        raise CrankworkError(Refusal("ignition_late", advance=timing.ignition_advance, delay=timing.ignition_delay))
+        raise CrankworkError(
+            ErrorMessage("ignition_late", advance=timing.ignition_advance, delay=timing.ignition_delay)
+        )
     if timing.cycle == 360 and timing.exhaust_opens < timing.intake_opens:
-        raise CrankworkError(Refusal("ports_early", intake=timing.intake_opens, exhaust=timing.exhaust_opens))
+        raise CrankworkError(ErrorMessage("ports_early", intake=timing.intake_opens, exhaust=timing.exhaust_opens))
 
 
 def compression_parts(corners: RoundedCorners) -> list[DiagramPart]:
@@ -395,9 +403,9 @@ def compression_parts(corners: RoundedCorners) -> list[DiagramPart]:
     else:
         events.append(("c", corners.top))
     names, angles = zip(*events, strict=True)
-    numbers = [plain(angle) for angle in angles]
+    numbers = [to_number(angle) for angle in angles]
     if any(after <= before for before, after in pairwise(numbers)):
-        raise CrankworkError(Refusal("events_crossed", names=list(names), angles=numbers))
+        raise CrankworkError(ErrorMessage("events_crossed", names=list(names), angles=numbers))
     points = list(map(NamedPoint, names, angles, corners.compression(*angles)))
     exponent = corners.theory["n1"]
     return [DiagramPart("polytropic", pair, exponent=exponent, reference="~start") for pair in pairwise(points)]
@@ -417,9 +425,9 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
     peak = level * theory["p_z"]
     highest = NamedPoint("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
     joined, falls_to = highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak)
-    joined = chosen(falls_to - joined, falls_to, joined)
-    if plain(joined) >= plain(corners.opens) or highest.angle <= top:
-        raise CrankworkError(Refusal("peak_late", angle=corners.rounding.peak_angle))
+    joined = select(falls_to - joined, falls_to, joined)
+    if to_number(joined) >= to_number(corners.opens) or highest.angle <= top:
+        raise CrankworkError(ErrorMessage("peak_late", angle=corners.rounding.peak_angle))
     opened_pressure, joined_pressure = corners.expansion(corners.opens, joined)
     opened, join = _opened(corners, opened_pressure), NamedPoint("~g", joined, joined_pressure)
     rising = _rising(corners, peak)
@@ -442,12 +450,12 @@ def _rising(corners: RoundedCorners, peak: Value) -> list[NamedPoint]:
     if corners.rounding.school == "ru":
         # a small rise of pressure has no room for the usual one
         usual, half = corners.rounding.rise * compressed, (compressed + peak) / 2
-        middle = chosen(half - usual, usual, half)
+        middle = select(half - usual, usual, half)
     else:
         middle = compressed + (peak - compressed) / 3
-    low, centre, high = (plain(pressure) for pressure in (compressed, middle, peak))
+    low, centre, high = (to_number(pressure) for pressure in (compressed, middle, peak))
     if not low < centre < high:
-        raise CrankworkError(Refusal("middle_outside", middle=centre / 1e6, compressed=low / 1e6, peak=high / 1e6))
+        raise CrankworkError(ErrorMessage("middle_outside", middle=centre / 1e6, compressed=low / 1e6, peak=high / 1e6))
     # combustion adds to the compression line the square of the angle since its start
     between = [
         NamedPoint(f"~f{number}", angle, line + (middle - compressed) * share**2)
@@ -480,7 +488,7 @@ def exchange_parts(corners: RoundedCorners) -> list[DiagramPart]:
     left = NamedPoint("r'" if timing.intake_opens else "r", turn - timing.intake_opens, low)
     entered = NamedPoint("a'" if timing.exhaust_closes else "~a", turn + timing.exhaust_closes, charge)
     if left.angle < out.angle:
-        raise CrankworkError(Refusal("exhaust_nothing", exhaust=timing.exhaust_opens, intake=timing.intake_opens))
+        raise CrankworkError(ErrorMessage("exhaust_nothing", exhaust=timing.exhaust_opens, intake=timing.intake_opens))
     blown = []
     if timing.exhaust_opens:
         other = low if corners.rounding.school == "ru" else charge
@@ -498,11 +506,11 @@ def _blow_down(corners: RoundedCorners, points: tuple[NamedPoint, ...]) -> list[
     if corners.kind == "motored":
         # without combustion the pressure may rise to that of the exhaust
         points = (points[0], points[-1])
-    pressures = [plain(point.pressure) for point in points]
+    pressures = [to_number(point.pressure) for point in points]
     if points[-1].angle <= points[0].angle:
         return []
     if corners.kind != "motored" and any(after >= before for before, after in pairwise(pressures)):
-        raise CrankworkError(Refusal("blow_down_rising", pressures=[pressure / 1e6 for pressure in pressures]))
+        raise CrankworkError(ErrorMessage("blow_down_rising", pressures=[pressure / 1e6 for pressure in pressures]))
     return [DiagramPart("rounded", points, (corners.slope("expansion", points[0].angle), 0.0))]
 
 

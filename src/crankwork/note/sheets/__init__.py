@@ -7,17 +7,17 @@ from functools import partial
 import numpy as np
 
 from crankwork.analysis import Results
-from crankwork.analysis.whole_engine import as_engine
+from crankwork.analysis.all_cylinders import with_engine_results
 from crankwork.errors import CrankworkError
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.note.sheets.packing import Picture
 from crankwork.note.sheets.plans import Pictures, of_links
 from crankwork.note.sheets.sheet import Paper, Sheet, numbered, sheets_with
 from crankwork.note.sheets.table import text_block
 from crankwork.note.sheets.title_block import TitleBlock, block_of
 from crankwork.quantities import Language
+from crankwork.report.display import for_readers
 from crankwork.report.figures import diagrams
-from crankwork.report.language import for_readers
 from crankwork.report.look import Drawn, drawn_of, kind_of
 from crankwork.report.summary import results_method
 from crankwork.show.scene import Drawing
@@ -70,7 +70,7 @@ def drawn_sheets(
 ) -> tuple[Sheet, ...]:
     """Return the sheets of a machine; figures for which nothing is known are left out."""
     # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
-    results = as_engine(results)
+    results = with_engine_results(results)
     machine = drawn_of(results, language, per_area=per_area)
     known: Pictures = {name: partial(figure.picture, machine) for name, figure in diagrams(machine).items()}
     if machine.has_piston:
@@ -86,11 +86,11 @@ def drawn_sheets(
         is_few = len(pictures) in (1, 2) and not machine.has_piston
         if subjects and is_few and len(subjects[-1][2]) + len(pictures) <= _FULL:
             first, before, joined_pictures = subjects[-1]
-            heading = say(title, language)
+            heading = translate(title, language)
             joined = before if len(pictures) == 1 else f"{before}; {heading[:1].lower()}{heading[1:]}"
             subjects[-1] = first, joined, [*joined_pictures, *pictures]
         elif pictures:
-            subjects.append((name, say(title, language), pictures))
+            subjects.append((name, translate(title, language), pictures))
     if not subjects:
         raise CrankworkError("sheets need the motion of a piston, a drawn linkage or torques; these results have none")
     sheets: list[Sheet] = []
@@ -108,5 +108,5 @@ def _data(engine: Drawn) -> Drawing:
         for key, value in known.items()
         if np.isfinite(value) and (value or key != "offset")
     ]
-    entries.append(f"{say('report.method', language)}: {results_method(engine.results, language)}")
-    return text_block(entries, say("headings.data", language), language)
+    entries.append(f"{translate('report.method', language)}: {results_method(engine.results, language)}")
+    return text_block(entries, translate("headings.data", language), language)

@@ -13,12 +13,12 @@ import numpy as np
 from crankwork.locale import capital
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import Language
-from crankwork.show.paper import WIDER
-from crankwork.show.place import LARGER, MM, ChartLayout, current_layout, use_layout
+from crankwork.show.canvas import WIDER
+from crankwork.show.chart_layout import LARGER, MM, ChartLayout, current_layout, use_layout
 from crankwork.show.scene import (
     TEXT,
     TITLE,
-    Box,
+    ChartBox,
     Drawing,
     Item,
     Plot,
@@ -54,7 +54,7 @@ class Fit(NamedTuple):
     picture: Picture
     place: ChartLayout
     drawing: Drawing
-    ink: Box
+    ink: ChartBox
 
     @property
     def name(self) -> str:
@@ -67,7 +67,11 @@ Sizes = dict[tuple[str, float], list[Fit]]
 
 
 def packed(
-    pictures: Sequence[Picture], field: Box, taken: tuple[Box, Box], layouts: Sequence[Layout], least: float
+    pictures: Sequence[Picture],
+    field: ChartBox,
+    taken: tuple[ChartBox, ChartBox],
+    layouts: Sequence[Layout],
+    least: float,
 ) -> list[Fit]:
     """Return pictures placed in columns in their order, so that they fill as much of the field as they can.
 
@@ -94,7 +98,7 @@ def packed(
     return [_finished(fit, field, taken[0]) for fit in best]
 
 
-def _finished(fit: Fit, field: Box, corner: Box) -> Fit:
+def _finished(fit: Fit, field: ChartBox, corner: ChartBox) -> Fit:
     """Return a picture drawn in full in the place of its rough drawing, inside the field."""
     with use_layout(fit.place._replace(is_rough=False)):
         complete = headed(fit.picture, fit.picture.draw(), fit.place.width * MM * LARGER, fit.place)
@@ -108,18 +112,18 @@ def _finished(fit: Fit, field: Box, corner: Box) -> Fit:
     return placed if into <= 0 else _at(complete, left, top - into - _CLEAR)
 
 
-def _columns(field: Box, taken: tuple[Box, Box], layout: Layout) -> Iterator[Box]:
+def _columns(field: ChartBox, taken: tuple[ChartBox, ChartBox], layout: Layout) -> Iterator[ChartBox]:
     """Yield columns from left to right, shorter where something is taken."""
     left, (corner, block) = field.left, taken
     for share in layout:
         width = share * (field.width + _GAP) - _GAP
         foot = block.top + _GAP - field.bottom if block.width and left + width > block.left else 0.0
         head = max(field.top - corner.bottom, 0.0) if left < corner.right else 0.0
-        yield Box(left, field.bottom + foot, width, field.height - foot - head)
+        yield ChartBox(left, field.bottom + foot, width, field.height - foot - head)
         left += width + _GAP
 
 
-def _stacked(pictures: Sequence[Picture], box: Box, limits: tuple[float, float], sizes: Sizes) -> list[Fit] | None:
+def _stacked(pictures: Sequence[Picture], box: ChartBox, limits: tuple[float, float], sizes: Sizes) -> list[Fit] | None:
     """Return pictures one below the other in a column, or None if it has no room for them."""
     choices = []
     for picture in pictures:
@@ -221,7 +225,7 @@ def headed(picture: Picture, drawing: Drawing, width: float, place: ChartLayout)
     return Fit(picture, place, drawing, covered(drawing.items))
 
 
-def covered(items: Sequence[Item]) -> Box:
+def covered(items: Sequence[Item]) -> ChartBox:
     """Return the area that items cover, with letters as wide as a reader may have them. [mm]"""
     wide = (item._replace(wide=WIDER * item.wide) if isinstance(item, Text) else item for item in items)
     boxes = [extent(item) for item in wide if not isinstance(item, Polyline)]
@@ -230,7 +234,7 @@ def covered(items: Sequence[Item]) -> Box:
         [np.array(corners).reshape(-1, 2), *(item.points for item in items if isinstance(item, Polyline))]
     )
     (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
-    return Box(float(left), float(bottom), float(right - left), float(top - bottom))
+    return ChartBox(float(left), float(bottom), float(right - left), float(top - bottom))
 
 
 def scales(drawing: Drawing) -> list[str]:
@@ -298,6 +302,6 @@ def in_grid(
     return Drawing(title, language, wide * columns, -foot, tuple(items))
 
 
-def _middle(ink: Box, x: float, y: float) -> tuple[float, float]:
+def _middle(ink: ChartBox, x: float, y: float) -> tuple[float, float]:
     """Return the shift that moves the middle of a box to a place. [mm]"""
     return x - ink.left - ink.width / 2, y - ink.bottom - ink.height / 2

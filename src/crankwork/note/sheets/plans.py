@@ -10,22 +10,22 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.moving import Moving, moving, reached_angles
-from crankwork.analysis.plans import accelerations, driver_rates, velocities
-from crankwork.analysis.rounding import without_rounding
+from crankwork.analysis.rounding_noise import without_rounding
+from crankwork.analysis.sampled_motion import SampledMotion, reached_angles, sample_motion
 from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
-from crankwork.locale import decimal, say
+from crankwork.analysis.vector_polygons import accelerations, driver_rates, velocities
+from crankwork.locale import decimal, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.table import Column, numbers, table, text_block
 from crankwork.quantities import Language
-from crankwork.report.language import called, symbol
+from crankwork.report.display import link_label, symbol
 from crankwork.report.look import Style, displayed_values, math_symbol, position_text, quantity_of
 from crankwork.report.plans import acceleration_plan, node_name, size_of, velocity_plan
 from crankwork.report.summary import results_method
 from crankwork.report.tables import any_nonzero
-from crankwork.show.paper import plain
+from crankwork.show.canvas import plain
 from crankwork.show.scene import Drawing
 
 # step of the motion that plans are taken from [deg]
@@ -53,10 +53,10 @@ def of_links(results: Results, language: Language) -> Pictures:
     data = positions(results, degrees[shown], skeleton(mechanism, style.links), style)
     drawn: Pictures = {"structure": partial(structure_block, data, analysed)} if analysed is not None else {}
     drawn |= {**motion_tables(data), **reactions_table(data)}
-    return drawn | _plans(data, moving(mechanism, data.degrees))
+    return drawn | _plans(data, sample_motion(mechanism, data.degrees))
 
 
-def _plans(data: Positions, moved: Moving) -> Pictures:
+def _plans(data: Positions, moved: SampledMotion) -> Pictures:
     """Return velocity plans at all positions, acceleration plans at three of them, and the values read on them."""
     mechanism, style, language, scales = data.results.machine.mechanism, data.style, data.language, Scales()
     rates = driver_rates(data.results, data.columns)
@@ -92,9 +92,9 @@ def _grid(
     name: str, cells: Sequence[Callable[[], Drawing]], columns: int, scales: Scales, language: Language
 ) -> Callable[[], Drawing]:
     def remark() -> str:
-        return say("drawing.own_scales", language) if scales.differ(name[0]) else ""
+        return translate("drawing.own_scales", language) if scales.differ(name[0]) else ""
 
-    return partial(in_grid, cells, columns, say(f"sheets.{name}", language), language, remark)
+    return partial(in_grid, cells, columns, translate(f"sheets.{name}", language), language, remark)
 
 
 class Positions(NamedTuple):
@@ -116,7 +116,7 @@ class Positions(NamedTuple):
         places = [position_text(float(self.degrees[row]), self.style) for row in rows]
         drive = symbol("time" if self.style.period else "crank_angle", self.language)
         return [
-            Column(say("columns.position", self.language), [str(row) for row in rows]), Column(f"${drive}$", places)
+            Column(translate("columns.position", self.language), [str(row) for row in rows]), Column(f"${drive}$", places)
         ]  # fmt: skip
 
     def column(self, key: str, sign: str = "") -> Column:
@@ -146,7 +146,7 @@ def structure_block(data: Positions, analysed: Structure) -> Drawing:
     entries = [
         f"${symbol('mobility', language)}$ = 3$n$ − 2$p_5$ − $p_4$ = {sum_} = {analysed.mobility}",
         f"{analysed.formula.replace('->', '→')}",
-        f"{say('columns.class', language)}: {_CLASSES[min(analysed.number, len(_CLASSES) - 1)]}",
+        f"{translate('columns.class', language)}: {_CLASSES[min(analysed.number, len(_CLASSES) - 1)]}",
     ]
     speed = results.solved.speed
     if speed and not data.style.period:
@@ -155,12 +155,12 @@ def structure_block(data: Positions, analysed: Structure) -> Drawing:
         entries.append(f"${row.symbol(language)}$ = {turns} {unit_name(row.unit, language)}")
         shown = number(float(f"{speed:.6g}"), language)
         entries.append(f"${symbol('speed', language)}_1$ = {shown} {unit_name('rad/s', language)}")
-    entries.append(f"{say('report.method', language)}: {results_method(results, language)}")
-    names = ((number, called(name, language).replace("_", " ")) for number, name in numbered(data.shape) if number)
+    entries.append(f"{translate('report.method', language)}: {results_method(results, language)}")
+    names = ((number, link_label(name, language).replace("_", " ")) for number, name in numbered(data.shape) if number)
     links = [f"{number} – {plain(name)}" for number, name in names]
     if any(not link.endswith(f" {link.partition(' ')[0]}") for link in links):
-        entries.append(f"{say('columns.members', language)}: {', '.join(links)}")
-    return text_block(entries, say("headings.structure", language), language)
+        entries.append(f"{translate('columns.members', language)}: {', '.join(links)}")
+    return text_block(entries, translate("headings.structure", language), language)
 
 
 def motion_tables(data: Positions) -> dict[str, Draw]:
@@ -177,7 +177,7 @@ def motion_tables(data: Positions) -> dict[str, Draw]:
         for key in _named(data.columns, links):
             columns.append(data.column(key, f"${mark}_{data.number_of(key.partition('.')[2])}$"))
         if columns:
-            title = say(f"captions.{name}", data.language)
+            title = translate(f"captions.{name}", data.language)
             drawn[name] = partial(table, data.first(range(len(data.degrees))), columns, title, data.language)
     return drawn
 
@@ -200,7 +200,7 @@ def reactions_table(data: Positions) -> dict[str, Draw]:
     if not any("." in key for key in keys):
         return {}
     columns = [data.column(key) for key in keys]
-    title = say("sheets.reactions", data.language)
+    title = translate("sheets.reactions", data.language)
     return {"reactions": partial(table, data.first(range(len(data.degrees))), columns, title, data.language)}
 
 
@@ -233,9 +233,9 @@ def scales_table(data: Positions, scales: Scales, seen: Mapping[str, Sequence[in
         for position, column in enumerate(columns):
             is_seen = position in seen[sign]
             column.append(number(float(f"{scales.of(sign, position):.4g}"), language) if is_seen else "–")
-    before = Column(say("columns.position", language), rows)
+    before = Column(translate("columns.position", language), rows)
     positions_ = [Column(str(position), column) for position, column in enumerate(columns)]
-    return table([before], positions_, say("sheets.scales", language), language)
+    return table([before], positions_, translate("sheets.scales", language), language)
 
 
 def compared_table(data: Positions, scales: Scales, rows: Sequence[int]) -> Drawing:
@@ -254,16 +254,16 @@ def compared_table(data: Positions, scales: Scales, rows: Sequence[int]) -> Draw
                for drawn, calculated in zip(plans, exact, strict=True)]  # fmt: skip
         per, mm = unit_name(unit, language), unit_name("mm", language)
         shown += [
-            Column(f"${sign}$ {say('sheets.on_plan', language)}, {mm}", [number(end, language) for end in ends]),
-            Column(f"${sign}$ {say('sheets.graphic', language)}, {per}", numbers(plans, language)),
-            Column(f"${sign}$ {say('sheets.analytic', language)}, {per}", numbers(exact, language)),
+            Column(f"${sign}$ {translate('sheets.on_plan', language)}, {mm}", [number(end, language) for end in ends]),
+            Column(f"${sign}$ {translate('sheets.graphic', language)}, {per}", numbers(plans, language)),
+            Column(f"${sign}$ {translate('sheets.analytic', language)}, {per}", numbers(exact, language)),
             Column(f"Δ${sign}$, %", [_share(share, language) for share in off]),
         ]
     before = [
         *data.first([position for position, _ in lines]),
-        Column(say("columns.point", language), [node_name(plain(data.shape.letters[name])) for _, name in lines]),
+        Column(translate("columns.point", language), [node_name(plain(data.shape.letters[name])) for _, name in lines]),
     ]
-    return table(before, shown, say("sheets.compared", language), language)
+    return table(before, shown, translate("sheets.compared", language), language)
 
 
 def _share(value: float, language: Language) -> str:

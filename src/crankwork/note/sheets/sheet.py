@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 
 from crankwork.errors import CrankworkError
-from crankwork.locale import say
+from crankwork.locale import translate
 from crankwork.note.sheets.packing import Fit, Layout, Picture, packed
 from crankwork.note.sheets.table import text_block
 from crankwork.note.sheets.title_block import (
@@ -23,8 +23,8 @@ from crankwork.note.sheets.title_block import (
     title_height,
 )
 from crankwork.quantities import Language
-from crankwork.show.place import ChartLayout, use_layout
-from crankwork.show.scene import Box, Drawing, Item, Polyline, rectangle
+from crankwork.show.chart_layout import ChartLayout, use_layout
+from crankwork.show.scene import ChartBox, Drawing, Item, Polyline, rectangle
 
 Size = Literal["A0", "A1", "A2", "A3"]
 SIZES: tuple[Size, ...] = get_args(Size)
@@ -54,26 +54,26 @@ class Paper(NamedTuple):
     block: TitleBlock | None = None
 
     @property
-    def box(self) -> Box:
+    def box(self) -> ChartBox:
         """The whole paper. [mm]"""
-        return Box(0.0, 0.0, *_LENGTHS[self.size])
+        return ChartBox(0.0, 0.0, *_LENGTHS[self.size])
 
     @property
-    def frame(self) -> Box:
+    def frame(self) -> ChartBox:
         """The inside of the frame: a margin of 20 mm to the left, for binding, and of 5 mm elsewhere. [mm]"""
         return self.box.inset(_BINDING, _EDGE, _EDGE, _EDGE)
 
     @property
-    def corner(self) -> Box:
+    def corner(self) -> ChartBox:
         """Where the cell in the upper left corner is. [mm]"""
         width, height = size_of_corner(self.block) if self.block is not None else (0.0, 0.0)
-        return Box(self.frame.left, self.frame.top - height, width, height)
+        return ChartBox(self.frame.left, self.frame.top - height, width, height)
 
     @property
-    def reserved(self) -> Box:
+    def reserved(self) -> ChartBox:
         """Where the title block is. [mm]"""
         width, height = size_of_block(self.block) if self.block is not None else (0.0, 0.0)
-        return Box(self.frame.right - width, self.frame.bottom, width, height)
+        return ChartBox(self.frame.right - width, self.frame.bottom, width, height)
 
 
 class Sheet(NamedTuple):
@@ -145,7 +145,7 @@ def _without_room(picture: Picture, paper: Paper, language: Language) -> Picture
     """Return a sentence that says which figure a paper is too small for."""
     with use_layout(ChartLayout(is_rough=True)):
         title = picture.draw().title
-    text = say("sheets.no_room", language, title=title, size=paper.size)
+    text = translate("sheets.no_room", language, title=title, size=paper.size)
     return Picture(picture.name, partial(text_block, [text], title, language), has_title=False)
 
 
@@ -165,7 +165,7 @@ def numbered(sheets: Sequence[Sheet], paper: Paper) -> tuple[Sheet, ...]:
     return tuple(sheet._replace(paper=paper._replace(block=block)) for sheet, block in zip(sheets, blocks, strict=True))
 
 
-def _millimetres(frame: Box) -> list[Item]:
+def _millimetres(frame: ChartBox) -> list[Item]:
     """Return the grid of millimetre paper, every tenth line bold."""
     items: list[Item] = []
     for start, end, low, high, is_upright in (

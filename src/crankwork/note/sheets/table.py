@@ -12,8 +12,8 @@ import numpy as np
 
 from crankwork.locale import decimal
 from crankwork.quantities import Language
-from crankwork.show.paper import WIDER, Canvas, fitted_lines, text_width
-from crankwork.show.place import current_layout
+from crankwork.show.canvas import WIDER, Canvas, fitted_lines, text_width
+from crankwork.show.chart_layout import current_layout
 from crankwork.show.scene import Drawing, flow_rows
 
 _ROW, _PAD, _BETWEEN, _DIGITS = 13.0, 4.0, 8.0, 4

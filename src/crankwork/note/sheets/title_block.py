@@ -6,10 +6,22 @@ import itertools
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from crankwork.locale import Language, say
+from crankwork.locale import Language, translate
 from crankwork.machine import Document
 from crankwork.note.captions import printed_date
-from crankwork.show.scene import SMALL, TEXT, TITLE, Box, Item, Text, line, literal, printable, rectangle, text_width
+from crankwork.show.scene import (
+    SMALL,
+    TEXT,
+    TITLE,
+    ChartBox,
+    Item,
+    Text,
+    line,
+    literal,
+    printable,
+    rectangle,
+    text_width,
+)
 
 _SIZES: dict[Language, tuple[float, float]] = {"ru": (185.0, 55.0), "vi": (185.0, 55.0), "en": (180.0, 36.0)}
 _HEIGHTS = (10.0, 7.0, TITLE, TEXT, SMALL)
@@ -81,7 +93,7 @@ def size_of_block(block: TitleBlock) -> tuple[float, float]:
     return _SIZES[block.form]
 
 
-def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[Item]:
+def title_block(block: TitleBlock, title: str, paper: str, place: ChartBox) -> list[Item]:
     """Return the title block.
 
     `title`: what the sheet shows, where the block has no title of its own; `paper`: its format.
@@ -90,7 +102,7 @@ def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[I
     cells = _iso(block, paper) if block.form == "en" else _form_1(block)
     items: list[Item] = []
     for cell in cells:
-        box = Box(place.left + cell.left, place.bottom + cell.bottom, cell.width, cell.height)
+        box = ChartBox(place.left + cell.left, place.bottom + cell.bottom, cell.width, cell.height)
         # rows that are filled in by hand are parted by thin lines
         items.append(rectangle(box, "thin" if cell.left < 65 and block.form != "en" else "thick"))
         items += _labelled(cell, box) if block.form == "en" else _written(cell.label or cell.text, box, cell.most)
@@ -104,7 +116,7 @@ def title_block(block: TitleBlock, title: str, paper: str, place: Box) -> list[I
 def title_height(block: TitleBlock, title: str) -> float:
     """Return the height of the letters of a title that has its place to itself. [mm]"""
     wide, high = (100.0, 14.0) if block.form == "en" else (70.0, 25.0)
-    letters = (row.height for row in _written(block.title or title, Box(0, 0, wide, high), block.title_height))
+    letters = (row.height for row in _written(block.title or title, ChartBox(0, 0, wide, high), block.title_height))
     return min(letters, default=block.title_height)
 
 
@@ -183,7 +195,7 @@ def _iso(block: TitleBlock, paper: str) -> Iterator[_Cell]:
 
 
 def _text(key: str, language: Language) -> str:
-    return say(key if "." in key else f"sheets.{key}", language) if key else ""
+    return translate(key if "." in key else f"sheets.{key}", language) if key else ""
 
 
 def size_of_corner(block: TitleBlock) -> tuple[float, float]:
@@ -191,21 +203,21 @@ def size_of_corner(block: TitleBlock) -> tuple[float, float]:
     return (70.0, 14.0) if block.form == "ru" else (0.0, 0.0)
 
 
-def corner_cell(block: TitleBlock, place: Box) -> list[Item]:
+def corner_cell(block: TitleBlock, place: ChartBox) -> list[Item]:
     """Return the cell in the upper left corner, with the designation upside down, where there is one."""
     if not place.width:
         return []
     return [rectangle(place, "thick", 1.0), *_written(block.designation, place, 7.0, angle=180.0)]
 
 
-def _labelled(cell: _Cell, box: Box) -> list[Text]:
+def _labelled(cell: _Cell, box: ChartBox) -> list[Text]:
     """Return the label of a cell in its upper left corner, and under it what it says."""
     wide = min(1.0, (box.width - 2) / max(_width(cell.label, SMALL), 1e-9))
     label = Text((box.left + 1, box.top - 1 - SMALL), cell.label, SMALL, wide=wide)
     return [label, *_written(cell.text, box.inset(0, 0, 0, 4.0), cell.most)]
 
 
-def _written(text: str, box: Box, most: float, angle: float = 0.0) -> list[Text]:
+def _written(text: str, box: ChartBox, most: float, angle: float = 0.0) -> list[Text]:
     """Return a text in the middle of a box, as large as there is room for, on more rows and narrower if it is long."""
     text = literal(" ".join(printable(text, _LONGEST).split()))
     if not text:

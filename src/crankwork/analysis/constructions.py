@@ -1,0 +1,158 @@
+"""Constructions on the results of a machine that figures, sheets and notes draw alike."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.analysis.cylinder_forces import COLUMNS, columns
+from crankwork.analysis.piston_kinematics import HARMONICS
+from crankwork.analysis.results import Results
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
+
+_STEP = 0.5
+# behind a corner of the pressure, where there may be a jump
+_AFTER = 1e-6
+# how many parts the tangents of a parabola are divided into
+_PARTS = 6
+
+
+class FineColumns(NamedTuple):
+    """Columns of one cylinder over the cycle, finer than the tables, at crank angles. [SI], [deg]"""
+
+    degrees: Array
+    columns: Mapping[str, Array]
+
+
+def fine_columns(results: Results) -> FineColumns:
+    """Return the columns of one cylinder, with every corner of the pressure among the angles.
+
+    `results`: of a slider-crank; of an approximate method with the orders of the motion.
+    """
+    grid = CrankGrid.steps(_STEP, results.machine.cycle, special=_corners(results))
+    keys = COLUMNS if results.method.is_exact else (*COLUMNS, *HARMONICS)
+    return FineColumns(grid.degrees, columns(results.solved, grid, keys))
+
+
+def _corners(results: Results) -> tuple[float, ...]:
+    """Return the angles where the pressure may have a corner or, just behind them, a jump. [deg]"""
+    if results.solved.space is None:
+        return ()
+    diagram = results.solved.space.diagram
+    angles = {segment.start for segment in diagram.segments} | {angle for angle, _ in diagram.named.values()}
+    last = results.machine.cycle - _AFTER
+    return tuple(angles | {angle + _AFTER for angle in angles if angle < last})
+
+
+class BrixPoints(NamedTuple):
+    """Points of Brix's circle for a circle of radius 1 about the crankshaft, up towards top dead centre."""
+
+    pole: Array  # Where the rays begin: right and up, in crank radii, shape (2,) [-]
+    # Where they cut the circle, shape (n,) [-]
+    across: Array
+    up: Array
+
+
+def brix_points(lengths: SliderCrank, degrees: Array) -> BrixPoints:
+    """Return where rays from the shifted pole cut the circle; its height below the top is the displacement. [-]
+
+    `degrees`: crank angles, which the rays make with the axis [deg].
+
+    The pole lies half the crank-to-rod ratio towards bottom dead centre. Where the cylinder is offset, the axis is
+    turned by the ratio of offset to rod length, which gives the displacement its part of the sine.
+    """
+    turn = float(lengths.offset / lengths.rod_length)
+    pole = -float(lengths.rod_ratio) / 2 * np.array([np.sin(-turn), np.cos(turn)])
+    angle = np.radians(degrees) - turn
+    ray = np.array([np.sin(angle), np.cos(angle)])
+    along = pole @ ray
+    reach = -along + np.sqrt(along**2 + 1 - pole @ pole)
+    return BrixPoints(pole, pole[0] + reach * ray[0], pole[1] + reach * ray[1])
+
+
+class TollePoints(NamedTuple):
+    """Points of Tolle's construction: displacement over the crank radius, acceleration over r w^2."""
+
+    # A and B at the dead centres on the axis, C and D at the accelerations there, E where CD cuts the axis, F at the
+    # acceleration -3 r/l beside E [-]
+    a: tuple[float, float]
+    b: tuple[float, float]
+    c: tuple[float, float]
+    d: tuple[float, float]
+    e: tuple[float, float]
+    f: tuple[float, float]
+
+
+def tolle_points(ratio: float) -> TollePoints:
+    """Return the points of Tolle's construction for a central slider-crank. [-]
+
+    With two terms of the series both displacement and acceleration are quadratic in the cosine of the crank angle, so
+    that one over the other is a parabola; CF and FD are its tangents at the dead centres.
+    """
+    cut = 1 + ratio
+    return TollePoints((0.0, 0.0), (2.0, 0.0), (0.0, 1 + ratio), (2.0, ratio - 1), (cut, 0.0), (cut, -3 * ratio))
+
+
+def tolle_parabola(ratio: float) -> tuple[Array, Array]:
+    """Return displacement and acceleration by two terms of the series, the parabola that the tangents envelop. [-]
+
+    In crank radii and r w^2, from top to bottom dead centre.
+    """
+    cosine = np.cos(np.radians(np.arange(0.0, 181.0, 3.0)))
+    return 1 - cosine + ratio / 2 * (1 - cosine**2), cosine + ratio * (2 * cosine**2 - 1)
+
+
+def tangent_ends(start: ArrayLike, corner: ArrayLike, end: ArrayLike) -> Array:
+    """Return the lines that join equal parts of two tangents of a parabola, which are tangents as well, shape (n, 4).
+
+    `start`, `corner` and `end`: where the tangents touch the parabola, and between them where they meet [any], shape
+    (2,).
+    """
+    share = np.arange(1, _PARTS)[:, None] / _PARTS
+    a, b, c = (np.array(one) for one in (start, corner, end))
+    return np.hstack([a + (b - a) * share, b + (c - b) * share])
+
+
+class Fluctuation(NamedTuple):
+    """How evenly the crank turns: mean angular speed [rad/s] and its coefficient of fluctuation [-]."""
+
+    mean: float
+    delta: float
+
+
+class Tangents(NamedTuple):
+    """The tangents of the energy-mass curve at largest and smallest speed, y = slope x + foot. [J], [kg m2]
+
+    `flywheel` is the reduced inertia that has to be added: where they meet, counted to the left.
+    """
+
+    slope_max: float
+    slope_min: float
+    foot_max: float
+    foot_min: float
+    touch_max: int
+    touch_min: int
+
+    @property
+    def flywheel(self) -> float:
+        """Reduced moment of inertia that keeps the speed within its limits. [kg m2]"""
+        return (self.foot_max - self.foot_min) / (self.slope_max - self.slope_min)
+
+
+def tangents(inertia: Array, energy: Array, wanted: Fluctuation) -> Tangents:
+    """Return the two tangents of the energy-mass curve (artobolevsky_1988).
+
+    `inertia` and `energy`: reduced moment of inertia [kg m2] and change of the kinetic energy [J] over one cycle.
+
+    tan psi = w^2 (1 +- delta) / 2; the upper tangent touches the curve from above, the lower one from below.
+    """
+    high = float(wittenbauer_slope_largest(wanted.mean, wanted.delta))
+    low = float(wittenbauer_slope_least(wanted.mean, wanted.delta))
+    above, below = energy - high * inertia, energy - low * inertia
+    i, j = int(np.argmax(above)), int(np.argmin(below))
+    return Tangents(high, low, float(above[i]), float(below[j]), i, j)

@@ -1,0 +1,97 @@
+"""What the moving masses of a linkage do to its foundation, its orders, and the best counterweight on the crank."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
+from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
+from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.reaction import shaking_force
+from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, Sum, TracedValue, absent, total
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.mechanism.mechanism import Crank
+
+_ORDERS = (1, 2, 3, 4)
+# share of the forces that are added which rounding leaves of nothing
+_ROUNDING = 1e-13
+_SAMPLES = 1440
+
+
+def shaking(running: OperatingState) -> Iterator[tuple[str, TracedValue]]:
+    """Yield force and moment of all moving masses on the ground, the moment about the pivot of the crank."""
+    driver, loads = running.mechanism.driver, inertia_loads(running)
+    x = total("shaking_force_x", [one.x for one in loads.forces])
+    y = total("shaking_force_y", [one.y for one in loads.forces])
+    yield from ((one.key, one) for one in (x, y, shaking_force(x, y).named("shaking_force")))
+    if isinstance(driver, Crank):
+        pivot = running.motion.frames[driver.link].origin
+        moments = [moment_of(arm(pivot, one.point), (one.x, one.y), f"{one.link}.shaking") for one in loads.forces]
+        turning = [one.torque for one in loads.torques]
+        stated = [one for one in (*moments, *turning) if not one.is_absent]
+        if stated:
+            yield "shaking_moment", total("shaking_moment", stated)
+
+
+def counterweight_balance(
+    driver: Crank, trace: Mapping[str, TracedValue], period: float
+) -> Iterator[tuple[str, TracedValue]]:
+    """Yield the largest force and moment of each order, and the best counterweight on the crank.
+
+    It takes the part of the force that turns with the crank, which makes the mean square of the rest least.
+    `period`: crank angle of a cycle [deg].
+    """
+    of = trace["shaking_force_x"], trace["shaking_force_y"]
+    moment_of_all = trace.get("shaking_moment", absent("shaking_moment"))
+    grid, turns = CrankGrid.from_degrees(np.arange(_SAMPLES) * period / _SAMPLES), round(period / 360.0)
+    terms = [term for force in of for term in (force.node.operands if isinstance(force.node, Sum) else (force,))]
+    columns = Program(
+        {**dict(zip("xyz", (*of, moment_of_all), strict=True)), **{str(n): term for n, term in enumerate(terms)}}
+    )(grid)
+    x, y, moments = (columns[axis] + np.zeros(_SAMPLES) for axis in "xyz")
+    # what cancels leaves rounding of the size of its terms
+    size = np.max(np.sum([np.abs(columns[str(n)] + np.zeros(_SAMPLES)) for n in range(len(terms))], axis=0))
+    coefficients = _coefficients(x + 1j * y, size)
+    # of a cycle of two turns there are half orders too
+    counts = range(1, _ORDERS[-1] * turns + 1)
+    if moment_of_all.varies:
+        yield from _moment_orders(moment_of_all, _coefficients(moments), counts, turns)
+    for count in counts:
+        both = abs(coefficients[count]) + abs(coefficients[-count])
+        yield f"free_force.{count / turns:g}", TracedValue(ProcedureValue(float(both), "harmonic", of))
+    forward = complex(coefficients[driver.direction * turns])
+    moment = TracedValue(ProcedureValue(abs(forward) / trace["speed"].value ** 2, "fourier", of))
+    yield "counterweight_moment", moment
+    if forward:
+        angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
+        yield "counterweight_angle", TracedValue(ProcedureValue(angle, "fourier", of))
+
+
+def _coefficients(samples: NDArray[Any], size: float | None = None) -> NDArray[np.complex128]:
+    """Return the Fourier coefficients of evenly spaced samples of a cycle, without those that are rounding.
+
+    `size`: largest sum of the terms of the samples by magnitude; by default the largest sample.
+    """
+    coefficients: NDArray[np.complex128] = np.fft.fft(samples) / samples.size
+    coefficients[np.abs(coefficients) <= _ROUNDING * (np.max(np.abs(samples)) if size is None else size)] = 0.0
+    return coefficients
+
+
+def _moment_orders(
+    moment: TracedValue, coefficients: NDArray[np.complex128], counts: Iterable[int], turns: int
+) -> Iterator[tuple[str, TracedValue]]:
+    """Yield the amplitude of each order of the shaking moment."""
+    for count in counts:
+        order, both = count / turns, 2 * complex(coefficients[count])
+        parts = (
+            TracedValue(HarmonicCoefficient(both.real, moment, "cosine", order)),
+            TracedValue(HarmonicCoefficient(-both.imag, moment, "sine", order)),
+        )
+        yield f"shaking_moment_amplitude.{order:g}", amplitude_of_harmonic(*parts)

@@ -1,0 +1,387 @@
+"""The loads of the bearings of an engine: crankpins, big end, small end, main journals, and their wear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.bearing_loads import (
+    WEAR_STEP,
+    hole_of,
+    load_values,
+    loads_listing,
+    reversal_values,
+    wear_listing,
+    wear_table,
+)
+from crankwork.analysis.cylinders import MultiCylinderEngine
+from crankwork.analysis.results import Listing
+from crankwork.cylinders import bearings as formulas
+from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
+from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
+from crankwork.cylinders.layout import CylinderPlace, Layout
+from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.dynamics.piston_forces import transverse_weight, weight_force
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.replay import Samples
+from crankwork.formula.traced_value import Delayed, FormulaCall, Node, TracedValue, absent, given, in_order, total
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.slider_crank import RodSwing
+
+_X, _Y = "bearing_force_x", "bearing_force_y"
+_ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_", "journal_share", "bearing_force_")
+_OF_ROD = ("crankpin_radial_force", "crankpin_tangential_force", "tangential_force")
+_SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
+
+
+class BearingLoads(NamedTuple):
+    """Loads of the bearings over the crank angle."""
+
+    # Force of the rods on each crankpin in the frame of its crank, by its number; of alike ones
+    # the first, shape (n,) [N]
+    crankpins: Mapping[int, BearingLoad]
+    # Of the rod of cylinder 1, in the frame of the rod, shape (n,) [N]
+    big_end: BearingLoad
+    small_end: BearingLoad
+    # Force of the bearing on each main journal, in the frame of the crankshaft, shape (n,) [N]
+    mains: tuple[BearingLoad, ...]
+
+
+def bearing_trace(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+    """Return the loads of the bearings by key: sizes, and components in the frame of each.
+
+    Source: kolchin_demidov_2008, ch. 9.
+    """
+    master = whole.master.trace
+    inertia = absent("big_end_inertia_force")
+    if whole.machine.masses is not None:
+        mass, r, w = master["rod_big_end_mass"], master["crank_radius"], master["speed"]
+        inertia = formulas.big_end_inertia_force(mass, r, w)
+    forces = {one.number: _of_rod(whole, one, inertia) for one in whole.layout.places}
+    found = {one.key: one for one in (inertia, *_crankpins(whole, forces, inertia))}
+    rods = [BearingLoad(-along, across) for along, across in forces.values()]
+    load, size = rods[0], _of_one_rod(whole, 1, rods[0], inertia)
+    if any(whole.engine.articulated_rods):
+        # the master rod carries the others: its bearing is loaded as the crankpin is
+        pin = whole.layout.places[0].crankpin + 1
+        load = BearingLoad(-found[f"crankpin_radial_force.{pin}"], found[f"crankpin_tangential_force.{pin}"])
+        size = found[f"crankpin_load.{pin}"]
+    on_rod = formulas.big_end_bearing_load(load, RodSwing(*(master[key] for key in _SWING))).named("big_end")
+    found |= {one.key: one for one in (*on_rod, size.named("big_end_load"), *_small_end(whole))}
+    layout = _spaced(whole.layout)
+    masses = [_held(whole, one) for one in shaft_unbalances(whole, layout)]
+    mains = main_journal_loads(layout, rods, masses, master["speed"])
+    for at, load in enumerate(mains, start=1):
+        found |= {one.key: one for one in (*load, load.resultant.named(f"main_journal_load.{at}"))}
+    ends = [part for load in mains for part in load]
+    return {one.key: one for one in in_order(ends, into=_of_shaft) if one.key.startswith(_ON_SHAFT)} | found
+
+
+def _of_shaft(node: Node) -> tuple[TracedValue, ...]:
+    """Return what loads of main journals are made of, up to those of the rods."""
+    is_of_rod = isinstance(node, FormulaCall) and node.formula.quantity in _OF_ROD
+    return () if is_of_rod or isinstance(node, Delayed) else node.operands
+
+
+def _of_rod(whole: MultiCylinderEngine, place: CylinderPlace, inertia: TracedValue) -> tuple[TracedValue, TracedValue]:
+    """Return the load of a rod on its crankpin along and across the crank arm, of its forces and its mass there."""
+    name = f"{place.crankpin + 1}.{place.number}" if len(whole.on_pin[place.crankpin]) > 1 else f"{place.crankpin + 1}"
+    trace = whole.cylinders[place.number - 1].trace
+    # what of an articulated rod is at its knuckle pin has come through the master rod
+    own = absent(inertia.key) if "knuckle_side_force" in trace else inertia
+    weight, tangential = (
+        whole.of(place.number, key) if key in trace else absent(key)
+        for key in ("big_end_weight", "big_end_tangential_force")
+    )
+    along: TracedValue = formulas.crankpin_radial_force(whole.of(place.number, "radial_force"), own, weight)
+    across = whole.of(place.number, "tangential_force")
+    if not tangential.is_absent:
+        across = formulas.crankpin_tangential_force(across, tangential).named(f"crankpin_tangential_force.{name}")
+    return along.named(f"crankpin_radial_force.{name}"), across
+
+
+def _crankpins(
+    whole: MultiCylinderEngine, rods: Mapping[int, tuple[TracedValue, TracedValue]], inertia: TracedValue
+) -> Iterator[TracedValue]:
+    """Yield radial and tangential force on every unlike crankpin and their resultant; of several rods, the sums."""
+    for pin in distinct_crankpins(whole):
+        some = [one.number for one in whole.on_pin[pin - 1]]
+        along = total(f"crankpin_radial_force.{pin}", [rods[at][0] for at in some])
+        across = total(f"crankpin_tangential_force.{pin}", [rods[at][1] for at in some])
+        load = BearingLoad(-along, across)
+        size = load.resultant if len(some) > 1 else _of_one_rod(whole, some[0], load, inertia)
+        yield from (along, across, size.named(f"crankpin_load.{pin}"))
+
+
+def _of_one_rod(whole: MultiCylinderEngine, number: int, rod: BearingLoad, inertia: TracedValue) -> TracedValue:
+    if "big_end_weight" in whole.cylinders[number - 1].trace:
+        size: TracedValue = rod.resultant
+        return size
+    T, K = whole.of(number, "tangential_force"), whole.of(number, "radial_force")
+    load: TracedValue = formulas.crankpin_load(T, K, inertia)
+    return load
+
+
+def _small_end(whole: MultiCylinderEngine) -> Iterator[TracedValue]:
+    """Yield the force of piston 1 on its pin, its side force with what articulated rods add, and the load."""
+    trace, machine = whole.master.trace, whole.machine
+    # that of the inertia force, where a document has its own
+    acceleration = trace.get("inertia_acceleration", trace["piston_acceleration"])
+    mass, along, across = absent("piston_mass"), absent("weight_force.piston"), [trace["side_force"]]
+    across += [whole.of(number, "knuckle_side_force") for number in whole.has("knuckle_side_force")]
+    if machine.masses is not None:
+        mass = trace["piston_mass"]
+        if machine.has_gravity:
+            g = given("gravity", whole.master.method.gravity, "method.gravity")
+            cos, sin = traced_inputs.inclination(machine, whole.master.lean)
+            along = weight_force(mass, g, cos).named("weight_force.piston")
+            beside = transverse_weight(mass, g, sin).named("transverse_weight.piston")
+            across += [beside] if beside.value else []
+    force = formulas.piston_pin_force(trace.get("gas_force", absent("gas_force")), mass, acceleration, along)
+    yield force
+    side = total("side_force.small_end", across) if len(across) > 1 else across[0]
+    swing = RodSwing(*(trace[key] for key in _SWING))
+    yield from formulas.small_end_bearing_load(force, side, swing).named("small_end")
+    size: TracedValue = formulas.small_end_load(force, side)
+    yield size
+
+
+def bearing_components(whole: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+    """Return the components of the loads of all bearings."""
+    keys = [f"crankpin_{way}_force.{pin}" for pin in distinct_crankpins(whole) for way in ("radial", "tangential")]
+    keys += [f"{kind}.{name}" for name in _framed(whole) for kind in (_X, _Y)]
+    return {key: trace[key] for key in keys}
+
+
+def _framed(whole: MultiCylinderEngine) -> list[str]:
+    """Return the bearings whose loads have components in a frame of their own."""
+    journals = max(place.throw for place in whole.layout.places) + 2
+    return ["big_end", "small_end", *(f"main_journal.{at}" for at in range(1, journals + 1))]
+
+
+def bearing_loads(whole: MultiCylinderEngine, columns: Mapping[str, Array]) -> BearingLoads:
+    """Return the loads of the bearings from columns at crank angles of cylinder 1."""
+    crankpins = {
+        pin: BearingLoad(-columns[f"crankpin_radial_force.{pin}"], columns[f"crankpin_tangential_force.{pin}"])
+        for pin in distinct_crankpins(whole)
+    }
+    big, small, *others = (BearingLoad(columns[f"{_X}.{name}"], columns[f"{_Y}.{name}"]) for name in _framed(whole))
+    return BearingLoads(crankpins, big, small, tuple(others))
+
+
+def distinct_crankpins(whole: MultiCylinderEngine) -> tuple[int, ...]:
+    """Return the numbers of the crankpins whose loads are not those of an earlier one, only later."""
+    cycle, seen, kept = whole.layout.cycle, set(), []
+    for pin, places in whole.on_pin.items():
+        forms = [
+            tuple(
+                sorted(
+                    (
+                        round((one.firing_angle - first.firing_angle) % cycle, 6),
+                        id(whole.cylinders[one.number - 1]),
+                    )
+                    for one in places
+                )
+            )
+            for first in places
+        ]
+        if min(forms) not in seen:
+            kept.append(pin + 1)
+        seen.add(min(forms))
+    return tuple(kept)
+
+
+def _spaced(layout: Layout) -> Layout:
+    """Return the layout with a pitch of its own where none is known: without one, forces act mid-throw."""
+    journals = layout.journal_positions
+    if len(journals) > 1 and all(one < other for one, other in pairwise(journals)):
+        return layout
+    throws = max(place.throw for place in layout.places) + 1
+    places = tuple(replace(place, position=float(place.throw)) for place in layout.places)
+    return replace(layout, places=places, journal_positions=tuple(at - 0.5 for at in range(throws + 1)))
+
+
+def shaft_unbalances(whole: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
+    """Return the throws and counterweights of the crankshaft.
+
+    `layout`: its cylinders, along the shaft as they are to be taken [m].
+    """
+    if whole.machine.masses is None:
+        return counterweights(whole, layout)
+    trace, found = whole.master.trace, []
+    mass, r = trace["crank_mass"], trace["crank_radius"]
+    pins = {place.crankpin: place.throw for place in layout.places}
+    for pin, members in whole.on_pin.items():
+        place = layout.places[members[0].number - 1]
+        middle = float(np.mean([layout.places[one.number - 1].position for one in members]))
+        # split pins share the mass of their throw
+        share = list(pins.values()).count(place.throw)
+        moment = (mass / share * r if share > 1 else mass * r).named("shaft_unbalance.throw")
+        found.append(Unbalance(moment, place.pin_angle, middle, f"throw.{pin + 1}"))
+    return (*(one for one in found if one.mass_moment.value), *counterweights(whole, layout))
+
+
+def _held(whole: MultiCylinderEngine, one: Unbalance) -> Unbalance:
+    """Return a mass on the shaft with its weight and its inertia across, where the machine has them."""
+    machine, moving = whole.machine, whole.master.moving
+    if not (machine.has_gravity or machine.angular_acceleration):
+        return one
+    g = given("gravity", whole.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
+    (cos, sin), angle, r = (
+        traced_inputs.inclination(machine, whole.master.lean), moving.angle.shifted(one.angle), moving.lengths.crank_radius,
+    )  # fmt: skip
+    along = unbalance_weight(one.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
+    across = unbalance_tangential_force(
+        one.mass_moment, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration
+    )
+    named = along.named(f"unbalance_weight.{one.name}"), across.named(f"unbalance_tangential_force.{one.name}")
+    return one._replace(held=BearingLoad(*named))
+
+
+def counterweights(whole: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
+    """Return the counterweights of the engine, one opposite each crankpin; none where there are none.
+
+    `layout`: its cylinders, along the shaft as they are to be taken [m].
+    """
+    engine, r = whole.engine, whole.master.lengths.crank_radius
+    rotating = rotating_masses(whole) * engine.rotating_share
+    share = engine.reciprocating_share
+    weights = throw_counterweights(layout, reciprocating_masses(whole), rotating, r, share)
+    found = [
+        one._replace(mass_moment=_counterweight(whole, pin), name=f"counterweights.{pin + 1}")
+        for one, pin in zip(weights, whole.on_pin, strict=True)
+        if one.mass_moment + engine.counterweight
+    ]
+    return tuple(found)
+
+
+def _counterweight(whole: MultiCylinderEngine, pin: int) -> TracedValue:
+    """Return the mass moment of a counterweight: of the masses of each cylinder on its pin, and what is given."""
+    engine, trace, terms = whole.engine, whole.master.trace, []
+    key = f"counterweight_moment.{pin + 1}"
+    if whole.machine.masses is not None and (engine.rotating_share or engine.reciprocating_share):
+        for place in whole.on_pin[pin]:
+            moment = counterweight_moment(
+                engine.rotating_share * rotating_mass_of(whole, place),
+                given("balanced_share", engine.reciprocating_share, "balance.reciprocating_share"),
+                whole.cylinders[place.number - 1].trace["reciprocating_mass"],
+                trace["crank_radius"],
+            )
+            terms.append(moment.named(f"{key}.{place.number}"))
+    if engine.counterweight:
+        terms.append(given(f"{key}.given", engine.counterweight, "bearings.counterweight"))
+    return total(key, terms)
+
+
+def rotating_mass_of(whole: MultiCylinderEngine, place: CylinderPlace) -> TracedValue:
+    """Return the rotating mass of a cylinder, that of a shared throw divided among its cylinders."""
+    on_throw = [one.throw for one in whole.layout.places].count(place.throw)
+    trace = whole.master.trace
+    own = whole.cylinders[place.number - 1].trace
+    mass = own.get("knuckle_mass", trace["rod_big_end_mass"]) + trace["crank_mass"] / on_throw
+    return mass.named("rotating_mass.of_cylinder")
+
+
+def rotating_masses(whole: MultiCylinderEngine) -> Array:
+    """Return the rotating masses, that of a shared throw divided among its cylinders, shape (cylinders,)."""
+    throws, crank = [one.throw for one in whole.layout.places], whole.masses.crank
+    ends = [one.rod_big_end for one in whole.each_masses]
+    return np.array([end + crank / throws.count(throw) for end, throw in zip(ends, throws, strict=True)])
+
+
+def reciprocating_masses(whole: MultiCylinderEngine) -> Array:
+    """Return the reciprocating masses, shape (cylinders,). [kg]"""
+    return np.array([one.reciprocating for one in whole.each_masses])
+
+
+def bearing_columns(trace: Mapping[str, TracedValue]) -> tuple[str, ...]:
+    """Return which loads stand in the tables: sizes, and those of the crankpins by component."""
+    return tuple(key for key in trace if key.startswith(_COLUMNS) and key.count(".") < 2)
+
+
+_COLUMNS = (
+    "crankpin_radial_force.", "crankpin_tangential_force.", "crankpin_load.", "big_end_load", "small_end_load",
+    "main_journal_load.",
+)  # fmt: skip
+
+
+def load_columns(trace: Mapping[str, TracedValue]) -> dict[str, str]:
+    """Return the column of the load of each bearing by its name: `crankpin.1`, `big_end`, `main_journal.3`."""
+    sizes = [key for key in trace if key.partition(".")[0].endswith("_load")]
+    return {key.replace("_load", "", 1): key for key in sizes}
+
+
+def bearing_values(
+    whole: MultiCylinderEngine,
+    trace: Mapping[str, TracedValue],
+    over: CycleInterpolant,
+    extremes: Mapping[str, TracedValue],
+) -> dict[str, TracedValue]:
+    """Return what the loads come to over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
+    found = dict[str, TracedValue]()
+    for name, key in load_columns(trace).items():
+        of = name.partition(".")[0]
+        part = _SIZES.get(of, "crankpin")
+        diameter, length = (getattr(whole.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
+        size = None
+        if diameter is not None and length is not None:
+            size = (
+                given(f"bearing_diameter.{of}", diameter, f"bearings.{part}_diameter"),
+                given(f"bearing_length.{of}", length, f"bearings.{part}_length"),
+            )
+        found |= load_values(name, key, over, extremes, size)
+    return found | reversal_values("bearing_force_x.small_end", over, extremes)
+
+
+# what its sizes are called in a description; of the others those of the crankpin
+_SIZES = {"small_end": "pin", "main_journal": "main"}
+
+
+def wear_trace(
+    whole: MultiCylinderEngine, trace: Mapping[str, TracedValue], samples: Samples
+) -> dict[str, TracedValue]:
+    """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes.
+
+    `samples`: the components of the loads.
+    """
+    rays, found = whole.engine.bearings.rays, dict[str, TracedValue]()
+    loads = bearing_loads(whole, samples(CrankGrid.from_degrees(np.arange(0.0, whole.layout.cycle, WEAR_STEP))))
+    for pin, load in loads.crankpins.items():
+        of = trace[f"crankpin_radial_force.{pin}"], trace[f"crankpin_tangential_force.{pin}"]
+        table = wear_table(f"wear_sum.crankpin.{pin}", load, of, rays)
+        name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
+        found |= {table.key: table, name: hole_of(name, table, of, rays)}
+    for at, load in enumerate(loads.mains, start=1):
+        of = trace[f"{_X}.main_journal.{at}"], trace[f"{_Y}.main_journal.{at}"]
+        key = f"wear_sum.main_journal.{at}"
+        found[key] = wear_table(key, load, of, rays)
+    return found
+
+
+def bearing_listings(whole: MultiCylinderEngine, found: Mapping[str, TracedValue]) -> dict[str, Listing]:
+    """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
+    result = {"bearing_loads": loads_listing(found)}
+    for listing, owner in (("crankpin_wear", "crankpin"), ("main_wear", "main_journal")):
+        tables = {key.rpartition(".")[2]: one for key, one in found.items() if key.startswith(f"wear_sum.{owner}.")}
+        result[listing] = wear_listing(tables, whole.engine.bearings.rays)
+    return result
+
+
+def bearing_summary(whole: MultiCylinderEngine, found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+    """Return mean and largest crankpin load, where the oil hole should be, and the reversal of the small-end load."""
+    pins, result = distinct_crankpins(whole), dict[str, TracedValue]()
+    for pin in pins:
+        name = f".{pin}" if len(pins) > 1 else ""
+        for key, of in (
+            ("mean_crankpin_load", "mean_bearing_load"),
+            ("crankpin_load_max", "bearing_load_max"),
+            ("crankpin_load_max_angle", "bearing_load_max_angle"),
+        ):
+            result[f"{key}{name}"] = found[f"{of}.crankpin.{pin}"].named(f"{key}{name}")
+        result[f"oil_hole_angle{name}"] = found[f"oil_hole_angle{name}"]
+    return result | {key: found[key] for key in ("reversal_duration", "reversal_ratio")}

@@ -1,0 +1,162 @@
+"""The pressure in a cylinder and its force on the piston, remembered."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TypeVar
+
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.piston_kinematics import CylinderKinematics
+from crankwork.analysis.prepared import PreparedCylinder, WorkingSpace
+from crankwork.formula.expression import Value
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, delayed, given
+from crankwork.kinematics.slider_crank import top_dead_centre_angle
+from crankwork.loads import gas
+from crankwork.loads.gas import gauge_pressure
+from crankwork.loads.pressure import at_angle, polytrope_origin, traced_pressure
+from crankwork.loads.traced_diagram import DiagramInput
+from crankwork.loads.valves import StatedValves
+
+_Value = TypeVar("_Value")
+# what a cycle is calculated with or checked by, and the rest of a summary says in its own way
+_NOT_SHOWN = ("first_law_residual", "rotational_speed")
+
+
+def space_trace(solved: PreparedCylinder, moving: CylinderKinematics) -> dict[str, TracedValue]:
+    """Return areas and volumes of the cylinder, as far as they are known (kolchin_demidov_2008, ch. 5)."""
+    cylinder, space = solved.machine.cylinder, solved.space
+    if cylinder is None:
+        return {}
+    bore = traced_inputs.bore(solved.machine, cylinder.bore)
+    area = gas.piston_area(solved.method.pi, bore)
+    found = [bore, area]
+    if space is not None:
+        stroke = solved.traced_stroke(moving.lengths)
+        swept = gas.swept_volume(area, stroke)
+        found += [stroke, swept]
+        if not space.clearance:
+            found.append(absent("clearance_volume"))
+        elif cylinder.compression_ratio is not None and cylinder.clearance_volume is None:
+            ratio = given("compression_ratio", cylinder.compression_ratio, "cylinder.compression_ratio")
+            clearance = gas.clearance_volume(swept, ratio)
+            found += [clearance, gas.compression_ratio(swept, clearance)]
+        else:
+            clearance = given("clearance_volume", space.clearance, "cylinder.clearance_volume")
+            found += [clearance, gas.compression_ratio(swept, clearance)]
+    return {one.key: one for one in found}
+
+
+def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKinematics) -> dict[str, TracedValue]:
+    """Return volume, pressure and force of the gas (kolchin_demidov_2008, ch. 5 and 7).
+
+    `moving`: the motion, with areas and volumes in its trace.
+    """
+    trace = moving.trace
+    area = trace["piston_area"]
+    volume = gas.cylinder_volume(trace["clearance_volume"], area, trace["piston_displacement"])
+    of_cycle = traced_pressure(space.diagram, volume, _path(solved), _retold(solved, space, trace, volume))
+    read, stated_gas = of_cycle, solved.machine.gas
+    if stated_gas is not None and stated_gas.calculated is not None:
+        # a calculated cycle begins at 0, whole turns earlier than its chamber
+        read = delayed(of_cycle, stated_gas.delay, stated_gas.cycle, of_cycle.key)
+    pressure = read.named("gas_pressure")
+    if space.ambient:
+        pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
+    if space.factor != 1:
+        path = solved.machine.gas.factor_path if solved.machine.gas is not None else ""
+        pressure = (pressure * given("pressure_factor", space.factor, path)).named("gas_pressure")
+    back, rod_area = absent(""), absent("")
+    if space.rod_area:
+        diameter = given("piston_rod_diameter", _rod_diameter(solved), "cylinder.piston_rod_diameter")
+        rod_area = gas.piston_area(solved.method.pi, diameter).named("piston_area.rod")
+        back = given("back_pressure", space.back_pressure, "gas.back_pressure")
+    force = gas.gas_force(pressure, area, back, rod_area)
+    found = {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
+    return found | _filling(solved, space, (of_cycle, volume))
+
+
+def _filling(
+    solved: PreparedCylinder, space: WorkingSpace, columns: tuple[TracedValue, TracedValue]
+) -> dict[str, TracedValue]:
+    """Return the filling factor of a rounded diagram."""
+    key, given_gas = "filling_factor.diagram", solved.machine.gas
+    if space.calculated is None or key not in space.calculated.trace or given_gas is None:
+        return {}
+    filling = getattr(given_gas.calculated, "filling_factor", None)
+    return {} if filling is None else {key: filling(space.calculated.trace[key].value, columns, solved.stroke[1:])}
+
+
+def _retold(
+    solved: PreparedCylinder, space: WorkingSpace, trace: Mapping[str, TracedValue], volume: TracedValue
+) -> Callable[[], TracedValue] | None:
+    """Return what tells the pressure in knowns alone, where there are formulas for it."""
+    given_gas = solved.machine.gas
+    if given_gas is None or given_gas.measured is not None:
+        return None
+    if given_gas.calculated is not None:
+        traced = given_gas.calculated.traced
+        return None if traced is None else partial(traced, volume, solved.stroke[1:])
+    size = trace["clearance_volume"], trace["swept_volume"]
+    valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
+    told = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
+    return partial(told.general_form, space.diagram)
+
+
+def _begins(solved: PreparedCylinder) -> Value:
+    """Return the crank angle that the points of a diagram count from, remembered where it depends on lengths. [deg]"""
+    delay = solved.machine.gas.delay if solved.machine.gas is not None else 0.0
+    if not (solved.counts_from_top and solved.stroke[1]):
+        return delay
+    r, l, e = solved.moving.lengths  # noqa: E741
+    top = top_dead_centre_angle(e, l, r) * (180 / math.pi)
+    return top + delay if delay else top
+
+
+def _ambient(solved: PreparedCylinder) -> str:
+    """Return where the pressure on the crankcase side is stated."""
+    is_calculated = solved.machine.gas is not None and solved.machine.gas.calculated is not None
+    return "cycle.ambient_pressure" if is_calculated else "gas.ambient"
+
+
+def work_of_gas(solved: PreparedCylinder, space: WorkingSpace) -> TracedValue:
+    """Return the work that the gas does in a cycle: the area of the diagram."""
+    pressure = solved.trace["diagram_pressure" if space.factor == 1 else "gas_pressure"]
+    return TracedValue(
+        ProcedureValue(space.work, "work", (pressure, solved.trace["cylinder_volume"])), "indicated_work"
+    )
+
+
+def _path(solved: PreparedCylinder) -> str:
+    """Return where the diagram is stated."""
+    return solved.machine.gas.path if solved.machine.gas is not None else ""
+
+
+def _rod_diameter(solved: PreparedCylinder) -> float:
+    return solved.machine.cylinder.piston_rod_diameter if solved.machine.cylinder is not None else 0.0
+
+
+def _ends_of_polytropes(solved: PreparedCylinder, space: WorkingSpace, volume: TracedValue) -> dict[str, TracedValue]:
+    """Return volume and pressure at the ends of each polytrope of a diagram that was given by its points."""
+    given_gas, found = solved.machine.gas, dict[str, TracedValue]()
+    if given_gas is None or given_gas.measured is not None or given_gas.calculated is not None:
+        return found
+    for segment in space.diagram.segments:
+        if segment.law != "polytropic" or not segment.origin:
+            continue
+        p_1, V_1, exponent = polytrope_origin(space.diagram, segment, volume, given_gas.path)
+        found |= {p_1.key: p_1, V_1.key: V_1}
+        for name, (degrees, _) in space.diagram.named.items():
+            if name != segment.origin and degrees in (segment.start, segment.end):
+                V = at_angle(volume, degrees, f"cylinder_volume.{name}")
+                end = gas.polytropic_pressure(p_1, V_1, V, exponent).named(f"diagram_pressure.{name}")
+                found |= {V.key: V, end.key: end}
+    return found
+
+
+def cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
+    """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
+    own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
+    shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
+    return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}

@@ -1,0 +1,262 @@
+"""Where a linkage with friction locks, holds its load or has corners in its forces, over all crank angles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from crankwork.analysis.operating_state import operating_state
+from crankwork.analysis.prepared import Notice, PreparedLinkage
+from crankwork.dynamics.friction import (
+    Friction,
+    FrictionForces,
+    GuideFriction,
+    PinFriction,
+    friction_joints,
+    solve_with_friction,
+)
+from crankwork.dynamics.friction_equations import CONVERGED, NO_POSITION, SELF_LOCKING, Truth
+from crankwork.dynamics.operating_state import OperatingState
+from crankwork.kinematics.chain_solver import ChainPath
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+
+# rows whose signs part the cycle
+_CHANGES = ("margin", "ideal", "torque", "another")
+_STEP = 1.0
+# where something changes its sign is found to this [deg]
+_PLACED = 1e-10
+_HALVINGS = 60
+
+
+@dataclass(frozen=True)
+class StepFunction:
+    """A value that is constant between crank angles: each stretch owns its end. [deg]"""
+
+    ends: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return the value at crank angles."""
+        at = np.minimum(np.searchsorted(self.ends, degrees, side="left"), len(self.values) - 1)
+        return np.asarray(self.values)[at]
+
+
+@dataclass(frozen=True)
+class FrictionEquilibrium:
+    """The forces of a linkage with friction as a function of the crank angle; without masses where it `is_static`."""
+
+    solved: PreparedLinkage
+    senses: Mapping[Friction, StepFunction]
+    is_static: bool = False
+    # of its chains, as far as they have been followed
+    paths: dict[int, ChainPath] = field(default_factory=dict, compare=False, repr=False)
+
+    @property
+    def cycle(self) -> float:
+        """Crank angle after which everything repeats. [deg]"""
+        return self.solved.machine.cycle
+
+    def running(self, grid: CrankGrid) -> OperatingState:
+        """Return the linkage at work."""
+        running = operating_state(self.solved, linkage_motion(self.solved.machine.mechanism, grid, paths=self.paths))
+        return replace(running, mechanism=replace(running.mechanism, bodies=())) if self.is_static else running
+
+    def at(self, degrees: Array, *, thorough: bool = False) -> FrictionForces:
+        """Return forces, torque and status at crank angles. [deg]"""
+        running = self.running(CrankGrid.from_degrees(degrees))
+        senses = {one: steps(degrees) for one, steps in self.senses.items()}
+        return solve_with_friction(
+            running, friction_joints(running, self.solved.machine.friction, senses), thorough=thorough
+        )
+
+    def __call__(self, grid: CrankGrid) -> Array:
+        """Return the forces that make the friction, shape (joints, n). [N]"""
+        return np.stack([*self.at(grid.degrees).pressing.values()])
+
+
+class FrictionRegimes:
+    """What the forces with friction do over all crank angles: where they have corners, lock, or hold the load."""
+
+    def __init__(self, balance: FrictionEquilibrium, span: tuple[float, float]) -> None:
+        self._balance, self._span = balance, span
+        start, end = span
+        edges = [one for steps in balance.senses.values() for one in steps.ends]
+        count = max(int(np.ceil((end - start) / _STEP)), 1)
+        # what jumps does so right after an edge
+        beside = [one + _PLACED / 2 for one in edges if one < end]
+        self.degrees = np.unique([*np.linspace(start, end, count + 1), *edges, *beside])
+        self.found = balance.at(self.degrees, thorough=True)
+        self._is_double = bool(self.found.has_another.any())
+        degrees, rows = self._with_vertices(self.degrees, self._rows_of(self.found))
+        if self._is_double:
+            at = np.searchsorted(self.degrees, degrees, side="right") - 1
+            rows["another"] = self._single(self.found)[at]
+        places = self._crossings(degrees, rows)
+        is_known = bool(np.all(np.isin(self.found.status, (CONVERGED, NO_POSITION))))
+        self.is_free = is_known and not np.any(rows["margin"] < 0)
+        self._changes = sorted({one for key in _CHANGES for one in places.get(key, ())})
+        self.knots = tuple(sorted({one for found in places.values() for one in found} | set(edges)))
+
+    def _rows(self, degrees: Array) -> dict[str, Array]:
+        return self._rows_of(self._balance.at(degrees))
+
+    @staticmethod
+    def _single(found: FrictionForces) -> Array:
+        """Return -1 where forces balance in another way as well."""
+        return np.where(found.has_another, -1.0, 1.0)
+
+    def _rows_of(self, found: FrictionForces) -> dict[str, Array]:
+        """Return what has corners, or tells of locking and holding, where it changes its sign."""
+        locked = found.status == SELF_LOCKING
+        rows = {"margin": np.where(locked, -1.0, found.margin), "ideal": found.ideal_torque,
+                "torque": np.asarray(found.joint_forces.balancing_torque)}  # fmt: skip
+        for law in self._balance.senses:
+            if isinstance(law, GuideFriction):
+                guide = found.joint_forces.guides[law.slider]
+                rows[f"{law.slider}.normal"] = np.asarray(guide.normal)
+                if law.length:
+                    tilting = law.tilting(np.asarray(guide.normal), np.asarray(guide.moment))
+                    rows |= {f"{law.slider}.{sign}": guide.normal + sign * tilting for sign in (1, -1)}
+        return rows
+
+    def _with_vertices(self, degrees: Array, rows: dict[str, Array]) -> tuple[Array, dict[str, Array]]:
+        """Return crank angles with those between which something turns back shortly before zero, and the rows there."""
+        for _ in range(2):
+            values = np.array([rows["margin"], rows["torque"]])
+            low, middle, high = (np.abs(values[:, at : values.shape[1] - 2 + at]) for at in range(3))
+            curved = (middle < low) & (middle < high)
+            bend = low - 2 * middle + high
+            shift = np.divide(low - high, 2 * bend, out=np.zeros_like(bend), where=curved & (bend > 0))
+            width = np.diff(degrees)
+            place = degrees[1:-1] + shift * np.where(shift > 0, width[1:], width[:-1])
+            new = np.setdiff1d(place[curved & (shift != 0)], degrees)
+            if new.size:
+                order = np.argsort(np.concatenate([degrees, new]))
+                degrees = np.concatenate([degrees, new])[order]
+                rows = {key: np.concatenate([rows[key], one])[order] for key, one in self._rows(new).items()}
+        return degrees, rows
+
+    def _crossings(self, degrees: Array, rows: Mapping[str, Array]) -> dict[str, list[float]]:
+        """Return where rows change their signs, or begin and end to be known."""
+        found: dict[str, list[float]] = {}
+        brackets: list[tuple[int, int]] = []
+        for number, (key, row) in enumerate(rows.items()):
+            nothing = 1e-13 * np.nanmax(np.abs(row), initial=0.0)
+            signs = np.where(np.isnan(row), 2.0, np.sign(np.where(np.abs(row) <= nothing, 0.0, row)))
+            at = np.flatnonzero(signs[1:] != signs[:-1])
+            ends = np.concatenate([at[signs[at] == 0], at[signs[at + 1] == 0] + 1])
+            found[key] = degrees[ends].tolist()
+            brackets += [(number, one) for one in at[(signs[at] != 0) & (signs[at + 1] != 0)].tolist()]
+        if brackets:
+            number, at = np.array(brackets).T
+            values = np.array([*rows.values()])
+
+            def value_at(places: Array, some: Truth) -> Array:
+                here, row = self._rows(places), number[some]
+                if self._is_double:
+                    asked = row == keys.index("another")
+                    here["another"] = np.ones(places.size)
+                    if asked.any():
+                        here["another"][asked] = self._single(self._balance.at(places[asked], thorough=True))
+                return np.asarray(np.array([here[key] for key in keys])[row, np.arange(places.size)])
+
+            keys = [*rows]
+            ends_of = values[number, at], values[number, at + 1]
+            placed = _between(value_at, degrees[at], degrees[at + 1], ends_of)
+            for one, place in zip(number.tolist(), placed.tolist(), strict=True):
+                found[keys[one]].append(place)
+        return found
+
+    @property
+    def drives(self) -> StepFunction:
+        """Who drives: 1 the crank, -1 the load, 0 where neither moves the other."""
+        edges, middles = self._stretches()
+        found = self._balance.at(middles)
+        ideal, actual = found.ideal_torque, np.asarray(found.joint_forces.balancing_torque)
+        least = 1e-12 * np.max(np.abs(self.found.ideal_torque), initial=0.0, where=np.isfinite(self.found.ideal_torque))
+        both = np.where(np.minimum(ideal, actual) > least, 1.0, np.where(np.maximum(ideal, actual) < -least, -1.0, 0.0))
+        return StepFunction(tuple(edges[1:].tolist()), tuple(both.tolist()))
+
+    def _stretches(self) -> tuple[Array, Array]:
+        """Return the edges of stretches in which nothing changes, and their middles. [deg]"""
+        inner = [one for one in self._changes if self._span[0] + _PLACED < one < self._span[1] - _PLACED]
+        edges = np.array([self._span[0], *inner, self._span[1]])
+        return edges, (edges[1:] + edges[:-1]) / 2
+
+    def notices(self, solved: PreparedLinkage, codes: Sequence[str]) -> Iterator[Notice]:
+        """Yield where friction locks the driver or holds the load, and where forces are not found or not the only ones.
+
+        `codes`: which of that.
+        """
+        edges, middles = self._stretches()
+        found = self._balance.at(middles, thorough=self._is_double)
+        period = 0.0
+        if solved.machine.mechanism.driver.law is not None:
+            period = solved.machine.mechanism.driver.law.period / 360.0
+        told = {
+            "self_locking": found.status == SELF_LOCKING,
+            "not_balanced": ~np.isin(found.status, (CONVERGED, SELF_LOCKING, NO_POSITION)),
+            "two_balances": found.has_another,
+            "friction_holds": (found.status == CONVERGED) & found.held,
+        }
+        # what only grows with the speed holds nothing
+        is_dry = any(_is_dry(one) for one in solved.machine.friction)
+        for code, is_so in told.items():
+            if code in codes and (is_dry or code != "friction_holds"):
+                yield from self._runs(code, edges, is_so, period)
+
+    def _runs(self, code: str, edges: Array, is_so: Truth, period: float) -> Iterator[Notice]:
+        """Yield a notice for each run of stretches, over the end of a cycle, too; times where a law drives. [s/deg]"""
+        change = np.flatnonzero(np.diff(np.concatenate([[False], is_so, [False]]).astype(int)))
+        runs = [
+            (edges[first], edges[min(after, edges.size - 1)]) for first, after in zip(*[iter(change)] * 2, strict=True)
+        ]
+        start, end = self._span
+        if len(runs) > 1 and (runs[0][0], runs[-1][1]) == (start, end) and end - start >= self._balance.cycle:
+            runs = [*runs[1:-1], (runs[-1][0], runs[0][1])]
+        suffix, scale = ("_time", period) if period else ("", 1.0)
+        for low, high in runs:
+            yield Notice(f"{code}{suffix}", {"from": float(low * scale), "to": float(high * scale)})
+
+
+def _between(value_at: Callable[[Array, Truth], Array], low: Array, high: Array, ends: tuple[Array, Array]) -> Array:
+    """Return where functions change their sign between two places each: Ridders' method, halving where they jump.
+
+    `value_at` gives the functions of some of the places. What is not known counts as another sign. `ends`: their values
+    at both places.
+    """
+    (low, high), (first, last) = (low.copy(), high.copy()), (one.copy() for one in ends)
+    for _ in range(_HALVINGS):
+        some = high - low > _PLACED
+        if not some.any():
+            break
+        a, b, at_a, at_b = low[some], high[some], first[some], last[some]
+        middle = (a + b) / 2
+        value = value_at(middle, some)
+        with np.errstate(all="ignore"):
+            root = np.sqrt(value**2 - at_a * at_b)
+            nearer = middle + (middle - a) * np.sign(at_a - at_b) * value / root
+        # a step beyond the root closes the other side of it, too
+        beyond = np.clip(nearer + np.sign(nearer - middle) * _PLACED / 4, a, b)
+        for asked in (middle, nearer, beyond):
+            place = np.where(np.isfinite(asked), np.clip(asked, a, b), middle)
+            here = value if asked is middle else value_at(place, some)
+            is_inside = (place >= a) & (place <= b)
+            same = is_inside & (_sign(here) == _sign(at_a))
+            other = is_inside & ~same
+            a, at_a = np.where(same, place, a), np.where(same, here, at_a)
+            b, at_b = np.where(other, place, b), np.where(other, here, at_b)
+        low[some], high[some], first[some], last[some] = a, b, at_a, at_b
+    return np.asarray((low + high) / 2)
+
+
+def _sign(values: Array) -> Array:
+    return np.where(np.isnan(values), 2.0, np.where(values < 0, -1.0, 1.0))
+
+
+def _is_dry(law: Friction) -> bool:
+    """Return whether a law of friction has a part that does not vanish with the speed."""
+    return bool(law.coefficient or (law.moment if isinstance(law, PinFriction) else law.force))

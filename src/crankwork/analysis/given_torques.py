@@ -1,0 +1,473 @@
+"""From torques over the angle of a shaft to its power, its excess work, its flywheel and its speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.flywheel import (
+    extreme_speeds,
+    recovery_torque_values,
+    target_fluctuation,
+    turning_inertia,
+)
+from crankwork.analysis.given_torques_trace import torque_trace, work_scale, works_at_once
+from crankwork.analysis.mechanism_trace import efficiency_of
+from crankwork.analysis.prepared import Notice, PreparedMachine
+from crankwork.analysis.results import Listing, Results
+from crankwork.analysis.speed import Balance, analyse_speed, excess_of, wheels_of
+from crankwork.errors import MethodError
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import (
+    AngleFunction,
+    ProcedureValue,
+    TracedValue,
+    absent,
+    breakpoints_of,
+    given,
+    in_order,
+)
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.machine import Machine
+from crankwork.shaft.curve import Curve
+from crankwork.shaft.fluctuation import (
+    ExcessWork,
+    TrueSpeed,
+    acceleration_of_crank,
+    excess_work,
+    fluctuation_of_inertia,
+    share_of_work,
+)
+from crankwork.shaft.flywheel import work_of_mean_torque
+from crankwork.shaft.motor_selection import needed_power
+from crankwork.shaft.torque_diagram import ShaftTorques, TorqueDiagram
+
+COLUMNS = (
+    "turning_moment", "load_torque", "excess_torque", "kinetic_energy_change", "crank_speed", "angular_acceleration",
+)  # fmt: skip
+_COLUMN_OF = {"torque": "turning_moment", "load": "load_torque"}
+_STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
+_ROUNDED = 1e-9
+_NOTHING = 1e-13
+# of figures: how far beside a jump a curve is drawn [deg], and of how many points
+_BESIDE = 1e-7
+_MOST_DRAWN = 4000
+
+
+def analyse_turning(machine: Machine, turning: ShaftTorques, grid: CrankGrid | None = None) -> Results:
+    """Return what a shaft does over the period of the torques on it (khurmi_gupta_2005, ch. 16)."""
+    w = _speed(machine)
+    solved = PreparedMachine(machine, machine.method, w.value)
+    grid = grid or CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
+    found = _of_course(machine, turning, w) if _has_course(turning) else _of_energies(machine, turning, w)
+    columns = {"crank_angle": TracedValue(AngleFunction("angle"), "crank_angle"), **found.columns}
+    summary = {key: one.named(key) for key, one in found.summary.items()}
+    trace = {**columns, **summary, **found.between}
+    return Results(
+        solved,
+        grid,
+        Program(columns)(grid),
+        {key: one.value for key, one in summary.items()},
+        found.checks,
+        found.notices,
+        {"turning": COLUMNS},
+        found.listings,
+        trace=trace,
+    )
+
+
+class _Turned(NamedTuple):
+    """What was found of a shaft."""
+
+    columns: Mapping[str, TracedValue]
+    summary: Mapping[str, TracedValue]
+    between: Mapping[str, TracedValue]
+    checks: Mapping[str, float]
+    notices: tuple[Notice, ...]
+    listings: Mapping[str, Listing]
+
+
+def _has_course(turning: ShaftTorques) -> bool:
+    return all(one.is_complete for one in turning.diagrams.values())
+
+
+def _speed(machine: Machine) -> TracedValue:
+    """Return the mean speed of the shaft: stated, or that of its extremes."""
+    if "crank.speed" in machine.stated or not machine.stated:
+        return traced_inputs.speed(machine, machine.method)
+    path = "crank.largest_speed"
+    if path in machine.stated:
+        largest = traced_inputs.speed_at(machine, machine.method, path, machine.stated[path].value, ".largest")
+        mean = machine.speed * machine.method.pi / math.pi
+        return TracedValue(ProcedureValue(mean, "of_largest", (largest,)), "speed")
+    high, low = extreme_speeds(machine)
+    return ((high + low) / 2).named("speed")
+
+
+def _given_values(machine: Machine, w: TracedValue) -> dict[str, TracedValue]:
+    turns = given("rotational_speed", machine.speed, "crank.speed")
+    result = {"rotational_speed": turns} if "crank.speed" in machine.stated else {}
+    result["speed"] = w
+    if machine.drive.efficiency != 1:
+        result["efficiency"] = efficiency_of(machine.drive)
+    return result
+
+
+def _power(machine: Machine, turning: ShaftTorques, mean: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
+    """Return the mean power: of the shaft, and of the motor that drives a load."""
+    result = {"shaft_power": mean * w}
+    if turning.torque is None:
+        result["motor_power"] = needed_power(absent("power_reserve", 1.0), mean, w, efficiency_of(machine.drive))
+    return result
+
+
+def _per_cycle(machine: Machine, mean: TracedValue, excess: TracedValue) -> dict[str, TracedValue]:
+    """Return the work of a cycle and what part of it the flywheel takes and gives."""
+    if not mean.value:
+        return {"excess_work": excess}
+    cycle = given("cycle_angle", math.radians(machine.cycle))
+    work: TracedValue = work_of_mean_torque(mean, cycle)
+    ratio = share_of_work(excess, work.named("work_per_cycle"))
+    return {"work_per_cycle": work, "excess_work": excess, "energy_fluctuation": ratio}
+
+
+def _of_course(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turned:
+    """Return what follows of torques that are known at every angle."""
+    made = {key: torque_trace(machine, turning, table, key, w) for table, key in _keys(turning)}
+    over = CycleInterpolant(made, CrankGrid.from_degrees, machine.cycle)
+    means = {key: _mean(over, machine, turning, table, w) for table, key in _keys(turning)}
+    mean = next(iter(means.values()))
+    # what is not given is constant
+    drive, load = (made.get(key, mean).named(key) for key in ("turning_moment", "load_torque"))
+    columns = {"turning_moment": drive, "load_torque": load, "excess_torque": (drive - load).named("excess_torque")}
+    net = columns["excess_torque"]
+    torque, found = _excess(turning, over)
+    own = turning_inertia(machine, "whole_inertia")
+    balance = Balance(net, torque, own, Curve.constant(own.value, turning.cycle), found, sign=1.0)
+    excess, turn = excess_of(balance), analyse_speed(machine, balance, w, "extremes")
+    columns |= turn.columns
+    summary = {**_given_values(machine, w), "mean_torque": mean, **_power(machine, turning, mean, w)}
+    summary |= _extremes_of(made, over) | _per_cycle(machine, mean, excess) | turn.summary
+    inertia = 0.0 if turn.speed is None else turn.speed.inertia.mean
+    if turn.speed is not None:
+        whole = next((one for key, one in turn.between.items() if key in ("whole_inertia", "flywheel_inertia")), own)
+        turned = acceleration_of_crank(net, absent("speed"), whole, absent("reduced_inertia_1"))
+        columns["angular_acceleration"] = turned
+        summary |= _extremes("angular_acceleration", turned, torque * (1 / inertia))
+    checks = _checks(turning, over, columns, (found, turn.speed, inertia))
+    notices = (*_notices(turning), *turn.notices)
+    listings = {"energy_extremes": _listing(found, turn.speed)}
+    columns = {key: one.named(key) for key, one in columns.items()}
+    stretches = (one for one in in_order([*made.values(), *means.values()]) if one.key.partition(".")[0] in _STRETCHES)
+    between = {one.key: one for one in stretches if one.key not in _STRETCHES} | turn.between
+    summary |= {key: one for key, one in between.items() if key.startswith("shearing_force.")}
+    return _Turned(columns, summary, between, checks, notices, listings)
+
+
+def _keys(turning: ShaftTorques) -> Iterator[tuple[str, str]]:
+    """Yield tables that are given and the columns that they make."""
+    yield from ((table, _COLUMN_OF[table]) for table in turning.diagrams)
+
+
+def _blows(diagram: TorqueDiagram) -> float:
+    """Return the work of a period that is done at once. [J]"""
+    return sum(one.work for one in diagram.strokes if not one.over) * len(diagram.delays)
+
+
+def _mean(over: CycleInterpolant, machine: Machine, turning: ShaftTorques, table: str, w: TracedValue) -> TracedValue:
+    """Return the mean of a torque, with what is done at once."""
+    key, diagram = _COLUMN_OF[table], turning.diagrams[table]
+    mean = over.mean(key, "mean_torque")
+    if not _blows(diagram):
+        return mean
+    at_once = works_at_once(machine, turning, table, key, w)
+    period = given("cycle_angle", diagram.period, f"{table}.period")
+    evened = (at_once.named("stroke_work") / period).named("mean_torque")
+    return evened if over.is_zero(key) else (mean.named("mean_torque.stretched") + evened).named("mean_torque")
+
+
+def _curve(over: CycleInterpolant, key: str) -> Curve:
+    return Curve.legendre(np.radians(over.edges), over.polynomials(key))
+
+
+def _excess(turning: ShaftTorques, over: CycleInterpolant) -> tuple[Curve, ExcessWork]:
+    """Return the torque beyond the load, balanced, and its excess work with what is done at once."""
+    parts = {"torque": 1.0, "load": -1.0}
+    net = Curve.constant(0.0, turning.cycle)
+    for table, key in _keys(turning):
+        net = net + _curve(over, key) * parts[table]
+    found = excess_work(net)
+    low, _, high, _ = net.extremes()
+    if found.work <= _NOTHING * turning.cycle * max(abs(low), abs(high)):
+        # what only rounding moves stands
+        net = Curve.constant(found.mean_torque, turning.cycle)
+        found = excess_work(net)
+    jumps = [
+        _saw(diagram, turning.cycle) * parts[table] for table, diagram in turning.diagrams.items() if _blows(diagram)
+    ]
+    if not jumps:
+        return net - found.mean_torque, found
+    curve, at_once = found.curve, 0.0
+    for one in jumps:
+        curve = curve + one
+    for table, diagram in turning.diagrams.items():
+        at_once += parts[table] * _blows(diagram) / diagram.period
+    mean = found.mean_torque + at_once
+    whole = ExcessWork(curve, curve.extremes(), mean, mean * turning.cycle)
+    return net - mean, whole
+
+
+def _saw(diagram: TorqueDiagram, cycle: float) -> Curve:
+    """Return the work that is done at once, less its mean over the angle, zero at an angle of zero."""
+    jumps = sorted(
+        ((one.start + delay) % diagram.period + at * diagram.period, one.work)
+        for at in range(round(cycle / diagram.period))
+        for one in diagram.strokes
+        if not one.over
+        for delay in diagram.delays
+    )
+    slope, done = sum(work for _, work in jumps) / cycle, 0.0
+    corners = [(0.0, 0.0)]
+    for at, work in jumps:
+        corners += [(at, done - slope * at), (at, done + work - slope * at)]
+        done += work
+    corners.append((cycle, 0.0))
+    return Curve.linear(*zip(*corners, strict=True))
+
+
+def _extremes_of(made: Mapping[str, TracedValue], over: CycleInterpolant) -> dict[str, TracedValue]:
+    """Return the extremes of torques that are not constant."""
+    found = dict[str, TracedValue]()
+    for key, known in made.items():
+        if known.varies:
+            found |= _extremes(key, known, _curve(over, key))
+    return found
+
+
+def _extremes(key: str, known: TracedValue, curve: Curve) -> dict[str, TracedValue]:
+    """Return the extremes of a column, on both sides of its jumps."""
+    low, at_low, high, at_high = curve.extremes()
+    result, nothing = dict[str, TracedValue](), _NOTHING * max(abs(low), abs(high))
+    for word, found, at in (("max", high, at_high), ("min", low, at_low)):
+        value = found if abs(found) > nothing else 0.0
+        degrees = math.degrees(at)
+        result[f"{key}_{word}"] = TracedValue(ProcedureValue(value, word, (known.named(key),), degrees))
+        result[f"{key}_{word}_angle"] = TracedValue(ProcedureValue(at, f"{word}_angle", (known.named(key),), degrees))
+    return result
+
+
+def _listing(found: ExcessWork, speed: TrueSpeed | None) -> Listing:
+    """Return the extremes of the energy in their order: where, how much, what lies between, the speed there."""
+    at, energy = _turning_points(found.curve)
+    columns: dict[str, Array] = {
+        "crank_angle": at,
+        "kinetic_energy_change": energy,
+        "loop_work": energy - np.roll(energy, 1),
+    }
+    if speed is not None:
+        columns["crank_speed"] = np.sqrt(2 * (speed.energy + energy) / speed.inertia.mean)
+    return Listing(columns)
+
+
+def _turning_points(energy: Curve) -> tuple[Array, Array]:
+    """Return where an energy turns from growing to falling or back, and both sides of its jumps. [rad], [J]"""
+    middle = (energy.angle[1:] + energy.angle[:-1]) / 2
+    angles = np.unique(np.concatenate([energy.angle, energy.derivative.zeros(), middle]))
+    before = np.append(angles[1:], energy.angle[-1]) - 1e-12 * energy.cycle
+    points = [(at, float(value)) for at, value in zip(angles[:-1], energy(angles[:-1]), strict=True)]
+    ends = [(high, float(value)) for high, value in zip(angles[1:], energy(before[:-1]), strict=True)]
+    size = max(abs(value) for _, value in points) or 1.0
+    course = list[tuple[float, float]]()
+    for start, end in zip(points, ends, strict=True):
+        for at, value in (start, end):
+            if not course or abs(value - course[-1][1]) > _ROUNDED * size:
+                course.append((at, value))
+    count = len(course)
+    if count < 3:
+        return np.array([at for at, _ in course]), np.array([value for _, value in course])
+    if abs(course[0][1] - course[-1][1]) <= _ROUNDED * size:
+        course.pop()
+    kept = [
+        one
+        for last, one, following in zip([course[-1], *course[:-1]], course, [*course[1:], course[0]], strict=True)
+        if (one[1] - last[1]) * (following[1] - one[1]) < 0
+    ]
+    return np.array([at for at, _ in kept]), np.array([value for _, value in kept])
+
+
+def _notices(turning: ShaftTorques) -> Iterator[Notice]:
+    """Yield notices of work that is done at once, and of works that differ."""
+    if any(_blows(one) for one in turning.diagrams.values()):
+        yield Notice("work_at_once", {})
+    if turning.torque is not None and turning.load is not None:
+        driven, taken = (one.work / one.period * turning.cycle for one in (turning.torque, turning.load))
+        if abs(driven - taken) > _ROUNDED * max(abs(driven), abs(taken)):
+            yield Notice("work_differs", {"driven": driven, "taken": taken})
+
+
+def _checks(
+    turning: ShaftTorques,
+    over: CycleInterpolant,
+    columns: Mapping[str, TracedValue],
+    turned: tuple[ExcessWork, TrueSpeed | None, float],
+) -> dict[str, float]:
+    """Return residuals between what was integrated and the works of the diagrams in closed form."""
+    (found, speed, inertia), cycle = turned, turning.cycle
+    works = {key: turning.diagrams[table].work_to for table, key in _keys(turning)}
+    angles = np.linspace(0.0, cycle, 721)[:-1] + cycle / 1440
+    end = np.array([cycle])
+    size = max((float(np.ptp(np.append(work(angles), work(end)))) for work in works.values()), default=0.0) or 1.0
+    whole = {
+        key: abs(over.integral(key) + _blows(diagram) * cycle / diagram.period - float(works[key](end)[0]))
+        for (_, key), diagram in zip(_keys(turning), turning.diagrams.values(), strict=True)
+    }
+    sense = {"turning_moment": 1.0, "load_torque": -1.0}
+    energy = np.zeros_like(angles)
+    for key, work in works.items():
+        energy += sense[key] * (work(angles) - work(end) * angles / cycle)
+    energy -= energy[0]
+    checks = {"turning_work": max(whole.values()) / size}
+    gained = found.curve(angles) - found.curve(angles[:1])
+    checks["turning_energy"] = float(np.max(np.abs(gained - energy))) / size
+    if speed is not None:
+        grid = CrankGrid.from_radians(angles)
+        w = Program({"": columns["crank_speed"]})(grid)[""]
+        gained = inertia / 2 * (w**2 - w[0] ** 2)
+        checks["turning_speed"] = float(np.max(np.abs(gained - energy))) / size
+    return checks
+
+
+def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turned:
+    """Return what follows of the areas of loops, or of the excess work alone."""
+    ((table, diagram),) = turning.diagrams.items()
+    summary, listings, between = _given_values(machine, w), dict[str, Listing](), dict[str, TracedValue]()
+    mean = absent("mean_torque")
+    if diagram.constant:
+        mean = summary["mean_torque"] = _constant(machine, diagram, table, w)
+        summary |= _power(machine, turning, mean, w)
+    checks = {}
+    if diagram.loops:
+        excess, energies = _of_loops(machine, diagram, table)
+        between |= {one.key: one for one in energies}
+        every = np.array([one.value for one in energies])
+        number = np.arange(1.0, every.size + 1)
+        listings["energy_extremes"] = Listing({
+            "loop_number": number,
+            "loop_work": np.array(diagram.loops),
+            "kinetic_energy_change": every,
+        })  # fmt: skip
+        checks["turning_work"] = abs(float(np.ptp(np.cumsum(diagram.loops))) - excess.value) / (excess.value or 1.0)
+        summary |= _per_cycle(machine, mean, excess)
+    else:
+        summary |= _of_excess(machine, diagram, table, mean)
+        excess = summary["excess_work"].named("excess_work")
+    notices, inertia = tuple[Notice, ...](), turning_inertia(machine, "whole_inertia")
+    try:
+        wheels = wheels_of(machine, w, target_fluctuation(machine, w), excess, inertia)
+    except MethodError as error:
+        notices = (Notice("no_flywheel", {"message": error.args[0]}),)
+    else:
+        inertia, between, summary = wheels.inertia, between | wheels.between, summary | wheels.summary
+    if inertia.value > 0:
+        delta: TracedValue = fluctuation_of_inertia(excess, inertia, w)
+        summary["speed_fluctuation"] = delta = delta.named("speed_fluctuation")
+        summary["crank_speed_max"], summary["crank_speed_min"] = w + delta * w / 2, w - delta * w / 2
+        summary |= recovery_torque_values(machine, inertia, w, summary)
+    return _Turned({}, summary, between, checks, notices, listings)
+
+
+def _constant(machine: Machine, diagram: TorqueDiagram, table: str, w: TracedValue) -> TracedValue:
+    """Return a mean torque that is stated, or that of a power."""
+    power = machine.stated.get(f"{table}.power")
+    plain = given("mean_torque", diagram.constant, f"{table}.constant")
+    return (
+        plain
+        if power is None
+        else traced_inputs.checked(given("shaft_power", power.value, f"{table}.power") / w, plain)
+    )
+
+
+def _of_loops(machine: Machine, diagram: TorqueDiagram, table: str) -> tuple[TracedValue, list[TracedValue]]:
+    """Return the excess work of loops about the mean, and the energy after each."""
+    scale, after, energies = work_scale(machine, table), absent("kinetic_energy_change.0"), list[TracedValue]()
+    for number, work in enumerate(diagram.loops, start=1):
+        loop = _work_of(machine, f"{table}.areas[{number}]", f"loop_work.{number}", work, scale)
+        after = (
+            (after + loop).named(f"kinetic_energy_change.{number}")
+            if number > 1
+            else loop.named(f"kinetic_energy_change.{number}")
+        )
+        energies.append(after)
+    ordered = sorted(energies, key=lambda one: one.value)
+    least, largest = ordered[0], ordered[-1]
+    return (largest - least).named("excess_work"), energies
+
+
+def _work_of(machine: Machine, path: str, key: str, work: float, scale: TracedValue | None) -> TracedValue:
+    """Return a work that is stated, or that of an area of the drawing."""
+    stated, plain = machine.stated.get(path), given(key, work, path)
+    if scale is None or stated is None:
+        return plain
+    return traced_inputs.checked(scale * given(f"drawn_area.{key.rpartition('.')[2]}", stated.value, path), plain)
+
+
+def _of_excess(machine: Machine, diagram: TorqueDiagram, table: str, mean: TracedValue) -> dict[str, TracedValue]:
+    """Return an excess work that is stated, or that of its coefficient."""
+    plain = given("excess_work", diagram.excess or 0.0, f"{table}.excess_work")
+    ratio = machine.stated.get(f"{table}.energy_fluctuation")
+    if ratio is None:
+        return _per_cycle(machine, mean, _work_of(machine, f"{table}.excess_work", "excess_work", plain.value,
+                                                  work_scale(machine, table)))  # fmt: skip
+    result = _per_cycle(machine, mean, plain)
+    coefficient = given("energy_fluctuation", ratio.value, f"{table}.energy_fluctuation")
+    work = result["work_per_cycle"].named("work_per_cycle")
+    return {
+        **result,
+        "excess_work": traced_inputs.checked(coefficient * work, plain),
+        "energy_fluctuation": coefficient,
+    }
+
+
+class TurningDiagram(NamedTuple):
+    """A torque and its load as they are drawn, with the loops between them: where, and their works [deg], [SI]."""
+
+    degrees: Array
+    torque: Array
+    load: Array
+    energy: Array
+    loops: tuple[tuple[float, float, float], ...]  # Angle and torque of the middle of each, and its work
+
+
+def turning_diagram(results: Results, step: float = 0.5) -> TurningDiagram | None:
+    """Return what the figure of a shaft shows, on both sides of every jump; None where no torque is known."""
+    if "turning_moment" not in results.columns:
+        return None
+    cycle = results.machine.cycle
+    shown = ("turning_moment", "load_torque", "kinetic_energy_change")
+    breaks = breakpoints_of([results.trace[key] for key in shown], cycle)
+    beside = np.concatenate([breaks[1:] - _BESIDE, breaks[:-1] + _BESIDE])
+    even = np.linspace(0.0, cycle, min(max(round(cycle / step), 360), _MOST_DRAWN) + 1)
+    degrees = np.unique(np.concatenate([even, beside]))
+    found = results.columns_at(degrees, shown)
+    extremes = results.listings["energy_extremes"].columns
+    ends, works = np.degrees(extremes["crank_angle"]), extremes["loop_work"]
+    loops = []
+    for at, work in enumerate(works.tolist()):
+        start, end = float(ends[at - 1]), float(ends[at])
+        inside = (degrees > start) & (degrees < end) if start < end else (degrees > start) | (degrees < end)
+        if start > end:
+            # the larger part of a loop that goes on in the next period
+            later = cycle - start > end
+            inside &= degrees > start if later else degrees < end
+        weight = np.abs(found["turning_moment"] - found["load_torque"])[inside]
+        if weight.size and weight.any():
+            middle = float(degrees[inside] @ weight / weight.sum())
+            height = float(np.interp(middle, degrees, found["turning_moment"] + found["load_torque"])) / 2
+            loops.append((middle, height, work))
+    torque, load, energy = (found[key] for key in shown)
+    return TurningDiagram(degrees, torque, load, energy, tuple(loops))

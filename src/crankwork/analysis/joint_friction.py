@@ -1,0 +1,343 @@
+"""A linkage whose joints rub: torque, forces, losses and efficiency with friction, and where it locks or holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.friction_regimes import FrictionEquilibrium, FrictionRegimes, StepFunction
+from crankwork.analysis.prepared import Notice, PreparedLinkage, relative_difference
+from crankwork.dynamics.force_system import all_links_and_joints
+from crankwork.dynamics.friction import (
+    Friction,
+    GuideFriction,
+    PinFriction,
+    friction_couple,
+    friction_force,
+    friction_power_of_guide,
+    friction_power_of_pin,
+    friction_radius,
+    friction_radius_of_angle,
+    friction_torque,
+    instantaneous_efficiency,
+    pressing_force,
+    relative_rate,
+    tilting_force,
+)
+from crankwork.dynamics.friction_equations import CONVERGED
+from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.reaction import JointForces
+from crankwork.dynamics.routes import torque_by_energy
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import Component, Piecewise, ProcedureValue, Root, TracedValue, absent, given, total
+from crankwork.kinematics import kinematic_coefficients as rates
+from crankwork.kinematics.bodies import broadcast
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.traced_motion import interpolant_of
+from crankwork.loads.applied_loads import AppliedLoads, force_on_slider, torque_on
+from crankwork.mechanism.joints import Joint, Pin, SlidingJoint, names_of_pivots
+from crankwork.mechanism.linkage import GROUND
+
+COLUMNS = (
+    "torque_with_friction", "static_torque_with_friction", "driver_force_with_friction", "driver_torque_with_friction",
+    "instantaneous_efficiency", "friction_power", "friction_torque", "friction_force", "joint_force_with_friction_x",
+    "joint_force_with_friction_y", "joint_force_with_friction", "normal_force_with_friction",
+    "normal_moment_with_friction",
+)  # fmt: skip
+# what extremes are taken of, where the forces balance everywhere
+FOLLOWED = (
+    "torque_with_friction", "driver_force_with_friction", "driver_torque_with_friction", "friction_power",
+    "joint_force_with_friction", "static_torque_with_friction",
+)  # fmt: skip
+_OF_MOTION = ("self_locking", "not_balanced", "two_balances")
+_REST = 1e-12
+_BESIDE = 1e-6
+
+
+class FrictionColumns(NamedTuple):
+    """What a linkage with friction has besides that without: columns, checks, notices, and whether it never locks."""
+
+    columns: dict[str, TracedValue]
+    checks: dict[str, float]
+    notices: tuple[Notice, ...]
+    is_free: bool
+
+
+class _Place(NamedTuple):
+    """A joint that rubs, its law, its name in columns, and where the description states the law."""
+
+    joint: Joint
+    law: Friction
+    name: str
+    path: str
+
+
+def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mapping[str, TracedValue]) -> FrictionColumns:
+    """Return what friction adds to a linkage at work (artobolevsky_1988, ch. 11 and 14).
+
+    `running`: the linkage at work, remembered; `trace`: its columns without friction.
+    """
+    if not solved.machine.friction:
+        return FrictionColumns({}, {}, (), is_free=False)
+    motion = running.motion
+    places, span = list(_places(solved)), _span(motion)
+    velocities = {one.law: _velocity(motion, one, running.speed) for one in places}
+    senses = _senses(motion, velocities)
+    balance = FrictionEquilibrium(solved, senses)
+    course = FrictionRegimes(balance, span)
+    root, friction, forces = _with_friction(places, velocities, balance, course.knots, running)
+    columns = {one.key: one for one in friction.values()}
+    powers = [_power(one, friction[one.law], velocities[one.law]) for one in places]
+    columns |= {one.key: one for one in powers} | {"friction_power": total("friction_power", powers)}
+    columns |= _forces(solved, forces)
+    notices, standing, is_free = [*course.notices(solved, _OF_MOTION)], course, course.is_free
+    if solved.machine.mechanism.driver.law is not None:
+        kind = "driver_torque" if solved.machine.mechanism.driver.turns else "driver_force"
+        columns[f"{kind}_with_friction"] = forces.balancing_torque
+    else:
+        columns["torque_with_friction"] = forces.balancing_torque
+        still = FrictionEquilibrium(solved, senses, is_static=True)
+        static = forces.balancing_torque
+        if solved.machine.mechanism.bodies:
+            standing = FrictionRegimes(still, span)
+            alone = replace(running, mechanism=replace(running.mechanism, bodies=()))
+            static = _with_friction(places, velocities, still, standing.knots, alone)[2].balancing_torque
+            is_free &= standing.is_free
+        static = static.named("static_torque_with_friction")
+        columns |= {static.key: static} | _efficiency(trace["static_torque"], static, standing)
+    notices += standing.notices(solved, ("friction_holds",))
+    checks = _checks(balance, course, columns, root)
+    return FrictionColumns({key: one.named(key) for key, one in columns.items()}, checks, tuple(notices), is_free)
+
+
+def mean_values(over: CycleInterpolant) -> Iterator[TracedValue]:
+    """Yield the mean loss over a cycle, and the efficiency that the work of a cycle gives; nothing without friction."""
+    if "friction_power" in over.columns:
+        yield over.mean("friction_power", "mean_friction_power")
+    if "torque_with_friction" in over.columns:
+        keys = "static_torque", "torque_with_friction"
+        ideal, actual = (over.mean(key, f"{key}.mean") for key in keys)
+        if 0 < ideal.value <= actual.value:
+            yield instantaneous_efficiency(ideal, actual).named("mean_efficiency")
+
+
+def _places(solved: PreparedLinkage) -> Iterator[_Place]:
+    """Yield the joints that rub."""
+    machine, held = solved.machine, all_links_and_joints(solved.machine.mechanism)[1]
+    for law in machine.friction:
+        kind, name = (SlidingJoint, law.slider) if isinstance(law, GuideFriction) else (Pin, law.joint)
+        joint = next(one for one in held if isinstance(one, kind) and one.name == name)
+        shown = names_of_pivots(solved.machine.mechanism).get(name, name) if kind is Pin else name
+        yield _Place(joint, law, shown, f"friction.{'pins' if kind is Pin else 'sliders'}.{shown}")
+
+
+def _span(motion: Motion) -> tuple[float, float]:
+    """Return the first and the last crank angle that is reached. [deg]"""
+    over = interpolant_of(motion.grid)({})
+    return float(over.edges[0]), float(over.edges[-1])
+
+
+def _velocity(motion: Motion, place: _Place, w: TracedValue) -> TracedValue:
+    """Return how fast one link of a joint turns or slides in the other."""
+    rate = broadcast(relative_rate(motion, place.joint), motion.grid)
+    if isinstance(place.joint, Pin):
+        velocity: TracedValue = rates.link_angular_velocity(rate, w).named(f"relative_speed.{place.name}")
+    else:
+        velocity = rates.slider_velocity(rate, w).named(f"slider_velocity.{place.name}")
+    return velocity
+
+
+def _senses(motion: Motion, velocities: Mapping[Friction, TracedValue]) -> dict[Friction, StepFunction]:
+    """Return the direction of the friction of each joint: against the velocity, none where a law dwells."""
+    varying = {str(at): one for at, one in enumerate(velocities.values()) if one.varies}
+    over = interpolant_of(motion.grid)(varying)
+    end, found = float(over.edges[-1]), []
+    middles = (over.edges[1:] + over.edges[:-1]) / 2
+    size = {
+        at: max(float(np.max(np.abs(over.at(str(at), middles)))) if one.varies else abs(one.value), 0.0)
+        for at, one in enumerate(velocities.values())
+    }
+    kinds = [isinstance(law, GuideFriction) for law in velocities]
+    for at, one in enumerate(velocities.values()):
+        ends, values = [end], [-float(np.sign(one.node.value or 0.0))]
+        if one.varies:
+            edges = np.unique([float(over.edges[0]), *over.breaks, *over.crossings(str(at)), end])
+            inside = over.at(str(at), (edges[1:] + edges[:-1]) / 2)
+            largest = max(size[other] for other, kind in enumerate(kinds) if kind == kinds[at])
+            signs = np.where(np.abs(inside) > _REST * largest, -np.sign(inside), 0.0)
+            kept = np.append(np.diff(signs) != 0, True)
+            ends, values = edges[1:][kept].tolist(), signs[kept].tolist()
+        found.append(StepFunction(tuple(ends), tuple(values)))
+    return dict(zip(velocities, found, strict=True))
+
+
+def _with_friction(
+    places: Sequence[_Place],
+    velocities: Mapping[Friction, TracedValue],
+    balance: FrictionEquilibrium,
+    knots: tuple[float, ...],
+    running: OperatingState,
+) -> tuple[Root, dict[Friction, TracedValue], JointForces]:
+    """Return what presses in the joints, the friction of each, and the joint forces with it.
+
+    What presses in each joint is found with all others; what that misses of the force in the joint is noted as an
+    equation.
+    """
+    root = Root(balance)
+    root.knots = knots
+    friction, loads, pressing = dict[Friction, TracedValue](), AppliedLoads(), dict[Friction, TracedValue]()
+    for at, one in enumerate(places):
+        sense = _sense(balance.senses[one.law], velocities[one.law], one.name)
+        kind = "joint_force_with_friction" if isinstance(one.joint, Pin) else "pressing_force"
+        pressing[one.law] = TracedValue(Component(root, at), f"{kind}.{one.name}")
+        value = friction[one.law] = _law(one, sense, pressing[one.law], velocities[one.law])
+        loads = loads.also(_on_links(running, one, value))
+    forces = joint_forces(replace(running, loads=running.loads.also(loads)))
+    root.residuals = tuple(_missing(one, pressing[one.law], forces) for one in places)
+    return root, friction, forces
+
+
+def _sense(steps: StepFunction, velocity: TracedValue, name: str) -> TracedValue:
+    values = tuple(TracedValue(ProcedureValue(one, "against", (velocity,)), "friction_sense") for one in steps.values)
+    return (values[0] if len(values) == 1 else TracedValue(Piecewise(steps.ends, values))).named(
+        f"friction_sense.{name}"
+    )
+
+
+def _stated(key: str, place: _Place, name: str, value: float) -> TracedValue:
+    return given(f"{key}.{place.name}", value, f"{place.path}.{name}") if value else absent(key)
+
+
+def _law(place: _Place, sense: TracedValue, pressing: TracedValue, velocity: TracedValue) -> TracedValue:
+    """Return the friction moment or force on the link that a joint holds."""
+    law, name = place.law, place.name
+    if isinstance(law, GuideFriction):
+        coefficient = _stated("guide_friction", place, "coefficient", law.coefficient)
+        constant = _stated("constant_force", place, "force", law.force)
+        damping = _stated("damping", place, "damping", law.damping)
+        force: TracedValue = friction_force(sense, coefficient, pressing, constant, damping, velocity)
+        return force.named(f"friction_force.{name}")
+    circle = friction_radius if law.circle == "tangent" else friction_radius_of_angle
+    radius: TracedValue = absent("friction_radius")
+    if law.coefficient:
+        coefficient = _stated("pin_friction", place, "coefficient", law.coefficient)
+        radius = circle(coefficient, _stated("pin_radius", place, "radius", law.radius))
+        radius = radius.named(f"friction_radius.{name}")
+    constant = _stated("constant_moment", place, "moment", law.moment)
+    damping = _stated("angular_damping", place, "damping", law.damping)
+    moment: TracedValue = friction_torque(sense, radius, pressing, constant, damping, velocity)
+    return moment.named(f"friction_torque.{name}")
+
+
+def _on_links(running: OperatingState, place: _Place, value: TracedValue) -> AppliedLoads:
+    """Return the friction of a joint as loads on its two links."""
+    joint, law = place.joint, place.law
+    if isinstance(law, PinFriction):
+        return _torque_between(running, joint, value)
+    force = force_on_slider(running.mechanism, running.motion, joint.link, value, ".friction")
+    if not law.middle[1]:
+        return force
+    couple: TracedValue = friction_couple(value, _middle(place, 1)).named(f"friction_couple.{place.name}")
+    return force.also(_torque_between(running, joint, couple))
+
+
+def _torque_between(running: OperatingState, joint: Joint, torque: TracedValue) -> AppliedLoads:
+    """Return a torque on the link that a joint holds, and its reaction on the other."""
+    own = torque_on(running.motion, joint.link, torque)
+    return own if joint.other == GROUND else own.also(torque_on(running.motion, joint.other, -torque))
+
+
+def _middle(place: _Place, axis: int) -> TracedValue:
+    """Return where the middle of a sliding piece is from its pin, along its guide or to the left of that."""
+    if isinstance(place.law, PinFriction) or not place.law.middle[axis]:
+        return absent("piece_middle")
+    return given(f"piece_middle_{'xy'[axis]}.{place.name}", place.law.middle[axis], f"sliders.{place.name}.points")
+
+
+def _missing(place: _Place, pressing: TracedValue, forces: JointForces) -> TracedValue:
+    """Return by how much what presses in a joint differs from the force in it."""
+    law, name = place.law, place.joint.name
+    if isinstance(place.joint, Pin):
+        force: TracedValue = forces.pins[name].resultant
+        return pressing - force.named(f"joint_force.{place.name}")
+    guide = forces.guides[name]
+    tilting: TracedValue = absent("tilting_force")
+    if isinstance(law, GuideFriction) and law.length:
+        length = _stated("piece_length", place, "length", law.length)
+        tilting = tilting_force(guide.moment, guide.normal, _middle(place, 0), length).named(
+            f"tilting_force.{place.name}"
+        )
+    pressed: TracedValue = pressing_force(guide.normal, tilting)
+    return pressing - pressed.named(f"pressing_force.{place.name}")
+
+
+def _power(place: _Place, friction: TracedValue, velocity: TracedValue) -> TracedValue:
+    formula = friction_power_of_guide if isinstance(place.law, GuideFriction) else friction_power_of_pin
+    power: TracedValue = formula(friction, velocity)
+    return power.named(f"friction_power.{place.name}")
+
+
+def _forces(solved: PreparedLinkage, forces: JointForces) -> dict[str, TracedValue]:
+    """Return the forces in joints and guides with friction."""
+    pivots, columns = names_of_pivots(solved.machine.mechanism), dict[str, TracedValue]()
+    for joint, pin in forces.pins.items():
+        name = pivots.get(joint, joint)
+        columns |= {
+            f"joint_force_with_friction_x.{name}": pin.x,
+            f"joint_force_with_friction_y.{name}": pin.y,
+            f"joint_force_with_friction.{name}": pin.resultant,
+        }
+    for name, guide in forces.guides.items():
+        columns |= {
+            f"normal_force_with_friction.{name}": guide.normal,
+            f"normal_moment_with_friction.{name}": guide.moment,
+        }
+    return columns
+
+
+def _efficiency(ideal: TracedValue, actual: TracedValue, course: FrictionRegimes) -> dict[str, TracedValue]:
+    """Return the efficiency, of the crank as driver or of the load; none where neither moves the other."""
+    laws = {
+        1: instantaneous_efficiency(ideal, actual),
+        -1: instantaneous_efficiency(actual, ideal),
+        0: absent("instantaneous_efficiency", np.nan),
+    }
+    steps = course.drives
+    if not any(steps.values):
+        return {}
+    return {
+        "instantaneous_efficiency": TracedValue(Piecewise(steps.ends, tuple(laws[int(one)] for one in steps.values)))
+    }
+
+
+def _checks(
+    balance: FrictionEquilibrium, course: FrictionRegimes, columns: Mapping[str, TracedValue], root: Root
+) -> dict[str, float]:
+    """Return by how much the power is missed, and by how much forces found joint by joint differ from all at once."""
+    # where loads jump with the friction or at an end, rounding decides what is before and what after that
+    apart_of = np.diff(course.degrees, prepend=course.degrees[0], append=course.degrees[-1]) > _BESIDE
+    degrees = course.degrees[(course.found.status == CONVERGED) & apart_of[1:] & apart_of[:-1]]
+    if not degrees.size:
+        return {}
+    grid = CrankGrid.from_degrees(degrees)
+    found, running = balance.at(degrees), balance.running(grid)
+    power = running.speed * np.asarray(found.joint_forces.balancing_torque)
+    key = next(one for one in FOLLOWED if one in columns)
+    missing = {str(at): one for at, one in enumerate(root.residuals)}
+    torque, loss, *missed = Program({"": columns[key], "loss": columns["friction_power"], **missing})(grid).values()
+    # what presses nowhere is rounded to the size of the other forces
+    sizes = [*found.pressing.values(), *(np.asarray(one.resultant) for one in found.joint_forces.pins.values())]
+    largest = max(float(np.max(one)) for one in sizes)
+    return {
+        "friction_power": relative_difference(running.speed * torque_by_energy(running) + loss, power),
+        "friction_forces": max(
+            relative_difference(torque, np.asarray(found.joint_forces.balancing_torque)),
+            float(np.max(np.abs(missed))) / largest if largest else 0.0,
+        ),
+    }

@@ -1,0 +1,197 @@
+"""Curves and diagrams of a whole engine that figures and sheets draw, each computed once, when asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.all_cylinders import EngineTrace
+from crankwork.analysis.bearing_diagrams import AFTER, CrankpinLoad, load_extremes
+from crankwork.analysis.crankshaft_bearings import BearingLoads, bearing_components, bearing_loads
+from crankwork.analysis.cylinder_balance import EngineBalance, engine_balance
+from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
+from crankwork.analysis.results import Results
+from crankwork.analysis.shaft_torque import EngineTorque, engine_torque
+from crankwork.cylinders.bearings import big_end_inertia_force
+from crankwork.cylinders.ellipse import Ellipse, balance_sum
+from crankwork.cylinders.load_statistics import PolarDiagram, polar_diagram
+from crankwork.cylinders.load_vectors import BearingLoad
+from crankwork.cylinders.torque import torques_along_shaft
+from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
+from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import breakpoints_of
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.shaft.fluctuation import ExcessWork, excess_work
+
+_ROUNDING = 1e-9
+_STAR_ORDERS = 6
+# Loci are of the orders up to this one; higher ones are small.
+_LOCI = 2
+
+
+class Locus(NamedTuple):
+    """Closed curve in which a free force of one order runs: its longest [N], its ends across and up [N], shape (n,)."""
+
+    largest: float
+    across: Array
+    up: Array
+
+
+def crankpin_of_one(results: Results, degrees: Array, columns: Mapping[str, Array]) -> CrankpinLoad:
+    """Return the load of the one rod of a crank gear on its crankpin; the machine may have no engine."""
+    inertia = _rod_inertia(results)
+    load = BearingLoad(-columns["radial_force"] - inertia, columns["tangential_force"])
+    return CrankpinLoad(load.resultant, polar_diagram(load, degrees, results.machine.cycle, inertia), inertia, 1)
+
+
+def _rod_inertia(results: Results) -> float:
+    """Return the inertia force of the mass of one rod at the crankpin, never positive. [N]"""
+    solved = results.solved
+    mass = solved.machine.masses.rod_big_end if solved.machine.masses is not None else 0.0
+    return float(big_end_inertia_force(mass, solved.lengths.crank_radius, solved.speed))
+
+
+@dataclass(frozen=True)
+class EngineDiagrams:
+    """Curves and diagrams of a whole engine."""
+
+    results: Results  # Of a machine with an engine whose forces are known
+
+    @property
+    def cycle(self) -> float:
+        """Length of the cycle. [deg]"""
+        return self.results.machine.cycle
+
+    @cached_property
+    def whole(self) -> MultiCylinderEngine:
+        """The engine."""
+        return multi_cylinder_engine(self.results.solved)
+
+    @property
+    def count(self) -> int:
+        """How many cylinders it has."""
+        return len(self.whole.cylinders)
+
+    @property
+    def has_throws(self) -> bool:
+        """Whether its crankshaft has more than one throw."""
+        return len({place.throw for place in self.whole.layout.places}) > 1
+
+    @property
+    def is_spread(self) -> bool:
+        """Whether cylinders stand side by side along the shaft."""
+        return len({place.position for place in self.whole.layout.places}) > 1
+
+    @cached_property
+    def torque(self) -> EngineTorque:
+        """Torque of one cylinder and of all, and speed."""
+        found = EngineTrace.of(self.whole.master)
+        return engine_torque(found.whole, found.trace, found.over, found.extremes)
+
+    @cached_property
+    def excess(self) -> ExcessWork:
+        """What the torque of all cylinders does beyond its mean, that of inertia at constant speed in it."""
+        return excess_work(self.torque.total)
+
+    @cached_property
+    def degrees(self) -> Array:
+        """Crank angles of the torques, on both sides of every corner of the pressure. [deg]"""
+        corners = breakpoints_of([self.results.trace["total_torque"]], self.cycle)
+        angles = np.concatenate([np.arange(0.0, self.cycle + 0.5), corners, corners[:-1] + AFTER])
+        return np.unique(angles)
+
+    @cached_property
+    def torques(self) -> Array:
+        """Torque of every cylinder at `degrees`, shape (cylinders, n). [N m]"""
+        return self.whole.each("crank_torque", self.degrees)
+
+    @property
+    def journal_torques(self) -> Array:
+        """Torque on every main journal that carries some, from the second on, at `degrees`. [N m]"""
+        return np.asarray(torques_along_shaft(list(self.torques), self.whole.layout).journals[1:])
+
+    @cached_property
+    def loads(self) -> tuple[Array, BearingLoads]:
+        """Crank angles of the loads, those of the extremes and of corners among them [deg], and the loads there. [N]"""
+        extremes = load_extremes(self.results.trace)
+        degrees = np.unique(np.concatenate([self.degrees[:-1], np.mod(extremes, self.cycle)]))
+        return degrees, self._loads_at(degrees)
+
+    def _loads_at(self, degrees: Array) -> BearingLoads:
+        parts = Program(bearing_components(self.whole, self.results.trace))
+        return bearing_loads(self.whole, parts(CrankGrid.from_degrees(degrees)))
+
+    def other_pressures(self, degrees: Array) -> dict[int, Array]:
+        """Return the gas pressure of the first cylinder of every gas that is not that of cylinder 1, by number. [Pa]
+
+        `degrees`: its own crank angles.
+        """
+        gases = self.whole.engine.gases
+        firsts = [at for at, gas in enumerate(gases) if at and all(gas is not one for one in gases[:at])]
+        found = Program({str(at): self.whole.cylinders[at].trace["gas_pressure"] for at in firsts})
+        return {int(at) + 1: one for at, one in found(CrankGrid.from_degrees(degrees)).items()}
+
+    @property
+    def pin_sizes(self) -> tuple[Array, Mapping[str, Array]]:
+        """Crank angles over the cycle without its end [deg], and the size of the load on every unlike crankpin. [N]"""
+        degrees, loads = self.loads
+        return degrees, {str(pin): load.resultant for pin, load in loads.crankpins.items()}
+
+    def crankpin(self, pin: str | int, degrees: Array | None = None) -> CrankpinLoad:
+        """Return the load of all rods on a crankpin.
+
+        `pin`: its number, one of those in `loads`; `degrees`: crank angles over the cycle; those of `loads` otherwise
+        [deg].
+        """
+        degrees, loads = self.loads if degrees is None else (degrees, self._loads_at(degrees))
+        load, rods = loads.crankpins[int(pin)], len(self.whole.on_pin[int(pin) - 1])
+        inertia = rods * _rod_inertia(self.results)
+        return CrankpinLoad(load.resultant, polar_diagram(load, degrees, self.cycle, inertia), inertia, rods)
+
+    @property
+    def rod_bearings(self) -> dict[str, PolarDiagram]:
+        """Polar diagrams of `big_end_load` and `small_end_load`, in the frame of the rod. [N]"""
+        degrees, loads = self.loads
+        ends = {"big_end_load": loads.big_end, "small_end_load": loads.small_end}
+        return {key: polar_diagram(load, degrees, self.cycle) for key, load in ends.items()}
+
+    @property
+    def journals(self) -> Mapping[str, PolarDiagram]:
+        """Polar diagrams of all main journals, in the frame of the shaft. [N]"""
+        degrees, loads = self.loads
+        diagrams = (polar_diagram(load, degrees, self.cycle, 0.0, 90.0) for load in loads.mains)
+        return {str(number): diagram for number, diagram in enumerate(diagrams, start=1)}
+
+    @cached_property
+    def balance(self) -> EngineBalance:
+        """Free forces and moments."""
+        return engine_balance(self.whole)
+
+    @cached_property
+    def loci(self) -> dict[int, tuple[Locus, Locus]]:
+        """The forces of each order of cylinders and cranks, and of all, where either is not nothing."""
+        balance = self.balance
+        before = {one.order: one.force for one in balance_sum((*balance.reciprocating, balance.rotating))}
+        after = {one.order: one.force for one in balance.residual}
+        least = _ROUNDING * self.whole.masses.reciprocating * self.whole.master.lengths.crank_radius
+        least *= self.whole.master.speed**2
+        return {
+            order: (_locus(one), _locus(after[order]))
+            for order, one in before.items()
+            if order <= _LOCI and max(one.largest, after[order].largest) > least
+        }
+
+    @property
+    def phase_stars(self) -> list[PhaseStar]:
+        """The phase stars of the orders up to 6."""
+        step = 360 / self.cycle
+        return [phase_star(self.whole.layout, step * at) for at in range(1, round(_STAR_ORDERS / step) + 1)]
+
+
+def _locus(ellipse: Ellipse) -> Locus:
+    points = ellipse.outline()
+    return Locus(ellipse.largest, points.imag, points.real)

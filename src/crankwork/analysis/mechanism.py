@@ -1,0 +1,504 @@
+"""From a linkage to its results over one revolution: motion, reduced inertia, torques, joint forces, speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import replace
+from functools import cache, partial
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.counterweight_balance import counterweight_balance
+from crankwork.analysis.deferred import Deferred
+from crankwork.analysis.equal_cells import with_equal_columns
+from crankwork.analysis.gas_chambers import gas_check, gas_summary, traced_linkage
+from crankwork.analysis.given_motion import DYNAMICS
+from crankwork.analysis.harmonics import delivered_harmonics, listed_harmonics
+from crankwork.analysis.joint_bearings import FOLLOWED as BEARING_COLUMNS
+from crankwork.analysis.joint_bearings import FORCES as ON_CRANKPINS
+from crankwork.analysis.joint_bearings import BearingCycle, JointBearings, bearings_of
+from crankwork.analysis.joint_friction import COLUMNS as FRICTION
+from crankwork.analysis.joint_friction import FOLLOWED as FOLLOWED_FRICTION
+from crankwork.analysis.joint_friction import FrictionColumns, add_friction, mean_values
+from crankwork.analysis.mechanism_trace import efficiency_of, linkage_trace, speed_of, traced_state
+from crankwork.analysis.motion_range import (
+    ReachableMotion,
+    SingularColumns,
+    clear_of_changes,
+    find_reachable_motion,
+    find_singular_columns,
+    limits_of,
+    open_range,
+    rows_inside,
+)
+from crankwork.analysis.operating_state import operating_state
+from crankwork.analysis.prepared import Notice, PreparedLinkage
+from crankwork.analysis.results import Results
+from crankwork.analysis.speed import (
+    SpeedResults,
+    analyse_speed,
+    balance_of,
+    driven_by_motor,
+    excess_of,
+    has_flywheel,
+    has_friction,
+    work_of,
+)
+from crankwork.analysis.transient import simulate_transient
+from crankwork.analysis.transmission_quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
+from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
+from crankwork.errors import CrankworkError
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.crank_range import CrankRange, pass_change_points
+from crankwork.kinematics.grashof import FourBarType, grashof
+from crankwork.kinematics.instant_centres import absent_where_still, pivoted_links
+from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.locale import ErrorMessage
+from crankwork.machine import Machine
+from crankwork.mechanism.driver import Law, LinkMotor
+from crankwork.mechanism.dyads import RRR
+from crankwork.mechanism.mechanism import Crank, Driver
+from crankwork.mechanism.structure import mobility
+from crankwork.shaft.motor_selection import needed_power
+
+_DENSE_STEP = 1.0
+_STANDS = 1e-12
+_TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
+_TURNING = ("link_angular_velocity", "link_angular_acceleration")
+# what has no sign, so that its least value says nothing
+_SIZES = ("joint_force", "joint_force_with_friction", "friction_power", "gas_pressure", "shaking_force")
+_MOST_COEFFICIENTS = 10_000_000
+_OF_DRIVER = (
+    "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
+    "driver_angular_acceleration", "driver_force", "driver_torque", "driver_power",
+)  # fmt: skip
+# how far from a change point the routes are compared that lose their digits in it [deg]
+_BESIDE = 0.05
+
+
+def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
+    """Return the type of a four-bar linkage by Grashof, empty for any other linkage."""
+    crank, ground = machine.mechanism.driver, machine.mechanism.ground
+    if not isinstance(crank, Crank):
+        return ""
+    match machine.mechanism.dyads:
+        case (RRR() as dyad,) if {dyad.joint_a, dyad.joint_b} & set(ground):
+            coupler, rocker, fixed = dyad.length_a, dyad.length_b, dyad.joint_b
+            if dyad.joint_a in ground:
+                coupler, rocker, fixed = rocker, coupler, dyad.joint_a
+            return grashof(crank.radius, coupler, rocker, math.dist(ground[fixed], crank.pivot)).type
+    return ""
+
+
+def analyse_linkage(
+    machine: Machine, grid: CrankGrid | None = None, progress: Callable[[float], None] | None = None
+) -> Results:
+    """Return everything a linkage does over one cycle: a revolution, or two of some gas.
+
+    Columns, summary, checks and notices; of a crank that does not turn fully between its dead positions. `grid`:
+    ascending crank angles within one cycle; the machine's own table otherwise [rad]; `progress`: as `analyse` takes it.
+    """
+    moved = _moved(machine, grid)
+    machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
+    trace, rubbing, table, found = moved.trace, moved.rubbing, moved.table, reached.travel
+    over, summary, told, unusual, program = _singles(moved, trace)
+    notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
+    notices += rubbing.notices + told
+    checks = (
+        _checks(solved, clear_of_changes(machine.mechanism, reached.motion))
+        | gas_check(solved, motion)
+        | rubbing.checks
+    )
+    between = {"mobility": mobility(machine.whole)}
+    if found is None and "reduced_inertia" in trace:
+        for turn in _turns(machine, over, {**trace, **summary}):
+            trace |= turn.columns
+            checks |= turn.checks
+            summary |= {key: one.named(key) for key, one in turn.summary.items()}
+            between |= turn.between
+            notices += turn.notices
+    summary |= _power_of_valves(machine, trace | summary)
+    mechanism = machine.mechanism
+    if moved.has_steady_crank and "shaking_force" in trace:
+        balance = counterweight_balance(mechanism.crank, trace | summary, mechanism.period)
+        summary |= {key: known.named(key) for key, known in balance}
+    cycle = BearingCycle(machine, moved.bearings, over, program)
+    summary |= cycle.summary()
+    ran = simulate_transient(solved, motion, found, summary, progress)
+    summary, checks = summary | ran.summary, checks | ran.checks
+    notices += ran.notices + tuple(_of_machine(machine))
+    # where links pass through a line, that is told already
+    notices += () if machine.mechanism.passages else unusual
+    columns = absent_where_still(Program(trace)(table))
+    # of a link that never turns
+    none = {key for key, one in columns.items() if key.startswith("instant_centre_") and np.isnan(one).all()}
+    columns = {key: one for key, one in columns.items() if key not in none}
+    trace = {key: one for key, one in trace.items() if key not in none}
+    values = {key: one.value for key, one in summary.items()}
+    trace |= {**summary, **between}
+    harmonics = cache(partial(_harmonics, moved, over))
+    deferred = Deferred(trace, lambda: cycle.trace() | harmonics())
+    listings = Deferred(ran.listings, lambda: cycle.listings() | listed_harmonics(harmonics()))
+    return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, deferred)
+
+
+def _harmonics(moved: _Moved, over: CycleInterpolant) -> dict[str, TracedValue]:
+    """Return the harmonics of the torque that a crank at a steady speed is given."""
+    machine = moved.machine
+    return delivered_harmonics(over, machine.cycle, machine.mechanism.crank.radius) if moved.has_steady_crank else {}
+
+
+def _turns(machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedValue]) -> Iterator[SpeedResults]:
+    """Yield how evenly a linkage runs, where a flywheel is given or wanted, and what its motor does."""
+    drive, w, mean = machine.drive, speed_of(machine), trace.get("mean_torque")
+    if not has_flywheel(drive) and drive.motor is None:
+        return
+    added = 0.0
+    if has_flywheel(drive):
+        balance = balance_of(machine, over, trace)
+        turn, excess = analyse_speed(machine, balance, w), excess_of(balance)
+        cycle = given("cycle_angle", math.radians(machine.cycle))
+        summary = {"excess_work": excess, **turn.summary}
+        yield turn._replace(summary=summary, between=turn.between | work_of(excess, mean, cycle))
+        added = turn.added
+    if drive.motor is not None:
+        # the motor drives through the efficiency
+        balance = balance_of(machine, over, trace, counts_efficiency=False)
+        yield driven_by_motor(machine, drive.motor, balance, w, mean, added)
+
+
+def linkage_columns(machine: Machine) -> Results:
+    """Return what is remembered over the crank angle of a linkage, without what is found over its whole cycle."""
+    moved = _moved(machine, None)
+    return Results(moved.solved, moved.table, {}, {}, {}, (), {}, trace=moved.trace)
+
+
+def _power_of_valves(machine: Machine, found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+    """Return the power that a compressor or pump without a motor of its own needs."""
+    has_valves = any(one.valves is not None for one in machine.chambers.values())
+    if not has_valves or "motor_power" in found or not _is_needed(found.get("mean_torque")):
+        return {}
+    of = absent("power_reserve", 1.0), found["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
+    return {"motor_power": needed_power(*of)}
+
+
+def _is_needed(mean: TracedValue | None) -> bool:
+    """Return whether a mean torque is what the driver must give."""
+    return mean is not None and mean.key == "mean_driving_torque" and mean.value > 0
+
+
+def linkage_value(machine: Machine, key: str) -> Results:
+    """Return what is found over the cycle of a linkage of one thing, which a key names; no checks, and no table."""
+    moved, (_, _, name) = _moved(machine, None), key.partition(".")
+    of_one = {one: known for one, known in moved.trace.items() if one.partition(".")[2] == name}
+    summary = _singles(moved, of_one, name).summary
+    values = {one: known.value for one, known in summary.items()}
+    return Results(moved.solved, moved.table, {}, values, {}, (), {}, trace=of_one | summary)
+
+
+class _Singles(NamedTuple):
+    """What is found over the whole cycle of a linkage, and what is to be told of it, last what is unusual."""
+
+    over: CycleInterpolant
+    summary: dict[str, TracedValue]
+    told: tuple[Notice, ...]
+    unusual: tuple[Notice, ...]
+    program: Program  # Of the columns over the cycle, and of the loads of crankpins and main journals
+
+
+def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None = None) -> _Singles:
+    """Return the single values that follow from remembered columns; `name`: of one thing only."""
+    machine, found = moved.machine, moved.reached.travel
+    quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
+    quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
+    quality = {key: one for key, one in quality.items() if name is None or key.partition(".")[2] == name}
+    pivoted = pivoted_links(machine.mechanism)
+    followed = _followed(trace, pivoted, has_friction=moved.rubbing.is_free) | quality
+    told = list[Notice]()
+    start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
+    ends = _where_unbounded(machine, found)
+    without = find_singular_columns(followed, *ends, machine.cycle if found is None else found.end - found.start)
+    told += _told_boundless(without)
+    if machine.working_range is None or found is None:
+        followed = {key: one for key, one in followed.items() if not any(key in some for some in without)}
+    else:
+        told.append(Notice("working_range", {"from": start, "to": end}))
+    if name is None:
+        followed |= moved.bearings.followed(followed)
+    program = Program({**followed, **moved.bearings.of_journals})
+    over = CycleInterpolant(followed, CrankGrid.from_degrees, end - start, start, program=program)
+    extremes, unusual = quality_of(over)
+    summary = _summary(moved.solved, over, extremes, is_whole=found is None)
+    if found is not None:
+        summary |= limits_of(found, trace)
+    return _Singles(over, summary, tuple(told), unusual, program)
+
+
+class _Moved(NamedTuple):
+    """A linkage in motion: how far it reaches, and what is remembered of it over the crank angle."""
+
+    machine: Machine
+    reached: ReachableMotion
+    motion: Motion
+    solved: PreparedLinkage
+    trace: dict[str, TracedValue]
+    rubbing: FrictionColumns
+    table: CrankGrid
+    bearings: JointBearings
+
+    @property
+    def has_steady_crank(self) -> bool:
+        """Whether a crank turns fully at the speed that is stated."""
+        driver = self.machine.mechanism.driver
+        return self.reached.travel is None and isinstance(driver, Crank) and driver.law is None
+
+
+def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
+    mechanism, way = pass_change_points(machine.mechanism, machine.way)
+    machine = replace(machine, mechanism=mechanism, way=way or machine.way)
+    reached = find_reachable_motion(machine, _DENSE_STEP)
+    table = _table(machine, reached, grid)
+    motion, solved = traced_linkage(machine, reached.motion)
+    running = traced_state(solved, motion)
+    trace = with_equal_columns(linkage_trace(solved, running), machine.mechanism, motion.equal_parts)
+    rubbing = add_friction(solved, running, trace)
+    bearings = bearings_of(machine, running.motion, trace) if reached.travel is None else JointBearings()
+    trace |= {**rubbing.columns, **bearings.columns}
+    return _Moved(machine, reached, motion, solved, trace, rubbing, table, bearings)
+
+
+def _of_machine(machine: Machine) -> Iterator[Notice]:
+    """Yield notices of links too many, and of what is not known of them, of gears without teeth, and of a law."""
+    for one in machine.redundant:
+        freedom = float(mobility(machine.whole).value)
+        if one.share is None:
+            yield Notice("redundant_unshared", {"name": one.member.name, "mobility": freedom})
+        else:
+            yield Notice(
+                "redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.reference}
+            )
+    driver = machine.mechanism.driver
+    if isinstance(driver, Crank) and any(one.pressure_angle is None for one in driver.geared):
+        yield Notice("geared", {})
+    if driver.law is not None:
+        yield Notice("by_law", {})
+
+
+def _table(machine: Machine, reached: ReachableMotion, grid: CrankGrid | None) -> CrankGrid:
+    """Return the crank angles of the table, of a crank that turns back those between its dead positions."""
+    asked = grid or CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
+    if reached.travel is None:
+        return asked
+    inside = rows_inside(reached.travel, asked.degrees)
+    if grid is None and len(inside) == 0:
+        return reached.grid
+    if len(inside) == 0:
+        raise CrankworkError(ErrorMessage("table_unreached", low=reached.travel.start, high=reached.travel.end))
+    return inside
+
+
+def _where_unbounded(machine: Machine, found: CrankRange | None) -> tuple[list[float], list[float]]:
+    """Return the crank angles at which columns may grow beyond all bounds, and on which side of them the motion is."""
+    if found is not None:
+        return [found.start, found.end], [1.0, -1.0]
+    passages = machine.mechanism.passages.values()
+    changes = sorted({one for passage in passages for one in passage.changes if 0.0 <= one <= machine.cycle})
+    return changes, [-1.0 if one == machine.cycle else 1.0 for one in changes]
+
+
+def _told_boundless(found: SingularColumns) -> Iterator[Notice]:
+    """Yield notices of what grows beyond all bounds, and of what has no value."""
+    if found.unbounded:
+        yield Notice("unbounded", _where(found.unbounded))
+    if found.undetermined:
+        yield Notice("undetermined", _where(found.undetermined))
+
+
+def _where(columns: Mapping[str, tuple[float, ...]]) -> dict[str, float | str]:
+    """Return the kinds of some columns, and the crank angles that they are told of."""
+    kinds = dict.fromkeys(key.partition(".")[0] for key in columns)
+    angles = sorted({at for some in columns.values() for at in some})
+    return {"angles": "°, ".join(f"{one:.6g}" for one in angles), "quantities": ", ".join(kinds)}
+
+
+def _followed(
+    trace: Mapping[str, TracedValue], pivoted: Collection[str], *, has_friction: bool
+) -> dict[str, TracedValue]:
+    """Return the columns that single values are taken from; those with friction where it locks nowhere.
+
+    `pivoted`: links that turn about fixed pivots, of which it is told how fast.
+    """
+    kinds = (
+        "slider_displacement", "slider_velocity", "slider_acceleration", "link_angle", "joint_force", "tooth_force",
+        "axial_force", "gas_pressure", "gas_force", "rod_load", *_OF_DRIVER, "shaking_force",
+        *(FOLLOWED_FRICTION if has_friction else ()),
+    )  # fmt: skip
+    turning = {f"{kind}.{name}" for kind in _TURNING for name in pivoted}
+    return {
+        key: one
+        for key, one in trace.items()
+        if key in DYNAMICS or key.partition(".")[0] in kinds or (key in turning and one.varies)
+    }
+
+
+def _summary(
+    solved: PreparedLinkage, over: CycleInterpolant, quality: Mapping[str, TracedValue], *, is_whole: bool
+) -> dict[str, TracedValue]:
+    machine, law = solved.machine, solved.machine.mechanism.driver.law
+    result = {**_given_values(machine), **quality}
+    elsewhere = (*FOLLOWED, *BEARING_COLUMNS)
+    keys = [key for key in over.columns if key.partition(".")[0] not in elsewhere and not over.is_zero(key)]
+    extremes, pivoted = over.extremes(*keys), pivoted_links(machine.mechanism)
+    for key in keys:
+        kind, dot, name = key.partition(".")
+        largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
+        travel, is_place = largest - least, kind in _TRAVEL
+        size = 1.0 if kind == "link_angle" else max(abs(largest.value), abs(least.value))
+        if is_place and travel.value <= _STANDS * size:
+            # what only rounding moves stands
+            travel = TracedValue(ProcedureValue(0.0, "range", (largest, least)))
+        # of a crank that turns back its limits say so
+        if is_place and not is_whole:
+            continue
+        if is_place and (kind == "slider_displacement" or travel.value < math.pi):
+            result[f"{_TRAVEL[kind]}.{name}"] = travel
+        if not is_place or rocks(pivoted, key, travel.value):
+            for word in ("max",) if kind in _SIZES else ("max", "min"):
+                extreme = f"{kind}_{word}{dot}{name}"
+                result[extreme] = extremes[extreme]
+                angle = extremes[f"{kind}_{word}_angle{dot}{name}"]
+                result |= _at_time(extreme, angle, law) if law else {f"{kind}_{word}_angle{dot}{name}": angle}
+    if is_whole and law is None:
+        result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
+    if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.columns:
+        # inertia does no work in a cycle, friction does
+        torque = "torque_with_friction" if has_friction(machine.drive, over) else "static_torque"
+        needed = over.mean(torque, "mean_driving_torque")
+        # an engine gives torque, and what it gives is told
+        result["mean_torque"] = needed if needed.value >= 0 else (-needed).named("mean_torque")
+    if is_whole:
+        result |= {one.key: one for one in mean_values(over)}
+    result |= gas_summary(solved)
+    return {key: one if key == "mean_torque" else one.named(key) for key, one in result.items()}
+
+
+def _given_values(machine: Machine) -> dict[str, TracedValue]:
+    """Return the speed of a crank and what it is driven with, or the period of a law."""
+    law = machine.mechanism.driver.law
+    if law is not None:
+        return {"period": given("period", law.period, "driver.period")}
+    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
+    if machine.angular_acceleration:
+        result["angular_acceleration"] = traced_inputs.acceleration(machine)
+    if machine.drive.efficiency != 1:
+        result["efficiency"] = efficiency_of(machine.drive)
+    return result
+
+
+def _at_time(extreme: str, angle: TracedValue, law: Law) -> dict[str, TracedValue]:
+    """Return when an extreme stands, of which the angle of the period is known. [s]"""
+    kind, dot, name = extreme.partition(".")
+    key, node = f"{kind}_time{dot}{name}", angle.node
+    if not isinstance(node, ProcedureValue) or node.at is None:
+        return {}
+    return {
+        key: TracedValue(
+            ProcedureValue(node.at / 360.0 * law.period, node.word.replace("angle", "time"), node.operands, node.at)
+        )
+    }
+
+
+def _checks(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
+    """Return how far four independent routes to the balancing torque differ, relative to the forces."""
+    if not (solved.machine.mechanism.bodies or solved.machine.loads or solved.machine.chambers):
+        return {}
+    running, grid = operating_state(solved, motion), motion.grid
+    found = joint_forces(running)
+    reference = found.balancing_torque
+    some = _every(grid, len(solved.machine.drawn.members))
+    part = operating_state(solved, linkage_motion(solved.machine.mechanism, grid[some]))
+    # forces that do no work balance each other to their own rounding, so a torque of zero is measured by them
+    sizes = [float(np.max(pin.resultant)) for pin in found.pins.values()]
+    turning = _lever(solved.machine.mechanism.driver) * max(sizes, default=0.0)
+    scale = max(float(np.max(np.abs(reference))), turning) or 1.0
+    apart = {
+        name: route(part) - reference[some] if name == "whole_system" else route(running) - reference
+        for name, route in TORQUE_METHODS.items()
+    }
+    return {name: float(np.max(np.abs(one))) / scale for name, one in apart.items()}
+
+
+def _lever(driver: Driver) -> float:
+    """Return the length with which the force in a joint is a torque of the driver, or 1 where that is a force."""
+    match driver:
+        case Crank(radius=radius):
+            return radius
+        case LinkMotor(sides=sides):
+            return max(sides)
+    return 1.0
+
+
+class TorqueByRoutes(NamedTuple):
+    """The balancing torque by every route, arrays of shape (n,) [N m], and how far they are apart. [-]"""
+
+    torques: Mapping[str, Array]
+    differences: Array
+
+
+def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
+    """Return the balancing torque by five routes; at a change point the mean of both sides of it."""
+    solved: PreparedLinkage = results.solved
+    asked, mechanism = np.atleast_1d(np.asarray(degrees, dtype=float)), solved.machine.mechanism
+    changes = np.array([one for passage in mechanism.passages.values() for one in passage.changes])
+    aside = np.zeros_like(asked)
+    if changes.size:
+        aside[np.abs(asked[:, None] - changes).min(axis=1) < _BESIDE] = _BESIDE
+    sides = []
+    for side in (1.0, -1.0) if aside.any() else (0.0,):
+        running = operating_state(solved, linkage_motion(mechanism, CrankGrid.from_degrees(asked + side * aside)))
+        sides.append(
+            {"by_groups": torque_by_groups(running), **{name: route(running) for name, route in TORQUE_METHODS.items()}}
+        )
+    torques = {name: np.mean([one[name] for one in sides], axis=0) for name in sides[0]}
+    return TorqueByRoutes(torques, differences(list(torques.values())))
+
+
+def differences(routes: list[Array]) -> Array:
+    """Return how far routes are apart at each position, relative to the largest torque of the turn. [-]"""
+    every = np.array(routes)
+    return np.asarray(np.ptp(every, axis=0) / (float(np.max(np.abs(every))) or 1.0))
+
+
+def _every(grid: CrankGrid, links: int) -> slice:
+    """Return which angles the system of all links is solved at: all, or of many links as many as memory is good for."""
+    return slice(None, None, math.ceil(len(grid) * (3 * max(links, 1)) ** 2 / _MOST_COEFFICIENTS))
+
+
+def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
+    """Return the keys of each table."""
+    kinds = {
+        "points": ("point_x", "point_y", "point_velocity_x", "point_velocity_y", "point_velocity",
+                   "point_acceleration_x", "point_acceleration_y", "point_acceleration"),
+        "links": ("link_angle", "link_angular_velocity", "link_angular_acceleration",
+                  "slider_displacement", "slider_velocity", "slider_acceleration", "coriolis_acceleration",
+                  "transmission_angle", "pressure_angle", "instant_centre_x", "instant_centre_y"),
+        "balance": ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment"),
+        "speed": ("crank_speed", "kinetic_energy_change"),
+        "chambers": ("cylinder_volume", "diagram_pressure", "gas_pressure", "gas_force", "rod_load"),
+        "friction": FRICTION,
+        "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
+                         "axial_force", "normal_force",
+                         "normal_moment"),
+        "bearings": ON_CRANKPINS,
+        "main_journals": ("main_journal_load",),
+    }  # fmt: skip
+    groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}
+    return {"driver": _OF_DRIVER, "dynamics": DYNAMICS, **groups}

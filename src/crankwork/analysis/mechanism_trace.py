@@ -1,0 +1,217 @@
+"""Every column of a linkage as a known: motion, reduction to the crank, torques, forces in joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.counterweight_balance import shaking
+from crankwork.analysis.flywheel import turning_inertia
+from crankwork.analysis.operating_state import is_shared, traced_joint_forces
+from crankwork.analysis.prepared import PreparedLinkage
+from crankwork.analysis.transmission_quality import transmissions
+from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, traced_efficiency
+from crankwork.dynamics.link_loads import link_angular_acceleration
+from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.reduction import (
+    driver_power,
+    dynamic_torque,
+    kinetic_energy,
+    reduced_inertia,
+    reduced_torque,
+    static_torque,
+)
+from crankwork.dynamics.torque_formulas import balancing_torque_of_parts
+from crankwork.formula.traced_value import Piecewise, ProcedureValue, TracedValue, absent, given
+from crankwork.kinematics import kinematic_coefficients as rates
+from crankwork.kinematics.dyads import is_zero
+from crankwork.kinematics.instant_centres import instant_centres
+from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
+from crankwork.kinematics.motion import Motion
+from crankwork.kinematics.motion_laws import clock
+from crankwork.kinematics.traced_motion import angle_of, interpolant_of, traced_mechanism
+from crankwork.loads.load import applied_loads
+from crankwork.machine import Drive, Machine
+from crankwork.mechanism.driver import Law, LinkMotor
+from crankwork.mechanism.joints import SlidingJoint, joints, names_of_pivots
+from crankwork.mechanism.linkage import GROUND
+from crankwork.mechanism.mechanism import Crank
+
+# what a driver gives, by whether it turns
+DRIVEN = {False: "driver_force", True: "driver_torque"}
+
+
+def traced_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:
+    """Return a linkage at work, with its loads, remembered."""
+    machine = solved.machine
+    w, eps = driver_speed_and_acceleration(machine, motion)
+    mechanism = traced_mechanism(machine.mechanism, machine.linkage)
+    loads = applied_loads(mechanism, motion, machine.loads, w).also(solved.filling.loads(mechanism, motion))
+    return OperatingState(mechanism, motion, w, loads, eps)
+
+
+def driver_speed_and_acceleration(machine: Machine, motion: Motion) -> tuple[TracedValue, TracedValue]:
+    """Return speed and acceleration of the driver's coordinate."""
+    if motion.driver is not None:
+        _, rate, change = motion.driver
+        return rate, change
+    return speed_of(machine), traced_inputs.acceleration(machine)
+
+
+def linkage_trace(solved: PreparedLinkage, running: OperatingState) -> dict[str, TracedValue]:
+    """Return all columns of a linkage (artobolevsky_1988, ch. 13-16).
+
+    Columns by key; those of points, links, sliders, joints and chambers are `key.NAME`. `running`: the linkage at work,
+    remembered.
+    """
+    machine, motion, w, eps = solved.machine, running.motion, running.speed, running.angular_acceleration
+    if motion.driver is not None and machine.mechanism.driver.law is not None:
+        return {key: one.named(key) for key, one in _by_law(solved, running, machine.mechanism.driver.law).items()}
+    columns: dict[str, TracedValue] = {"crank_angle": angle_of(motion.grid), **dict(_moving(machine, motion, w, eps))}
+    columns |= solved.filling.columns
+    if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction or machine.drive.inertia:
+        columns |= _at_work(solved, running)
+    return {key: one.named(key) for key, one in columns.items()}
+
+
+def _by_law(solved: PreparedLinkage, running: OperatingState, law: Law) -> dict[str, TracedValue]:
+    """Return the columns of a linkage whose driver follows a law over time, with what the driver has to give."""
+    machine, motion = solved.machine, running.motion
+    q, rate, second = motion.driver or Transfer(None, None, None)
+    columns = {"time": clock(law), **{one.key: one for one in (q, rate, second)}}
+    columns |= {**dict(_moving(machine, motion, rate, second)), **solved.filling.columns}
+    if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction:
+        torque, forces = _forces(solved, running)
+        driven = torque.named(DRIVEN[machine.mechanism.driver.turns])
+        columns |= {driven.key: driven, "driver_power": driver_power(driven, rate), **forces}
+    return columns
+
+
+def speed_of(machine: Machine) -> TracedValue:
+    """Return the angular speed of the crank, with the method's own pi."""
+    if machine.method.pi == math.pi and not machine.stated:
+        return given("speed", machine.speed, "crank.speed")
+    return traced_inputs.speed(machine, machine.method)
+
+
+def efficiency_of(drive: Drive) -> TracedValue:
+    """Return the efficiency of the joints between motor and process, made up of those of a chain where it is given."""
+    if drive.efficiency == 1:
+        return absent("efficiency", 1.0)
+    if drive.chain is None:
+        return given("efficiency", drive.efficiency, "efficiency.chain")
+    if drive.exact_efficiency is None:
+        return traced_efficiency(drive.chain)
+    exact = traced_efficiency(drive.chain).named("efficiency.exact")
+    return TracedValue(ProcedureValue(drive.efficiency, "rounded", (exact,)), "efficiency")
+
+
+def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) -> Iterator[tuple[str, TracedValue]]:
+    """Yield positions, velocities and accelerations of everything that moves."""
+    driver = machine.mechanism.driver
+    for name, (x, y) in motion.points.items():
+        if name in machine.mechanism.ground:
+            continue
+        yield f"point_x.{name}", x.position
+        yield f"point_y.{name}", y.position
+        yield from _rates_of_point(name, PointMotion(x, y), w, eps)
+    for name, one in motion.links.items():
+        if name != driver.link or not isinstance(driver, Crank | LinkMotor):
+            yield f"link_angle.{name}", one.position
+            yield f"link_angular_velocity.{name}", rates.link_angular_velocity(one.position_1, w)
+            turning = link_angular_acceleration(one.position_2, w, one.position_1, eps)
+            yield f"link_angular_acceleration.{name}", turning
+    carrier = {
+        one.name: one.other
+        for one in joints(machine.mechanism)
+        if isinstance(one, SlidingJoint) and one.other != GROUND
+    }
+    for name, one in motion.sliders.items():
+        yield f"slider_displacement.{name}", one.position
+        yield f"slider_velocity.{name}", rates.slider_velocity(one.position_1, w)
+        yield f"slider_acceleration.{name}", rates.slider_acceleration(one.position_2, w, one.position_1, eps)
+        turning = motion.frames[carrier[name]].angle_1 if name in carrier else absent("link_angle_1")
+        if not turning.is_absent:
+            velocity = rates.slider_velocity(one.position_1, w).named(f"slider_velocity.{name}")
+            carried = rates.link_angular_velocity(turning, w).named(f"link_angular_velocity.{carrier[name]}")
+            yield f"coriolis_acceleration.{name}", rates.coriolis_acceleration(carried, velocity)
+    yield from transmissions(machine.mechanism, motion)
+    yield from instant_centres(machine.mechanism, motion)
+
+
+def _rates_of_point(
+    name: str, point: PointMotion, w: TracedValue, eps: TracedValue
+) -> Iterator[tuple[str, TracedValue]]:
+    """Yield velocity and acceleration of a point: along the axes, and their magnitude."""
+    (_, x_1, x_2), (_, y_1, y_2) = point
+    v_x = rates.point_velocity_x(x_1, w).named(f"point_velocity_x.{name}")
+    v_y = rates.point_velocity_y(y_1, w).named(f"point_velocity_y.{name}")
+    a_x = rates.point_acceleration_x(x_2, w, x_1, eps).named(f"point_acceleration_x.{name}")
+    a_y = rates.point_acceleration_y(y_2, w, y_1, eps).named(f"point_acceleration_y.{name}")
+    velocity, acceleration = rates.point_velocity(v_x, v_y), rates.point_acceleration(a_x, a_y)
+    yield from ((one.key, one) for one in (v_x, v_y, velocity.named(f"point_velocity.{name}")))
+    yield from ((one.key, one) for one in (a_x, a_y, acceleration.named(f"point_acceleration.{name}")))
+
+
+def _at_work(solved: PreparedLinkage, running: OperatingState) -> dict[str, TracedValue]:
+    """Return reduction, torques and forces in joints."""
+    machine, mechanism, motion, loads = solved.machine, running.mechanism, running.motion, running.loads
+    w, eps = running.speed, running.angular_acceleration
+    beside = turning_inertia(machine, "reduced_inertia.drive")
+    inertia = reduced_inertia(mechanism, motion, beside)
+    reduced: TracedValue = reduced_torque(motion, loads)
+    static: TracedValue = absent("static_torque") if reduced.is_absent else static_torque(reduced)
+    dynamic: TracedValue = dynamic_torque(w, inertia.inertia_1, inertia.inertia, eps)
+    static, dynamic = static.named("static_torque"), dynamic.named("dynamic_torque")
+    balancing: TracedValue = balancing_torque_of_parts(static, dynamic)
+    columns = {
+        "reduced_inertia": inertia.inertia,
+        "reduced_inertia_1": inertia.inertia_1,
+        "kinetic_energy": kinetic_energy(inertia.inertia, w),
+        "static_torque": static,
+        "dynamic_torque": dynamic,
+        "balancing_torque": balancing,
+        "driving_torque": _driving(static, dynamic, balancing, machine.drive, motion),
+        **_forces(solved, running)[1],
+    }
+    if any(not is_zero(one.mass) for one in mechanism.bodies):
+        columns |= shaking(running)
+    return columns if reduced.is_absent else columns | {"reduced_torque": reduced}
+
+
+def _driving(
+    static: TracedValue, dynamic: TracedValue, balancing: TracedValue, drive: Drive, motion: Motion
+) -> TracedValue:
+    """Return the torque of the motor, which drives where it is positive and brakes where it is negative."""
+    eta = efficiency_of(drive)
+    motor: TracedValue = driving_torque_as_motor(static, dynamic, eta)
+    if eta.is_absent or not balancing.varies:
+        return motor
+    ends, is_brake = interpolant_of(motion.grid)({"": balancing}).sign_intervals("")
+    brake: TracedValue = driving_torque_as_brake(static, dynamic, eta)
+    return TracedValue(Piecewise(ends, tuple(brake if one else motor for one in is_brake)), "driving_torque")
+
+
+def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedValue, dict[str, TracedValue]]:
+    """Return what the driver needs, and the forces in joints and guides.
+
+    The joint of crank and ground has the name of its fixed point.
+    """
+    found, along = traced_joint_forces(solved, running)
+    if not is_shared(solved.machine.redundant):
+        return found.balancing_torque, {}
+    pivots = names_of_pivots(solved.machine.mechanism)
+    columns: dict[str, TracedValue] = {}
+    for joint, pin in found.pins.items():
+        name = pivots.get(joint, joint)
+        columns |= {
+            f"joint_force_x.{name}": pin.x,
+            f"joint_force_y.{name}": pin.y,
+            f"joint_force.{name}": pin.resultant,
+        }
+    for name, (across, apart) in found.teeth.items():
+        columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": apart}
+    for name, guide in found.guides.items():
+        columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
+    return found.balancing_torque, columns | along

@@ -1,0 +1,220 @@
+"""How far a linkage gets, and what is told of it: dead positions, swing and stroke, change points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from crankwork.analysis.prepared import Notice
+from crankwork.errors import GeometryError
+from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import ProcedureValue, TracedValue
+from crankwork.kinematics.circuits import Extent
+from crankwork.kinematics.configuration_coordinates import link_angle
+from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.crank_range import CrankRange, find_crank_range, has_steady_crank, near_changes
+from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.kinematics.position_analysis import assembled, place
+from crankwork.locale import ErrorMessage
+from crankwork.machine import Machine
+from crankwork.mechanism.chain import Chain
+from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
+
+# how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
+_NEAREST, _AT_MOST = 0.005, 0.25
+_FEWEST = 33
+# how near extremes are looked for, and how much what has no bound grows on the way there
+_EDGE = 1e-6
+_ASIDE = (1e-4, 1e-7)
+# as good as the angle itself [deg]
+_ITSELF = 1e-7
+_GROWS = 10.0
+_NEARLY_SINGULAR = 1e-3
+_TURN = 360.0
+# dyads whose branches are all tried: twice as many ways for each
+_MOST_SIGNED = 4
+
+
+class ReachableMotion(NamedTuple):
+    """The motion of a linkage as far as it reaches; the way of its crank, where that does not turn fully."""
+
+    motion: Motion
+    travel: CrankRange | None
+    notices: tuple[Notice, ...]
+
+    @property
+    def grid(self) -> CrankGrid:
+        """The crank angles that it reaches."""
+        return self.motion.grid
+
+
+def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
+    """Return the motion of a linkage in steps, and notices of what keeps it from turning simply."""
+    whole, mechanism = CrankGrid.steps(step, machine.cycle), machine.mechanism
+    try:
+        moved = linkage_motion(mechanism, whole)
+    except GeometryError as error:
+        told = _branch_first(mechanism, whole, error.args[0])
+        # a law either passes what its linkage reaches, or has to be changed
+        if not has_steady_crank(mechanism):
+            raise GeometryError(told) from None
+        try:
+            found = find_crank_range(mechanism, machine.way)
+        except GeometryError:
+            if told is error.args[0]:
+                raise
+            raise GeometryError(told) from None
+        if found.is_whole:
+            raise
+        notices = [Notice("partial", {"message": told, "from": found.start, "to": found.end})]
+        if any(isinstance(group, Chain) for group in mechanism.dyads):
+            notices.append(Notice("circuit_of_chain", {}))
+        moved = linkage_motion(mechanism, _inside(found, step))
+        return ReachableMotion(moved, found, (*notices, *_told(mechanism, found)))
+    margins = [np.min(one.value) / one.scale for one in place(mechanism, whole).closures]
+    is_near = has_steady_crank(mechanism) and min(margins, default=1.0) < _NEARLY_SINGULAR
+    return ReachableMotion(
+        moved, None, tuple(_told(mechanism, find_crank_range(mechanism, machine.way) if is_near else None))
+    )
+
+
+def _branch_first(mechanism: Mechanism, grid: CrankGrid, told: str) -> str:
+    """Return why a linkage does not move as is asked, the fewest other branches with which it does before all else."""
+    # the branch of the last dyad moves nothing that has to close
+    before = enumerate(mechanism.dyads[:-1])
+    other = {index: replace(one, branch=-one.branch) for index, one in before if isinstance(one, RRR | RRP | RPR)}
+    if mechanism.passages or len(other) > _MOST_SIGNED or any(isinstance(one, Chain) for one in mechanism.dyads):
+        return told
+    for some in (some for count in range(1, len(other) + 1) for some in combinations(other, count)):
+        dyads = tuple(other[index] if index in some else one for index, one in enumerate(mechanism.dyads))
+        with suppress(GeometryError):
+            assembled(replace(mechanism, dyads=dyads), grid)
+            written = ", ".join(f"{_branch_key(other[index])} = {other[index].branch}" for index in some)
+            return ErrorMessage("branch_first", written=written, mistake=told)
+    return told
+
+
+def _branch_key(group: RRR | RRP | RPR) -> str:
+    match group:
+        case RRR():
+            return group.point
+        case RRP():
+            return group.slider
+        case RPR():
+            return group.link
+
+
+def _inside(found: CrankRange, step: float) -> CrankGrid:
+    """Return angles from dead position to dead position, of the steps asked for where there are enough."""
+    width = found.end - found.start
+    spare = min(_AT_MOST, _NEAREST * width)
+    count = max(_FEWEST, math.ceil(width / step) + 1)
+    return CrankGrid.from_degrees(np.linspace(found.start + spare, found.end - spare, count))
+
+
+def _told(mechanism: Mechanism, found: CrankRange | None) -> Iterator[Notice]:
+    """Yield notices of change points that are passed, or nearly."""
+    changes = sorted({one for passage in mechanism.passages.values() for one in passage.changes})
+    if changes:
+        shown = sorted({round(one % mechanism.period, 6) for one in changes})
+        yield Notice("change_points", {"angles": "°, ".join(f"{one:g}" for one in shown)})
+    if mechanism.period > _TURN and (found is None or found.is_whole):
+        yield Notice("two_turns", {"turns": round(mechanism.period / _TURN)})
+    geared = mechanism.driver.geared if isinstance(mechanism.driver, Crank) and found is None else ()
+    for one in geared:
+        if not period_in_turns(one.ratio):
+            yield Notice("no_cycle", {"name": one.link, "ratio": one.ratio})
+    for degrees, miss in near_changes(found.circuit) if found else ():
+        yield Notice("nearly_change_point", {"angle": degrees, "miss": miss})
+
+
+def rows_inside(found: CrankRange, degrees: ArrayLike) -> CrankGrid:
+    """Return the angles of a table that lie between dead positions, whole turns aside. [deg]"""
+    asked = np.asarray(degrees, dtype=float)
+    first, last = math.floor((found.start - asked.max()) / 360.0), math.ceil((found.end - asked.min()) / 360.0)
+    every = np.unique(np.round(np.concatenate([asked + 360.0 * turn for turn in range(first, last + 1)]), 9))
+    edge = _EDGE * (found.end - found.start)
+    return CrankGrid.from_degrees(every[(every > found.start + edge) & (every < found.end - edge)])
+
+
+def open_range(found: CrankRange) -> tuple[float, float]:
+    """Return the range between dead positions without these. [deg]"""
+    edge = _EDGE * (found.end - found.start)
+    return found.start + edge, found.end - edge
+
+
+class SingularColumns(NamedTuple):
+    """Columns that have no value somewhere, and at which crank angles. [deg]"""
+
+    unbounded: Mapping[str, tuple[float, ...]]  # They grow beyond all bounds towards it
+    undetermined: Mapping[str, tuple[float, ...]]  # They stay finite, with no limit that both sides have in common
+
+
+def find_singular_columns(
+    columns: Mapping[str, TracedValue], ends: Iterable[float], towards: Iterable[float], width: float
+) -> SingularColumns:
+    """Return the columns that grow beyond all bounds towards some crank angles, and those that have no value there.
+
+    `ends`: the angles; `towards`: on which side of each the motion is, 1 or -1; `width`: what is small against it
+    [deg].
+    """
+    aside = np.array([*(width * np.array(_ASIDE)), _ITSELF])
+    angles = np.array([*ends])
+    degrees = np.array([end + side * aside for end, side in zip(angles, towards, strict=True)])
+    if not degrees.size or not columns:
+        return SingularColumns({}, {})
+    values = Program(columns)(CrankGrid.from_degrees(degrees.ravel()))
+    grown, without = dict[str, tuple[float, ...]](), dict[str, tuple[float, ...]]()
+    for key, column in values.items():
+        far, near, there = np.abs(column.reshape(degrees.shape)).T
+        grows = ~(near <= _GROWS * far + 1e-9 * np.max(far))
+        # at a change point without a common limit a column has no value
+        missing = ~np.isfinite(there) & ~grows
+        grown |= {key: tuple(angles[grows].tolist())} if grows.any() else {}
+        without |= {key: tuple(angles[missing].tolist())} if missing.any() else {}
+    return SingularColumns(grown, without)
+
+
+def limits_of(found: CrankRange, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+    """Return the range of a crank that turns back, and swing and stroke between its dead positions and all round."""
+    circuit, values = found.circuit, {}
+    for key, degrees in (
+        ("crank_range", found.end - found.start),
+        ("crank_range_start", found.start),
+        ("crank_range_end", found.end),
+    ):
+        values[key] = TracedValue(ProcedureValue(math.radians(degrees), "circuit"), key)
+    angles = {name: (f"link_angle.{name}", link_angle(name)) for name in circuit.curve.system.equations.index}
+    sliders = {name: (f"slider_displacement.{name}", one) for name, one in circuit.sliders.items()}
+    for kind, each in (("link_swing", angles), ("slider_stroke", sliders)):
+        for name, (column, coordinate) in each.items():
+            if column not in trace or (kind == "link_swing" and name in sliders):
+                continue
+            on_branch, whole = circuit.extents(coordinate, found.branch, circuit.full_part)
+            turns = kind == "link_swing" and circuit.turns(name) != 0
+            for key, extent, word in ((kind, on_branch, "branch"), (f"{kind}_circuit", whole, "circuit")):
+                if not (kind == "link_swing" and _is_full(extent)) and not (turns and extent is whole):
+                    values[f"{key}.{name}"] = TracedValue(
+                        ProcedureValue(extent.travel, word, (trace[column],)), f"{key}.{name}"
+                    )
+    return values
+
+
+def _is_full(extent: Extent) -> bool:
+    return extent.travel >= math.tau - 1e-9
+
+
+def clear_of_changes(mechanism: Mechanism, moved: Motion) -> Motion:
+    """Return the motion beside change points, where forces are computed and compared."""
+    clear = np.ones(len(moved.grid), dtype=bool)
+    for passage in mechanism.passages.values():
+        clear &= ~passage.is_bridged(moved.grid.degrees)
+    return moved if clear.all() else linkage_motion(mechanism, CrankGrid.from_degrees(moved.grid.degrees[clear]))

@@ -1,0 +1,248 @@
+"""From an engine to its results over one cycle, with their summary and the checks on them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.cylinder_forces import COLUMNS, FORCES
+from crankwork.analysis.cylinder_gas import cycle_values, work_of_gas
+from crankwork.analysis.piston_kinematics import HARMONICS, KINEMATICS
+from crankwork.analysis.prepared import PreparedCylinder, prepare, relative_difference
+from crankwork.analysis.reduction import REDUCTION
+from crankwork.analysis.results import Results
+from crankwork.analysis.speed import delivered_or_needed
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.replay import Program, Samples
+from crankwork.formula.traced_value import TracedValue, given
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.slider_crank import (
+    bottom_dead_centre_angle,
+    mean_piston_speed,
+    relative_offset,
+    top_dead_centre_angle,
+    top_dead_centre_angle_before,
+)
+from crankwork.loads import gas as gas_formulas
+from crankwork.loads.valves import StatedValves, inlet_flow
+from crankwork.machine import Machine
+from crankwork.method import Method
+from crankwork.quantities.renamed import MOVED
+
+_CHECK_STEP = 1.0
+_MOVING = ("piston_velocity", "piston_acceleration")
+_PUSHING = ("gas_pressure", "inertia_force", "piston_force", "side_force", "tangential_force", "crank_torque")
+_WRONG_FORCES = ("inertia_force", "piston_force", "side_force", "tangential_force", "radial_force", "crank_torque")
+GROUPS = {"kinematics": KINEMATICS, "harmonics": HARMONICS, "forces": FORCES, "dynamics": REDUCTION}
+
+
+def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: Method | None = None) -> Results:
+    """Return everything a machine does over one cycle.
+
+    `grid`: ascending crank angles for the columns, within one cycle; the machine's own table otherwise [rad].
+    """
+    solved = prepare(machine, method or machine.method)
+    if grid is None:
+        grid = CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
+    followed, wrong = _followed(solved)
+    names = {key: own_key(machine, key) for key in (*COLUMNS, *HARMONICS) if key in solved.trace}
+    own = {name: solved.trace[key] for key, name in names.items()}
+    if machine.engine is None or "crank_torque" not in solved.trace:
+        program = Program(own | followed)
+        samples = Samples(program, CrankGrid.from_degrees, machine.cycle)
+        whole = None
+        over = CycleInterpolant(followed, CrankGrid.from_degrees, machine.cycle, size_of=wrong, program=program)
+    else:
+        from crankwork.analysis.all_cylinders import EngineTrace  # noqa: PLC0415 - loaded where it is needed
+
+        # what one cylinder does is followed together with what all do
+        whole = EngineTrace.of(solved, followed, wrong, own)
+        samples, over = whole.samples, whole.over
+    found = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
+    found = _by_own_keys(machine, found)
+    calculated = solved.space.calculated if solved.space is not None else None
+    summary = {key: known.value for key, known in found.items()}
+    if calculated is not None:
+        summary |= cycle_values(calculated.values)
+    trace = (
+        ({} if calculated is None else {**cycle_values(calculated.trace), **calculated.peak})
+        | _by_own_keys(machine, solved.trace)
+        | found
+    )
+    if calculated is not None and "geometric_compression_ratio" in calculated.trace:
+        # that of the closed cylinder, as the summary has it
+        trace["compression_ratio"] = calculated.trace["compression_ratio"]
+    results = Results(
+        solved,
+        grid,
+        _only({name: name for name in own}, samples(grid)),
+        summary,
+        _checks(solved, summary, samples, over),
+        solved.notices,
+        {name: tuple(own_key(machine, key) for key in keys) for name, keys in GROUPS.items()},
+        allowed=_allowed(solved, summary),
+        trace=trace,
+    )
+    if machine.engine is None:
+        return results
+    from crankwork.analysis.all_cylinders import with_whole_engine  # noqa: PLC0415 - loaded where it is needed
+
+    return with_whole_engine(results, whole)
+
+
+def own_key(machine: Machine, key: str) -> str:
+    """Return the key of a value of cylinder 1; of what the whole engine has too, that of the cylinder names it."""
+    return MOVED.get(key, key) if machine.engine is not None else key
+
+
+def _by_own_keys(machine: Machine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+    """Return values of cylinder 1 by the keys that they have in the results."""
+    return {own_key(machine, key): known for key, known in values.items()}
+
+
+def _only(names: Mapping[str, str], columns: Mapping[str, Array]) -> dict[str, Array]:
+    """Return columns by key, each found under its name."""
+    return {key: columns[name].copy() for key, name in names.items() if name in columns}
+
+
+def _followed(solved: PreparedCylinder) -> tuple[dict[str, TracedValue], dict[str, str]]:
+    """Return what the summary is about, of an approximate method with its errors, and what each is an error of."""
+    trace, wrong = solved.trace, dict[str, str]()
+    found = {key: trace[key] for key in (*_MOVING, *_PUSHING) if key in trace}
+    if not solved.method.is_exact:
+        exact = prepare(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None)).trace
+        wrong = {f"{key}_error": key for key in ("piston_displacement", *_MOVING, *_WRONG_FORCES) if key in trace}
+        found |= {key: trace[key] for key in wrong.values()}
+        found |= {
+            error: (trace[key].named(key) - exact[key].named(f"{key}.exact")).named(error)
+            for error, key in wrong.items()
+        }
+    return found, wrong
+
+
+def _geometry(solved: PreparedCylinder) -> dict[str, TracedValue]:
+    trace, lengths = solved.trace, solved.lengths
+    found = {key: trace[key] for key in ("crank_radius", "rod_length")}
+    r, l, e = found["crank_radius"], found["rod_length"], trace["offset"]  # noqa: E741
+    found |= {"rod_ratio": solved.moving.lengths.rod_ratio, "stroke": traced_inputs.stroke(solved.moving.lengths)}
+    if not e.is_absent:
+        found |= {"offset": e, "relative_offset": relative_offset(e, r)}
+        top = top_dead_centre_angle if lengths.offset > 0 else top_dead_centre_angle_before
+        found["top_dead_centre_angle"] = top(*((e, l, r) if lengths.offset > 0 else (math.pi, e, l, r)))
+        found["bottom_dead_centre_angle"] = bottom_dead_centre_angle(math.pi, e, l, r)
+    of_cylinder = ("bore", "piston_area", "swept_volume", "clearance_volume", "compression_ratio")
+    wanted = (*of_cylinder, "reciprocating_mass", "rotating_mass")
+    return found | {key: trace[key] for key in wanted if key in trace and not trace[key].is_absent}
+
+
+def _motion(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
+    trace = solved.trace
+    n = traced_inputs.revolutions(solved.machine)
+    stroke = traced_inputs.stroke(solved.moving.lengths)
+    found = {
+        "rotational_speed": given("rotational_speed", solved.machine.speed, "crank.speed"),
+        "speed": trace["speed"],
+        "mean_piston_speed": mean_piston_speed(stroke, n),
+    }
+    found |= over.extremes(*_MOVING)
+    if solved.machine.angular_acceleration:
+        found["angular_acceleration"] = traced_inputs.acceleration(solved.machine)
+    if not solved.method.is_exact:
+        found |= over.errors(*(f"{key}_error" for key in ("piston_displacement", *_MOVING)))
+    return found
+
+
+def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
+    trace, cycle = solved.trace, traced_inputs.cycle_angle(solved.machine)
+    if "piston_force" not in trace:
+        return {}
+    found = over.errors(*(key for key in (f"{one}_error" for one in _WRONG_FORCES) if key in over.columns))
+    found |= over.extremes(*(key for key in _PUSHING if key in trace))
+    if "rotating_inertia_force" in trace:
+        found["rotating_inertia_force"] = trace["rotating_inertia_force"]
+    mean = over.mean("crank_torque", "mean_torque")
+    if solved.space is not None:
+        work = found["indicated_work"] = work_of_gas(solved, solved.space)
+        if solved.machine.angular_acceleration:
+            # what speeds up the parts is none of a cycle that repeats
+            mean = gas_formulas.mean_torque(work, cycle).named("mean_torque")
+        found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, trace["swept_volume"])
+        power = found["indicated_power"] = gas_formulas.indicated_power(work, trace["speed"], cycle)
+        valves = solved.machine.gas.valves if solved.machine.gas is not None else None
+        if valves is not None:
+            stated = StatedValves(valves, "gas.valves")
+            found |= stated.drawn(trace["clearance_volume"], trace["swept_volume"])
+            engine = solved.machine.engine
+            if engine is None or len(engine.layout.places) == 1:
+                # of several cylinders all together deliver
+                found |= stated.passed(inlet_flow(found["induced_volume"], trace["speed"], cycle), power)
+    found["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
+    return found
+
+
+def _checks(
+    solved: PreparedCylinder, summary: Mapping[str, float], samples: Samples, over: CycleInterpolant
+) -> dict[str, float]:
+    """Return the residuals of identities between the results, relative to the largest term."""
+    if "piston_force" not in solved.trace:
+        return {}
+    names = {key: own_key(solved.machine, key) for key in solved.trace}
+    dense = _only(names, samples(CrankGrid.steps(_CHECK_STEP, solved.machine.cycle)))
+    T, K, S, N = (dense[key] for key in ("tangential_force", "radial_force", "rod_force", "side_force"))
+    P, r, l = dense["piston_force"], solved.lengths.crank_radius, solved.lengths.rod_length  # noqa: E741
+    across = dense.get("rod_transverse_force", np.zeros_like(S))
+    # what the wall takes beside the rod: the weight across the axis
+    weight = dense.get("transverse_weight", np.zeros_like(S))
+    height = r * np.cos(dense["crank_angle"]) + l * np.cos(dense["rod_angle"])
+    rigid = "_rigid" if "rod_transverse_force" in dense else ""
+    result = {
+        f"crankpin_resultant{rigid}": relative_difference(T**2 + K**2, S**2 + across**2),
+        f"pin_resultant{rigid}": relative_difference(P**2 + (N + weight) ** 2, S**2 + across**2),
+        "overturning": relative_difference(T * r, weight * height - dense["overturning_moment"] - across * l),
+    }
+    if solved.method.is_exact:
+        from crankwork.analysis.second_routes import joint_force_residuals  # noqa: PLC0415 - loaded where it is needed
+
+        result |= joint_force_residuals(solved, samples)
+        if "reduced_inertia" in dense:
+            result["torque_of_energy"] = relative_difference(dense["crank_torque"], _torque_of_energy(solved, dense))
+    if solved.space is not None and not solved.machine.angular_acceleration:
+        work = over.mean("crank_torque", "mean_torque").value * math.radians(solved.machine.cycle)
+        result["work"] = abs(work - summary["indicated_work"]) / moved_work(solved, summary)
+    valves = solved.machine.gas.valves if solved.machine.gas is not None else None
+    if valves is not None and solved.space is not None:
+        work = StatedValves(valves, "gas.valves").work(solved.space.clearance, solved.space.swept)
+        result["valves"] = abs(summary["indicated_work"] - solved.space.factor * work) / abs(work)
+    calculated = solved.space.calculated if solved.space is not None else None
+    if calculated is not None and "first_law_residual" in calculated.values:
+        residual, heat = calculated.values["first_law_residual"], calculated.values["fuel_heat"]
+        result["first_law"] = abs(residual) / max(heat, moved_work(solved, summary))
+    return result
+
+
+def _torque_of_energy(solved: PreparedCylinder, dense: Mapping[str, Array]) -> Array:
+    """Return the torque that gas and weights do work with, less what changes the energy of the masses."""
+    w, eps, trace = solved.speed, solved.machine.angular_acceleration, solved.trace
+    pushed = sum((dense[key] for key in ("gas_force", "weight_force") if key in dense), np.zeros_like(w))
+    # that of the rotating mass has its inertia in it
+    turning = trace["rotating_mass"].value * solved.lengths.crank_radius**2
+    rotating = dense.get("rotating_torque", 0.0) + turning * eps
+    energy = w**2 / 2 * dense["reduced_inertia_1"] + dense["reduced_inertia"] * eps
+    return np.asarray(pushed * dense["piston_velocity"] / w + rotating - energy)
+
+
+def _allowed(solved: PreparedCylinder, summary: Mapping[str, float]) -> dict[str, float]:
+    """Return how far the work of the torque may be from that of the gas by the error of the torque that is stated."""
+    if "crank_torque_error" not in summary or solved.space is None:
+        return {}
+    return {"work": summary["crank_torque_error"] * math.radians(solved.machine.cycle) / moved_work(solved, summary)}
+
+
+def moved_work(solved: PreparedCylinder, summary: Mapping[str, float]) -> float:
+    """Return the most work that the torque could do over a cycle; what it does in the end may be nothing."""
+    largest = max(abs(summary["crank_torque_max"]), abs(summary["crank_torque_min"]))
+    return largest * math.radians(solved.machine.cycle) or 1.0

@@ -1,0 +1,85 @@
+"""A solved linkage at work, in numbers, with what its redundant links bear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from crankwork.analysis.prepared import PreparedLinkage
+from crankwork.dynamics.joint_forces import joint_forces
+from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.reaction import JointForces
+from crankwork.dynamics.redundant import (
+    RedundantLink,
+    force_along_other,
+    pressing,
+    redundant_forces,
+    with_redundant,
+)
+from crankwork.formula.traced_value import Component, Root, TracedValue, given
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.loads.load import applied_loads
+
+
+def operating_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:
+    """Return the linkage at work, with its loads."""
+    links = solved.machine.redundant
+    # what bears an unknown part does no work, so that torques are as without it
+    return with_redundant(_without(solved, motion), links if is_shared(links) else ())
+
+
+def is_shared(links: Sequence[RedundantLink]) -> bool:
+    """Return whether it is stated what every redundant link bears, so that joint forces are known."""
+    return all(one.share is not None for one in links)
+
+
+def _without(solved: PreparedLinkage, motion: Motion) -> OperatingState:
+    machine = solved.machine
+    w, eps = solved.speed, machine.angular_acceleration
+    if motion.driver is not None:
+        _, w, eps = motion.driver
+    loads = applied_loads(machine.mechanism, motion, machine.loads, w)
+    loads = loads.also(solved.filling.loads(machine.mechanism, motion))
+    return OperatingState(machine.mechanism, motion, w, loads, eps)
+
+
+@dataclass(frozen=True)
+class _Shares:
+    """The forces of redundant links as a function of the crank angle, shape (links, n). [N]"""
+
+    solved: PreparedLinkage
+
+    def __call__(self, grid: CrankGrid) -> Array:
+        machine = self.solved.machine
+        return redundant_forces(_without(self.solved, linkage_motion(machine.mechanism, grid)), machine.redundant)
+
+
+def _left(
+    links: Sequence[RedundantLink], forces: Sequence[TracedValue], others: Sequence[TracedValue]
+) -> Iterator[TracedValue]:
+    """Yield by how much forces along redundant links differ from their shares."""
+    for one, force, other in zip(links, forces, others, strict=True):
+        share = given(f"force_share.{one.member.name}", one.share or 0.0, f"links.{one.member.name}.share")
+        yield (force - share * other).named(f"axial_force.{one.member.name}.left")
+
+
+def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tuple[JointForces, dict[str, TracedValue]]:
+    """Return the joint forces of a mechanism at work with its redundant links, and the forces along links by key.
+
+    Those without redundant links where it is not stated what these bear; then only the driver's is one of the whole.
+    What a redundant link bears is found with all others; what is left of its share is noted as an equation.
+    """
+    links = solved.machine.redundant
+    if not links or not is_shared(links):
+        return joint_forces(running), {}
+    root = Root(_Shares(solved))
+    forces = [TracedValue(Component(root, k), f"axial_force.{one.member.name}") for k, one in enumerate(links)]
+    loads = running.loads
+    for one, force in zip(links, forces, strict=True):
+        loads = loads.also(pressing(running.mechanism, running.motion, one, force))
+    whole = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
+    found = joint_forces(whole)
+    others = [force_along_other(running.mechanism, running.motion, found, one) for one in links]
+    root.residuals = tuple(_left(links, forces, others))
+    return found, {one.key: one for one in [*forces, *others]}

@@ -1,0 +1,161 @@
+"""A coordinate that grows all along the way of a linkage, through the dead positions of its crank."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.kinematics.circuits import with_branches
+from crankwork.kinematics.configuration_coordinates import driver_coordinate
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.crank_range import CrankRange, branches_of
+from crankwork.kinematics.kinematic_coefficients import Transfer
+from crankwork.machine import Machine
+from crankwork.mechanism.dyads import RPR, RRP, RRR
+from crankwork.mechanism.mechanism import Mechanism
+
+# of the way between dead positions, how near one of them rates by the crank are lost
+BESIDE = 1e-6
+
+
+class PathSegment(NamedTuple):
+    """A branch of a linkage: the crank angle goes from one dead position to the next as the coordinate grows."""
+
+    mechanism: Mechanism
+    # Coordinates, and crank angles there [rad]
+    low: float
+    high: float
+    first: float
+    last: float
+    turns_back: bool  # Whether its ends are dead positions; the coordinate is the crank angle where they are none
+
+    def at(self, angle: float) -> float:
+        """Return the coordinate of a crank angle of this branch. [rad]"""
+        if not self.turns_back:
+            return angle
+        share = (angle - self.first) / (self.last - self.first)
+        return self.low + (self.high - self.low) * math.acos(min(max(1 - 2 * share, -1.0), 1.0)) / math.pi
+
+    def crank(self, u: Array) -> Transfer:
+        """Return the crank angle and its derivatives by the coordinate. [rad]"""
+        if not self.turns_back:
+            return Transfer(u, np.ones_like(u), np.zeros_like(u))
+        half, rate = (self.last - self.first) / 2, math.pi / (self.high - self.low)
+        angle = rate * (u - self.low)
+        # from the nearer end, where the difference to it is small
+        away = half * 2 * np.sin(angle / 2) ** 2
+        return Transfer(self.first + away, half * rate * np.sin(angle), half * rate**2 * np.cos(angle))
+
+
+@dataclass(frozen=True)
+class PathCoordinate:
+    """A coordinate that grows all along the way of a linkage, through the dead positions of its crank."""
+
+    pieces: tuple[PathSegment, ...]
+    period: float  # Infinite where the way has ends
+
+    @property
+    def ends(self) -> tuple[float, ...]:
+        """Where pieces meet."""
+        return (self.pieces[0].low, *(one.high for one in self.pieces))
+
+    def each(self, u: Array) -> Iterator[tuple[PathSegment, NDArray[np.intp]]]:
+        """Yield the pieces, and which of some coordinates of the first period are on them."""
+        inner = [one.low for one in self.pieces[1:]]
+        which = np.searchsorted(inner, u, side="right")
+        for k, piece in enumerate(self.pieces):
+            here = np.flatnonzero(which == k)
+            if here.size:
+                yield piece, here
+
+    def within(self, u: Array) -> tuple[Array, Array]:
+        """Return coordinates in the first period, and the crank angle of whole turns before it. [rad]"""
+        if math.isinf(self.period):
+            return u, np.zeros_like(u)
+        turns = np.floor((u - self.ends[0]) / self.period)
+        return u - turns * self.period, (0.0 if self.pieces[0].turns_back else self.period) * turns
+
+    def places(self, u: Array) -> Iterator[tuple[PathSegment, NDArray[np.intp], Array]]:
+        """Yield the pieces, which of some coordinates are on them, and the crank angles there, whole turns aside."""
+        inside = self.within(u)[0]
+        for piece, here in self.each(inside):
+            yield piece, here, piece.crank(inside[here]).position
+
+    def beside(self, u: Array) -> Array:
+        """Return how far coordinates are from the dead positions, over the way between these. [-]"""
+        if not self.pieces[0].turns_back:
+            return np.full_like(u, np.inf)
+        apart = np.abs(self.within(u)[0][:, None] - np.array(self.ends)).min(axis=1)
+        return np.asarray(apart / (self.ends[-1] - self.ends[0]))
+
+    def aside(self, u: Array) -> Array:
+        """Return coordinates, those in dead positions put beside these, where a motion has rates by the crank."""
+        return np.where(self.beside(u) < BESIDE, u + 2 * BESIDE * (self.ends[-1] - self.ends[0]) * _inward(self, u), u)
+
+    def crank(self, u: Array) -> Transfer:
+        """Return the crank angle and its derivatives by the coordinate, turns counted. [rad]"""
+        inside, turned = self.within(u)
+        found = np.empty((3, u.size))
+        for piece, here in self.each(inside):
+            found[:, here] = piece.crank(inside[here])
+        return Transfer(found[0] + turned, found[1], found[2])
+
+    def walls(self, start: float, stops: tuple[float, float]) -> tuple[float, float]:
+        """Return the coordinates nearest to that of a start at which the crank is at one of its stops. [rad]"""
+        if not self.pieces[0].turns_back:
+            return stops
+        here, around = self.coordinate(start), (0.0,) if math.isinf(self.period) else (-self.period, 0.0, self.period)
+        every = [
+            piece.at(stop) + turn
+            for piece in self.pieces
+            for stop in stops
+            if min(piece.first, piece.last) < stop < max(piece.first, piece.last)
+            for turn in around
+        ]
+        below, above = [one for one in every if one <= here], [one for one in every if one >= here]
+        return max(below, default=-math.inf), min(above, default=math.inf)
+
+    def coordinate(self, angle: float) -> float:
+        """Return the coordinate of a crank angle on the first piece. [rad]"""
+        return self.pieces[0].at(angle)
+
+
+def path_coordinate(machine: Machine, found: CrankRange | None) -> PathCoordinate:
+    """Return the coordinate along the way of a linkage: its crank angle, or what goes on where that turns back."""
+    if found is None or found.is_whole:
+        turn = math.radians(machine.cycle)
+        return PathCoordinate((PathSegment(machine.mechanism, 0.0, turn, 0.0, turn, turns_back=False),), turn)
+    circuit = found.circuit
+    only_dyads = all(isinstance(one, RRR | RRP | RPR) for one in machine.mechanism.dyads)
+    parts = circuit.branches(driver_coordinate(circuit.mechanism))
+    if not (only_dyads and circuit.curve.is_closed and not len(circuit.curve.crossings)):
+        parts = [found.branch]
+    stated = next((k for k, one in enumerate(parts) if _same(one, found.branch, circuit.curve.length)), 0)
+    parts = [*parts[stated:], *parts[:stated]]
+    pieces, low = [], 0.0
+    for part in parts:
+        first, last = (float(one) for one in circuit.values(driver_coordinate(circuit.mechanism), np.array(part)))
+        mechanism = machine.mechanism
+        if len(parts) > 1:
+            middle = circuit.stretch(np.array([(part.start + part.end) / 2]))
+            mechanism = with_branches(replace(mechanism, passages={}), branches_of(mechanism, middle))
+        # alike at the dead position for the pieces on both sides of it
+        high = low + math.pi * math.sqrt(abs(last - first) / 2)
+        pieces.append(PathSegment(mechanism, low, high, first, last, turns_back=True))
+        low = high
+    return PathCoordinate(tuple(pieces), low if len(parts) > 1 else math.inf)
+
+
+def _inward(chart: PathCoordinate, u: Array) -> Array:
+    """Return which way leads on along a chart: back from its end, where it has one."""
+    return np.where(np.isinf(chart.period) & (u > (chart.ends[0] + chart.ends[-1]) / 2), -1.0, 1.0)
+
+
+def _same(one: tuple[float, float], other: tuple[float, float], length: float) -> bool:
+    apart = (sum(one) - sum(other)) / 2
+    return abs(apart - length * round(apart / length)) < 1e-6 * length

@@ -1,0 +1,126 @@
+"""A cylinder once more, as any linkage: the forces of the crank gear from one linear system of all its links."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from crankwork.analysis.cylinders import MultiCylinderEngine
+from crankwork.analysis.prepared import PreparedCylinder, relative_difference
+from crankwork.cylinders.throw import throw_mechanism
+from crankwork.dynamics.force_system import system_joint_forces
+from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.reaction import JointForces
+from crankwork.formula.replay import Program, Samples
+from crankwork.formula.traced_value import TracedValue
+from crankwork.kinematics.bodies import body_motions
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.kinematics.piston import only_rod
+from crankwork.loads.applied_loads import AppliedForce, AppliedLoads
+from crankwork.mechanism.dyads import RRP
+from crankwork.mechanism.mechanism import Body, Mechanism, body_at
+
+# where both ways are compared [deg]
+_STEP, _FIRST = 30.0, 7.0
+
+
+def joint_force_residuals(solved: PreparedCylinder, samples: Samples) -> dict[str, float]:
+    """Return how far torque and side force are from those of the linkage, as a share of the largest or of joint forces.
+
+    Nothing for a method that only comes near the motion, and for a rod that hangs on another.
+    """
+    method = solved.method
+    as_rigid = method.rod == "rigid" or not (solved.machine.masses and solved.machine.masses.rod_inertia_excess)
+    rod = only_rod(solved.machine.mechanism)
+    if rod is None or not method.is_exact or solved.articulated_rod is not None or not as_rigid:
+        return {}
+    grid = CrankGrid.from_degrees(np.arange(_FIRST, solved.machine.cycle, _STEP))
+    own = samples(grid)
+    mechanism, masses = solved.machine.mechanism, solved.machine.masses or CrankGearMasses()
+    bodies = (body_at(mechanism.crank.link, masses.crank, 0.0, mechanism.crank.pin), *_bodies(rod, masses))
+    gas = {rod.slider: own["gas_force"]} if "gas_force" in own else {}
+    lean = solved.machine.inclination + math.radians(solved.lean)
+    found = system_joint_forces(_running(solved, replace(mechanism, bodies=bodies), gas, grid, lean))
+    (guide,) = found.guides.values()
+    pressed = _largest(found)
+    return {
+        "joint_torque": relative_difference(
+            own["crank_torque"], -found.balancing_torque, solved.lengths.crank_radius * pressed
+        ),
+        "joint_side_force": relative_difference(own["side_force"], -guide.normal, pressed),
+    }
+
+
+def throw_residuals(whole: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, float]:
+    """Return how far torque and load of a crankpin with articulated rods are from those of the linkage that they are.
+
+    Nothing for other engines, and for a method that only comes near the motion.
+    """
+    solved, masses = whole.master, whole.each_masses
+    places = whole.on_pin[whole.layout.places[0].crankpin]
+    numbers = [one.number for one in places]
+    is_rigid = solved.method.rod == "rigid" or not any(masses[at - 1].rod_inertia_excess for at in numbers)
+    if not any(whole.engine.articulated_rods) or not solved.method.is_exact or not is_rigid:
+        return {}
+    mechanism = throw_mechanism(whole.layout, solved.lengths, whole.engine.articulated_rods)
+    rods = [one for one in mechanism.dyads if isinstance(one, RRP)]
+    bodies = [body_at(mechanism.crank.link, masses[numbers[0] - 1].crank, 0.0, mechanism.crank.pin)]
+    bodies += [body for rod, at in zip(rods, numbers, strict=True) for body in _bodies(rod, masses[at - 1])]
+    grid = CrankGrid.from_degrees(np.arange(_FIRST, whole.layout.cycle, _STEP))
+    pin = f"crankpin_load.{places[0].crankpin + 1}"
+    torques = {f"torque.{at}": whole.of(at, "crank_torque") for at in numbers}
+    gases = {
+        rod.slider: whole.of(at, "gas_force") for rod, at in zip(rods, numbers, strict=True) if whole.has("gas_force")
+    }
+    own = Program({**torques, **gases, "load": trace[pin]})(grid)
+    # the axis of cylinder 1 stands in the mechanism as in the layout
+    lean = solved.machine.inclination - math.radians(whole.layout.places[0].axis)
+    pushing = {name: own[name] for name in gases}
+    found = system_joint_forces(_running(solved, replace(mechanism, bodies=tuple(bodies)), pushing, grid, lean))
+    pressed, torque = _largest(found), np.sum([own[key] for key in torques], axis=0)
+    (joint,) = (
+        one for one in found.pins.values() if one.joint.link == rods[0].link and one.joint.point == rods[0].joint
+    )
+    return {
+        "throw_torque": relative_difference(torque, -found.balancing_torque, solved.lengths.crank_radius * pressed),
+        "throw_load": relative_difference(own["load"], joint.resultant, pressed),
+    }
+
+
+def _largest(found: JointForces) -> float:
+    """Return the largest force in a joint: of a heavy rod without a piston what remains of others is rounding. [N]"""
+    return max(float(np.max(pin.resultant)) for pin in found.pins.values())
+
+
+def _running(
+    solved: PreparedCylinder, mechanism: Mechanism, gas: Mapping[str, Array], grid: CrankGrid, lean: float
+) -> OperatingState:
+    """Return rods and pistons at work, the gas pushing the pistons by their names, with weights where they count.
+
+    `lean`: from the upward vertical to what is up in the mechanism, with the rotation [rad].
+    """
+    machine, motion = solved.machine, linkage_motion(mechanism, grid)
+    frames = {name: motion.frames[name] for name in gas}
+    loads = [AppliedForce(name, one.origin, -gas[name] * one.cos, -gas[name] * one.sin) for name, one in frames.items()]
+    if machine.has_gravity:
+        down = solved.method.gravity * math.sin(lean), -solved.method.gravity * math.cos(lean)
+        loads += [
+            AppliedForce(body.link, centre, *(np.full(len(grid), body.mass * one) for one in down))
+            for body, centre, *_ in body_motions(mechanism, motion)
+        ]
+    return OperatingState(mechanism, motion, solved.speed, AppliedLoads(tuple(loads)), machine.angular_acceleration)
+
+
+def _bodies(rod: RRP, masses: CrankGearMasses) -> Iterator[Body]:
+    """Yield piston and rod; the two masses of the rod with the inertia of a rigid one about their centre."""
+    yield body_at(rod.slider, masses.piston, 0.0, rod.slider)
+    whole = masses.rod_small_end + masses.rod_big_end
+    if whole or masses.rod_inertia_excess:
+        share = masses.rod_small_end / whole if whole else 0.0
+        inertia = masses.rod_inertia_excess + whole * share * (1 - share) * rod.length**2
+        yield Body(rod.link, whole, inertia, rod.joint, rod.slider, share)

@@ -1,0 +1,225 @@
+"""The torque of the whole engine: sum, torques along the shaft, harmonics, and how evenly it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.crankshaft_bearings import rotating_mass_of
+from crankwork.analysis.cylinders import MultiCylinderEngine
+from crankwork.analysis.flywheel import turning_inertia
+from crankwork.analysis.harmonics import curve_of, order_count, traced_harmonics
+from crankwork.analysis.prepared import Notice
+from crankwork.analysis.reduction import MOVING, REDUCTION
+from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed, excess_of, work_of
+from crankwork.cylinders.layout import Layout
+from crankwork.cylinders.torque import torques_along_shaft
+from crankwork.cylinders.torque_harmonics import (
+    amplitude_of_harmonic,
+    amplitude_of_total,
+    curve_harmonics,
+    phase_sums,
+    torque_harmonics,
+    total_harmonics,
+)
+from crankwork.dynamics.piston_forces import crank_torque
+from crankwork.dynamics.reduction import dynamic_torque
+from crankwork.dynamics.torque_formulas import static_torque_of_balancing
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.replay import Samples
+from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, absent, total
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.shaft.curve import Curve
+from crankwork.shaft.fluctuation import TrueSpeed, excess_work
+
+_SAMPLES = 1440
+# what rounding leaves of a mean of nothing, of the largest torque of a cylinder
+_CANCELLED = 1e-13
+
+
+class EngineTorque(NamedTuple):
+    """Torque of cylinder 1 and of all over the cycle, the speed, and their memory."""
+
+    # Torques [N m]
+    one: Curve
+    total: Curve
+    speed: TrueSpeed | None  # With the flywheel, where anything has an inertia
+    # Energy and speed over the crank angle; single values; what lies between them
+    columns: Mapping[str, TracedValue]
+    summary: Mapping[str, TracedValue]
+    between: Mapping[str, TracedValue]
+    checks: Mapping[str, float]
+    notices: tuple[Notice, ...]  # Why there is no flywheel, or no steady speed
+
+
+def torque_trace(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+    """Return the torques of all cylinders, their sum and those along the shaft."""
+    tangential = [whole.of(place.number, "tangential_force") for place in whole.layout.places]
+    each = [_torque(whole, number, force) for number, force in enumerate(tangential, start=1)]
+    along = torques_along_shaft(each, whole.layout)
+    found = [*tangential, *each] if len(each) > 1 else []
+    if len(along.throws) > 1:
+        found += [*along.throws, *along.journals[1:], *along.crankpins]
+    found.append(total("total_torque", along.throws))
+    return {one.key: one for one in found}
+
+
+def _torque(whole: MultiCylinderEngine, number: int, tangential: TracedValue) -> TracedValue:
+    """Return the torque of a cylinder from its tangential force at the crank angle of cylinder 1."""
+    own, weight = whole.cylinders[number - 1].trace, absent("rotating_torque")
+    if "rotating_torque" in own:
+        weight = whole.of(number, "rotating_torque")
+    torque: TracedValue = crank_torque(tangential, own["crank_radius"], weight)
+    return torque.named(whole.of(number, "crank_torque").key)
+
+
+def engine_reduction(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+    """Return the reduced moment of inertia of all cylinders, and of what turns with the crank, with its derivative."""
+    if whole.machine.masses is None:
+        return {}
+    places, r = whole.layout.places, whole.master.trace["crank_radius"]
+    numbers = [one.number for one in places]
+    parts = [whole.of(at, f"reduced_inertia.{one}") for one in MOVING for at in whole.has(f"reduced_inertia.{one}")]
+    parts_1 = [
+        whole.of(at, f"reduced_inertia_1.{one}") for one in MOVING for at in whole.has(f"reduced_inertia_1.{one}")
+    ]
+    for at, place in zip(numbers, places, strict=True):
+        mass = rotating_mass_of(whole, place)
+        if "knuckle_mass" in whole.cylinders[at - 1].trace:
+            mass = mass - whole.cylinders[at - 1].trace["knuckle_mass"]
+        parts.append((mass * r * r).named(f"reduced_inertia.rotating.{at}"))
+    if whole.machine.drive.inertia:
+        parts.append(turning_inertia(whole.machine, "reduced_inertia.drive"))
+    found = total("total_reduced_inertia", parts), total("total_reduced_inertia_1", parts_1)
+    return dict(zip(REDUCTION, found, strict=True))
+
+
+def engine_torque(
+    whole: MultiCylinderEngine,
+    trace: Mapping[str, TracedValue],
+    over: CycleInterpolant,
+    extremes: Mapping[str, TracedValue],
+) -> EngineTorque:
+    """Return the torque of the engine with the flywheel it needs, and why there is none."""
+    first = whole.of(1, "crank_torque").key
+    one, all_ = (curve_of(over, key) for key in (first, "total_torque"))
+    w = whole.master.trace["speed"]
+    balance = _balance(whole, trace, over, all_)
+    mean = over.mean("total_torque", "mean_total_torque")
+    if whole.machine.angular_acceleration and balance.torque.key == "static_torque":
+        # what speeds up the parts is none of a cycle that repeats
+        mean = (
+            -TracedValue(ProcedureValue(-balance.curve.mean, "mean", (balance.torque,)), "mean_driving_torque")
+        ).named(mean.key)
+    if abs(mean.value) <= _CANCELLED * max(map(abs, one.extremes()[::2])):
+        # of cylinders that only weights and inertia turn rounding is left
+        mean = TracedValue(ProcedureValue(0.0, "mean", (trace["total_torque"],)), mean.key)
+    mean = delivered_or_needed(mean)
+    summary = {"mean_torque": mean}
+    summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
+    excess = summary["excess_work"] = excess_of(balance)
+    between = work_of(excess, mean, traced_inputs.cycle_angle(whole.machine))
+    # textbooks draw the extremes as far above the mean as below it
+    turn = analyse_speed(
+        whole.machine, balance, w, "extremes" if whole.master.method.kinematics == "textbook" else "time"
+    )
+    summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
+    named = {key: known if known is mean else known.named(key) for key, known in summary.items()}
+    between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
+    return EngineTorque(one, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
+
+
+def _balance(
+    whole: MultiCylinderEngine, trace: Mapping[str, TracedValue], over: CycleInterpolant, total_torque: Curve
+) -> Balance:
+    """Return what gas and weights do on the crank, with the reduced inertia of all that moves.
+
+    As textbooks do it: the torque of all cylinders at constant speed, with what turns with the crank alone.
+    """
+    drive, total_ = turning_inertia(whole.machine, "reduced_inertia.drive"), trace["total_torque"]
+    if "reduced_inertia" not in trace or not has_own_inertia(whole):
+        constant = Curve.constant(drive.value, total_torque.cycle)
+        return Balance(total_, total_torque, drive, constant, excess_work(total_torque), sign=1.0)
+    w, eps = whole.master.trace["speed"], traced_inputs.acceleration(whole.machine)
+    inertia, inertia_1 = trace["reduced_inertia"], trace["reduced_inertia_1"]
+    own = inertia if drive.is_absent else (inertia - drive).named("reduced_inertia.cylinders")
+    dynamic = dynamic_torque(w, inertia_1, own, eps).named("dynamic_torque")
+    static = static_torque_of_balancing((-total_).named("balancing_torque"), dynamic).named("static_torque")
+    J, J_1 = (curve_of(over, key) for key in ("reduced_inertia", "reduced_inertia_1"))
+    torque = total_torque + J_1 * (w.value**2 / 2)
+    if not eps.is_absent:
+        torque = torque + (J + -drive.value) * eps.value
+    return Balance(static, torque, inertia, J, excess_work(torque))
+
+
+def has_own_inertia(whole: MultiCylinderEngine) -> bool:
+    """Return whether rods and pistons count in the speed: not as textbooks do it."""
+    return whole.machine.masses is not None and whole.master.method.kinematics != "textbook"
+
+
+def harmonics_trace(
+    whole: MultiCylinderEngine, torque: EngineTorque, trace: Mapping[str, TracedValue]
+) -> dict[str, TracedValue]:
+    """Return the harmonics of the torque of one cylinder and of all, each under its order: `harmonic_amplitude.2.5`."""
+    layout, of = whole.layout, whole.of(1, "crank_torque")
+    count = order_count(layout.cycle)
+    one = curve_harmonics(torque.one, count)
+    all_ = None if whole.is_uniform else curve_harmonics(torque.total, count)
+    found = {known.key: known for known in traced_harmonics(one, of)}
+    stars = phase_sums(layout, one.orders.tolist())
+    for at, order in enumerate(one.orders.tolist()):
+        star = TracedValue(ProcedureValue(abs(stars[at]), "phase_star"), f"phase_sum.{order:g}")
+        if all_ is None:
+            of_all = amplitude_of_total(found[f"harmonic_amplitude.{order:g}"], star)
+        else:
+            total = trace["total_torque"]
+            parts = (
+                TracedValue(HarmonicCoefficient(float(getattr(all_, part)[at]), total, part, order))
+                for part in ("cosine", "sine")
+            )
+            of_all = TracedValue(
+                ProcedureValue(float(all_.amplitude[at]), "fourier", (total,), None, amplitude_of_harmonic(*parts))
+            )
+        of_all = of_all.named(f"total_harmonic_amplitude.{order:g}")
+        found |= {known.key: known for known in (star, of_all)}
+    return found
+
+
+def torque_checks(whole: MultiCylinderEngine, torque: EngineTorque, samples: Samples, moved: float) -> dict[str, float]:
+    """Return the residuals between sums over cylinders, phase stars and the total.
+
+    `moved`: the most work that the torque of a cylinder could do [J].
+    """
+    works = [one.space.work for one in whole.cylinders if one.space is not None]
+    result = {}
+    if len(works) == len(whole.cylinders) and not whole.machine.angular_acceleration:
+        work = torque.total.mean * torque.total.cycle
+        result["engine_work"] = abs(work - sum(works)) / (len(works) * moved)
+    count = _common_samples(whole.layout)
+    if whole.is_uniform and len(whole.cylinders) > 1 and count:
+        degrees: Array = np.arange(float(count)) * (whole.layout.cycle / count)
+        each = whole.each_of("crank_torque", samples(CrankGrid.from_degrees(degrees)))
+        count = order_count(whole.layout.cycle)
+        one = torque_harmonics(each[0], whole.layout.cycle, count)
+        stars, direct = (
+            total_harmonics(one, whole.layout),
+            torque_harmonics(each.sum(axis=0), whole.layout.cycle, count),
+        )
+        apart = np.hypot(stars.cosine - direct.cosine, stars.sine - direct.sine)
+        result["phase_stars"] = float(np.max(apart)) / (float(np.max(one.amplitude)) or 1.0)
+    return result
+
+
+def _common_samples(layout: Layout) -> int:
+    """Return how many samples of a cycle have one at every firing; 0 if no moderate number has.
+
+    Those at whole degrees where they do.
+    """
+    firing = np.array([one.firing_angle for one in layout.places]) / layout.cycle
+    for count in range(round(layout.cycle), 2 * _SAMPLES):
+        if np.max(np.abs(firing * count - np.rint(firing * count))) < 1e-9 * count:
+            return count
+    return 0

@@ -1,0 +1,187 @@
+"""What a description states of an engine, and what follows from it before the calculation begins.
+
+A machine holds its lengths and masses in one form; a description may state others: stroke, rod ratio, masses over the
+piston area. What it states is the leaf of the trace, and the line between them is worked.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_inertia_excess, rod_small_end_mass
+from crankwork.dynamics.piston_forces import angular_speed
+from crankwork.formula.expression import Value
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
+from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, stroke_offset
+from crankwork.machine import InputNumber, Machine
+from crankwork.method import Method
+from crankwork.units import UNITS
+
+if TYPE_CHECKING:
+    from crankwork.machine import Machine
+
+_SAME = 1e-12
+
+
+def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
+    """Return crank radius, rod length and offset."""
+    r, l, e = (float(one) for one in sizes)  # noqa: E741
+    radius = given("crank_radius", r, "crank.radius")
+    calculated = of_cycle(machine, "stroke")
+    if calculated is not None:
+        radius = checked(calculated / 2, radius)
+    stroke, ratio = (_stated(machine, key) for key in ("crank.stroke", "rod.ratio"))
+    if stroke is not None:
+        radius = checked(given("stroke", stroke.value, "crank.stroke") / 2, radius)
+    length = given("rod_length", l, "rod.length")
+    if ratio is not None and _is(ratio.value, r / l):
+        length = checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
+    elif ratio is not None:
+        length = checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
+    return SliderCrank(radius, length, given("offset", e, _offset_of(machine, e)) if e else absent("offset"))
+
+
+def _offset_of(machine: Machine, offset: float) -> str:
+    """Return where an offset is stated: of all cylinders, or of the first that has it."""
+    offsets = machine.engine.offsets if machine.engine is not None else ()
+    return f"engine.offsets[{offsets.index(offset) + 1}]" if offset in offsets else "cylinder.offset"
+
+
+def of_cycle(machine: Machine, key: str) -> TracedValue | None:
+    """Return what the calculation of a cycle found for a size that the description leaves open."""
+    cycle = getattr(machine.gas.calculated, "cycle", None) if machine.gas is not None else None
+    asked = _stated(machine, "cycle.power")
+    found = None if cycle is None or asked is None else cycle.trace.get(key)
+    # a size that follows is taken in whole millimetres
+    return None if found is None else TracedValue(ProcedureValue(round(found.value, 3), "rounded", (found,)), key)
+
+
+def bore(machine: Machine, size: float) -> TracedValue:
+    """Return the bore: stated, or of the calculation of the cycle."""
+    stated, calculated = given("bore", size, "cylinder.bore"), of_cycle(machine, "bore")
+    return stated if calculated is None else checked(calculated, stated)
+
+
+def stroke(lengths: SliderCrank) -> TracedValue:
+    """Return the stroke: stated, or of the lengths."""
+    r, l, e = lengths  # noqa: E741
+    if not e.is_absent:
+        return stroke_offset(l, r, e)  # type: ignore[no-any-return]
+    stated = r.node.operands
+    found: TracedValue = stated[0] if stated else stroke_central(r)
+    return found
+
+
+def revolutions(machine: Machine) -> TracedValue:
+    """Return the speed of the crank in revolutions per minute."""
+    return given("rotational_speed", machine.speed * 30 / math.pi, "crank.speed", "rpm")
+
+
+def speed(machine: Machine, method: Method) -> TracedValue:
+    """Return the angular speed of the crank: stated, or of its revolutions with the method's own pi."""
+    return speed_at(machine, method, "crank.speed", machine.speed)
+
+
+def speed_at(machine: Machine, method: Method, path: str, value: float, name: str = "") -> TracedValue:
+    """Return an angular speed that stands at a path: stated, or of its revolutions with the method's own pi. [rad/s]
+
+    `name`: what tells it from the speed of the crank.
+    """
+    stated, turns = _stated(machine, path), given(f"rotational_speed{name}", value * 30 / math.pi, path, "rpm")
+    found: TracedValue = angular_speed(method.pi, turns).named(f"speed{name}")
+    in_radians = stated is not None and UNITS[stated.unit].factor == 1.0
+    return checked(given(f"speed{name}", stated.value, path), found) if stated and in_radians else found
+
+
+def acceleration(machine: Machine) -> TracedValue:
+    """Return the angular acceleration of the crank."""
+    value, key = machine.angular_acceleration, "angular_acceleration"
+    return given(key, value, f"crank.{key}") if value else absent(key)
+
+
+def inclination(machine: Machine, lean: float) -> tuple[TracedValue, TracedValue]:
+    """Return cosine and sine of the angle by which a cylinder leans that is so far ahead of cylinder 1. [deg]"""
+    angle = given("inclination", machine.inclination, "cylinder.inclination")
+    if lean:
+        angle = (angle + given("bank_axis", math.radians(lean), "engine.bank_angle")).named("inclination")
+    turned = angle.value
+    return TracedValue(ProcedureValue(math.cos(turned), "cosine", (angle,))), TracedValue(
+        ProcedureValue(math.sin(turned), "sine", (angle,))
+    )
+
+
+def cycle_angle(machine: Machine) -> TracedValue:
+    """Return the length of the cycle."""
+    path = "engine.strokes" if machine.gas is None else "gas.cycle" if machine.gas.calculated is None else "cycle.cycle"
+    return given("cycle_angle", math.radians(machine.cycle), path)
+
+
+def masses(
+    machine: Machine, known: CrankGearMasses, area: TracedValue | None, length: Value, table: str = "rod"
+) -> Iterator[TracedValue]:
+    """Yield the masses of piston and crank, the two of the rod, and its excess of inertia if it has one.
+
+    `table`: where the rod is described, if it is not like the master rod.
+    """
+
+    def mass(key: str, value: float, path: str) -> TracedValue:
+        stated, plain = _stated(machine, path), given(key, value, path)
+        if stated is None or area is None or UNITS[stated.unit].dimension != "mass_per_area":
+            return plain
+        own = given(f"mass_per_area.of_{key.removesuffix('_mass')}", stated.value, path)
+        return checked(own * area, plain) if value else plain
+
+    yield mass("piston_mass", known.piston, "piston.mass")
+    yield mass("crank_mass", known.crank, "crank.mass")
+    small = mass("rod_small_end_mass", known.rod_small_end, f"{table}.small_end_mass")
+    big = mass("rod_big_end_mass", known.rod_big_end, f"{table}.big_end_mass")
+    excess = given("rod_inertia_excess", known.rod_inertia_excess, f"{table}.inertia")
+    stated = _stated(machine, f"{table}.mass")
+    if stated is not None:
+        whole = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
+        centre = _centre(machine, length, table)
+        small = checked(rod_small_end_mass(whole, centre, length), small)
+        big = checked(rod_big_end_mass(whole, small), big)
+        excess = _excess(machine, (whole, centre, length), excess, table)
+    yield from (small, big)
+    if known.rod_inertia_excess:
+        yield excess
+
+
+def _centre(machine: Machine, length: Value, table: str) -> TracedValue:
+    """Return the distance of the centre of mass of the rod from the crankpin."""
+    share, at = (_stated(machine, f"{table}.{key}") for key in ("small_end_share", "centre_of_mass"))
+    if share is not None:
+        distance: TracedValue = given("small_end_share", share.value, f"{table}.small_end_share") * length
+        return distance.named("rod_centre_distance")
+    return given("rod_centre_distance", at.value if at is not None else 0.0, f"{table}.centre_of_mass")
+
+
+def _excess(
+    machine: Machine, rod: tuple[TracedValue, TracedValue, Value], excess: TracedValue, table: str
+) -> TracedValue:
+    mass, centre, length = rod
+    inertia, radius = (_stated(machine, f"{table}.{key}") for key in ("inertia", "radius_of_gyration"))
+    if inertia is not None:
+        own = given("rod_inertia", inertia.value, f"{table}.inertia")
+    elif radius is not None:
+        gyration = given("rod_gyration_radius", radius.value, f"{table}.radius_of_gyration")
+        own = (mass * gyration * gyration).named("rod_inertia")
+    else:
+        return excess
+    return checked(rod_inertia_excess(own, mass, centre, length), excess)
+
+
+def _stated(machine: Machine, path: str) -> InputNumber | None:
+    return machine.stated.get(path)
+
+
+def _is(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=_SAME)
+
+
+def checked(found: TracedValue, plain: TracedValue) -> TracedValue:
+    """Return what follows from the description if it is what the machine has, which may have been changed since."""
+    return found.named(plain.key) if _is(found.value, plain.value) else plain

@@ -1,0 +1,127 @@
+"""How good a linkage is: transmission and pressure angles, and how much faster one stroke is than the other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from crankwork.analysis.prepared import Notice
+from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.traced_value import FormulaCall, ProcedureValue, TracedValue, select
+from crankwork.kinematics import transmission as angles
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.dyads import LinkMotion
+from crankwork.kinematics.motion import Motion
+from crankwork.mechanism.dyads import RRP, RRR
+from crankwork.mechanism.mechanism import Mechanism
+
+FOLLOWED = ("transmission_cosine", "pressure_sine")
+# beyond these forces grow, and a linkage may jam; of pressure angles the largest [deg]
+USUAL = (40.0, 140.0)
+USUAL_PRESSURE = 90.0 - USUAL[0]
+_TURN = 360.0
+# what rounding leaves a cosine of links in line short of one
+_IN_LINE = 1e-13
+_LOOK, _STILL = np.linspace(-1.0, 1.0, 17), 1e-9
+
+
+def transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
+    """Yield the transmission angle of every RRR dyad and the pressure angle of every RRP dyad; `motion` remembers."""
+    for kind, name, one, other in _pairs(mechanism, motion):
+        if kind == "transmission":
+            yield f"transmission_angle.{name}", angles.transmission_angle(one.cos, other.cos, one.sin, other.sin)
+        else:
+            yield f"pressure_angle.{name}", angles.pressure_angle(one.sin, other.cos, one.cos, other.sin)
+
+
+def smooth_transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
+    """Yield what has extremes where these angles have them, and no corner where links come into line."""
+    for kind, name, one, other in _pairs(mechanism, motion):
+        if kind == "transmission":
+            yield f"transmission_cosine.{name}", angles.transmission_cosine(one.cos, other.cos, one.sin, other.sin)
+        else:
+            yield f"pressure_sine.{name}", angles.pressure_sine(one.sin, other.cos, one.cos, other.sin)
+
+
+def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, LinkMotion, LinkMotion]]:
+    """Yield the two links of RRR dyads, link and guide of RRP dyads, with the point between them."""
+    for dyad in mechanism.dyads:
+        match dyad:
+            # the third side of a triangle whose shape a motor drives is no link
+            case RRR() if mechanism.driver.link not in (dyad.link_a, dyad.link_b):
+                yield "transmission", dyad.point, motion.bar(dyad.link_a), motion.bar(dyad.link_b)
+            case RRP():
+                yield "pressure", dyad.slider, motion.bar(dyad.link), motion.frames[dyad.piece]
+
+
+def _in_line(found: TracedValue, formula: Callable[[TracedValue], TracedValue], limit: float) -> TracedValue:
+    """Return the angle of an extreme cosine or sine, which rounding may leave beside the limits of both."""
+    if abs(found.value) < 1 - _IN_LINE:
+        return formula(found)
+    return TracedValue(ProcedureValue(limit, "in_line", (found,)))
+
+
+def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[Notice, ...]]:
+    """Return the extreme transmission and pressure angles, and notices of those that are unusual."""
+    result: dict[str, TracedValue] = {}
+    told: list[Notice] = []
+    keys = [key for key in over.columns if key.partition(".")[0] in ("transmission_cosine", "pressure_sine")]
+    extremes = over.extremes(*keys)
+    for key in keys:
+        kind, _, name = key.partition(".")
+        largest, least = extremes[f"{kind}_max.{name}"], extremes[f"{kind}_min.{name}"]
+        if kind == "transmission_cosine":
+            found = {
+                "min": _in_line(largest, angles.transmission_of_cosine, 0.0),
+                "max": _in_line(least, angles.transmission_of_cosine, math.pi),
+            }
+            result |= {f"transmission_angle_{word}.{name}": one for word, one in found.items()}
+        else:
+            worse = largest if largest.value >= -least.value else -least
+            pressure = _in_line(worse, angles.pressure_of_sine, math.pi / 2).named(f"pressure_angle_max.{name}")
+            if isinstance(pressure.node, FormulaCall):
+                # with other numbers it is the other one
+                either = angles.pressure_of_sine(select(largest + least, largest, -least))
+                pressure = TracedValue(FormulaCall(pressure.node.formula, pressure.node.inputs, either), pressure.key)
+            result[pressure.key] = pressure
+            found = {"min": angles.transmission_of_pressure(pressure)}
+            result[f"transmission_angle_min.{name}"] = found["min"]
+        worst = [math.degrees(one.value) for one in found.values()]
+        told += [
+            Notice("transmission", {"name": name, "angle": one, "low": USUAL[0], "high": USUAL[1]})
+            for one in worst
+            if not USUAL[0] <= one <= USUAL[1]
+        ]
+    return result, tuple(told)
+
+
+def rocks(pivoted: Collection[str], key: str, travel: float) -> bool:
+    """Say whether a column is that of a slider, or of a link that rocks about a fixed pivot, as `pivoted` ones do."""
+    kind, _, name = key.partition(".")
+    return kind == "slider_displacement" or (travel < math.pi and name in pivoted)
+
+
+def time_ratios(over: CycleInterpolant, summary: Mapping[str, TracedValue]) -> Iterator[tuple[str, TracedValue]]:
+    """Yield the time of the slower stroke over that of the faster one, of what turns back twice in a turn."""
+    turns = (over.edges[-1] - over.edges[0]) / _TURN
+    for key in over.columns:
+        kind, _, name = key.partition(".")
+        ends = [f"{kind}_{word}_angle.{name}" for word in ("max", "min")]
+        if kind not in ("slider_displacement", "link_angle") or ends[0] not in summary:
+            continue
+        if _reversals(over.polynomials(key)) == 2 * turns:
+            high, low = (summary[one] for one in ends)
+            way = math.degrees(abs(high.value - low.value)) % _TURN
+            slow, fast = max(way, _TURN - way), min(way, _TURN - way)
+            yield f"time_ratio.{name}", TracedValue(ProcedureValue(slow / fast, "time_ratio", (high, low)))
+
+
+def _reversals(coefficients: Array) -> int:
+    """Return how often a column turns back in a closed cycle, from its Legendre coefficients between edges."""
+    values = legendre.legval(_LOOK, coefficients.T).ravel()
+    steps = np.diff(values)
+    ways = np.sign(steps[np.abs(steps) > _STILL * np.ptp(values)])
+    return int(np.count_nonzero(ways != np.roll(ways, 1)))

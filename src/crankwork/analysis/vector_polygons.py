@@ -1,0 +1,256 @@
+"""Velocities and accelerations of a linkage at one crank angle as vectors from a pole and between points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.results import Results
+from crankwork.analysis.sampled_motion import SampledMotion, Track, reached_angles
+from crankwork.analysis.skeleton import Skeleton, skeleton
+from crankwork.kinematics.crank_grid import Array
+from crankwork.machine import Machine
+from crankwork.mechanism.mechanism import Mechanism
+
+# between the positions of a linkage [deg]
+POSITION_STEP = 30.0
+# columns without a value at many positions
+_IN_PLACES = ("instant_centre_", "instantaneous_efficiency")
+Kind = Literal["absolute", "relative", "normal", "tangential", "coriolis", "sliding"]
+
+
+class Vector(NamedTuple):
+    """A vector of a plan: what it is of, its kind, where it starts and ends in the plan."""
+
+    of: str
+    kind: Kind
+    start: Array
+    end: Array
+
+    @property
+    def length(self) -> float:
+        """Its magnitude."""
+        return float(np.hypot(*(self.end - self.start)))
+
+
+class VectorPolygon(NamedTuple):
+    """A vector polygon: ends of the vectors from the pole by name of the point, the vectors, turning of the links.
+
+    Vectors in m/s or m/s2, turning in rad/s or rad/s2 by number of the link, positive anticlockwise; `beneath` holds
+    the link and the sliding point of each point that lies under another one.
+    """
+
+    nodes: dict[str, Array]
+    vectors: list[Vector]
+    turning: dict[int, float]
+    beneath: dict[str, tuple[int, str]]
+
+
+class _State(NamedTuple):
+    """Position, velocity and acceleration, shape (2,)."""
+
+    at: Array
+    velocity: Array
+    acceleration: Array
+
+
+class DriverRates(NamedTuple):
+    """Rate and second rate of the driver's coordinate, shape (n,). [rad/s] or [m/s], and these over s"""
+
+    first: Array
+    second: Array
+
+
+def positions(machine: Machine) -> Array:
+    """Return the positions of a linkage, every 30 degrees, as far as it reaches them. [deg]"""
+    reached, _ = reached_angles(machine, 1.0)
+    every = np.arange(0.0, machine.cycle + POSITION_STEP, POSITION_STEP)
+    inside = every[(every >= reached[0]) & (every <= reached[-1])]
+    # a linkage that reaches none of them is shown where it does move
+    return inside if inside.size else reached[::5]
+
+
+def worked_position(results: Results) -> float:
+    """Return the position at which a linkage is worked and its plans are drawn. [deg]
+
+    Where loads act, that of the largest torque in which all links turn that turn at all; where a law drives, one where
+    the driver moves, and gets faster or slower if it ever does; else the first after the start.
+    """
+    machine = results.machine
+    angles = positions(machine)
+    if results.period:
+        rates = driver_rates(results, results.columns_at(angles))
+        both = np.abs(rates.first * rates.second)
+        return float(angles[np.argmax(both if np.any(both) else np.abs(rates.first))])
+    if "static_torque" in results.columns and (machine.loads or machine.chambers):
+        columns = results.columns_at(angles)
+        # in a change point forces may not be determined
+        known = np.all([np.isfinite(one) for key, one in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
+        turning = [np.abs(one) for key, one in columns.items() if key.startswith("link_angular_velocity.")]
+        # half of the lines of a link that stands are of noughts
+        stands = np.any([one < 1e-3 * np.max(one) for one in turning], axis=0)
+        worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
+        return float(angles[np.argmax(np.where(stands, worth - worth.max(), worth))])
+    return float(angles[np.argmin(np.abs(angles - POSITION_STEP))])
+
+
+def driver_rates(results: Results, known: Mapping[str, Array]) -> DriverRates:
+    """Return the rates of the driver: those of a crank that turns evenly, or the columns of a law."""
+    driver = results.machine.mechanism.driver
+    if driver.law is not None:
+        keys = (
+            ("driver_speed", "driver_angular_acceleration")
+            if driver.turns
+            else ("driver_velocity", "driver_acceleration")
+        )
+        return DriverRates(*(known[key] for key in keys))
+    count = len(next(iter(known.values())))
+    w: float = results.solved.speed
+    return DriverRates(np.full(count, w), np.full(count, results.machine.angular_acceleration))
+
+
+def velocities(
+    mechanism: Mechanism, moving: SampledMotion, index: int, speed: float, links: tuple[str, ...] = ()
+) -> VectorPolygon:
+    """Return the velocity plan of a linkage at one crank angle. [m/s]
+
+    v_A from the pole for every point, v_BA between points of one link, v_AA2 of a point along a slot of link 2
+    against the point A2 of that link underneath.
+    """
+    states = _States(skeleton(mechanism, links), moving, index, speed, 0.0)
+    plan = VectorPolygon({}, [], states.turnings(0), {})
+    zero = np.zeros(2)
+    for name, state in states.moving_points():
+        plan.nodes[states.letter(name)] = state.velocity
+        plan.vectors.append(Vector(states.letter(name), "absolute", zero, state.velocity))
+    for base, end, _ in states.pairs():
+        start, stop = states.point(base).velocity, states.point(end).velocity
+        plan.vectors.append(Vector(states.letter(end) + states.letter(base), "relative", start, stop))
+    for letter, under, piece, beneath, link in states.slides():
+        plan.nodes.setdefault(letter, piece.velocity)
+        plan.beneath[under] = (states.shape.member(link).number, letter)
+        plan.nodes[under] = beneath.velocity
+        plan.vectors.append(Vector(under, "absolute", zero, beneath.velocity))
+        plan.vectors.append(Vector(letter + under, "sliding", beneath.velocity, piece.velocity))
+    return plan
+
+
+def accelerations(
+    mechanism: Mechanism,
+    moving: SampledMotion,
+    index: int,
+    speed: float,
+    angular_acceleration: float = 0.0,
+    links: tuple[str, ...] = (),
+) -> VectorPolygon:
+    """Return the acceleration plan of a linkage at one crank angle. [m/s2]
+
+    a_A from the pole for every point; a_BA between points of one link as its normal and tangential parts; along a
+    slot of link 2 the Coriolis and the sliding part from A2 to A.
+    """
+    states = _States(skeleton(mechanism, links), moving, index, speed, angular_acceleration)
+    plan = VectorPolygon({}, [], states.turnings(1), {})
+    zero = np.zeros(2)
+    for name, state in states.moving_points():
+        plan.nodes[states.letter(name)] = state.acceleration
+        plan.vectors.append(Vector(states.letter(name), "absolute", zero, state.acceleration))
+    for base, end, rate in states.pairs(with_fixed=True):
+        start, stop = states.point(base), states.point(end)
+        middle = start.acceleration - rate**2 * (stop.at - start.at)
+        of = states.letter(end) + states.letter(base)
+        plan.vectors.append(Vector(of, "normal", start.acceleration, middle))
+        plan.vectors.append(Vector(of, "tangential", middle, stop.acceleration))
+    for letter, under, piece, beneath, link in states.slides():
+        plan.nodes.setdefault(letter, piece.acceleration)
+        plan.beneath[under] = (states.shape.member(link).number, letter)
+        plan.nodes[under] = beneath.acceleration
+        plan.vectors.append(Vector(under, "absolute", zero, beneath.acceleration))
+        x, y = piece.velocity - beneath.velocity
+        middle = beneath.acceleration + 2 * states.turning(link)[0] * np.array([-y, x])
+        plan.vectors.append(Vector(letter + under, "coriolis", beneath.acceleration, middle))
+        plan.vectors.append(Vector(letter + under, "sliding", middle, piece.acceleration))
+    return plan
+
+
+class _Sliding(NamedTuple):
+    """A point that slides on a link: its letter, that of the point underneath, the states of both, the link."""
+
+    letter: str
+    under: str
+    piece: _State
+    beneath: _State
+    link: str
+
+
+class _States:
+    """Places, velocities and accelerations of the points of a linkage at one crank angle."""
+
+    def __init__(self, shape: Skeleton, moving: SampledMotion, index: int, speed: float, second: float) -> None:
+        self.shape, self._moving, self._index = shape, moving, index
+        self._speed, self._second = speed, second
+
+    def letter(self, name: str) -> str:
+        return self.shape.letters[name]
+
+    def _state(self, track: Track) -> _State:
+        at, first, second = (one[self._index] for one in track)
+        return _State(at, first * self._speed, second * self._speed**2 + first * self._second)
+
+    def point(self, name: str) -> _State:
+        if name in self.shape.pivots:
+            return _State(np.array(self.shape.pivots[name]), np.zeros(2), np.zeros(2))
+        return self._state(self._moving.points[name])
+
+    def moving_points(self) -> Iterator[tuple[str, _State]]:
+        for name in self.shape.letters:
+            if name not in self.shape.pivots and name in self._moving.points:
+                yield name, self.point(name)
+
+    def pairs(self, *, with_fixed: bool = False) -> Iterator[tuple[str, str, float]]:
+        """Yield pairs of points of one link, its first and each further one that moves, and how fast it turns."""
+        for one in self.shape.members:
+            if one.rod:
+                continue
+            points = [name for name in one.points if with_fixed or name not in self.shape.pivots]
+            points.sort(key=lambda name: name not in self.shape.pivots)
+            for end in points[1:]:
+                if end not in self.shape.pivots:
+                    yield points[0], end, self.turning(one.name)[0]
+
+    def turning(self, link: str) -> tuple[float, float]:
+        """Return how fast a link turns, and how fast that grows. [rad/s], [rad/s2]"""
+        frame = self._moving.frames[link]
+        first, second = float(frame.angle_1[self._index]), float(frame.angle_2[self._index])
+        return first * self._speed, second * self._speed**2 + first * self._second
+
+    def turnings(self, order: int) -> dict[int, float]:
+        """Return how fast links turn, or how fast that grows, by number; a rod turns with its barrel."""
+        found = {one.number: self.turning(one.name)[order] for one in self.shape.members}
+        return found | {one.rod: found[one.number] for one in self.shape.members if one.rod}
+
+    def slides(self) -> Iterator[_Sliding]:
+        """Yield what slides on a moving guide; the rod of a cylinder slides on its barrel."""
+        for one in self.shape.members:
+            if one.rod:
+                barrel, end = one.points[0], self.point(one.points[1])
+                rod = self.letter(one.points[1])
+                beneath = self._carried(one.name, self.point(barrel), end.at)
+                yield _Sliding(rod, f"{rod}{one.number}", end, beneath, one.name)
+            if one.guide and one.guide.link:
+                piece = self.point(one.points[0]) if one.points else self._state(self._moving.frames[one.name].origin)
+                letter = self.letter(one.points[0]) if one.points else one.name
+                under = f"{letter}{self.shape.member(one.guide.link).number}"
+                yield _Sliding(letter, under, piece, self._beneath(one.guide.link, piece.at), one.guide.link)
+
+    def _beneath(self, link: str, at: Array) -> _State:
+        """Return the state of the point of a link that is at a place."""
+        return self._carried(link, self._state(self._moving.frames[link].origin), at)
+
+    def _carried(self, link: str, origin: _State, at: Array) -> _State:
+        """Return the state of the point of a link that is at a place, of one of its points."""
+        rate, rate_1 = self.turning(link)
+        x, y = at - origin.at
+        across, along = np.array([-y, x]), np.array([x, y])
+        return _State(at, origin.velocity + rate * across, origin.acceleration + rate_1 * across - rate**2 * along)

@@ -1,0 +1,149 @@
+"""Zhukovsky's lever: the velocity plan turned by a right angle, with all forces at the ends of their velocities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from crankwork.analysis.operating_state import operating_state
+from crankwork.analysis.results import Results
+from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.analysis.vector_polygons import VectorPolygon, velocities
+from crankwork.dynamics.link_loads import inertia_loads
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.kinematic_coefficients import PointMotion
+from crankwork.kinematics.motion import linkage_motion
+from crankwork.loads.applied_loads import AppliedLoads
+from crankwork.mechanism.mechanism import Crank
+
+Kind = Literal["load", "inertia"]
+# moments smaller than this share of the largest are nothing
+_NOTHING = 1e-9
+
+
+class LeverForce(NamedTuple):
+    """A force on the lever: on which link, the end of the velocity of its point, turned [m/s], and its parts [N]."""
+
+    kind: Kind
+    link: str
+    end: Array
+    force: Array
+
+    @property
+    def size(self) -> float:
+        """Its magnitude. [N]"""
+        return float(np.hypot(*self.force))
+
+    @property
+    def moment(self) -> float:
+        """Its moment about the pole, positive anticlockwise. [W]"""
+        return float(self.end[0] * self.force[1] - self.end[1] * self.force[0])
+
+    @property
+    def arm(self) -> float:
+        """How far the pole is from its line. [m/s]"""
+        return abs(self.moment) / self.size
+
+    @property
+    def foot(self) -> Array:
+        """Where the arm meets its line. [m/s]"""
+        along = self.force / self.size
+        return np.asarray(self.end - (self.end @ along) * along)
+
+
+class LeverTorque(NamedTuple):
+    """A torque on a link, and how fast the link turns. [N m], [rad/s]"""
+
+    kind: Kind
+    link: str
+    torque: float
+    turning: float
+
+    @property
+    def moment(self) -> float:
+        """What it adds to the moment about the pole. [W]"""
+        return self.torque * self.turning
+
+
+class Lever(NamedTuple):
+    """The turned plan with the forces and torques that have a moment, and the force on the crank pin that balances."""
+
+    plan: VectorPolygon
+    forces: tuple[LeverForce, ...]
+    torques: tuple[LeverTorque, ...]
+    balancing: LeverForce
+    radius: float  # Of the crank [m]
+
+    @property
+    def torque(self) -> float:
+        """The balancing torque on the crank, positive with its rotation. [N m]"""
+        return self.balancing.moment / float(np.hypot(*self.balancing.end)) * self.radius
+
+
+def zhukovsky_lever(results: Results, degrees: float, links: tuple[str, ...] = ()) -> Lever | None:
+    """Return the lever at a crank angle [deg] (artobolevsky_1988, ch. 15), none where nothing acts or nothing moves.
+
+    `links`: the moving links in the order of their numbers. The plan is turned clockwise; the balancing force is square
+    to the crank.
+    """
+    mechanism, speed = results.machine.mechanism, results.solved.speed
+    if not isinstance(mechanism.driver, Crank) or not speed:
+        return None
+    running = operating_state(results.solved, linkage_motion(mechanism, CrankGrid.from_degrees([degrees])))
+    parts: tuple[tuple[Kind, AppliedLoads], ...] = (("load", running.loads), ("inertia", inertia_loads(running)))
+    forces = [one for kind, loads in parts for one in _forces(kind, loads, speed)]
+    torques = [one for kind, loads in parts for one in _torques(kind, loads, speed)]
+    # what is square to its velocity has no moment but that of rounding
+    sizes = [one.size * float(np.hypot(*one.end)) for one in forces] + [abs(one.moment) for one in torques]
+    most = max(sizes, default=0.0)
+    forces = [one for one in forces if abs(one.moment) > _NOTHING * most]
+    torques = [one for one in torques if abs(one.moment) > _NOTHING * most]
+    if not forces and not torques:
+        return None
+    plan = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, speed, links)
+    pin = running.motion.points[mechanism.driver.pin]
+    end = _turned(pin, speed)
+    # forwards where the pin moves, which on the turned plan is square to the crank
+    forwards = np.array([-end[1], end[0]]) / np.hypot(*end)
+    total = sum(one.moment for one in forces) + sum(one.moment for one in torques)
+    return Lever(
+        VectorPolygon({name: _clockwise(at) for name, at in plan.nodes.items()}, [
+            one._replace(start=_clockwise(one.start), end=_clockwise(one.end)) for one in plan.vectors
+        ], plan.turning, plan.beneath),
+        tuple(forces), tuple(torques),
+        LeverForce("load", mechanism.driver.link, end, -total / np.hypot(*end) * forwards),
+        mechanism.driver.radius,
+    )  # fmt: skip
+
+
+def _clockwise(way: Array) -> Array:
+    return np.array([way[1], -way[0]])
+
+
+def _turned(at: PointMotion, speed: float) -> Array:
+    """Return the velocity of a point, turned clockwise. [m/s]"""
+    return _clockwise(np.array([float(np.ravel(one.position_1)[0]) for one in at]) * speed)
+
+
+def _forces(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverForce]:
+    """Yield forces, those at one point of a link as one."""
+    found: dict[tuple[str, tuple[float, ...]], LeverForce] = {}
+    for one in loads.forces:
+        end = _turned(one.point, speed)
+        place = tuple(round(float(np.ravel(side.position)[0]), 9) for side in one.point)
+        force = np.array([float(np.ravel(part)[0]) for part in (one.x, one.y)])
+        same = found.get((one.link, place))
+        found[one.link, place] = LeverForce(kind, one.link, end, force if same is None else same.force + force)
+    yield from (one for one in found.values() if one.size)
+
+
+def _torques(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverTorque]:
+    """Yield torques, those on one link as one."""
+    found: dict[str, LeverTorque] = {}
+    for one in loads.torques:
+        torque, turning = (float(np.ravel(part)[0]) for part in (one.torque, one.angle_1))
+        same = found.get(one.link)
+        found[one.link] = LeverTorque(kind, one.link, torque + (same.torque if same else 0.0), turning * speed)
+    yield from found.values()

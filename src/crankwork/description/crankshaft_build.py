@@ -1,0 +1,218 @@
+"""From the values of a machine file to an engine: cylinders, bearings, counterweights, flywheel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from crankwork.cylinders.arrangement import build_layout
+from crankwork.cylinders.articulated import ArticulatedRod, check_articulated_rod
+from crankwork.cylinders.engines import boxer, inline, radial, vee
+from crankwork.cylinders.firing import LayoutError, LayoutNotice
+from crankwork.cylinders.journal_loads import check_journals
+from crankwork.cylinders.layout import Banks, Layout
+from crankwork.cylinders.standard_orders import StandardOrder, standard_orders
+from crankwork.description.build import rod_masses
+from crankwork.description.schema import Values
+from crankwork.description.shaft_build import check_counterweights
+from crankwork.description.value_types import Reader
+from crankwork.dynamics.masses import CrankGearMasses
+from crankwork.errors import CrankworkError, GeometryError
+from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
+from crankwork.locale import ErrorMessage
+from crankwork.machine import Bearings, Engine
+
+
+def build_engine(
+    values: Values, lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
+) -> Engine | None:
+    """Return the engine of a machine file, or None if it describes one crank mechanism only or after complaints.
+
+    `lengths`: crank radius, rod length and offset, if they are known [m].
+    """
+    if not {"engine", "bearings", "balance", "flywheel"} & set(values):
+        return None
+    table = values["engine"]
+    if "engine" not in values:
+        table = table.but(layout="inline", cylinders=1)
+    doubtful = ("layout", "cylinders", "firing_order", "bank_angle", "bank_angles", "throws")
+    if reader.has_errors(*(f"engine.{key}" for key in doubtful)) or len(table) < 2:
+        return None
+    try:
+        layout, notices = _layout(table, round(cycle / 180), _tops(table, lengths))
+    except LayoutError as error:
+        reader.add_error(error.key, error.args[0])
+        return None
+    _check_places(layout, table, reader)
+    rods = _articulated_rods(table, layout, lengths, reader)
+    sizes, balance = values["bearings"], values["balance"]
+    check_counterweights(sizes, balance, reader)
+    return Engine(
+        layout=layout,
+        articulated_rods=rods,
+        offsets=_offsets(values, layout, lengths, reader),
+        articulated_masses=_articulated_rod_masses(table["articulated"], rods, reader),
+        bearings=sizes.made(Bearings),
+        counterweight=sizes.si("counterweight"),
+        rotating_share=balance["rotating_share"],
+        reciprocating_share=balance["reciprocating_share"],
+        balance_shafts=tuple(dict.fromkeys(balance["shafts"])),
+        notices=tuple((notice.code, notice.values) for notice in notices),
+    )
+
+
+def _check_places(layout: Layout, table: Values, reader: Reader) -> None:
+    """Report cylinders outside the main journals of their throw."""
+    if table.si("spacing"):
+        try:
+            check_journals(layout)
+        except CrankworkError as error:
+            reader.add_error("engine.bank_stagger" if "bank_stagger" in table else "engine.spacing", error.args[0])
+
+
+def _tops(table: Values, lengths: tuple[float, float, float] | None) -> tuple[float, ...]:
+    """Return the angles of top dead centres from the cylinder axes if offsets differ. [deg]"""
+    offsets = [offset.value for offset in table["offsets"] if offset]
+    if lengths is None or len(offsets) != int(table["cylinders"]) or len(set(offsets)) == 1:
+        return ()
+    if not all(turns_fully(SliderCrank(*lengths[:2], offset)) for offset in offsets):
+        return ()
+    return tuple(math.degrees(math.asin(offset / (lengths[0] + lengths[1]))) for offset in offsets)
+
+
+def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return the layout that the keys describe."""
+    kind, cylinders = table["layout"], int(table["cylinders"])
+    throws = table.degrees("throws") if "throws" in table else None
+    usual = _usual(table, strokes)
+    order = [int(number) for number in table["firing_order"] if number]
+    if not order and kind != "radial":
+        if usual is None:
+            raise LayoutError("engine.firing_order", _no_order(table, strokes))
+        order = list(usual.order)
+        throws = throws or list(usual.throws)
+    options: dict[str, Any] = {
+        "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"], "tops": tops,
+    }  # fmt: skip
+    articulated = "articulated" in table
+    match kind:
+        case "inline":
+            return inline(cylinders, order, throws=throws, **options)
+        case "radial":
+            options["span"] = options.pop("spacing")
+            return radial(cylinders, order or None, master=int(articulated), **options)
+    options |= {
+        "numbering": table["numbering"] or (usual.numbering if usual and "firing_order" not in table else "banks")
+    }
+    stagger = table.si("bank_stagger")
+    match kind:
+        case "V":
+            options |= {"bank_stagger": stagger or 0.0, "pin_offset": table.degrees("pin_offset")}
+            angle = table.degrees("bank_angle")
+            options["own_throws"] = table["own_throws"]
+            return vee(cylinders, order, angle, throws=throws, articulated=articulated, **options)
+        case "boxer":
+            return boxer(cylinders, order, bank_stagger=stagger, throws=throws, **options)
+    axes = tuple(table.degrees("bank_angles"))
+    sizes = {"numbering": options.pop("numbering"), "tops": options.pop("tops")}
+    banks = Banks("W", cylinders, axes, options.pop("spacing"), stagger or 0.0, **sizes)
+    return build_layout(banks, order, throws=throws, **options)
+
+
+def _no_order(table: Values, strokes: int) -> ErrorMessage:
+    """Return the advice for a layout without a customary firing order, with the closest split of the pins."""
+    requested = {"kind": table["layout"], "cylinders": int(table["cylinders"]), "strokes": strokes}
+    half = (table.degrees("bank_angle") or 0.0) / 2
+    for order in standard_orders(table["layout"], int(table["cylinders"]), strokes):
+        if order.axes == (-half, half) and order.pin_offset:
+            return ErrorMessage("order_unusual_near", **requested, pin_offset=f"{order.pin_offset:g}")
+    return ErrorMessage("order_unusual", **requested)
+
+
+def _usual(table: Values, strokes: int) -> StandardOrder | None:
+    """Return the customary engine with these keys."""
+    half = (table.degrees("bank_angle") or 0.0) / 2
+    for order in standard_orders(table["layout"], int(table["cylinders"]), strokes):
+        fits = table["layout"] != "V" or (
+            order.axes == (-half, half) and order.pin_offset == table.degrees("pin_offset")
+        )
+        if fits and table["numbering"] in (None, order.numbering):
+            return order
+    return None
+
+
+def _offsets(
+    values: Values, layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
+) -> tuple[float, ...]:
+    """Return the offset of each cylinder if offsets are stated; report cranks that cannot turn."""
+    stated = values["engine"]["offsets"]
+    if not stated or None in stated or lengths is None:
+        return ()
+    offsets, count = [offset.value for offset in stated], len(layout.places)
+    if len(offsets) != count:
+        reader.add_error("engine.offsets", ErrorMessage("offsets_count", count=len(offsets), cylinders=count))
+        return ()
+    if "offset" in values["cylinder"]:
+        reader.add_error("engine.offsets", ErrorMessage("same", others=["cylinder.offset"]))
+    if "articulated" in values["engine"]:
+        reader.add_error("engine.offsets", ErrorMessage("offsets_articulated"))
+    for number, offset in enumerate(offsets, start=1):
+        if not turns_fully(SliderCrank(*lengths[:2], offset)):
+            shown = {"length": lengths[1], "radius": lengths[0], "offset": abs(offset)}
+            missing = lengths[0] + abs(offset) - lengths[1]
+            texts = {name: f"{size * 1e3:.6g}" for name, size in {**shown, "missing": missing}.items()}
+            reader.add_error(f"engine.offsets[{number}]", ErrorMessage("rod_short", **texts))
+    return tuple(offsets)
+
+
+def _articulated_rod_masses(
+    table: Values, rods: tuple[ArticulatedRod | None, ...], reader: Reader
+) -> CrankGearMasses | None:
+    """Return the masses of the articulated rods if stated."""
+    rod = next((articulated for articulated in rods if articulated is not None), None)
+    if "mass" not in table or rod is None:
+        return None
+    return rod_masses(table, table["mass"].value, rod.length, reader, "engine.articulated")
+
+
+def _articulated_rods(
+    table: Values, layout: Layout, lengths: tuple[float, float, float] | None, reader: Reader
+) -> tuple[ArticulatedRod | None, ...]:
+    """Return the articulated rod of every cylinder, None for master rods."""
+    values = table["articulated"]
+    if lengths is None or "knuckle_radius" not in values:
+        return ()
+    radius = values["knuckle_radius"].value
+    length = values.si("rod_length") or lengths[1] - radius
+    places = [place for place in layout.places if place.master]
+    between = {place.number: place.axis - layout.places[place.master - 1].axis for place in places}
+    angles: Sequence[float] = list(between.values())
+    if "knuckle_angles" in values:
+        angles = values.degrees("knuckle_angles")
+        if len(angles) != len(places):
+            reader.add_error(
+                "engine.articulated.knuckle_angles",
+                ErrorMessage("knuckle_count", count=len(angles), articulated_rods=len(places)),
+            )
+            return ()
+    if length <= 0:
+        reader.add_error("engine.articulated.rod_length", ErrorMessage("articulated_length", length=length * 1e3))
+        return ()
+    if radius >= lengths[1]:
+        message = ErrorMessage("knuckle_far", radius=radius * 1e3, rod=lengths[1] * 1e3)
+        reader.add_error("engine.articulated.knuckle_radius", message)
+        return ()
+    of_number = dict(zip(between, angles, strict=True))
+    rods = [
+        ArticulatedRod(length, radius, of_number[place.number], between[place.number]) if place.master else None
+        for place in layout.places
+    ]
+    for rod in rods:
+        try:
+            if rod is not None:
+                check_articulated_rod(SliderCrank(*lengths), rod)
+        except GeometryError as error:
+            reader.add_error("engine.articulated.knuckle_radius", error.args[0])
+            return ()
+    return tuple(rods)

@@ -1,0 +1,422 @@
+"""From the values of a machine file to the linkage it describes, or to the tabulated motion of one."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import Any
+
+from crankwork.analysis.gas_chambers import traced_linkage
+from crankwork.analysis.motion_range import find_reachable_motion
+from crankwork.description.branch_from_positions import branches_from_positions, position_notices
+from crankwork.description.build import build_method, check_inertia_ratio, crank_speed
+from crankwork.description.chamber_build import build_chambers
+from crankwork.description.cylinder_pressure_build import ReadMeasured
+from crankwork.description.drive_build import read_drive
+from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
+from crankwork.description.flywheel_build import read_flywheel
+from crankwork.description.friction_build import build_friction, check_friction
+from crankwork.description.range_checks import checked_motion, explain_redundant, with_crank_range, with_starts
+from crankwork.description.redundant_build import fitting, geometry_of, without_redundant, without_unshared
+from crankwork.description.schema import Values
+from crankwork.description.shaft_build import build_bearings, build_shaft, check_shaft
+from crankwork.description.stated import stated_numbers
+from crankwork.description.value_types import MeasuredValue, Reader
+from crankwork.dynamics.tabulated_inertia import TabulatedBody
+from crankwork.loads.damper import Damper, SliderDamper
+from crankwork.loads.indicator import DiagramError
+from crankwork.loads.load import Load
+from crankwork.loads.load_curve import LoadCurve as LoadTable
+from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
+from crankwork.loads.spring import SliderSpring, Spring
+from crankwork.loads.weight import Weight
+from crankwork.locale import ErrorMessage
+from crankwork.machine import Drive, Machine, TransferTable, Transient
+from crankwork.mechanism.driver import Law, LinkMotor
+from crankwork.mechanism.joints import links_of_points
+from crankwork.mechanism.linkage import GROUND, Linkage
+from crankwork.mechanism.mechanism import Crank, Mechanism
+from crankwork.mechanism.table_reader import linkage_from
+from crankwork.method import Method
+
+_GEOMETRY = ("fixed_points", "crank", "geared", "links", "guides", "sliders", "branch", "positions")
+_STEP = 1.0
+_MOST_ROWS = 100_000
+_REVOLUTION = math.tau + 1e-9
+_OF_SPRING = ("stiffness", "free_length", "preload")
+_ENDED = ("spring", "damper")
+_RATES = ("speed", "angular_acceleration", "from", "to")
+
+
+def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -> Machine | None:
+    """Return the linkage machine, or None after complaints."""
+    if reader.problems:
+        return None
+    tables = _geometry(values, reader)
+    if reader.problems:
+        return None
+    linkage, problems = linkage_from(tables)
+    mechanism, notices = None, tuple[tuple[str, dict[str, float | str]], ...]()
+    if linkage is not None:
+        linkage, carried = without_unshared(*without_redundant(linkage, values, reader))
+        branched = branches_from_positions(linkage)
+        mechanism, problems = branched.mechanism, explain_redundant(linkage, branched.problems)
+        notices = tuple(position_notices(tables, linkage, branched, reader, is_new=values["format"] > 1))
+    for problem in problems:
+        reader.add_error(problem.key or "links", problem.message)
+    method = build_method(values["method"], reader)
+    loads = _loads(values, linkage, reader)
+    chambers, charges = build_chambers(values, linkage, mechanism, reader, read_measured, method.pi)
+    if "driver" in values:
+        check_loads(values, reader)
+        check_gas(values, reader)
+    drive = _drive(values, method, reader)
+    transient = _transient(values, reader)
+    if reader.problems or mechanism is None or linkage is None:
+        return None
+    mechanism, crank_range = with_crank_range(mechanism)
+    redundant = fitting(linkage, carried, values, reader)
+    if reader.problems:
+        return None
+    friction = build_friction(values, linkage, mechanism, reader)
+    bearings = build_bearings(values, mechanism, reader, turns=crank_range is None or crank_range.is_whole)
+    notices += tuple(_on_pins(loads, linkage, mechanism))
+    loads = with_starts(loads, values, mechanism, crank_range)
+    if values["method"]["weights"]:
+        loads = (*loads, Weight(method.gravity))
+    crank, table = values["crank"], values["table"]
+    machine = Machine(
+        mechanism=mechanism,
+        linkage=linkage,
+        speed=crank_speed(crank["speed"], method) if "speed" in crank else 0.0,
+        angular_acceleration=crank.si("angular_acceleration") or 0.0,
+        title=values["title"] or "",
+        loads=loads,
+        redundant=redundant,
+        friction=friction,
+        bearings=bearings,
+        way=crank_range,
+        notices=notices,
+        chambers=chambers,
+        charges=charges,
+        shaft=build_shaft(values, reader),
+        drive=drive if _weighs(values) else replace(drive, inertia=drive.inertia + (crank.si("inertia") or 0.0)),
+        transient=transient,
+        method=method,
+        table_step=_table_step(table.si("step"), mechanism.driver.law),
+        table_special=tuple(table.degrees("special_angles") or ()),
+        stated=stated_numbers(values),
+    )
+    check_friction(machine, reader)
+    _check_method(machine, reader)
+    moving = checked_motion(machine, crank, reader)
+    return moving if moving is not None and _fits(moving, values, reader) else None
+
+
+def _check_method(machine: Machine, reader: Reader) -> None:
+    """Report an approximate method of a linkage that is no engine."""
+    method = machine.method
+    if method.is_exact:
+        return
+    # most linkages are computed exactly
+    from crankwork.analysis.cylinder_form import engine_form_or_reason  # noqa: PLC0415
+
+    form = engine_form_or_reason(machine, has_all=True)
+    if not isinstance(form, Machine):
+        message = ErrorMessage("method_of_engines", method=method.name, reason=form.message)
+        reader.add_error("method.kinematics", message)
+    else:
+        check_inertia_ratio(method, form.lengths, reader)
+
+
+def _drive(values: Values, method: Method, reader: Reader) -> Drive:
+    """Return efficiency, motor and flywheel."""
+    flywheel, crank = values["flywheel"], values["crank"]
+    speed = crank_speed(crank["speed"], method) if "speed" in crank else None
+    if "recovery" in flywheel:
+        reader.add_error("flywheel.recovery", ErrorMessage("recovery_of_linkage"))
+    return read_flywheel(flywheel, read_drive(values, reader), speed, reader, pi=method.pi)
+
+
+def _weighs(values: Values) -> bool:
+    """Return whether the crank is a body with mass among the others."""
+    return "driver" in values or not {"mass", "centre"}.isdisjoint(values["crank"])
+
+
+def _geometry(values: Values, reader: Reader) -> dict[str, Any]:
+    """Return the tables that describe the linkage, and its driver with its law."""
+    tables = {name: _plain(values[name]) for name in _GEOMETRY if name in values}
+    if "links" in tables:
+        tables["links"] = {name: geometry_of(link) for name, link in tables["links"].items()}
+    if "crank" in tables:
+        # an inertia without a mass belongs to the drive, not to the crank
+        elsewhere = _RATES if _weighs(values) else (*_RATES, "inertia")
+        tables["crank"] = {name: value for name, value in tables["crank"].items() if name not in elsewhere}
+    if "driver" in values:
+        check_driver(values, reader)
+        check_halves(values, reader)
+        named = {
+            name: _plain(value) for name, value in values["driver"].items() if name not in ("start", "period", "law")
+        }
+        tables["driver"] = {**named, "law": build_law(values, reader)}
+    return tables
+
+
+def _table_step(given: float | None, law: Law | None) -> float:
+    """Return the step of the tables [deg], stated as an angle, or as a time of a driver with a law."""
+    if law is None:
+        return round(math.degrees(given or 0.0), 9)
+    return 10.0 if given is None else min(360.0 * given / law.period, 360.0)
+
+
+def _fits(machine: Machine, values: Values, reader: Reader) -> bool:
+    """Return whether the gas suits the volumes of its chambers, and the crankshaft the linkage; report if not."""
+    if not machine.chambers:
+        return check_shaft(machine, values, reader)
+    reached = find_reachable_motion(machine, _STEP)
+    if reached.travel is not None:
+        reader.add_error("chambers", ErrorMessage("chambers_partial"))
+        return False
+    try:
+        traced_linkage(machine, reached.motion)
+    except DiagramError as error:
+        mistake = error.args[0]
+        if ".measured" in error.key:
+            name = error.key.split(".")[1]
+            mistake = ErrorMessage("in_file", file=values["chambers"][name]["measured"]["file"], mistake=mistake)
+        if machine.mechanism.driver.law is not None:
+            mistake = ErrorMessage("in_period", mistake=mistake)
+        reader.add_error(error.key, mistake)
+        return False
+    return check_shaft(machine, values, reader)
+
+
+def build_tabulated(values: Values, reader: Reader) -> Machine | None:
+    """Return the machine of a table of transfer functions, or None after complaints."""
+    method = build_method(values["method"], reader)
+    if not method.is_exact:
+        reader.add_error("method.kinematics", ErrorMessage("table_exact"))
+    drive = read_drive(values, reader)
+    if reader.problems:
+        return None
+    if "transfer" in values:
+        reduced = values["transfer"]
+        positions, stated_bodies, places = reduced, reduced["bodies"], ("transfer", "transfer.bodies", "transfer")
+    else:
+        reduced, positions, stated_bodies = (values[name] for name in ("crank", "table", "links"))
+        places = ("table", "links", "crank")
+    of_table, of_bodies, of_crank = places
+    angles = _plain(positions["angles"])
+    count = len(angles)
+    if any(after <= before for before, after in itertools.pairwise(angles)) or angles[-1] - angles[0] > _REVOLUTION:
+        reader.add_error(f"{of_table}.angles", ErrorMessage("table_rises"))
+    if not stated_bodies:
+        reader.add_error(of_bodies, ErrorMessage("bodies_empty"))
+    bodies = [_body(name, body, f"{of_bodies}.{name}", count, reader) for name, body in stated_bodies.items()]
+    optional: dict[str, tuple[float, ...] | None] = {}
+    for key in ("reduced_inertia_1", "static_torque", "balancing_torque"):
+        column = tuple(_plain(reduced[key])) if key in reduced else None
+        if column is not None:
+            _check_count(f"{of_crank}.{key}", column, count, reader)
+        optional[key] = column
+    if reader.problems:
+        return None
+    table = TransferTable(
+        tuple(angles), tuple(bodies), differences=reduced["differences"] or "central", **optional, of_bodies=of_bodies,
+        of_crank=of_crank,
+    )  # fmt: skip
+    return Machine(
+        Mechanism(Crank(radius=0.0), ()),
+        speed=crank_speed(values["crank"]["speed"], method),
+        title=values["title"] or "",
+        transfer=table,
+        drive=drive,
+        method=method,
+        stated=stated_numbers(values),
+    )
+
+
+def _body(name: str, body: Values, path: str, count: int, reader: Reader) -> TabulatedBody:
+    """Return a body of a table of transfer functions; report columns of a wrong length."""
+    columns = {key: tuple(_plain(body[key])) for key in ("velocity", "rotation") if key in body}
+    for key, column in columns.items():
+        _check_count(f"{path}.{key}", column, count, reader)
+    if not columns:
+        reader.add_error(path, ErrorMessage("body_still"))
+    still = (0.0,) * count
+    return TabulatedBody(
+        name, body.si("mass"), body.si("inertia"),
+        columns.get("velocity", still), columns.get("rotation", still),
+    )  # fmt: skip
+
+
+def _check_count(key: str, column: tuple[float, ...], count: int, reader: Reader) -> None:
+    if len(column) != count:
+        reader.add_error(key, ErrorMessage("column_count", count=len(column), positions=count))
+
+
+def _transient(values: Values, reader: Reader) -> Transient | None:
+    table = values.get("transient")
+    if table is None:
+        return None
+    has_motor = "motor" in values
+    if table["motor"] and not has_motor:
+        reader.add_error("transient.motor", ErrorMessage("transient_motorless"))
+    start, ends = table.si("start"), tuple(stop.value for stop in table["stops"] or ())
+    if ends and not (ends[0] <= start <= ends[1] and ends[0] < ends[1]):
+        reader.add_error("transient.stops", ErrorMessage("transient_stops"))
+    rows = table.si("time") / table.si("step") if table["step"] and table["time"] else 0.0
+    if rows > _MOST_ROWS:
+        reader.add_error("transient.step", ErrorMessage("transient_rows", rows=rows, most=_MOST_ROWS))
+    transient: Transient = table.made(
+        Transient,
+        torque=table.si("torque") or 0.0,
+        motor=has_motor and table.get("motor", "torque" not in table),
+        stops=ends or (-math.inf, math.inf),
+        restitution=table["restitution"] or 0.0,
+        speeds=tuple(speed.value for speed in table["speeds"] or ()),
+    )
+    return transient
+
+
+def _loads(values: Values, linkage: Linkage | None, reader: Reader) -> tuple[Load, ...]:
+    loads = []
+    for number, load in enumerate(values["loads"], start=1):
+        if load and "kind" in load and _check_load(f"loads[{number}]", load, linkage, reader):
+            try:
+                loads.append(_load(load))
+            except ValueError as error:
+                reader.add_error(f"loads[{number}]", error.args[0])
+    return tuple(loads)
+
+
+def _check_load(key: str, load: Values, linkage: Linkage | None, reader: Reader) -> bool:
+    """Return whether ends of springs, tables and names of a load are valid; report mistakes."""
+    if load["kind"] in _ENDED and ("between" in load) == ("slider" in load):
+        reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_ends"))
+    if len(set(load["between"] or "  x")) < 2:
+        reader.add_error(f"{key}.between", ErrorMessage(f"{load['kind']}_twice", point=load["between"][0]))
+    _check_table(key, load, reader)
+    if linkage is not None:
+        _check_names(key, load, linkage, reader)
+    return not any(problem.key.startswith(key) for problem in reader.problems)
+
+
+def _check_names(key: str, load: Values, linkage: Linkage, reader: Reader) -> None:
+    """Report unknown sliders, links and points, and a point that is not on the link."""
+    names = {"slider": {member.name for member in (*linkage.members, linkage.driving) if member.guide},
+             "link": {member.name for member in linkage.members} | linkage.base - {GROUND},
+             "point": set(linkage.owners)}  # fmt: skip
+    for name, known in names.items():
+        if name in load and load[name] not in known:
+            reader.add_error(
+                f"{key}.{name}", ErrorMessage(f"absent_{name}", name=load[name], known=", ".join(sorted(known)))
+            )
+    for point in load["between"]:
+        if point not in names["point"]:
+            reader.add_error(
+                f"{key}.between", ErrorMessage("absent_point", name=point, known=", ".join(sorted(names["point"])))
+            )
+    ends = [("links", *end) for end in zip(load["between"], load["links"] or (), strict=False)]
+    ends += [("link", load["point"], load["link"])] if load["point"] and load["link"] else []
+    for where, point, link in ends:
+        owners = linkage.owners.get(point, [])
+        if owners and link not in owners:
+            message = ErrorMessage("load_elsewhere", point=point, link=link, owners=", ".join(owners))
+            reader.add_error(f"{key}.{where}", message)
+
+
+def _on_pins(
+    loads: Iterable[Load], linkage: Linkage, mechanism: Mechanism
+) -> Iterator[tuple[str, dict[str, float | str]]]:
+    """Yield notices of loads at pins of several links if no link is named, with the link assumed."""
+    first_links = links_of_points(mechanism)
+    # the third side of a triangle that a motor drives is not a link
+    no_link = mechanism.driver.link if isinstance(mechanism.driver, LinkMotor) else ""
+    for number, load in enumerate(loads, start=1):
+        match load:
+            case ForceOnPoint():
+                key, ends = "link", [(load.point, load.link)]
+            case Spring() | Damper():
+                key, ends = "links", [(load.start, load.start_link), (load.end, load.end_link)]
+            case _:
+                continue
+        for point, link in ends:
+            owners = [owner for owner in linkage.owners[point] if owner != no_link]
+            if not link and len(owners) > 1 and GROUND not in owners:
+                yield "load_on_pin", {
+                    "load": f"loads[{number}]", "point": point, "owners": ", ".join(owners), "link": first_links[point],
+                    "field": key,
+                }  # fmt: skip
+
+
+def _check_table(key: str, load: Values, reader: Reader) -> None:
+    """Report a table of a load with columns that differ in length, do not rise, or have a wrong dimension."""
+    column = "torque" if load["kind"] == "torque" else "force"
+    values, abscissas = load[column], load.get("at")
+    if None in values or abscissas is None or None in abscissas:
+        if abscissas is None and len(values) > 1:
+            reader.add_error(f"{key}.at", ErrorMessage("load_at_missing", count=len(values), column=column))
+        return
+    wanted = "angle" if column == "torque" or load["against"] == "angle" else "length"
+    if any(abscissa.dimension != wanted for abscissa in abscissas):
+        reader.add_error(f"{key}.at", ErrorMessage(f"load_at_{wanted}"))
+    elif any(after.value <= before.value for before, after in itertools.pairwise(abscissas)):
+        reader.add_error(f"{key}.at", ErrorMessage("load_at_rises"))
+    elif wanted == "angle" and abscissas[-1].value - abscissas[0].value > _REVOLUTION:
+        reader.add_error(f"{key}.at", ErrorMessage("load_at_turn"))
+    if len(abscissas) != len(values):
+        reader.add_error(
+            f"{key}.at", ErrorMessage("load_at_count", count=len(abscissas), others=len(values), column=column)
+        )
+
+
+def _load(load: Values) -> Load:
+    match load["kind"]:
+        case "process":
+            return ProcessForce(
+                load["slider"], _curve(load, "force"), load["against"],
+                -1 if load["stroke"] == "falling" else 1, load.si("start") or 0.0, load["acts"],
+            )  # fmt: skip
+        case "force":
+            return load.made(ForceOnPoint, link=load["link"] or "")
+        case "torque":
+            return TorqueOnLink(load["link"], _curve(load, "torque"))
+        case "damper" if "slider" in load:
+            return load.made(SliderDamper)
+        case "damper":
+            return load.made(Damper, **_ends(load))
+        case _ if "slider" in load:
+            return SliderSpring(load["slider"], *(load.si(key) for key in _OF_SPRING))
+    return load.made(Spring, **_ends(load))
+
+
+def _ends(load: Values) -> dict[str, str]:
+    """Return the points that a spring or damper joins, and the links named for them."""
+    named = zip(("start", "end", "start_link", "end_link"), (*load["between"], *(load["links"] or ())), strict=False)
+    return dict(named)
+
+
+def _curve(load: Values, key: str) -> LoadTable:
+    """Return the table of a load; a single value holds everywhere."""
+    values = tuple(_plain(load[key]))
+    smooth = load["curve"] == "smooth"
+    if "at" not in load:
+        return LoadTable((-1e3, 1e3), (values[0], values[0]))
+    abscissas = tuple(_plain(load["at"]))
+    period = 2 * math.pi if load["against"] == "angle" or load["kind"] == "torque" else 0.0
+    return LoadTable(abscissas, values, "monotone" if smooth else "linear", period)
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, as the file has them
+    """Return values with every quantity as its SI number."""
+    match value:
+        case MeasuredValue():
+            return value.value
+        case dict():
+            return {name: _plain(item) for name, item in value.items()}
+        case list():
+            return [_plain(item) for item in value]
+    return value

@@ -1,0 +1,335 @@
+"""From the values of a machine file to a shaft with the torques on it."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+from crankwork.analysis.given_torques import analyse_turning
+from crankwork.description.build import build_method, crank_speed
+from crankwork.description.drive_build import read_drive
+from crankwork.description.flywheel_build import read_flywheel
+from crankwork.description.schema import Values
+from crankwork.description.stated import stated_numbers
+from crankwork.description.torque_keys import FORMS
+from crankwork.description.value_types import MeasuredValue, Reader
+from crankwork.locale import ErrorMessage
+from crankwork.machine import Machine
+from crankwork.mechanism.mechanism import Crank, Mechanism
+from crankwork.method import Method
+from crankwork.shaft.torque_diagram import (
+    Harmonic,
+    ShaftTorques,
+    TorqueDiagram,
+    WorkStroke,
+    angle_in_plate,
+    common_period,
+    sheared_area_of_hole,
+)
+
+_TABLES = ("torque", "load")
+_OF_ENERGY = ("areas", "excess_work", "energy_fluctuation")
+# largest imbalance of stated works, which are rounded, as a share
+_BALANCED = 5e-3
+_CLOSED = 1e-6
+_MOST_ROWS = 10_000
+_TRIES, _SETTLED = 50, 1e-15
+
+
+class _Shaft(NamedTuple):
+    """Stated speed of the shaft, and method. [rad/s]"""
+
+    stated: float
+    method: Method
+    reader: Reader
+
+    @property
+    def speed(self) -> float:
+        """Speed with the method's own pi. [rad/s]"""
+        return self.stated * self.method.pi / math.pi
+
+
+def build_turning(values: Values, reader: Reader) -> Machine | None:
+    """Return the machine of a shaft with torques, or None after complaints."""
+    method = build_method(values["method"], reader)
+    if not method.is_exact:
+        reader.add_error("method.kinematics", ErrorMessage("turning_exact"))
+    flywheel, crank = values["flywheel"], values["crank"]
+    stated, largest = (crank_speed(crank[key], method) if key in crank else None for key in ("speed", "largest_speed"))
+    speed = stated or largest or _mean_of_speeds(flywheel)
+    if speed is None and not reader.has_errors("crank.speed", "flywheel.speeds"):
+        reader.add_error("crank.speed", ErrorMessage("missing", advice=('speed = "100 rpm"',)))
+    drive = read_flywheel(flywheel, read_drive(values, reader), stated, reader, pi=method.pi)
+    drive = replace(drive, inertia=drive.inertia + crank.si("inertia"))
+    if reader.problems or speed is None:
+        return None
+    turning = _turning(values, _Shaft(speed, method, reader))
+    if turning is not None:
+        _check_rows(turning, values, reader)
+    if reader.problems or turning is None:
+        return None
+    machine = Machine(
+        Mechanism(Crank(radius=0.0), ()),
+        speed=speed,
+        title=values["title"] or "",
+        turning=turning,
+        drive=drive,
+        method=method,
+        table_step=values["table"].degrees("step"),
+        table_special=tuple(values["table"].degrees("special_angles")),
+        stated=stated_numbers(values),
+    )
+    return machine if largest is None else _slowed(machine, turning, values, reader)
+
+
+def _check_rows(turning: ShaftTorques, values: Values, reader: Reader) -> None:
+    """Report a step that gives too many rows of a table."""
+    rows = turning.cycle / values["table"].si("step")
+    if rows > _MOST_ROWS:
+        reader.add_error("table.step", ErrorMessage("transient_rows", rows=rows, most=_MOST_ROWS))
+
+
+def _slowed(machine: Machine, turning: ShaftTorques, values: Values, reader: Reader) -> Machine | None:
+    """Return the machine with the mean speed that follows from its largest speed, or None after a complaint.
+
+    Angles stated by time and torques stated by power change with the speed.
+    """
+    if not machine.drive.inertia:
+        reader.add_error("crank.largest_speed", ErrorMessage("largest_speed_alone"))
+        return None
+    largest, counted = machine.speed, machine.method.pi / math.pi
+    for _ in range(_TRIES):
+        excess = analyse_turning(machine, turning).summary["excess_work"]
+        square = largest**2 - 2 * excess / machine.drive.inertia / counted**2
+        if square <= 0:
+            reader.add_error("crank.largest_speed", ErrorMessage("largest_speed_small", excess=excess))
+            return None
+        speed = (largest + math.sqrt(square)) / 2
+        turning = _turning(values, _Shaft(speed, machine.method, reader)) or turning
+        settled = abs(speed - machine.speed) <= _SETTLED * largest
+        machine = replace(machine, speed=speed, turning=turning)
+        if settled:
+            break
+    return machine
+
+
+def _mean_of_speeds(flywheel: Values) -> float | None:
+    """Return the mean of the speed limits of a flywheel."""
+    speeds = [speed.value for speed in flywheel["speeds"] if speed]
+    return sum(speeds) / 2 if len(speeds) == 2 else None
+
+
+def _turning(values: Values, shaft: _Shaft) -> ShaftTorques | None:
+    """Return the torques that drive and load a shaft."""
+    reader, given = shaft.reader, [name for name in _TABLES if name in values]
+    periods = {name: _period(values[name], shaft) for name in given}
+    known = [period for period in periods.values() if period is not None]
+    if not known:
+        for name in given:
+            reader.add_error(
+                f"{name}.period", ErrorMessage("missing", advice=('period = "360 deg"', 'rate = "30 1/min"'))
+            )
+        return None
+    made = {name: _diagram(values[name], name, periods[name] or known[0], shaft) for name in given}
+    of_energy = [name for name in given if any(form in values[name] for form in _OF_ENERGY)]
+    if of_energy and len(given) > 1:
+        reader.add_error(of_energy[0], ErrorMessage("diagram_alone"))
+    cycle = common_period(known[0], known[-1])
+    if cycle is None:
+        first, second = math.degrees(known[0]), math.degrees(known[-1])
+        reader.add_error("load.period", ErrorMessage("periods_apart", first=first, second=second))
+    if reader.problems or cycle is None:
+        return None
+    turning = ShaftTorques(made.get("torque"), made.get("load"), cycle)
+    _check_balance(turning, reader)
+    return turning
+
+
+def _period(values: Values, shaft: _Shaft) -> float | None:
+    """Return the period of a torque, None if it is not stated. [rad]"""
+    if "rate" in values:
+        return math.tau * shaft.speed / float(values["rate"].value)
+    return None if "period" not in values else _angle(values["period"], shaft)
+
+
+def _angle(given: MeasuredValue, shaft: _Shaft) -> float:
+    """Return an angle, or the angle turned in a time at mean speed. [rad]"""
+    return given.value * shaft.speed if given.dimension == "time" else given.value
+
+
+def _diagram(values: Values, table: str, period: float, shaft: _Shaft) -> TorqueDiagram:
+    """Return a torque over its period; report mistakes."""
+    if not any(form in values for form in (*FORMS, "constant", "power")):
+        shaft.reader.add_error(table, ErrorMessage("diagram_empty"))
+    constant = values.si("power") / shaft.speed if "power" in values else values.si("constant") or 0.0
+    scale = _scale(values, table, shaft.reader)
+    return TorqueDiagram(
+        period=period,
+        constant=constant,
+        points=_points(values, table, period, shaft.reader),
+        harmonics=_harmonics(values, table, period, shaft.reader),
+        strokes=tuple(
+            _stroke(stroke, f"{table}.strokes[{number}]", period, scale, shaft)
+            for number, stroke in enumerate(values["strokes"], start=1)
+        ),
+        delays=_delays(values, table, period, shaft.reader),
+        loops=_loops(values, table, scale, shaft.reader),
+        excess=_excess(values, table, constant * period, scale, shaft.reader),
+    )
+
+
+def _scale(values: Values, table: str, reader: Reader) -> float:
+    """Return the work per area of the drawing; report an incomplete scale. [J/m2]"""
+    scale = values["scale"]
+    if "work" in scale:
+        return float(scale["work"].value)
+    if len(scale) == 2:
+        return float(scale["torque"].value * scale["angle"].value)
+    if scale:
+        missing = "angle" if "torque" in scale else "torque"
+        example = '"3 deg/mm"' if missing == "angle" else '"600 N*m/mm"'
+        reader.add_error(f"{table}.scale.{missing}", ErrorMessage("missing", advice=(f"{missing} = {example}",)))
+    return 0.0
+
+
+def _work(given: MeasuredValue, path: str, scale: float, reader: Reader) -> float:
+    """Return a work, or the work of an area of the drawing. [J]"""
+    if given.dimension == "energy":
+        return given.value
+    table = path.partition(".")[0]
+    if not scale and not reader.has_errors(f"{table}.scale"):
+        reader.add_error(path, ErrorMessage("area_scale", table=table))
+    return given.value * scale
+
+
+def _points(values: Values, table: str, period: float, reader: Reader) -> tuple[tuple[float, float], ...]:
+    """Return the corners of a diagram; report angles that descend or exceed the period."""
+    if "torque" not in values or "at" not in values or None in (*values["at"], *values["torque"]):
+        return ()
+    angles, torque = ([angle.value for angle in values[name]] for name in ("at", "torque"))
+    if len(angles) != len(torque):
+        reader.add_error(
+            f"{table}.at", ErrorMessage("load_at_count", count=len(angles), others=len(torque), column="torque")
+        )
+        return ()
+    for number, (before, after) in enumerate(itertools.pairwise(angles), start=2):
+        if after < before:
+            reader.add_error(f"{table}.at[{number}]", ErrorMessage("points_descend"))
+        if number > 2 and before == after == angles[number - 3]:
+            reader.add_error(f"{table}.at[{number}]", ErrorMessage("points_thrice"))
+    if angles[-1] > period * (1 + _CLOSED):
+        beyond = next(number for number, angle in enumerate(angles, start=1) if angle > period * (1 + _CLOSED))
+        reader.add_error(f"{table}.at[{beyond}]", ErrorMessage("points_beyond", period=math.degrees(period)))
+    if angles[0] == angles[-1]:
+        reader.add_error(f"{table}.at", ErrorMessage("points_descend"))
+    return tuple((min(angle, period), other) for angle, other in zip(angles, torque, strict=True))
+
+
+def _harmonics(values: Values, table: str, period: float, reader: Reader) -> tuple[Harmonic, ...]:
+    """Return the orders of a torque; report orders that are not periodic in the period."""
+    harmonics = []
+    for number, harmonic in enumerate(values["harmonics"], start=1):
+        if not harmonic or "order" not in harmonic:
+            continue
+        times = harmonic["order"] * period / math.tau
+        if abs(times - round(times)) > _CLOSED * times or not round(times):
+            path = f"{table}.harmonics[{number}].order"
+            reader.add_error(path, ErrorMessage("order_open", order=harmonic["order"], period=math.degrees(period)))
+        harmonics.append(Harmonic(harmonic["order"], harmonic.si("sin"), harmonic.si("cos")))
+    return tuple(harmonics)
+
+
+def _stroke(values: Values | None, path: str, period: float, scale: float, shaft: _Shaft) -> WorkStroke:
+    """Return work over an interval; report an interval longer than the period."""
+    if values is None or not {"work", "shear_energy", "shear_strength"} & set(values):
+        return WorkStroke(0.0, 0.0, 0.0)
+    work, reader = 0.0, shaft.reader
+    if "work" in values:
+        work = _work(values["work"], f"{path}.work", scale, reader)
+    elif "thickness" in values and {"hole_diameter", "cut_width"} & set(values):
+        area = _sheared_area(values, shaft.method.pi)
+        if "shear_energy" in values:
+            work = values["shear_energy"].value * area
+        elif "penetration" in values:
+            work = values["shear_strength"].value * area * values["penetration"] * values.si("thickness")
+    else:
+        reader.add_error(
+            f"{path}.{'shear_energy' if 'shear_energy' in values else 'shear_strength'}", ErrorMessage("shear_of_what")
+        )
+    over = _over(values, period, shaft)
+    if over > period * (1 + _CLOSED):
+        message = ErrorMessage("stretch_long", over=math.degrees(over), period=math.degrees(period))
+        reader.add_error(f"{path}.over" if "over" in values else f"{path}.punch_stroke", message)
+    start = values.si("from")
+    if start > period * (1 + _CLOSED):
+        reader.add_error(f"{path}.from", ErrorMessage("points_beyond", period=math.degrees(period)))
+    return WorkStroke(work, start, min(over, period), values["shape"], values.get("peak", 0.5))
+
+
+def _sheared_area(values: Values, pi: float) -> float:
+    thickness = values.si("thickness")
+    if "hole_diameter" in values:
+        return float(sheared_area_of_hole(pi, values.si("hole_diameter"), thickness))
+    return float(values.si("cut_width") * thickness)
+
+
+def _over(values: Values, period: float, shaft: _Shaft) -> float:
+    """Return the angle over which work is done, zero for an impulse. [rad]"""
+    if "punch_stroke" in values and "thickness" in values:
+        return float(angle_in_plate(values.si("thickness"), period, values.si("punch_stroke")))
+    over = values.get("over", 0.0)
+    if isinstance(over, MeasuredValue):
+        return _angle(over, shaft)
+    return float(over * period)
+
+
+def _delays(values: Values, table: str, period: float, reader: Reader) -> tuple[float, ...]:
+    """Return the delay of the torque of each cylinder. [rad]"""
+    if "cylinders" in values:
+        count = int(values["cylinders"])
+        return tuple(period * index / count for index in range(count))
+    if "delays" not in values or None in values["delays"]:
+        return (0.0,)
+    delays = tuple(delay.value for delay in values["delays"])
+    for number, delay in enumerate(delays, start=1):
+        if delay > period * (1 + _CLOSED):
+            reader.add_error(f"{table}.delays[{number}]", ErrorMessage("points_beyond", period=math.degrees(period)))
+    return delays
+
+
+def _loops(values: Values, table: str, scale: float, reader: Reader) -> tuple[float, ...]:
+    """Return the works of loops about the mean; report a sum that is not zero."""
+    if "areas" not in values or None in values["areas"]:
+        return ()
+    works = tuple(
+        _work(area, f"{table}.areas[{number}]", scale, reader) for number, area in enumerate(values["areas"], start=1)
+    )
+    left, size = sum(works), max(map(abs, works))
+    if abs(left) > _BALANCED * size and not reader.has_errors(table):
+        reader.add_error(f"{table}.areas", ErrorMessage("areas_open", left=left, share=100 * abs(left) / size))
+    return works
+
+
+def _excess(values: Values, table: str, work: float, scale: float, reader: Reader) -> float | None:
+    """Return the fluctuation of the energy, stated in J or as a share of the work of a period. [J]"""
+    if "excess_work" in values:
+        return _work(values["excess_work"], f"{table}.excess_work", scale, reader)
+    if "energy_fluctuation" not in values:
+        return None
+    if not work and not reader.has_errors(f"{table}.constant", f"{table}.power"):
+        reader.add_error(f"{table}.energy_fluctuation", ErrorMessage("fluctuation_of_what"))
+    return float(values["energy_fluctuation"] * abs(work))
+
+
+def _check_balance(turning: ShaftTorques, reader: Reader) -> None:
+    """Report a torque whose work differs from that of its load."""
+    if turning.torque is None or turning.load is None:
+        return
+    driven, taken = (diagram.work * turning.cycle / diagram.period for diagram in (turning.torque, turning.load))
+    if abs(driven - taken) > _BALANCED * max(abs(driven), abs(taken)):
+        mean = driven / turning.cycle
+        reader.add_error(
+            "load", ErrorMessage("work_unbalanced", driven=driven, taken=taken, left=driven - taken, mean=mean)
+        )

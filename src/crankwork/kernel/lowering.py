@@ -1,0 +1,495 @@
+"""Lower the traces of several designs to one kernel graph; inputs in which the designs differ become arguments.
+
+The traces are walked side by side. They must have the same structure; inputs that differ are linear functions of the
+varied fields, and other differences cannot be compiled.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import operator
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crankwork.errors import CrankworkError
+from crankwork.formula.replay import Angles
+from crankwork.formula.traced_value import (
+    AngleFunction,
+    AngleUnwrap,
+    Arithmetic,
+    Component,
+    Conditional,
+    Delayed,
+    FormulaCall,
+    FunctionValue,
+    HarmonicCoefficient,
+    Input,
+    Node,
+    Piecewise,
+    ProcedureValue,
+    Root,
+    Sum,
+    Tabulated,
+    TracedValue,
+    in_order,
+    unique_sorted,
+)
+from crankwork.kernel.derivative import ByAngle
+from crankwork.kernel.graph import KernelGraph, KernelValue, LawEnd
+from crankwork.kernel.graph import in_order as values_in_order
+
+Array = NDArray[np.float64]
+
+# Tolerance of an input as a linear function of a field, relative to its size.
+_TOLERANCE = 1e-12
+# Tolerance of the ends of a law that are equal in all designs. [deg]
+_END_TOLERANCE = 1e-9
+# Largest change of a direction from the stated design for which its half turns are the same. [rad]
+_NEAR_DIRECTION = 1.0
+
+
+# largest number of laws for which all dependent columns are in the same loops
+_FEW_LAWS = 4
+# margin around the ends of a law in the compared designs: relative to their range, and at least [deg]
+_BEYOND, _MIN_BEYOND = 0.5, 0.01
+# Newton steps to an angle, and the largest last step [deg]
+_STEPS, _CONVERGED = 6, 1e-7
+
+# Why a calculation is not compiled.
+Reason = Literal[
+    "absent", "ways", "several_fields", "curved_field", "table", "direction", "ends", "solved", "procedure", "partial",
+    "differs",
+]  # fmt: skip
+
+
+class NotCompiledError(CrankworkError):
+    """A calculation that cannot be compiled: the reason, and the key of a value that shows it."""
+
+    def __init__(self, reason: Reason, key: str) -> None:
+        super().__init__(f"{reason}: {key}")
+        self.reason, self.key = reason, key
+
+
+@dataclass(frozen=True)
+class _Wave:
+    """A sine or cosine of some order over an angle. [deg]"""
+
+    function: np.ufunc
+    order: float
+
+    def __call__(self, degrees: Array) -> Array:
+        """Return its values at crank angles."""
+        return np.asarray(self.function(self.order * degrees))
+
+
+class DesignTraces:
+    """Traces of some designs side by side: which numbers differ, and how they depend on the varied fields.
+
+    `traces` and `fields` as of a `Kernel`.
+    """
+
+    def __init__(self, traces: Sequence[Mapping[str, TracedValue]], fields: Array, keys: Iterable[str]) -> None:
+        self.traces, self.fields = traces, fields
+        self._matched: dict[int, tuple[Node, ...]] = {}
+        self._general_forms: dict[int, TracedValue] = {}
+        self.differs: dict[int, bool] = {}
+        for key in keys:
+            self.add(key)
+
+    def add(self, key: str) -> None:
+        """Compare the dependencies of a key; a difference of structure raises an error on each call."""
+        if any(key not in trace for trace in self.traces):
+            raise NotCompiledError("absent", key)
+        traced = tuple(trace[key] for trace in self.traces)
+        new: list[int] = []
+        try:
+            self._walk(key, traced, new)
+        except NotCompiledError:
+            for node in new:
+                del self._matched[node]
+            raise
+
+    def _walk(self, key: str, traced: tuple[TracedValue, ...], new: list[int]) -> None:
+        stack = [(tuple(known.node for known in traced), key)]
+        while stack:
+            nodes, name = stack.pop()
+            first = nodes[0]
+            if id(first) in self._matched:
+                continue
+            for other in nodes[1:]:
+                if not _have_same_structure(first, other):
+                    raise NotCompiledError("ways", name)
+            self._matched[id(first)] = nodes
+            new.append(id(first))
+            stack += [
+                (tuple(operand.node for operand in operands), operands[0].key or name)
+                for operands in zip(*(self.dependencies(node) for node in nodes), strict=True)
+            ]
+        for known in in_order(traced[:1], into=self.dependencies):
+            node = known.node
+            if id(node) not in self.differs:
+                below = any(self.differs[id(operand.node)] for operand in self.dependencies(node))
+                self.differs[id(node)] = below or len({other.value for other in self._matched[id(node)]}) > 1
+
+    def dependencies(self, node: Node) -> Sequence[TracedValue]:
+        """Return the dependencies of a node, those of its general form if it has one."""
+        match node:
+            case Piecewise(general_form=retold) if retold is not None:
+                return (self.general_form(node),)
+            case Piecewise(places=places):
+                return (*node.operands, *(place for place in places if isinstance(place, TracedValue)))
+            case ProcedureValue(by=argument, general_form=retold) if argument is not None:
+                return (*node.operands, argument) if retold is None else (retold,)
+            case FormulaCall(general_form=retold) if retold is not None:
+                return (retold,)
+        return node.operands
+
+    def general_form(self, node: Piecewise) -> TracedValue:
+        """Return the general form of pieces."""
+        if id(node) not in self._general_forms and node.general_form is not None:
+            self._general_forms[id(node)] = node.general_form()
+        return self._general_forms[id(node)]
+
+    def counterparts(self, node: Node) -> tuple[Node, ...]:
+        """Return a node of the stated design and the corresponding nodes of the others."""
+        return self._matched[id(node)]
+
+    def linear_dependence(self, node: Input, graph: KernelGraph) -> KernelValue:
+        """Return an input as a linear function of the one field that changes it."""
+        values = np.array([counterpart.value for counterpart in self.counterparts(node)], dtype=float)
+        moved = [
+            field
+            for field in range(self.fields.shape[1])
+            if len({values[0], values[1 + 2 * field], values[2 + 2 * field]}) > 1
+        ]
+        if len(moved) != 1:
+            raise NotCompiledError("several_fields", node.path)
+        x = self.fields[:, moved[0]]
+        low, high = 1 + 2 * moved[0], 2 + 2 * moved[0]
+        slope = (values[high] - values[low]) / (x[high] - x[low])
+        offset = values[0] - slope * x[0]
+        size = float(np.max(np.abs(values)))
+        if np.max(np.abs(slope * x + offset - values)) > _TOLERANCE * size:
+            raise NotCompiledError("curved_field", node.path)
+        if abs(offset) <= _TOLERANCE * size:
+            # exact to the last digit, if the field only has another unit
+            slope, offset = values[0] / x[0] if x[0] else slope, 0.0
+        return graph.input(moved[0]) * float(slope) + float(offset)
+
+
+def _have_same_structure(first: Node, second: Node) -> bool:
+    """Return whether two nodes have the same structure, so that only their numbers may differ."""
+    if type(first) is not type(second) or len(first.operands) != len(second.operands):
+        return False
+    match first, second:
+        case Input(is_absent=a), Input(is_absent=b):
+            return a == b
+        case (FormulaCall(formula=f, inputs=i), FormulaCall(formula=g, inputs=j)) | (
+            Arithmetic(function=f, inputs=i),
+            Arithmetic(function=g, inputs=j),
+        ):
+            return f is g and _plain(i) == _plain(j)
+        case AngleFunction(), AngleFunction():
+            return (first.function, first.multiple, first.shift) == (second.function, second.multiple, second.shift)
+        case Delayed(by=a, cycle=c), Delayed(by=b, cycle=d):
+            return (a, c) == (b, d)
+        case Piecewise(), Piecewise():
+            return first.general_form is not None or _end_at_same_angles(_plain(first.places), _plain(second.places))
+        case FunctionValue(function=f, part=a), FunctionValue(function=g, part=b):
+            return f == g and a == b
+        case HarmonicCoefficient(order=a, part=b), HarmonicCoefficient(order=c, part=d):
+            return (a, b) == (c, d)
+        case (Component(at=a), Component(at=b)) | (ProcedureValue(word=a), ProcedureValue(word=b)):
+            return bool(a == b)
+    return True
+
+
+def _plain(inputs: Iterable[TracedValue | float]) -> list[float | None]:
+    return [None if isinstance(value, TracedValue) else float(value) for value in inputs]
+
+
+def _end_at_same_angles(ends: list[float | None], other_ends: list[float | None]) -> bool:
+    """Return whether laws end at the same crank angles but for rounding, or at ones that depend on the design. [deg]"""
+    return len(ends) == len(other_ends) and all(
+        a is b is None or (a is not None and b is not None and abs(a - b) <= _END_TOLERANCE)
+        for a, b in zip(ends, other_ends, strict=True)
+    )
+
+
+def _needs_more(value: KernelValue) -> bool:
+    if value.kind == "pieces":
+        return any(end.value is not None for end in value.detail[0])
+    return value.kind == "reduction" and value.detail.startswith("procedure")
+
+
+class Lowering:
+    """Converts traced values to values of a graph.
+
+    `sample_angles`: crank angles at which tables of designs are compared [deg]; `is_shifted`: whether columns of other
+    cylinders are calculated again at their own angle instead of being read from the stored column.
+    """
+
+    def __init__(
+        self, designs: DesignTraces, angles_at: Callable[[Any], Angles], sample_angles: Array, *, is_shifted: bool
+    ) -> None:
+        self.graph, self._sample_angles = KernelGraph(), sample_angles
+        self._designs, self._angles_at, self._is_shifted = designs, angles_at, is_shifted
+        # positive for designs that are within the range of the compared ones
+        self._guards: list[KernelValue] = []
+        self._ends: dict[int, tuple[LawEnd, Array]] = {}
+        self._values: dict[tuple[int, float | None, float], KernelValue] = {}
+        self._by_angle = ByAngle(self.graph)
+        self._waves: dict[tuple[str, float], _Wave] = {}
+        # keys with the same value in every design
+        self.steady: set[str] = set()
+
+    def compiling(self, keys: Iterable[str]) -> list[str]:
+        """Return the keys that compile, differ between designs, and need only loops and extremes.
+
+        That is, neither laws whose ends depend on the design nor procedures.
+        """
+        compiled = []
+        for key in keys:
+            try:
+                self._designs.add(key)
+                value = self.value(self._designs.traces[0][key])
+            except NotCompiledError:
+                continue
+            nodes = list(values_in_order([value]))
+            if not value.depends_on_design:
+                self.steady.add(key)
+            # a stored column depends on the design formally, even without inputs
+            elif any(node.kind == "input" for node in nodes) and not any(map(_needs_more, nodes)):
+                compiled.append(key)
+        return compiled
+
+    def reductions(self, known: TracedValue) -> frozenset[int]:
+        """Return the indices in the graph of the reductions that a value depends on."""
+        return frozenset(node.index for node in values_in_order([self.value(known)]) if node.kind == "reduction")
+
+    def value(self, known: TracedValue, *, shift: float = 0.0, fixed: float | None = None) -> KernelValue:
+        """Return a traced value in the graph, at angles larger by a shift or at a fixed angle. [deg]"""
+        for operand in in_order([known], into=self._into):
+            self._add(operand, shift, fixed)
+        return self._values[id(known.node), fixed, shift]
+
+    def _into(self, node: Node) -> Sequence[TracedValue]:
+        """Return the operands that are needed at the same angle before a node."""
+        if node.value is not None and not self._designs.differs[id(node)]:
+            return ()
+        if isinstance(node, Piecewise | FormulaCall) and node.general_form is not None:
+            return self._designs.dependencies(node)
+        return () if isinstance(node, Delayed | ProcedureValue) else node.operands
+
+    def _add(self, known: TracedValue, shift: float, fixed: float | None) -> None:
+        node = known.node
+        key = id(node), fixed, shift
+        if key in self._values:
+            return
+        if node.value is not None and not self._designs.differs[id(node)]:
+            self._values[key] = self.graph.constant(node.value)
+            return
+
+        def value_of(operand: TracedValue | float) -> KernelValue | float:
+            return self._values[id(operand.node), fixed, shift] if isinstance(operand, TracedValue) else float(operand)
+
+        self._values[key] = self._value(known, value_of, shift, fixed)
+
+    def _value(self, known: TracedValue, value_of: Any, shift: float, fixed: float | None) -> KernelValue:  # noqa: ANN401
+        node = known.node
+        match node:
+            case Input():
+                return self._designs.linear_dependence(node, self.graph)
+            case FormulaCall(general_form=retold) if retold is not None:
+                return self._as_value(value_of(retold))
+            case FormulaCall() | Arithmetic():
+                function = node.formula.function if isinstance(node, FormulaCall) else node.function
+                return self._as_value(function(*map(value_of, node.inputs)))
+            case Sum():
+                return self._as_value(functools.reduce(operator.add, map(value_of, node.operands)))
+            case Conditional():
+                return self.graph.apply("choose", *map(value_of, node.operands))
+            case FunctionValue():
+                return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
+            case HarmonicCoefficient():
+                return self._harmonic(self.value(node.operands[0]), node)
+            case ProcedureValue():
+                return self._found(known, node) if node.general_form is None else self.value(node.general_form)
+            case Root() | Component():
+                raise NotCompiledError("solved", known.key)
+        return self._of_angles(known, value_of, shift, fixed)
+
+    def _of_angles(self, known: TracedValue, value_of: Any, shift: float, fixed: float | None) -> KernelValue:  # noqa: ANN401
+        """Lower a node whose value depends on the crank angle."""
+        node = known.node
+        match node:
+            case AngleFunction():
+                return self._of_angle(node, shift, fixed)
+            case Delayed():
+                return self._delayed(node, shift, fixed)
+            case Piecewise(general_form=retold) if retold is not None:
+                return self._as_value(value_of(self._designs.general_form(node)))
+            case Piecewise():
+                return self._pieces(known, node, value_of, shift, fixed)
+            case Tabulated() if fixed is None:
+                return self._table(node, shift)
+            case AngleUnwrap() if fixed is None:
+                return self._half_turns(node, value_of, shift)
+        raise NotCompiledError("table", known.key)
+
+    def _as_value(self, result: Any) -> KernelValue:  # noqa: ANN401
+        return result if isinstance(result, KernelValue) else self.graph.constant(float(result))
+
+    def _of_angle(self, node: AngleFunction, shift: float, fixed: float | None) -> KernelValue:
+        if fixed is None:
+            # within the cycle, which a multiple is not
+            function = "within" if node.function == "degrees" else node.function
+            return self.graph.angle(function, node.multiple, node.shift + node.multiple * shift)
+        angles: Angles = self._angles_at([fixed])
+        column = getattr(angles.multiple(node.multiple).shifted(node.shift), node.function)
+        return self.graph.constant(float(column[0]))
+
+    def _delayed(self, node: Delayed, shift: float, fixed: float | None) -> KernelValue:
+        if fixed is not None:
+            return self.value(node.of, fixed=(fixed - node.by) % node.cycle)
+        if self._is_shifted:
+            return self.value(node.of, shift=shift - node.by)
+        # the end of a cycle is its start for other cylinders, also for one without a delay
+        return self.graph.delayed(self.value(node.of, shift=shift), node.by or node.cycle)
+
+    def _pieces(
+        self, known: TracedValue, node: Piecewise, value_of: Any, shift: float, fixed: float | None
+    ) -> KernelValue:  # noqa: ANN401
+        laws = tuple(self._as_value(value_of(operand)) for operand in node.operands)
+        ends = tuple(self._end(place) for place in node.places)
+        if fixed is not None:
+            if any(end.low <= fixed <= end.high for end in ends if end.value is not None):
+                raise NotCompiledError("ends", known.key)
+            return laws[min(int(np.searchsorted(node.ends, fixed, side="left")), len(laws) - 1)]
+        pieces = self.graph.pieces(ends, laws, shift)
+        # many laws have short loops of their own, and the columns that depend on them one common loop
+        return self.graph.delayed(pieces, 0.0) if len(laws) > _FEW_LAWS else pieces
+
+    def _end(self, place: TracedValue | float) -> LawEnd:
+        """Return the end of a law, with the interval of the compared designs and a margin."""
+        if not isinstance(place, TracedValue) or not self._designs.differs[id(place.node)]:
+            angle = place.value if isinstance(place, TracedValue) else place
+            return LawEnd(angle, angle, angle)
+        angles = [node.value or 0.0 for node in self._designs.counterparts(place.node)]
+        low, high = min(angles), max(angles)
+        if self._designs.fields.shape[1] == 1 and high - low <= _TOLERANCE * high:
+            # depends on the one number that differs, but is constant
+            return LawEnd(low, low, low)
+        margin = _BEYOND * (high - low) + _MIN_BEYOND
+        end = LawEnd(place.value, low - margin, high + margin, self.value(place))
+        self._ends[end.value.index if end.value else -1] = end, np.array(angles)
+        return end
+
+    @property
+    def moving(self) -> list[tuple[KernelValue, Array]]:
+        """Ends of laws that depend on the design, and their crank angles in the compared designs. [deg]"""
+        return [(end.value, angles) for end, angles in self._ends.values() if end.value is not None]
+
+    def zones(self, breaks: Array) -> Array:
+        """Return breakpoints, with those between which designs choose their law. [deg]"""
+        start, cycle = breaks[0], breaks[-1] - breaks[0]
+        pieces = [value for value in self.graph.values if value.kind == "pieces"]
+        moving = [(end, value.detail[1]) for value in pieces for end in value.detail[0] if end.value is not None]
+        added = [(angle - shift - start) % cycle + start for end, shift in moving for angle in (end.low, end.high)]
+        return unique_sorted(np.concatenate([breaks, added]))
+
+    def guard(self, *, is_sampled: bool) -> KernelValue | None:
+        """Return a value that is infinite for designs outside the range of the compared ones; None if none can be."""
+        ends = [(end, end.value) for end, _ in self._ends.values() if is_sampled and end.value is not None]
+        guards = [*self._guards, *((value - end.low) * (end.high - value) for end, value in ends)]
+        result = self.graph.constant(0.0)
+        for guard in guards:
+            result = self.graph.apply("choose", guard, result, math.inf)
+        return result if guards else None
+
+    def _table(self, node: Tabulated, shift: float) -> KernelValue:
+        """Return a table over the crank angle that is the same for all designs."""
+        if node.by is not None or not self._are_near(node, lambda table: table.function, 0.0):
+            raise NotCompiledError("table", node.word)
+        return self.graph.reading(node.function, shift)
+
+    def _half_turns(self, node: AngleUnwrap, value_of: Any, shift: float) -> KernelValue:  # noqa: ANN401
+        """Return the half turns of a direction that is close to that of the stated design."""
+        if not self._are_near(node, lambda turns: turns.near, _NEAR_DIRECTION):
+            raise NotCompiledError("direction", node.operands[0].key)
+        sin, cos = map(value_of, node.operands)
+        near = self.graph.reading(node.near, shift)
+        return self.graph.apply("half_turns", near, self.graph.apply("arctan", sin / cos))
+
+    def _are_near(self, node: Node, function: Callable[[Any], Callable[[Array], Array]], limit: float) -> bool:
+        """Return whether functions of the crank angle are close to that of the stated design in all designs."""
+        stated, *compared = (
+            np.asarray(function(counterpart)(self._sample_angles)) for counterpart in self._designs.counterparts(node)
+        )
+        return all(bool(np.all(np.abs(values - stated) <= limit)) for values in compared)
+
+    def _found(self, known: TracedValue, node: ProcedureValue) -> KernelValue:
+        match node.word:
+            case "at" if node.by is not None and self._designs.differs[id(node.by.node)]:
+                return self._at(node.operands[0], self.value(node.by))
+            case "at" if len({getattr(other, "at", None) for other in self._designs.counterparts(node)}) == 1:
+                return self.value(node.operands[0], fixed=node.at)
+            case "reached" if node.by is not None:
+                return self._reached(node, self.value(node.by))
+            case "sine" | "cosine":
+                return self.graph.apply("sin" if node.word == "sine" else "cos", self.value(node.operands[0]))
+            case "mean" | "range" | "max" | "min" | "max_angle" | "min_angle" if node.operands[0].varies:
+                return self.graph.reduction(node.word, self.value(node.operands[0]))
+            case "time_ratio":
+                return self._time_ratio(*map(self.value, node.operands))
+            case "harmonic_mean":
+                return 1.0 / self.graph.reduction("mean", 1.0 / self.value(node.operands[0]))
+            case "tangents":
+                return self.graph.reduction(node.word, *map(self.value, node.operands))
+            case "work":
+                pressure, volume = map(self.value, node.operands)
+                return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
+        raise NotCompiledError("procedure", known.key or node.word)
+
+    def _harmonic(self, column: KernelValue, node: HarmonicCoefficient) -> KernelValue:
+        """Return twice the mean of a column times a wave."""
+        function = {"cosine": "cos", "sine": "sin"}[node.part]
+        if node.order == int(node.order):
+            wave = self.graph.angle(function, int(node.order), 0.0)
+        else:
+            self._waves.setdefault((function, node.order), _Wave(getattr(np, function), math.radians(node.order)))
+            wave = self.graph.reading(self._waves[function, node.order], 0.0)
+        return self.graph.reduction("mean", column * wave) * 2.0
+
+    def _at(self, column: TracedValue, degrees: KernelValue) -> KernelValue:
+        try:
+            return self.graph.at_angle(self.value(column), degrees)
+        except TypeError:
+            raise NotCompiledError("ends", column.key) from None
+
+    def _reached(self, node: ProcedureValue, target: KernelValue) -> KernelValue:
+        """Return the crank angle at which a column reaches a value, by Newton's method. [deg]"""
+        column = node.operands[0]
+        try:
+            slope = self._by_angle.of(self.value(column))
+        except (KeyError, TypeError):
+            raise NotCompiledError("ends", column.key) from None
+        # a volume grows ever faster after a dead centre: from the far side steps do not overshoot
+        angle = self.graph.constant(max(counterpart.value or 0.0 for counterpart in self._designs.counterparts(node)))
+        step = angle
+        for _ in range(_STEPS):
+            step = (self._at(column, angle) - target) / self.graph.at_angle(slope, angle) * (180 / math.pi)
+            angle = angle - step
+        self._guards.append(_CONVERGED**2 - step * step)
+        return angle
+
+    def _time_ratio(self, high: KernelValue, low: KernelValue) -> KernelValue:
+        """Return the longer way between two crank angles over the shorter one, regardless of full turns."""
+        half = self.graph.apply("tan", (high - low) / 2.0)
+        fast = self.graph.apply("arctan", self.graph.apply("sqrt", half * half)) * 2.0
+        return (2 * math.pi - fast) / fast

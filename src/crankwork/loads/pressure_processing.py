@@ -1,0 +1,311 @@
+"""Measured pressure treated as requested: choice of the cycle, pegging, smoothing; checks of data and phase."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.polynomial import polyder, polyfit, polyval
+
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.indicator import DiagramError, IndicatorDiagram, VolumeAt
+from crankwork.loads.measured_pressure import (
+    MeasuredPressure,
+    NoticeData,
+    Pegging,
+    closed_diagram,
+    recorded_cycles,
+    wrap_is_rough,
+)
+from crankwork.locale import ErrorMessage
+
+# lower than any gauge pressure [Pa]
+_VACUUM = -110e3
+_EVEN = 1e-3
+# share of the largest volume below which the smallest volume has no clearance
+_NO_CLEARANCE = 1e-3
+_FEWEST = 5
+# share of the range by which a single sample may differ from its neighbours, and share by which these may differ
+_SPIKE, _NEIGHBOURS = 0.25, 0.2
+# at low pressure: share of the pressure, least share of the range, multiple of the median difference
+_LOW, _LEAST, _RARE = 0.5, 0.01, 50.0
+_TURN = 360.0
+# largest distance of the peak from top dead centre: four strokes; two, where delivery may begin early [deg]
+_NEAR = {720.0: 40.0, 360.0: 100.0}
+_EXPONENTS = (1.2, 1.45)
+# part of the compression with closed valves and without combustion, before top dead centre [deg]
+_COMPRESSION = (90.0, 20.0)
+# around the peak of a motored cycle [deg]
+_PEAK = 12.0
+_FEWEST_POINTS = 8
+# search range of the dead centre [deg]
+_FARTHEST = 6.0
+# errors that bend a compression line too: offset of the pressure [Pa], change of the exponent
+_OFF, _CHANGE = 5e3, 0.05
+
+
+class PressureReference(NamedTuple):
+    """Reference of the samples: volume at crank angles of the machine, and top dead centre if known."""
+
+    volume_at: VolumeAt  # [deg] -> [m3]
+    top: float | None = None  # [deg]
+
+
+def measured_diagram(
+    measured: MeasuredPressure, cycle: float, around: PressureReference, *, shift: float, step: float | None, path: str
+) -> tuple[IndicatorDiagram, list[NoticeData]]:
+    """Return the closed diagram of measured pressure, and notices about it. [Pa]
+
+    `shift` is added to every angle, so that zero is top dead centre [deg]; without a `step` to resample at, the samples
+    of the first cycle set the angles [deg]. `path`: where a description states the diagram.
+    """
+    treatment, key = measured.treatment, f"{path}.measured"
+    recorded = recorded_cycles(measured, cycle, step=step, path=path)
+    notices = [*recorded.notices, *_spikes(measured)]
+    degrees = recorded.degrees + shift
+    volume = around.volume_at(np.mod(degrees, cycle))
+    cycles = recorded.cycles
+    if treatment.peg is not None:
+        offsets = _offsets(cycles, degrees, volume, treatment.peg, (cycle, f"{key}.peg"))
+        cycles = cycles + offsets[:, None]
+        notices.append(("pressure_pegged", {"step": float(offsets.mean())}))
+    notices += _spread(cycles, volume)
+    pressure = _chosen(cycles, treatment.cycle, f"{key}.cycle", notices)
+    stated = f"{key}.cycle" if len(cycles) > 1 else f"{key}.peg" if treatment.peg else f"{key}.file"
+    if treatment.smooth is not None:
+        before, pressure = pressure, _smooth(degrees, pressure, (cycle, treatment.smooth), f"{key}.smooth")
+        stated = f"{key}.smooth"
+        window, peaks = treatment.smooth, (float(before.max()) / 1e6, float(pressure.max()) / 1e6)
+        notices.append(("pressure_smoothed", {"window": window, "before": peaks[0], "after": peaks[1]}))
+    _check_vacuum(pressure, measured, key)
+    is_raw = stated.endswith("file") and len(recorded.rows) > 0
+    places = [f"{measured.file}:{row}" for row in recorded.rows] if is_raw else [stated] * len(degrees)
+    diagram = closed_diagram(degrees, pressure, cycle, (places, stated))
+    if treatment.rest is None and wrap_is_rough(diagram, recorded.wrap):
+        notices.append(("wrap", {"step": recorded.wrap}))
+    if around.top is not None:
+        absolute = pressure if treatment.absolute else pressure + 101325.0
+        against = contradictions(
+            (degrees, absolute), around.volume_at, (cycle, around.top), shift=shift, loss_angle=treatment.loss_angle
+        )
+        notices += [(code, {**values, "name": key}) for code, values in against]
+    return diagram, notices
+
+
+def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
+    """Yield notices of samples that differ from both neighbours, the worst of each column."""
+    for pressure in measured.pressure.reshape(len(measured.degrees), -1).T:
+        middle = np.median(np.stack([pressure[:-2], pressure[1:-1], pressure[2:]]), axis=0)
+        off = np.abs(pressure[1:-1] - (pressure[:-2] + pressure[2:]) / 2)
+        neighbours = np.abs(pressure[:-2] + pressure[2:]) / 2
+        # at low pressure, compared with the pressure and with the usual difference
+        low = (off > _LOW * neighbours) & (off > _LEAST * np.ptp(middle)) & (off > _RARE * np.median(off))
+        alone = ((off > _SPIKE * np.ptp(middle)) | low) & (np.abs(pressure[2:] - pressure[:-2]) < _NEIGHBOURS * off)
+        if np.any(alone):
+            worst = int(np.argmax(np.where(alone, off, 0.0)))
+            line, step, count = measured.rows[worst + 1], float(pressure[worst + 1]), float(np.sum(alone))
+            yield "pressure_spike", {"line": str(line), "step": step, "count": count}
+
+
+def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, cycle_and_key: tuple[float, str]) -> Array:
+    """Return the offset of each cycle that gives it the stated pressure or exponent. [Pa]"""
+    cycle, key = cycle_and_key
+    if peg.exponent is None:
+        angles = np.mod(degrees, cycle)
+        return peg.pressure - np.array([np.interp(peg.angle % cycle, angles, row, period=cycle) for row in cycles])
+    if np.min(volume) < _NO_CLEARANCE * np.max(volume):
+        raise DiagramError(key, ErrorMessage("gas_volume"))
+    inside = np.mod(degrees - peg.start, cycle) <= peg.end - peg.start
+    if np.sum(inside) < _FEWEST:
+        raise DiagramError(key, ErrorMessage("peg_few", count=int(np.sum(inside)), fewest=_FEWEST))
+    # p + offset = constant V^-n
+    polytrope = (volume[inside] / volume[inside].mean()) ** -peg.exponent
+    system = np.stack([polytrope, -np.ones_like(polytrope)], axis=1)
+    return np.asarray(np.linalg.lstsq(system, cycles[:, inside].T)[0][1])
+
+
+def _spread(cycles: Array, volume: Array) -> Iterator[NoticeData]:
+    """Yield how much peak pressure and work differ from cycle to cycle. [%]"""
+    if len(cycles) < 2:
+        return
+    peaks = cycles.max(axis=1)
+    closed = np.concatenate([cycles, cycles[:, :1]], axis=1)
+    work = (closed[:, 1:] + closed[:, :-1]) @ np.diff(np.append(volume, volume[0])) / 2
+    means = [float(abs(np.mean(values))) for values in (peaks, work)]
+    shares = [
+        float(np.std(values, ddof=1)) / mean if mean else 0.0 for values, mean in zip((peaks, work), means, strict=True)
+    ]
+    varies = [round(100 * share, 6) for share in shares]
+    yield "cycles_spread", {"cycles": float(len(cycles)), "peak": varies[0], "work": varies[1]}
+
+
+def _chosen(cycles: Array, which: str | int | None, key: str, notices: list[NoticeData]) -> Array:
+    """Return one of the cycles, or their mean, as stated. [Pa]"""
+    count = len(cycles)
+    if which is None and count > 1:
+        raise DiagramError(key.removesuffix(".cycle"), ErrorMessage("samples_cycles", cycles=str(count)))
+    if which == "mean" and count > 1:
+        notices.append(("cycles_averaged", {"cycles": count}))
+        return np.asarray(np.mean(cycles, axis=0))
+    peaks = cycles.max(axis=1)
+    index = {"least peak": int(peaks.argmin()), "greatest peak": int(peaks.argmax())}.get(str(which), 0)
+    if isinstance(which, int):
+        if which > count:
+            raise DiagramError(key, ErrorMessage("samples_cycle", number=str(which), cycles=str(count)))
+        index = which - 1
+    if count > 1:
+        notices.append(("cycle_chosen", {"number": float(index + 1), "cycles": float(count)}))
+    return np.asarray(cycles[index])
+
+
+def _smooth(degrees: Array, pressure: Array, cycle_and_window: tuple[float, float], key: str) -> Array:
+    """Return samples smoothed by the cubic filter of Savitzky and Golay. [Pa]"""
+    cycle, window = cycle_and_window
+    steps = np.diff(np.append(degrees, degrees[0] + cycle))
+    typical = float(np.median(steps))
+    if np.max(np.abs(steps - typical)) > _EVEN * typical:
+        raise DiagramError(key, ErrorMessage("smooth_uneven", step=f"{typical:.3g} deg"))
+    half = round(window / typical / 2)
+    if 2 * half + 1 < _FEWEST:
+        raise DiagramError(key, ErrorMessage("smooth_short", count=2 * half + 1, window=f"{4 * typical:.3g} deg"))
+    along = np.arange(-half, half + 1) / half
+    weights = np.linalg.pinv(np.vander(along, 4, increasing=True))[0]
+    closed = np.take(pressure, np.arange(-half, len(pressure) + half), mode="wrap")
+    return np.convolve(closed, weights, mode="valid")
+
+
+def _check_vacuum(pressure: Array, measured: MeasuredPressure, key: str) -> None:
+    least = float(pressure.min())
+    if least >= (0.0 if measured.treatment.absolute else _VACUUM):
+        return
+    columns = measured.pressure.reshape(len(measured.degrees), -1)
+    line = measured.rows[int(np.argmin(columns.min(axis=1)))]
+    name = "measured_vacuum" if measured.treatment.absolute else "measured_vacuum_gauge"
+    raise DiagramError(key, ErrorMessage(name, line=line, pressure=least / 1e6))
+
+
+def contradictions(
+    samples: tuple[Array, Array],
+    volume_at: VolumeAt,
+    where: tuple[float, float],
+    *,
+    shift: float,
+    loss_angle: float | None,
+) -> Iterator[NoticeData]:
+    """Yield notices on peak, work and compression line that contradict the dead centre. [deg], [Pa]
+
+    `samples`: crank angles and absolute pressures; `where`: cycle and top dead centre; `shift`: added already;
+    `loss_angle`: from the peak of a motored cycle to top dead centre.
+    """
+    degrees, pressure = samples
+    cycle, top = where
+    peak = float(degrees[np.argmax(pressure)])
+    distance = (peak - top + _TURN / 2) % _TURN - _TURN / 2
+    if abs(distance) > _NEAR[cycle]:
+        yield "peak_far", {"angle": peak % cycle, "apart": abs(distance)}
+        return
+    centre = peak - distance
+    if loss_angle is not None:
+        yield from _by_peak(samples, cycle, (centre - loss_angle, peak), shift)
+        return
+    if cycle < 2 * _TURN:
+        return
+    volume = volume_at(np.mod(np.append(degrees, degrees[0]), cycle))
+    if float((pressure + np.roll(pressure, -1)) @ np.diff(volume)) < 0:
+        yield "work_negative", {}
+    yield from _by_compression(samples, volume_at, (cycle, centre), shift)
+
+
+def _by_peak(
+    samples: tuple[Array, Array], cycle: float, where: tuple[float, float], shift: float
+) -> Iterator[NoticeData]:
+    """Yield a shift from the peak of a motored cycle; `where`: expected and actual peak. [deg]"""
+    expected, peak = where
+    x, y = _between(samples, cycle, peak - _PEAK, peak + _PEAK)
+    if len(x) < _FEWEST_POINTS:
+        return
+    x, scale = (x - peak) / _PEAK, float(np.max(np.abs(y)))
+    fits = []
+    for degree in (4, 6):
+        if len(x) <= degree + 1:
+            break
+        curve = polyfit(x, y / scale, degree)
+        basis = np.vander(x, degree + 1, increasing=True)
+        noise = float(np.sum((basis @ curve - y / scale) ** 2)) / (len(x) - degree - 1)
+        slope, bend = polyder(curve), polyder(curve, 2)
+        maximum = 0.0
+        for _ in range(8):
+            maximum -= float(polyval(maximum, slope) / polyval(maximum, bend))
+        if not abs(maximum) < 1:
+            return
+        gradient = np.array([k * maximum ** (k - 1) if k else 0.0 for k in range(degree + 1)])
+        error = float(np.sqrt(noise * (gradient @ np.linalg.pinv(basis.T @ basis) @ gradient)))
+        fits.append((maximum, abs(error / float(polyval(maximum, bend)))))
+    (maximum, error), (other, _) = fits[0], fits[-1]
+    yield from _proposed(
+        "dead_centre_motored", expected - peak - maximum * _PEAK, _PEAK * (2 * error + abs(other - maximum)), shift
+    )
+
+
+def _by_compression(
+    samples: tuple[Array, Array], volume_at: VolumeAt, where: tuple[float, float], shift: float
+) -> Iterator[NoticeData]:
+    """Yield an unusual exponent of the compression, and the shift that makes its line straight. [deg]"""
+    cycle, centre = where
+    x, y = _between(samples, cycle, centre - _COMPRESSION[0], centre - _COMPRESSION[1])
+    ends = volume_at(np.array([centre, centre + _TURN / 2]) % cycle)
+    if len(x) < _FEWEST_POINTS or float(y.min()) <= 2 * _OFF or ends[0] < _NO_CLEARANCE * ends[1]:
+        return
+
+    def line(offset: float, off: float = 0.0) -> tuple[float, float, float, float]:
+        """Return exponent and bend of the line, the error of the bend, and half of its length."""
+        along = np.log(volume_at(np.mod(x + offset, cycle)))
+        half = float(np.ptp(along)) / 2
+        basis = np.vander(along - along.mean(), 3, increasing=True)
+        inverse = np.linalg.pinv(basis)
+        curve = inverse @ np.log(y + off)
+        noise = float(np.sum((basis @ curve - np.log(y + off)) ** 2)) / (len(x) - 3)
+        return -float(curve[1]), float(curve[2]), float(np.sqrt(noise) * np.linalg.norm(inverse[2])), half
+
+    exponent, _, error, half = line(0.0)
+    if not _EXPONENTS[0] <= exponent <= _EXPONENTS[1]:
+        yield "exponent_odd", {"exponent": exponent, "low": _EXPONENTS[0], "high": _EXPONENTS[1]}
+    correction = _straight(lambda offset: line(offset)[1])
+    if correction is None:
+        return
+    rate = (line(correction + 0.1)[1] - line(correction - 0.1)[1]) / 0.2
+    offs = [abs(line(correction, off)[1] - line(correction)[1]) for off in (-_OFF, _OFF)]
+    yield from _proposed(
+        "dead_centre_compression", correction, (2 * error + max(offs) + _CHANGE / 4 / half) / abs(rate), shift
+    )
+
+
+def _straight(bend: Callable[[float], float]) -> float | None:
+    """Return the zero of a function by bisection, None if there is none nearby. [deg]"""
+    low, high = -_FARTHEST, _FARTHEST
+    at_low = bend(low)
+    if at_low * bend(high) > 0:
+        return None
+    while high - low > 1e-4:
+        middle = (low + high) / 2
+        if bend(middle) * at_low > 0:
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
+
+
+def _between(samples: tuple[Array, Array], cycle: float, start: float, end: float) -> tuple[Array, Array]:
+    """Return the samples between two angles, in ascending order from the first angle on. [deg], [Pa]"""
+    degrees, pressure = samples
+    after = np.mod(degrees - start, cycle)
+    order = np.argsort(after)
+    order = order[after[order] <= end - start]
+    return start + after[order], pressure[order]
+
+
+def _proposed(code: str, more: float, error: float, shift: float) -> Iterator[NoticeData]:
+    """Yield a shift if it is larger than its uncertainty. [deg]"""
+    if abs(more) > error:
+        yield code, {"shift": round(shift + more, 2), "error": error}

@@ -1,0 +1,220 @@
+"""The pressure of a diagram in a form that holds for all inputs: also ends of laws and curves are traced."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from crankwork.formula.expression import Value
+from crankwork.formula.replay import replay
+from crankwork.formula.traced_value import (
+    Piecewise,
+    ProcedureValue,
+    TracedAngle,
+    TracedValue,
+    given,
+    is_traced,
+    to_number,
+)
+from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.kinematics.dead_centres import solve_monotone
+from crankwork.loads.gas import polytropic_pressure
+from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment
+from crankwork.loads.interpolation import cubic_between
+from crankwork.loads.monotone import monotone_slopes
+from crankwork.loads.valves import StatedValves
+
+# crank angles closer together than this are equal [deg]
+_SAME_ANGLE = 1e-6
+
+
+def curve_laws(x: Sequence[Value], y: Sequence[Value], degrees: TracedValue) -> Iterator[tuple[Value, TracedValue]]:
+    """Yield the end of each cubic between two points of a curve [deg], and its pressure at crank angles. [Pa]"""
+    abscissas, pressures = column(x), column(y)
+    points = zip(x, y, monotone_slopes(abscissas, pressures).tolist(), strict=True)
+    for (x_i, y_i, s_i), (x_j, y_j, s_j) in itertools.pairwise(points):
+        h = x_j - x_i
+        yield x_j, cubic_between((y_i, y_j), (s_i * h, s_j * h), (degrees - x_i) / h)
+
+
+def column(values: Sequence[Value]) -> Array:
+    """Return values as an array, of objects if they are traced."""
+    array = np.empty(len(values), dtype=object if is_traced(*values) else float)
+    for index, value in enumerate(values):
+        array[index] = value
+    return array
+
+
+@dataclass(frozen=True)
+class TracedVolume:
+    """The volume of a cylinder at single crank angles, traced; `VolumeAt` is the same in numbers. [deg] -> [m3]"""
+
+    volume: TracedValue
+
+    def _numbers(self, degrees: Array) -> Array:
+        return replay(self.volume, CrankGrid.from_degrees(degrees))
+
+    def __call__(self, degrees: Any) -> Any:  # noqa: ANN401 - of numbers and knowns
+        """Return the volumes at crank angles, an array of traced values."""
+        angles = [to_number(value) for value in degrees]
+        volumes = self._numbers(np.array(angles, dtype=float))
+        values = np.empty(len(angles), dtype=object)
+        for index, angle in enumerate(degrees):
+            argument = angle if isinstance(angle, TracedValue) else None
+            values[index] = TracedValue(ProcedureValue(volumes[index], "at", (self.volume,), angles[index], argument))
+        return values
+
+    def reached(self, volume: TracedValue, start: float, end: float) -> TracedValue:
+        """Return the crank angle between two others at which a volume is reached. [deg]"""
+        angle = solve_monotone(self._numbers, volume.value, start, end)
+        return TracedValue(ProcedureValue(angle, "reached", (self.volume,), angle, volume))
+
+
+class DiagramInput(NamedTuple):
+    """Input of a solved diagram: points by name, laws between them, and their path in the description.
+
+    `volume` is that of the gas; points are counted from the crank angle `begins` [deg].
+    """
+
+    points: Mapping[str, DiagramPoint]
+    pieces: tuple[Piece, ...]
+    path: str
+    volume: TracedValue
+    clearance: TracedValue
+    swept: TracedValue
+    valves: StatedValves | None = None
+    begins: Value = 0.0
+
+    def general_form(self, diagram: IndicatorDiagram) -> TracedValue:
+        """Return the pressure of the solved diagram over the crank angle. [Pa]"""
+        tracer = _DiagramTracer(self, diagram)
+        ends, laws = list[Value](), list[TracedValue]()
+        for segment in diagram.segments:
+            for end, law in tracer.laws(segment):
+                if segment.start + _SAME_ANGLE < to_number(end) < segment.end + _SAME_ANGLE:
+                    laws.append(law)
+                    # the last digit decides which law a row next to a jump follows
+                    is_there = not isinstance(end, TracedValue) and abs(end - segment.end) < _SAME_ANGLE
+                    ends.append(segment.end if is_there else end)
+                elif to_number(end) > segment.end:
+                    # cut where the cycle ends
+                    laws.append(law)
+                    ends.append(segment.end)
+                    break
+        return TracedValue(Piecewise([*ends[:-1], diagram.segments[-1].end], tuple(laws)), "diagram_pressure")
+
+
+class _Polytrope(NamedTuple):
+    """A state that a polytrope passes through, and its exponent."""
+
+    pressure: TracedValue
+    volume: TracedValue
+    exponent: TracedValue
+
+
+class _DiagramTracer:
+    """Traced points of a diagram, piece after piece."""
+
+    def __init__(self, source: DiagramInput, diagram: IndicatorDiagram) -> None:
+        self._source, self._named, self._cycle = source, diagram.named, diagram.segments[-1].end
+        self._volume_at = TracedVolume(source.volume)
+        self._pressures = {} if source.valves is None else source.valves.at_points(source.points)
+        self._volumes: dict[str, TracedValue] = {}
+        self._polytropes: dict[int, _Polytrope] = {}
+        segments = {segment.piece: segment for segment in reversed(diagram.segments)}
+        for number, piece in enumerate(source.pieces, start=1):
+            first, last = piece.points[0], piece.points[-1]
+            if piece.law == "polytropic" and number in segments:
+                self._follow(number, piece, segments[number])
+            elif piece.law != "rounded" and source.points[last].pressure is None:
+                self._pressures.setdefault(last, self._pressure(first))
+
+    def laws(self, segment: Segment) -> Iterator[tuple[Value, TracedValue]]:
+        """Yield the end of each law of a segment [deg], and its pressure."""
+        names = self._source.pieces[segment.piece - 1].points
+        if segment.law == "rounded":
+            angles = [self._angle(name, float(knot)) for name, knot in zip(names, segment.knots, strict=True)]
+            yield from curve_laws(angles, [self._pressure(name) for name in names], TracedAngle().degrees)
+            return
+        end = self._angle(names[-1], float(segment.knots[-1]))
+        if segment.law == "constant":
+            yield end, self._pressure(segment.origin or names[0])
+            return
+        pressure, volume, exponent = self._polytropes[segment.piece]
+        yield end, polytropic_pressure(pressure, volume, self._source.volume, exponent)
+
+    def _follow(self, number: int, piece: Piece, segment: Segment) -> None:
+        """Store the state of a polytrope and the pressures at both its ends."""
+        first, last = piece.points[0], piece.points[-1]
+        reference = piece.reference or first
+        path = f"{self._source.path}.pieces[{number}].exponent"
+        exponent = (
+            segment.operands[1] if segment.operands else given("polytropic_exponent", piece.exponent or 0.0, path)
+        )
+        polytrope = _Polytrope(self._pressure(reference), self._volume(reference), exponent)
+        self._polytropes[number] = polytrope
+        ending = self._source.points[last]
+        if ending.angle is None and ending.stroke is None and ending.pressure is not None:
+            # the law with pressure and volume exchanged
+            turned = polytrope.volume, polytrope.pressure, self._pressure(last), 1 / exponent
+            self._volumes.setdefault(last, polytropic_pressure(*turned))
+        for name, knot in zip((first, last), segment.knots, strict=True):
+            if name not in self._pressures and self._source.points[name].pressure is None:
+                angle = self._angle(name, float(knot))
+                volume = self._volume_at([angle])[0]
+                self._pressures[name] = polytropic_pressure(polytrope.pressure, polytrope.volume, volume, exponent)
+
+    def _pressure(self, name: str) -> TracedValue:
+        if name not in self._pressures:
+            pressure, path = self._source.points[name].pressure, f"{self._source.path}.points.{name}.pressure"
+            self._pressures[name] = given("diagram_pressure", pressure or 0.0, path)
+        return self._pressures[name]
+
+    def _volume(self, name: str) -> TracedValue:
+        """Return the volume of the state that a polytrope passes through."""
+        point = self._source.points[name]
+        if point.volume is not None:
+            return given("cylinder_volume", point.volume, f"{self._source.path}.points.{name}.volume")
+        if name in self._named:
+            return self._volume_at([self._angle(name, self._named[name][0])])[0]  # type: ignore[no-any-return]
+        if point.angle is None:
+            return self._point_volume(name, point)
+        angle = self._angle_stated(name, point.angle, point.angle + to_number(self._source.begins))
+        return self._volume_at([angle])[0]  # type: ignore[no-any-return]
+
+    def _point_volume(self, name: str, point: DiagramPoint) -> TracedValue:
+        """Return the volume that places a point."""
+        if name not in self._volumes:
+            path = f"{self._source.path}.points.{name}"
+            if point.stroke is None:
+                self._volumes[name] = given("cylinder_volume", point.volume or 0.0, f"{path}.volume")
+            else:
+                share = given("stroke_share", point.stroke, f"{path}.stroke")
+                self._volumes[name] = self._source.clearance + share * self._source.swept
+        return self._volumes[name]
+
+    def _angle(self, name: str, degrees: float) -> Value:
+        """Return the crank angle of a point; `degrees`: its value in the stated design. [deg]"""
+        point = self._source.points[name]
+        distance = (degrees - self._named[name][0] + self._cycle / 2) % self._cycle - self._cycle / 2
+        if abs(distance) > _SAME_ANGLE or (point.angle is None and point.stroke in (0.0, 1.0)):
+            # the end of a constant rest of the cycle, and a dead centre, where no volume is crossed
+            return round(degrees, 9)
+        if point.angle is not None:
+            return self._angle_stated(name, point.angle, degrees)
+        return TracedValue(
+            ProcedureValue(degrees, "reached", (self._source.volume,), degrees, self._point_volume(name, point))
+        )
+
+    def _angle_stated(self, name: str, angle: float, degrees: float) -> TracedValue:
+        stated = given("", angle, f"{self._source.path}.points.{name}.angle", "deg")
+        if isinstance(self._source.begins, TracedValue):
+            # later by `begins` and by a whole number of cycles
+            turns = round(degrees - angle - self._source.begins.value, 9)
+            return stated + (self._source.begins + turns if turns else self._source.begins)
+        shift = round(degrees - angle, 9)
+        return stated + shift if shift else stated

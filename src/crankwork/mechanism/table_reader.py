@@ -1,0 +1,421 @@
+"""Linkages described in tables, with every mistake in them at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
+from itertools import product
+from typing import Any
+
+from crankwork.errors import Problem
+from crankwork.locale import ErrorMessage
+from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, Law, LinkMotor
+from crankwork.mechanism.dyads import Branch, Guide, Point
+from crankwork.mechanism.linkage import GROUND, Linkage, Member
+from crankwork.mechanism.mechanism import Crank, Driver
+from crankwork.mechanism.structure import structure
+
+Table = Mapping[str, Any]
+
+_TABLES = ("fixed_points", "crank", "geared", "driver", "links", "guides", "sliders", "branch", "positions")
+_MASS = ("mass", "inertia", "centre")
+_CRANK = ("pivot", "pin", "radius", "start", "direction", "points", *_MASS)
+_LINK = ("joins", "length", "points", *_MASS)
+_SLIDER = ("guide", "pin", "points", *_MASS)
+_GUIDE = ("through", "angle", "link")
+_DRIVERS = ("slider", "cylinder", "between")
+_HALVES = ("barrel", "rod")
+_DRIVER = (*_DRIVERS, *_HALVES, "law")
+_SAME = 1e-12
+_GEARED = ("pivot", "ratio", "start", "points", "pressure_angle", *_MASS)
+_DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
+
+
+def linkage_from(tables: Table) -> tuple[Linkage | None, list[Problem]]:
+    """Return the linkage that tables describe, or every problem in them."""
+    reader = _Reader(tables)
+    linkage = reader.linkage()
+    return (None, reader.problems) if reader.problems else (linkage, [])
+
+
+@dataclass
+class _Reader:
+    """Reads the tables and collects the problems."""
+
+    tables: Table
+    problems: list[Problem] = field(default_factory=list)
+
+    def linkage(self) -> Linkage:
+        """Return the linkage, which is valid only without problems."""
+        self._known_keys("", self.tables, _TABLES)
+        ground, positions = (
+            {name: self._point(f"{key}.{name}", point) for name, point in self._table(key).items()}
+            for key in ("fixed_points", "positions")
+        )
+        guides = {name: self._guide(name, guide, ground) for name, guide in self._named("guides", _GUIDE)}
+        law: Any = self._table("driver").get("law")
+        if "driver" in self.tables and law is None:
+            self._problem("driver.law", ErrorMessage("law_missing"))
+            law = Law((), 1.0, 1.0)
+        named = [name for name in _DRIVERS if name in self._table("driver")]
+        sliders = tuple(self._sliders())
+        driver: Driver
+        if named:
+            self._known_keys("driver", self._table("driver"), _DRIVER)
+            if len(named) > 1 or "crank" in self.tables:
+                further = ", ".join([*named[1:], *(["crank"] if "crank" in self.tables else [])])
+                self._problem(f"driver.{named[0]}", ErrorMessage("drivers_many", one=named[0], others=further))
+            driver, driving = self._driving_slider(sliders, guides, law)
+        else:
+            driver, driving = self._crank(ground, law)
+        geared: tuple[Member, ...] = ()
+        if isinstance(driver, Crank):
+            cranks, geared = self._geared(ground)
+            driver = replace(driver, geared=cranks)
+        elif "geared" in self.tables:
+            self._problem("geared", ErrorMessage("geared_alone"))
+        drawn = Linkage(driver, ground, (), positions=positions, driving=driving, geared=geared).at_zero()
+        links = tuple(self._links(drawn))
+        members = (*links, *(slider for slider in sliders if slider.name != driving.name))
+        linkage = Linkage(driver, ground, members, guides, self._branches(), positions, driving, geared)
+        self._names(linkage)
+        if self.problems or not named:
+            return linkage
+        if named[0] == "cylinder":
+            return self._with_cylinder(linkage, law)
+        return self._with_motor(linkage, law) if named[0] == "between" else linkage
+
+    def _problem(self, key: str, message: str) -> None:
+        self.problems.append(Problem(key, message))
+
+    def _table(self, key: str) -> Table:
+        table = self.tables.get(key, {})
+        if isinstance(table, Mapping):
+            return table
+        if key == "crank" and isinstance(table, list):
+            self._problem(key, ErrorMessage("cranks_many", count=len(table)))
+        else:
+            self._problem(key, ErrorMessage("be_table", key=key))
+        return {}
+
+    def _known_keys(self, key: str, table: Table, known: tuple[str, ...]) -> None:
+        for name in table:
+            if name not in known:
+                self._problem(f"{key}.{name}".lstrip("."), ErrorMessage("key_unknown", known=", ".join(known)))
+
+    def _named(self, key: str, known: tuple[str, ...]) -> Iterator[tuple[str, Table]]:
+        """Yield the tables below a table."""
+        for name, table in self._table(key).items():
+            if isinstance(table, Mapping):
+                self._known_keys(f"{key}.{name}", table, known)
+                yield name, table
+            else:
+                self._problem(f"{key}.{name}", ErrorMessage("be_table", key=f"{key}.{name}"))
+
+    def _number(self, key: str, value: object, *, positive: bool = False) -> float:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+            self._problem(key, ErrorMessage("number_needed" if value is not None else "number_missing"))
+        elif positive and not value > 0:
+            self._problem(key, ErrorMessage("length_zero", value=value))
+        else:
+            return float(value)
+        return 1.0
+
+    def _point(self, key: str, value: object) -> Point:
+        if isinstance(value, list | tuple) and len(value) == 2:
+            return self._number(key, value[0]), self._number(key, value[1])
+        self._problem(key, ErrorMessage("pair_missing" if value is None else "pair_needed"))
+        return 0.0, 0.0
+
+    def _word(self, key: str, value: object) -> str:
+        if isinstance(value, str) and value:
+            return value
+        self._problem(key, ErrorMessage("name_missing" if value is None else "name_needed"))
+        return ""
+
+    def _points(self, key: str, table: Table) -> dict[str, Point]:
+        points = table.get("points", {})
+        if isinstance(points, Mapping):
+            return {name: self._point(f"{key}.points.{name}", point) for name, point in points.items()}
+        self._problem(f"{key}.points", ErrorMessage("be_coordinates"))
+        return {}
+
+    def _driving_slider(
+        self, sliders: tuple[Member, ...], guides: Mapping[str, Guide], law: Law
+    ) -> tuple[DrivingSlider, Member]:
+        """Return the driving slider, also as a member; an empty one without a valid slider."""
+        name = self._table("driver").get("slider")
+        no_driver = DrivingSlider("", Guide(), law), Member("", {})
+        if name is None:
+            return no_driver
+        slider = next((candidate for candidate in sliders if candidate.name == self._word("driver.slider", name)), None)
+        if slider is None:
+            known = ", ".join(candidate.name for candidate in sliders)
+            self._problem("driver.slider", ErrorMessage("absent_slider", name=str(name)[:40], known=known))
+            return no_driver
+        guide = guides.get(slider.guide, Guide())
+        if guide.link:
+            self._problem(
+                "driver.slider", ErrorMessage("driven_on_link", name=slider.name, guide=slider.guide, link=guide.link)
+            )
+        return DrivingSlider(slider.name, guide, law), slider
+
+    def _two(self, key: str, known: Mapping[str, object] | set[str], refusal: str) -> tuple[str, str] | None:
+        """Return two different, known names."""
+        names = self._table("driver")[key]
+        if not isinstance(names, list | tuple) or len(names) != 2 or not all(isinstance(item, str) for item in names):
+            self._problem(f"driver.{key}", ErrorMessage("driver_two"))
+            return None
+        for name in names:
+            if name not in known:
+                self._problem(f"driver.{key}", ErrorMessage(refusal, name=name[:40], known=", ".join(sorted(known))))
+        if names[0] == names[1]:
+            self._problem(f"driver.{key}", ErrorMessage("driver_same", name=names[0][:40]))
+        return None if self.problems else (names[0], names[1])
+
+    def _with_cylinder(self, linkage: Linkage, law: Law) -> Linkage:
+        """Return a linkage with a link of changing length between two of its points."""
+        ends = self._two("cylinder", set(linkage.owners), "absent_point")
+        if ends is None:
+            return linkage
+        taken = {existing.name for existing in linkage.members}
+        name = next(word for word in ("cylinder", "hydraulic_cylinder", "cylinder_link") if word not in taken)
+        both = set(linkage.owners[ends[0]]) & set(linkage.owners[ends[1]])
+        if both:
+            message = ErrorMessage("cylinder_idle", first=ends[0], second=ends[1], name=min(both))
+            self._problem("driver.cylinder", message)
+        member = Member(name, {ends[0]: (0.0, 0.0), ends[1]: (law.start, 0.0)})
+        members = (*linkage.members, member)
+        halves = tuple(self._half(part, f"{name}_{part}" if part in taken else part) for part in _HALVES)
+        halves = halves if any(half.mass for half in halves) else ()
+        return replace(linkage, driver=Cylinder(*ends, law, name, halves), members=members)
+
+    def _half(self, name: str, link: str) -> CylinderPart:
+        """Return the barrel or the rod of a cylinder, massless by default."""
+        table, key = self._table("driver").get(name), f"driver.{name}"
+        if table is None:
+            return CylinderPart(link, 0.0, 0.0, (0.0, 0.0))
+        mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
+        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        return CylinderPart(link, mass, inertia, self._point(f"{key}.centre", table.get("centre")))
+
+    def _with_motor(self, linkage: Linkage, law: Law) -> Linkage:
+        """Return a linkage with the third side of the triangle of a motor between two links."""
+        links = self._two("between", {link.name for link in linkage.members if not link.guide}, "absent_link")
+        if links is None:
+            return linkage
+        first, second = (linkage.member(name) for name in links)
+        pin = next((name for name in first.points if name in second.points), "")
+        if not pin:
+            self._problem("driver.between", ErrorMessage("motor_pin", first=first.name, second=second.name))
+            return linkage
+        drawn, linkages = linkage.at_zero(), []
+        for end_a, end_b in product(self._joints(linkage, first, pin), self._joints(linkage, second, pin)):
+            if not {end_a, end_b, pin} <= drawn.keys():
+                continue
+            sides = tuple(
+                math.dist(link.points[pin], link.points[end]) for link, end in ((first, end_a), (second, end_b))
+            )
+            (cx, cy), (ax, ay), (bx, by) = drawn[pin], drawn[end_a], drawn[end_b]
+            angle = math.remainder(math.atan2(by - cy, bx - cx) - math.atan2(ay - cy, ax - cx), math.tau)
+            a, b = sides
+            opened = angle + law.start
+            length = math.sqrt(max(a * a + b * b - 2 * a * b * math.cos(opened), 0.0))
+            motor = LinkMotor(links, pin, (a, b), angle, law)
+            member = Member(motor.link, {end_a: (0.0, 0.0), end_b: (length, 0.0)})
+            linkages.append(replace(linkage, driver=motor, members=(*linkage.members, member)))
+        if not linkages:
+            self._problem("driver.between", ErrorMessage("motor_drawn", first=first.name, second=second.name, pin=pin))
+            return linkage
+        # of several third sides the first that leaves dyads only
+        structures = ((candidate, structure(candidate)[0]) for candidate in linkages)
+        return next((candidate for candidate, made in structures if made and made.number <= 2), linkages[0])
+
+    @staticmethod
+    def _joints(linkage: Linkage, member: Member, pin: str) -> list[str]:
+        return [name for name in member.points if name != pin and len(linkage.owners[name]) > 1]
+
+    def _crank(self, ground: Mapping[str, Point], law: Law | None) -> tuple[Crank, Member]:
+        table = self._table("crank")
+        self._known_keys("crank", table, _CRANK)
+        pivot, pin = self._word("crank.pivot", table.get("pivot")), self._word("crank.pin", table.get("pin"))
+        if pivot and pivot not in ground:
+            self._problem("crank.pivot", ErrorMessage("pivot_unknown", name=pivot))
+        if pin in ground:
+            self._problem("crank.pin", ErrorMessage("pin_fixed", name=pin))
+        direction = table.get("direction", "anticlockwise")
+        if direction not in _DIRECTIONS:
+            self._problem("crank.direction", ErrorMessage("direction_wrong", value=str(direction)[:40]))
+        radius = self._number("crank.radius", table.get("radius"), positive=True)
+        start = self._number("crank.start", table.get("start", 0.0))
+        sense = _DIRECTIONS.get(str(direction), 1)
+        pivoted = ground.get(pivot, (0.0, 0.0))
+        crank = Crank(radius, pivoted, start, sense, pin, law=law)
+        points = self._points("crank", table)
+        places = {pivot: (0.0, 0.0), pin: (radius, 0.0), **points}
+        return crank, self._turning("crank", Member(crank.link, points), table, places)
+
+    def _geared(self, ground: Mapping[str, Point]) -> tuple[tuple[GearedCrank, ...], tuple[Member, ...]]:
+        """Return the geared cranks, also as members."""
+        cranks, members = [], []
+        for name, table in self._named("geared", _GEARED):
+            key = f"geared.{name}"
+            pivot = self._word(f"{key}.pivot", table.get("pivot"))
+            if pivot and pivot not in ground:
+                self._problem(f"{key}.pivot", ErrorMessage("pivot_unknown", name=pivot))
+            ratio, start = (self._number(f"{key}.{item}", table.get(item, 0.0)) for item in ("ratio", "start"))
+            if not ratio:
+                self._problem(f"{key}.ratio", ErrorMessage("ratio_zero"))
+            angle = (
+                self._number(f"{key}.pressure_angle", table["pressure_angle"]) if "pressure_angle" in table else None
+            )
+            if angle is not None and (ratio == 1 or pivot == self._table("crank").get("pivot")):
+                self._problem(f"{key}.pressure_angle", ErrorMessage("wheels_apart"))
+            crank = GearedCrank(name, ground.get(pivot, (0.0, 0.0)), ratio, start, angle)
+            points = self._points(key, table)
+            if not points:
+                self._problem(f"{key}.points", ErrorMessage("geared_points"))
+            cranks.append(crank)
+            members.append(self._turning(key, Member(name, points), table, {pivot: (0.0, 0.0), **points}))
+        return tuple(cranks), tuple(members)
+
+    def _turning(self, key: str, member: Member, table: Table, places: Mapping[str, Point]) -> Member:
+        """Return a crank with its mass; its moment of inertia is stated about its axis.
+
+        `places`: its points in its frame, the pivot first.
+        """
+        if not any(name in table for name in _MASS):
+            return member
+        mass = self._number(f"{key}.mass", table.get("mass", 0.0))
+        about_axis = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        centre = table.get("centre", next(iter(places)))
+        points, places = dict(member.points), dict(places)
+        if not isinstance(centre, str):
+            name = f"{member.name}.centre"
+            points[name] = places[name] = self._point(f"{key}.centre", centre)
+            centre = name
+        elif centre not in places:
+            known = ", ".join(places)
+            self._problem(f"{key}.centre", ErrorMessage("centre_unknown", centre=centre, link=member.name, known=known))
+            return member
+        turning = mass * math.hypot(*places[centre]) ** 2
+        if "inertia" in table and about_axis < turning * (1 - _SAME):
+            self._problem(f"{key}.inertia", ErrorMessage("crank_inertia_small", least=turning))
+        own = max(about_axis - turning, 0.0) if "inertia" in table else 0.0
+        return _replaced(member, points, mass, own, centre)
+
+    def _links(self, drawn: Mapping[str, Point]) -> Iterator[Member]:
+        for name, table in self._named("links", _LINK):
+            key, joins = f"links.{name}", table.get("joins")
+            if not isinstance(joins, list | tuple) or len(joins) < 2 or not all(isinstance(end, str) for end in joins):
+                self._problem(f"{key}.joins", ErrorMessage("joins_two"))
+                continue
+            if len(set(joins)) < len(joins):
+                self._problem(f"{key}.joins", ErrorMessage("joins_twice", names=", ".join(joins)[:80]))
+                continue
+            points = self._points(key, table)
+            for point in {*points, ""}.intersection(joins[:2]):
+                self._problem(f"{key}.points.{point}", ErrorMessage("point_of_joint", name=point))
+            places = self._joint_places(key, table, list(joins), points, drawn)
+            yield self._with_mass(key, table, Member(name, {**places, **points}))
+
+    def _joint_places(
+        self, key: str, table: Table, joins: list[str], points: Mapping[str, Point], drawn: Mapping[str, Point]
+    ) -> dict[str, Point]:
+        """Return the joints of a link in its frame, from its length or their drawn positions."""
+        first, second, *further = joins
+        if "length" in table:
+            length = self._number(f"{key}.length", table["length"], positive=True)
+        elif first in drawn and second in drawn:
+            length = math.dist(drawn[first], drawn[second])
+            if length == 0:
+                self._problem(key, ErrorMessage("joints_together", first=first, second=second))
+                length = 1.0
+        else:
+            self._problem(f"{key}.length", ErrorMessage("link_length", first=first, second=second))
+            length = 1.0
+        places = {first: (0.0, 0.0), second: (length, 0.0)}
+        for name in further:
+            if name in points:
+                continue
+            if not {first, second, name} <= drawn.keys():
+                self._problem(f"{key}.points.{name}", ErrorMessage("link_point", name=name, first=first, second=second))
+                continue
+            (x, y), (ax, ay), (bx, by) = drawn[name], drawn[first], drawn[second]
+            cos, sin = (bx - ax) / math.dist((ax, ay), (bx, by)), (by - ay) / math.dist((ax, ay), (bx, by))
+            places[name] = ((x - ax) * cos + (y - ay) * sin, (y - ay) * cos - (x - ax) * sin)
+        return places
+
+    def _sliders(self) -> Iterator[Member]:
+        for name, table in self._named("sliders", _SLIDER):
+            key = f"sliders.{name}"
+            guide = self._word(f"{key}.guide", table.get("guide"))
+            points = self._points(key, table)
+            if "pin" in table:
+                points = {self._word(f"{key}.pin", table["pin"]): (0.0, 0.0), **points}
+            yield self._with_mass(key, table, Member(name, points, guide))
+
+    def _with_mass(self, key: str, table: Table, member: Member) -> Member:
+        if not any(name in table for name in _MASS):
+            return member
+        mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
+        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        centre = table.get("centre", next(iter(member.points), "") if member.guide else None)
+        if not isinstance(centre, str):
+            name = f"{member.name}.centre"
+            return _replaced(member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name)
+        if centre not in member.points:
+            message = ErrorMessage(
+                "centre_unknown" if centre else "centre_missing",
+                centre=centre, link=member.name, known=", ".join(member.points),
+            )  # fmt: skip
+            self._problem(f"{key}.centre", message)
+        return _replaced(member, member.points, mass, inertia, centre)
+
+    def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
+        key, through = f"guides.{name}", table.get("through", [0.0, 0.0])
+        link = self._word(f"{key}.link", table["link"]) if "link" in table else ""
+        if not isinstance(through, str):
+            point = self._point(f"{key}.through", through)
+        elif through in ground and not link:
+            point = ground[through]
+        else:
+            self._problem(f"{key}.through", ErrorMessage("through_unknown", name=through))
+            point = (0.0, 0.0)
+        return Guide(point, self._number(f"{key}.angle", table.get("angle", 0.0)), link)
+
+    def _branches(self) -> dict[str, Branch]:
+        branches: dict[str, Branch] = {}
+        for name, value in self._table("branch").items():
+            if isinstance(value, bool) or value not in (1, -1):
+                self._problem(f"branch.{name}", ErrorMessage("branch_wrong", value=str(value)[:40]))
+            else:
+                branches[name] = 1 if value == 1 else -1
+        return branches
+
+    def _names(self, linkage: Linkage) -> None:
+        """Report names that are used twice or unknown."""
+        names = {*linkage.base} - {GROUND}
+        for member in linkage.members:
+            table = "sliders" if member.guide else "links"
+            if member.name in names:
+                self._problem(f"{table}.{member.name}", ErrorMessage("link_named_twice", name=member.name))
+            names.add(member.name)
+            if member.guide and member.guide not in linkage.guides:
+                self._problem(f"{table}.{member.name}.guide", ErrorMessage("guide_unknown", name=member.guide))
+        for name, guide in linkage.guides.items():
+            if guide.link and guide.link not in names:
+                self._problem(
+                    f"guides.{name}.link",
+                    ErrorMessage("carrier_unknown", name=guide.link, known=", ".join(sorted(names))),
+                )
+        placed = {linkage.driver.pin} if isinstance(linkage.driver, Crank) else set(linkage.driving.points)
+        for name in linkage.positions:
+            if name in linkage.ground or name in placed:
+                self._problem(f"positions.{name}", ErrorMessage("position_known", name=name))
+
+
+def _replaced(member: Member, points: Mapping[str, Point], mass: float, inertia: float, centre: str) -> Member:
+    values = {entry.name: getattr(member, entry.name) for entry in fields(member)}
+    return Member(**{**values, "points": points, "mass": mass, "inertia": inertia, "centre": centre})

@@ -1,0 +1,578 @@
+"""Pressures for any cylinder: theoretical diagrams, sharp or rounded, heat release, and misfire.
+
+With heat release the gas is one zone of constant mass from intake closing to exhaust opening; Wiebe's law burns it,
+heat goes to the walls, and the first law is integrated over the crank angle. The rest of the cycle is simplified.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from crankwork.formula.calculation import Calculation
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent
+from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.dead_centres import solve_monotone
+from crankwork.loads import gas as gas_formulas
+from crankwork.loads.indicator import (
+    DiagramPoint,
+    IndicatorDiagram,
+    Piece,
+    Segment,
+    VolumeAt,
+    quadrature,
+    solve_diagram,
+)
+from crankwork.loads.monotone import hermite
+from crankwork.loads.pressure import at_angle, traced_pressure
+from crankwork.locale import ErrorMessage
+from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners
+from crankwork.working_cycle.closed_gas import (
+    COMPRESSION,
+    EXPANSION,
+    ClosedGas,
+    GasSpeedFactors,
+    burning_progress,
+    closed_gas,
+    gas_heat_ratio,
+    gas_temperature,
+    pressure_rise,
+    volume_when,
+    wall_area,
+    wall_heat_rate,
+    wiebe_burning_rate,
+    wiebe_burnt_fraction,
+    woschni_coefficient,
+    woschni_gas_speed,
+)
+from crankwork.working_cycle.fuels import CycleError
+from crankwork.working_cycle.gas_exchange import connecting_cubic, constant_pressure, from_before_zero, within_cycle
+from crankwork.working_cycle.heat_data import HeatReleaseData, Stage, stages
+from crankwork.working_cycle.rounding import (
+    Rounding,
+    Timing,
+    motored_diagram,
+    rounded_diagram,
+    traced_filling_factor,
+    traced_rounded_pressure,
+)
+from crankwork.working_cycle.usual_ranges import heat_notices
+
+# A cylinder is identified by its volume at these crank angles. [deg]
+_PROBES = (0.0, 67.0, 131.0, 213.0)
+# Solving takes most of a run, and a file is solved once to check it and once to analyse it: cached.
+_MAX_SOLUTIONS = 16
+_SOLUTIONS: dict[object, HeatReleaseResult] = {}
+_STEP, _LEAST_STEPS, _DOUBLINGS = 0.5, 40, 5
+_AGREEMENT = 1e-9
+_FINE = 2001
+_RELATIVE, _ABSOLUTE = 1e-11, 1e-12
+Points = dict[str, DiagramPoint]
+_AngleOf = Callable[[float, float, float], float]
+
+
+@dataclass(frozen=True)
+class CornerPressure:
+    """The diagram of a calculated cycle."""
+
+    cycle: CalculatedCycle  # The calculated cycle
+    timing: Timing | None = None  # Of valves and ignition, if corners are rounded
+    rounding: Rounding = field(default_factory=Rounding)  # How they are rounded
+    has_corners: ClassVar[bool] = True
+
+    def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram in a cylinder."""
+        del volume_rate_at
+        cycle = self.cycle
+        # if corners are rounded, the sharp one is only looked at
+        sharp = partial(_sharp_diagram, cycle.corners, cycle.angle, volume_at, dead_centres)
+        notices = (*cycle.notices, ("cycle_speed", {}))
+        if self.timing is None:
+            return Calculated(sharp(), cycle.trace, notices, sharp)
+        result = rounded_diagram(_numbers(cycle.corners), self.timing, self.rounding, volume_at, dead_centres)
+        key = "filling_factor.diagram"
+        trace = {**cycle.trace, key: TracedValue(ProcedureValue(result.filling_factor, "integral", cycle.corners), key)}
+        rounded = _with_traced_segments(result.diagram, cycle.corners)
+        return Calculated(rounded, trace, (*notices, *result.notices), sharp)
+
+    def traced(self, volume: TracedValue, dead_centres: tuple[float, float]) -> TracedValue:
+        """Return the pressure over the crank angle as a traced column of the volume of a cylinder."""
+        timing = Timing(cycle=self.cycle.angle) if self.timing is None else self.timing
+        return traced_rounded_pressure(_theory(self.cycle.corners), timing, self.rounding, volume, dead_centres)
+
+    def filling_factor(
+        self, value: float, columns: tuple[TracedValue, TracedValue], dead_centres: tuple[float, float]
+    ) -> TracedValue:
+        """Return the filling factor of the rounded diagram, traced to the columns of pressure and volume."""
+        timing = self.timing or Timing(cycle=self.cycle.angle)
+        return traced_filling_factor(value, _theory(self.cycle.corners), timing, columns, dead_centres)
+
+    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram of a cylinder without combustion: expansion along the compression line."""
+        del volume_rate_at
+        theory = self.cycle.corners
+        corners = theory._replace(p_z=theory.p_c, p_b=theory.p_a, n2=theory.n1, rho=absent("cut_off", 1.0))
+        if self.timing is None:
+            return Calculated(_sharp_diagram(corners, self.cycle.angle, volume_at, dead_centres), {}, ())
+        diagram = motored_diagram(_numbers(corners), self.timing, self.rounding, volume_at, dead_centres)
+        return Calculated(_with_traced_segments(diagram, corners), {}, ())
+
+
+def _sharp_diagram(
+    corners: Corners, angle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
+) -> IndicatorDiagram:
+    """Return the diagram of corners in a cylinder; `angle`: of the cycle. [deg]"""
+    points, pieces = theoretical_diagram(corners, angle, volume_at, dead_centres)
+    diagram = solve_diagram(points, pieces, angle, volume_at, dead_centres=dead_centres)
+    return _with_traced_segments(diagram, corners)
+
+
+def _theory(corners: Corners) -> dict[str, TracedValue]:
+    """Return the corners by name, without `rho` if no combustion is at constant pressure. [SI]"""
+    return {name: corner for name, corner in corners._asdict().items() if name != "rho" or corner.value > 1}
+
+
+def _numbers(corners: Corners) -> dict[str, float]:
+    return {name: corner.value for name, corner in _theory(corners).items()}
+
+
+def _with_traced_segments(diagram: IndicatorDiagram, corners: Corners) -> IndicatorDiagram:
+    """Return a diagram whose segments refer to the traced pressures and exponents of the calculation."""
+    lines = {"a": (corners.p_a, corners.n1, corners.psi), "z": (corners.p_z, corners.n2, corners.rho)}
+    constants = {pressure.value: (pressure,) for pressure in (corners.p_z, corners.p_r, corners.p_a)}
+
+    def with_inputs(segment: Segment) -> Segment:
+        if segment.law == "polytropic":
+            origin = _ORIGINS.get(segment.origin, segment.origin)
+            return replace(segment, origin=origin, operands=lines[origin])
+        inputs = constants.get(segment.pressures[0], ()) if segment.law == "constant" else ()
+        return replace(segment, places=(), operands=inputs)
+
+    return replace(diagram, segments=tuple(with_inputs(segment) for segment in diagram.segments))
+
+
+# names of the points of the calculation, by the reference states of polytropes in rounded diagrams
+_ORIGINS = {"~start": "a", "~burnt": "z"}
+
+
+@dataclass(frozen=True)
+class HeatReleasePressure:
+    """The diagram of a heat release."""
+
+    data: HeatReleaseData  # Combustion, gas, walls and valves
+    has_corners: ClassVar[bool] = False
+    # its pressure is integrated
+    traced: ClassVar[None] = None
+
+    def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram in a cylinder."""
+        return self._solved(volume_at, volume_rate_at, dead_centres).calculated
+
+    def motored(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram of a cylinder without combustion; the walls still take heat."""
+        cold = replace(self.data, heat=0.0, fuel_per_cycle=0.0)
+        return HeatReleasePressure(cold).pressure(volume_at, volume_rate_at, dead_centres)
+
+    def _solved(
+        self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
+    ) -> HeatReleaseResult:
+        """Return the solution, cached by data and cylinder."""
+        cylinder = tuple(volume_at(np.array(_PROBES)).tolist())
+        key = (self.data, cylinder, dead_centres)
+        if key not in _SOLUTIONS:
+            if len(_SOLUTIONS) >= _MAX_SOLUTIONS:
+                _SOLUTIONS.clear()
+            _SOLUTIONS[key] = heat_release(self.data, volume_at, volume_rate_at, dead_centres)
+        return _SOLUTIONS[key]
+
+
+@dataclass(frozen=True)
+class MisfirePressure:
+    """The pressure in a misfiring cylinder of an engine whose cycle is calculated."""
+
+    firing: CornerPressure | HeatReleasePressure  # The cycle of the firing cylinders
+    angle: float  # Of the cycle [deg]
+    ambient: TracedValue | None = None  # Constant pressure if its valves stay open [Pa]
+    traced: ClassVar[None] = None
+
+    @property
+    def cycle(self) -> CalculatedCycle | None:
+        """The calculated cycle of the firing cylinders."""
+        return self.firing.cycle if isinstance(self.firing, CornerPressure) else None
+
+    @property
+    def has_corners(self) -> bool:
+        """Whether the diagram of the firing cylinders has corners."""
+        return self.firing.has_corners
+
+    def pressure(self, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]) -> Calculated:
+        """Return the diagram in a cylinder, with the values of the cycle of the firing cylinders."""
+        firing = self.firing.pressure(volume_at, volume_rate_at, dead_centres)
+        if self.ambient is not None:
+            diagram = IndicatorDiagram((constant_pressure(0.0, self.angle, self.ambient),), {})
+        else:
+            diagram = self.firing.motored(volume_at, volume_rate_at, dead_centres).diagram
+        return firing._replace(diagram=diagram, theoretical=None)
+
+
+class HeatReleaseTrace(NamedTuple):
+    """The closed period point by point, arrays of shape (n,).
+
+    Crank angle [deg], pressure [Pa], temperature [K], burnt fraction [-], pressure rise [Pa/rad], heat to the
+    walls [J/rad]. Angles continue past the end of the cycle.
+    """
+
+    degrees: Array
+    pressure: Array
+    temperature: Array
+    burnt: Array
+    pressure_rise: Array
+    wall_heat_rate: Array
+
+
+@dataclass(frozen=True)
+class HeatReleaseResult:
+    """A cycle from heat release."""
+
+    calculated: Calculated  # Diagram, single values, notices
+    history: HeatReleaseTrace  # The closed period point by point
+    # Work and heat to the walls by quadrature over the diagram, and the residual of the first law with them [J]
+    again: Mapping[str, float]
+
+
+def heat_release(
+    data: HeatReleaseData, volume_at: VolumeAt, volume_rate_at: VolumeAt, dead_centres: tuple[float, float]
+) -> HeatReleaseResult:
+    """Return the cycle of a heat release (heywood_1988, ch. 9 and 12)."""
+    dead_centres = from_before_zero(dead_centres)
+    worked = Calculation()
+    gas = closed_gas(data, volume_at, volume_rate_at, dead_centres, worked)
+    periods = [stage for stage in stages(data, dead_centres) if stage.end > stage.start]
+    solved = _solved(gas, periods, tuple(worked.known.values()))
+    segments = [segment for segment, _ in solved]
+    history = _trace(gas, solved)
+    # the pressure has been integrated already: its column needs no volume
+    diagram = _diagram(data, segments, dead_centres, (worked["residual_pressure"], worked["intake_pressure"]))
+    pressure = traced_pressure(diagram, absent("cylinder_volume"))
+    work, wall = (float(sum(change[i] for _, change in solved)) for i in (1, 2))
+    stored = gas.energy_change(history.temperature[-1])
+    # combustion ends before the exhaust opens
+    burnt = wiebe_burnt_fraction(1.0, worked["burning_shape"]).named("burnt_fraction.exhaust")
+    trace = {"fuel_heat": worked["fuel_heat"], "heat_released": (worked["fuel_heat"] * burnt).named("heat_released")}
+    trace |= {
+        key: TracedValue(ProcedureValue(value, "integral", (pressure,)), key)
+        for key, value in (("wall_heat", wall), ("closed_work", work), ("internal_energy_change", stored))
+    }
+    left = trace["heat_released"] - trace["wall_heat"] - trace["closed_work"] - trace["internal_energy_change"]
+    trace["first_law_residual"] = left.named("first_law_residual")
+    trace |= _extremes(gas, periods, segments, history, pressure)
+    trace["cylinder_temperature_max"] = _hottest(gas, trace, pressure, worked)
+    trace["indicated_work"] = TracedValue(
+        ProcedureValue(diagram.work(volume_at), "integral", (pressure,)), "indicated_work"
+    )
+    again = _by_quadrature(gas, periods, segments)
+    again["first_law_residual"] = trace["heat_released"].value - again["wall_heat"] - again["closed_work"] - stored
+    at_peak = worked.again(".peak")
+    work_peak(gas, trace, at_peak)
+    peak = {
+        traced.key: traced for traced in (*worked.found.values(), *at_peak.found.values()) if traced.key not in trace
+    }
+    calculated = Calculated(diagram, trace, (), peak=peak)
+    return HeatReleaseResult(calculated._replace(notices=heat_notices(data, gas, calculated.values)), history, again)
+
+
+def _solved(gas: ClosedGas, periods: list[Stage], inputs: tuple[TracedValue, ...]) -> list[tuple[Segment, Array]]:
+    """Return the pressure curve of each stage, and the changes of pressure, work and heat to the walls over it."""
+    results = []
+    pressure = gas.data.shut_pressure
+    scale = pressure * gas.shut_volume + gas.heat
+    for period in periods:
+        dense, final = gas.integrated(period, pressure, _RELATIVE, _ABSOLUTE)
+        start = np.array([pressure, 0.0, 0.0])
+        count = max(_LEAST_STEPS, int(np.ceil((period.end - period.start) / _STEP)))
+        for _ in range(_DOUBLINGS + 1):
+            segment = _curve(gas, period, dense, count, (pressure, float(final[0])))
+            if abs(segment.work(gas.volume_at) - final[1]) <= _AGREEMENT * scale:
+                break
+            count *= 2
+        results.append((replace(segment, operands=inputs), final - start))
+        pressure = float(final[0])
+    return results
+
+
+def _curve(gas: ClosedGas, period: Stage, dense: VolumeAt, count: int, ends: tuple[float, float]) -> Segment:
+    """Return the cubics through the solution, with the slopes of the first law."""
+    # with a small exponent combustion begins abruptly, which needs denser knots at the start
+    grading = max(1.0, 3.0 - gas.data.burning_shape) if period.burns else 1.0
+    knots = period.start + (period.end - period.start) * np.linspace(0.0, 1.0, count + 1) ** grading
+    knots[-1] = period.end
+    pressures = dense(knots)[0]
+    pressures[[0, -1]] = ends
+    slopes = np.radians(gas.rates(knots, pressures, period)[0])
+    return Segment(period.start, period.end, "rounded", knots, pressures, slopes)
+
+
+def _trace(gas: ClosedGas, solved: list[tuple[Segment, Array]]) -> HeatReleaseTrace:
+    parts = [segment for segment, _ in solved]
+    keep = [slice(1 if number else 0, None) for number in range(len(parts))]
+    degrees = np.concatenate([segment.knots[part] for segment, part in zip(parts, keep, strict=True)])
+    pressure = np.concatenate([segment.pressures[part] for segment, part in zip(parts, keep, strict=True)])
+    slopes = np.degrees(np.concatenate([segment.slopes[part] for segment, part in zip(parts, keep, strict=True)]))
+    temperature = gas.temperature(degrees, pressure)
+    wall = gas.wall_rate(degrees, pressure, gas.is_burning(degrees))
+    return HeatReleaseTrace(degrees, pressure, temperature, gas.burnt(degrees), slopes, wall)
+
+
+def _by_quadrature(gas: ClosedGas, periods: list[Stage], segments: list[Segment]) -> dict[str, float]:
+    """Return work and heat to the walls as integrals over the diagram, independent of the differential equation."""
+    work = wall = 0.0
+    for period, segment in zip(periods, segments, strict=True):
+        nodes, weights = quadrature(segment.knots)
+        pressure = hermite(segment.knots, segment.pressures, segment.slopes, nodes)
+        work += segment.work(gas.volume_at)
+        wall += float(weights @ gas.wall_rate(nodes, pressure, np.full(len(nodes), period.has_burnt)))
+    return {"closed_work": work, "wall_heat": wall}
+
+
+def _extremes(
+    gas: ClosedGas, periods: list[Stage], segments: list[Segment], history: HeatReleaseTrace, column: TracedValue
+) -> dict[str, TracedValue]:
+    """Return the greatest pressure, temperature and pressure rise, with their angles."""
+    diagram = IndicatorDiagram(tuple(segments), {})
+
+    def pressure(degrees: Array) -> Array:
+        return diagram.pressure(degrees, degrees)
+
+    def temperature(degrees: Array) -> Array:
+        return gas.temperature(degrees, pressure(degrees))
+
+    extremes: dict[str, TracedValue] = {}
+    for key, function, values in (
+        ("cylinder_pressure", pressure, history.pressure),
+        ("cylinder_temperature", temperature, history.temperature),
+    ):
+        top = int(np.argmax(values))
+        fine = np.linspace(history.degrees[max(top - 1, 0)], history.degrees[min(top + 1, len(values) - 1)], _FINE)
+        extremes |= _greatest(key, [(fine, function(fine))], column, gas.data.cycle)
+    steepest = []
+    for period, segment in zip(periods, segments, strict=True):
+        top = int(np.argmax(segment.slopes))
+        fine = np.linspace(segment.knots[max(top - 1, 0)], segment.knots[min(top + 1, len(segment.knots) - 1)], _FINE)
+        rise = gas.rates(fine, hermite(segment.knots, segment.pressures, segment.slopes, fine), period)[0]
+        steepest.append((fine, rise))
+    return extremes | _greatest("pressure_rise", steepest, column, gas.data.cycle)
+
+
+def _hottest(gas: ClosedGas, trace: Mapping[str, TracedValue], column: TracedValue, worked: Calculation) -> TracedValue:
+    """Return the greatest temperature, from pressure and volume at its angle."""
+    degrees = math.degrees(trace["cylinder_temperature_max_angle"].value)
+    volume = volume_when(worked, float(gas.volume_at(np.array([degrees]))[0]), degrees)
+    state = at_angle(column, degrees, "cylinder_pressure"), volume
+    hottest = gas_temperature(*state, worked["gas_mass"], worked["specific_gas_constant"])
+    return hottest.named("cylinder_temperature_max")  # type: ignore[no-any-return]
+
+
+def _greatest(
+    key: str, intervals: list[tuple[Array, Array]], column: TracedValue, cycle: float
+) -> dict[str, TracedValue]:
+    """Return the largest value of all intervals, and its crank angle."""
+    value, degrees = max((float(values.max()), float(degrees[np.argmax(values)])) for degrees, values in intervals)
+    angle = degrees % cycle
+    return {
+        f"{key}_max": TracedValue(ProcedureValue(value, "max", (column,), angle), f"{key}_max"),
+        f"{key}_max_angle": TracedValue(
+            ProcedureValue(math.radians(angle), "max_angle", (column,), angle), f"{key}_max_angle"
+        ),
+    }
+
+
+def _diagram(
+    data: HeatReleaseData,
+    closed: list[Segment],
+    dead_centres: tuple[float, float],
+    exchange: tuple[TracedValue, TracedValue],
+) -> IndicatorDiagram:
+    """Return the diagram of the whole cycle, with simplified gas exchange."""
+    top, bottom = dead_centres
+    first, last = closed[0], closed[-1]
+    opens, closes = last.end, first.start + data.cycle
+    exhaust, intake = exchange
+    segments = list(closed)
+    centre = bottom + 360.0
+    if data.cycle > 360:
+        blown, change, changed = 2 * centre - opens, top + 720 - data.intake_opens, top + 720 + data.exhaust_closes
+    else:
+        blown, change, changed = centre - data.intake_opens, centre, centre
+        intake = exhaust
+    low = (blown, exhaust.value, 0.0)
+    if blown > opens:
+        segments.append(connecting_cubic((opens, float(last.pressures[-1]), float(last.slopes[-1])), low))
+    segments.append(constant_pressure(blown, change, exhaust))
+    if changed > change:
+        segments.append(connecting_cubic((change, exhaust.value, 0.0), (changed, intake.value, 0.0)))
+    end = (closes, data.shut_pressure, float(first.slopes[0]))
+    charged = centre + data.cycle - 360.0
+    segments.append(constant_pressure(changed, min(charged, closes), intake))
+    if closes > charged:
+        segments.append(connecting_cubic((charged, intake.value, 0.0), end))
+    named = {"a": (first.start % data.cycle, data.shut_pressure), "b": (opens % data.cycle, float(last.pressures[-1]))}
+    return IndicatorDiagram(within_cycle(segments, data.cycle), named)
+
+
+def work_peak(gas: ClosedGas, trace: Mapping[str, TracedValue], worked: Calculation) -> None:
+    """Calculate combustion, heat to the walls and pressure rise at the greatest pressure."""
+    data, (start, end) = gas.data, gas.burning
+    pressure = trace["cylinder_pressure_max"].named("cylinder_pressure")
+    degrees = math.degrees(trace["cylinder_pressure_max_angle"].value)
+    degrees += data.cycle if degrees < gas.first else 0.0
+    volume, growth = (float(function(np.array([degrees]))[0]) for function in (gas.volume_at, gas.volume_rate_at))
+    area = worked["piston_area"]
+    slope = TracedValue(ProcedureValue(growth / area.value, "motion", angle=degrees), "piston_transfer_1")
+    worked.known |= {"cylinder_pressure": pressure, "cylinder_volume": volume_when(worked, volume, degrees)}
+    worked.known["crank_angle"] = TracedValue(
+        ProcedureValue(math.radians(degrees), "max_angle", (pressure,), degrees), "crank_angle"
+    )
+    if start < degrees < end:
+        worked(burning_progress)
+        worked(wiebe_burnt_fraction)
+        worked(wiebe_burning_rate)
+    else:
+        worked.absent("burning_rate")
+    worked(gas_temperature)
+    if worked["gas_heat_ratio_slope"].is_absent:
+        worked.known["gas_heat_ratio"] = worked["gamma_cyl_0"]
+    else:
+        worked(gas_heat_ratio)
+    if data.has_wall_loss:
+        _work_walls(pressure, worked, EXPANSION if degrees > start else COMPRESSION)
+    else:
+        worked.absent("wall_heat_rate")
+    worked(pressure_rise, V_phi=area * slope)
+
+
+def _work_walls(pressure: TracedValue, worked: Calculation, factor: GasSpeedFactors) -> None:
+    """Calculate the heat to the walls."""
+    motored = worked(gas_formulas.polytropic_pressure, "motored_pressure", p_1=worked["p_shut"])
+    higher = pressure if pressure.value > motored.value else motored
+    worked(woschni_gas_speed, C_speed=factor.piston, C_burn=factor.burning, p_cyl=higher)
+    worked(woschni_coefficient)
+    below_head = worked["cylinder_volume"] - worked["clearance_volume"]
+    x = (below_head / worked["piston_area"]).named("piston_displacement")
+    worked(wall_area, pi=math.pi, x=x)
+    worked(wall_heat_rate, w=(math.pi * worked["rotational_speed"] / 30).named("speed"))
+
+
+def theoretical_diagram(
+    corners: Corners, cycle: float, volume_at: VolumeAt, dead_centres: tuple[float, float]
+) -> tuple[Points, tuple[Piece, ...]]:
+    """Return points and pieces of the theoretical diagram of a cylinder, absolute pressures.
+
+    Four strokes: r, d begin the intake, a ends it; c, z (z' before it if combustion continues at constant pressure), b,
+    e and r end the cycle. Two strokes: c, z, b at the opening of the ports, e and a at their closing. For
+    `loads.indicator.solve_diagram`. Source: kolchin_demidov_2008, ch. 3; nguyen_tat_tien_2000.
+    """
+    top = dead_centres[0] % 360
+    # a top dead centre just before 0 begins its cycle at the end of the previous one
+    top = top + cycle - 360 if top > 180 else top
+    bottom = top + (dead_centres[1] - dead_centres[0]) % 360
+    clearance = float(volume_at(np.array([top]))[0])
+
+    def angle_of(ratio: float, start: float, end: float) -> float:
+        return _angle_of_volume(volume_at, ratio * clearance, start, end)
+
+    if cycle == 360:
+        points, pieces = _two_strokes(corners, top, bottom, angle_of)
+    else:
+        points, pieces = _four_strokes(corners, top, bottom, angle_of)
+    return _from_zero(points, pieces, cycle)
+
+
+def _four_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
+    firing = top + 360
+    points = {
+        "r": DiagramPoint(top, corners.p_r.value),
+        "d": DiagramPoint(top, corners.p_a.value),
+        "a": DiagramPoint(bottom, corners.p_a.value),
+        "b": DiagramPoint(bottom + 360, corners.p_b.value),
+        "e": DiagramPoint(bottom + 360, corners.p_r.value),
+        "r'": DiagramPoint(top + 720, corners.p_r.value),
+    }
+    burning_points, burning = _burning(corners, firing, bottom + 360, angle_of)
+    pieces = [
+        Piece("rounded", ("r", "d")),
+        Piece("constant", ("d", "a")),
+        Piece("polytropic", ("a", "c"), corners.n1.value),
+        *burning,
+        Piece("rounded", ("b", "e")),
+        Piece("constant", ("e", "r'")),
+    ]
+    return points | burning_points, pieces
+
+
+def _two_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
+    opens, shuts = bottom, bottom
+    if corners.psi.value:
+        opens = angle_of(corners.epsilon.value, top, bottom)
+        shuts = angle_of(corners.epsilon.value, top + 360, bottom)
+    points = {
+        "b": DiagramPoint(opens, corners.p_b.value),
+        "e": DiagramPoint(opens, corners.p_a.value),
+        "a": DiagramPoint(shuts, corners.p_a.value),
+        "c'": DiagramPoint(top + 360, corners.p_c.value),
+    }
+    burning_points, burning = _burning(corners, top, opens, angle_of)
+    pieces = [
+        *burning,
+        Piece("rounded", ("b", "e")),
+        Piece("constant", ("e", "a")),
+        Piece("polytropic", ("a", "c'"), corners.n1.value),
+    ]
+    return points | burning_points, pieces
+
+
+def _burning(corners: Corners, firing: float, end: float, angle_of: _AngleOf) -> tuple[Points, list[Piece]]:
+    """Return points and pieces from c over z to b."""
+    points = {"c": DiagramPoint(firing, corners.p_c.value), "z": DiagramPoint(firing, corners.p_z.value)}
+    pieces = [Piece("rounded", ("c", "z"))]
+    if corners.rho.value > 1:
+        points["z'"] = points["z"]
+        points["z"] = DiagramPoint(angle_of(corners.rho.value, firing, end), corners.p_z.value)
+        pieces = [Piece("rounded", ("c", "z'")), Piece("constant", ("z'", "z"))]
+    return points, [*pieces, Piece("polytropic", ("z", "b"), corners.n2.value)]
+
+
+def _angle_of_volume(volume_at: VolumeAt, volume: float, small: float, large: float) -> float:
+    """Return the angle at which a volume is reached, between angles of a smaller and a larger volume."""
+    low, high = float(small), float(large)
+    ends = volume_at(np.array([low, high]))
+    if not ends[0] <= volume <= ends[1] * (1 + 1e-12):
+        raise CycleError(ErrorMessage("volume_unreached", volume=volume * 1e6, least=ends[0] * 1e6, most=ends[1] * 1e6))
+    return solve_monotone(volume_at, volume, low, high)
+
+
+def _from_zero(points: Points, pieces: list[Piece], cycle: float) -> tuple[Points, tuple[Piece, ...]]:
+    """Return the same diagram from 0 instead of from its first dead centre; the piece across the end is cut."""
+    before: list[Piece] = []
+    after: list[Piece] = []
+    moved = dict(points)
+    for piece in pieces:
+        first, last = piece.points[0], piece.points[-1]
+        start, end = (points[name].angle or 0.0 for name in (first, last))
+        if end <= cycle:
+            before.append(piece)
+        elif start >= cycle:
+            after.append(piece)
+        else:
+            pressure = points[first].pressure if piece.law == "constant" else None
+            moved |= {"end": DiagramPoint(cycle, pressure), "start": DiagramPoint(0.0, pressure)}
+            before.append(replace(piece, points=(first, "end")))
+            after.append(replace(piece, points=("start", last), reference=first if piece.exponent else None))
+    for name, point in points.items():
+        if (point.angle or 0.0) > cycle:
+            moved[name] = replace(point, angle=(point.angle or 0.0) - cycle)
+    return moved, (*after, *before)
