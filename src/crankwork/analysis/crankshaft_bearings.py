@@ -232,9 +232,8 @@ def _held(whole: MultiCylinderEngine, one: Unbalance) -> Unbalance:
     if not (machine.has_gravity or machine.angular_acceleration):
         return one
     g = given("gravity", whole.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
-    (cos, sin), angle, r = (
-        traced_inputs.inclination(machine, whole.master.lean), moving.angle.shifted(one.angle), moving.lengths.crank_radius,
-    )  # fmt: skip
+    cos, sin = traced_inputs.inclination(machine, whole.master.lean)
+    angle, r = moving.angle.shifted(one.angle), moving.lengths.crank_radius
     along = unbalance_weight(one.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
     across = unbalance_tangential_force(
         one.mass_moment, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration

@@ -1,4 +1,4 @@
-"""The forces from the gas to the crankshaft of one cylinder, remembered."""
+"""The forces from the gas to the crankshaft of one cylinder, traced."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ COLUMNS = ("crank_angle", *KINEMATICS, "cylinder_volume", *FORCES, "knuckle_side
 
 
 def cylinder_trace(solved: PreparedCylinder) -> dict[str, TracedValue]:
-    """Return everything about one cylinder by key: motion, gas and forces, each remembering how it came about.
+    """Return everything about one cylinder by key: motion, gas and forces, each traced.
 
     Source: kolchin_demidov_2008, ch. 6 and 7.
     """

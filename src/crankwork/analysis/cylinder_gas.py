@@ -1,4 +1,4 @@
-"""The pressure in a cylinder and its force on the piston, remembered."""
+"""The pressure in a cylinder and its force on the piston, traced."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def _retold(
 
 
 def _begins(solved: PreparedCylinder) -> Value:
-    """Return the crank angle that the points of a diagram count from, remembered where it depends on lengths. [deg]"""
+    """Return the crank angle that the points of a diagram count from, traced where it depends on lengths. [deg]"""
     delay = solved.machine.gas.delay if solved.machine.gas is not None else 0.0
     if not (solved.counts_from_top and solved.stroke[1]):
         return delay

@@ -1,4 +1,4 @@
-"""All cylinders of an engine: each is the one-cylinder engine at its own crank angle, remembered once per kind."""
+"""All cylinders of an engine: each is the one-cylinder engine at its own crank angle, traced once per kind."""
 
 from __future__ import annotations
 

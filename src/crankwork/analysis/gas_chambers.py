@@ -45,7 +45,7 @@ def traced_linkage(machine: Machine, motion: Motion) -> tuple[Motion, PreparedLi
 
 
 def solve_linkage(machine: Machine, motion: Motion) -> PreparedLinkage:
-    """Return a linkage made ready, with the gas in its chambers over its remembered motion."""
+    """Return a linkage made ready, with the gas in its chambers over its traced motion."""
     method = machine.method
     speed = machine.speed * method.pi / math.pi
     law = machine.mechanism.driver.law

@@ -1,4 +1,4 @@
-"""A torque over the angle of a shaft as it is remembered: lines between points, orders, stretches, cylinders."""
+"""A torque over the angle of a shaft as it is traced: lines between points, orders, stretches, cylinders."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def work_scale(machine: Machine, table: str) -> TracedValue | None:
 
 
 class _Torque:
-    """One torque of a description, remembered."""
+    """One torque of a description, traced."""
 
     def __init__(
         self, machine: Machine, diagram: TorqueDiagram, table: str, key: str, w: TracedValue, cycle: float

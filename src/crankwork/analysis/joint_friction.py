@@ -81,7 +81,7 @@ class _Place(NamedTuple):
 def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mapping[str, TracedValue]) -> FrictionColumns:
     """Return what friction adds to a linkage at work (artobolevsky_1988, ch. 11 and 14).
 
-    `running`: the linkage at work, remembered; `trace`: its columns without friction.
+    `running`: the linkage at work, traced; `trace`: its columns without friction.
     """
     if not solved.machine.friction:
         return FrictionColumns({}, {}, (), is_free=False)

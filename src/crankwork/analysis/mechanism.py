@@ -176,7 +176,7 @@ def _turns(machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedV
 
 
 def linkage_columns(machine: Machine) -> Results:
-    """Return what is remembered over the crank angle of a linkage, without what is found over its whole cycle."""
+    """Return what is traced over the crank angle of a linkage, without what is found over its whole cycle."""
     moved = _moved(machine, None)
     return Results(moved.solved, moved.table, {}, {}, {}, (), {}, trace=moved.trace)
 
@@ -215,7 +215,7 @@ class _Singles(NamedTuple):
 
 
 def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None = None) -> _Singles:
-    """Return the single values that follow from remembered columns; `name`: of one thing only."""
+    """Return the single values that follow from traced columns; `name`: of one thing only."""
     machine, found = moved.machine, moved.reached.travel
     quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
     quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
@@ -243,7 +243,7 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
 
 
 class _Moved(NamedTuple):
-    """A linkage in motion: how far it reaches, and what is remembered of it over the crank angle."""
+    """A linkage in motion: how far it reaches, and what is traced of it over the crank angle."""
 
     machine: Machine
     reached: ReachableMotion

@@ -43,7 +43,7 @@ DRIVEN = {False: "driver_force", True: "driver_torque"}
 
 
 def traced_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:
-    """Return a linkage at work, with its loads, remembered."""
+    """Return a linkage at work, with its loads, traced."""
     machine = solved.machine
     w, eps = driver_speed_and_acceleration(machine, motion)
     mechanism = traced_mechanism(machine.mechanism, machine.linkage)
@@ -63,7 +63,7 @@ def linkage_trace(solved: PreparedLinkage, running: OperatingState) -> dict[str,
     """Return all columns of a linkage (artobolevsky_1988, ch. 13-16).
 
     Columns by key; those of points, links, sliders, joints and chambers are `key.NAME`. `running`: the linkage at work,
-    remembered.
+    traced.
     """
     machine, motion, w, eps = solved.machine, running.motion, running.speed, running.angular_acceleration
     if motion.driver is not None and machine.mechanism.driver.law is not None:

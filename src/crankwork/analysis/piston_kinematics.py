@@ -1,4 +1,4 @@
-"""The motion of piston and rod of one cylinder, remembered from the lengths on."""
+"""The motion of piston and rod of one cylinder, traced from the lengths on."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class CylinderKinematics(NamedTuple):
 def moving_cylinder(
     machine: Machine, method: Method, sizes: SliderCrank, rod: ArticulatedRod | None = None
 ) -> CylinderKinematics:
-    """Return the motion of a cylinder by a method, remembered; `rod` is its own where that hangs on the master rod."""
+    """Return the motion of a cylinder by a method, traced; `rod` is its own where that hangs on the master rod."""
     angle: Value = TracedAngle()
     lengths, speed = traced_inputs.lengths(machine, sizes), traced_inputs.speed(machine, method)
     eps = traced_inputs.acceleration(machine)

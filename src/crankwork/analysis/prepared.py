@@ -87,7 +87,7 @@ class PreparedLinkage(PreparedMachine):
 class PreparedCylinder(PreparedMachine):
     """A crank gear made ready: its lengths and its diagram known.
 
-    `moving` is the remembered motion; `slave` the articulated rod of a cylinder that hangs on the master rod; `lean`
+    `moving` is the traced motion; `slave` the articulated rod of a cylinder that hangs on the master rod; `lean`
     how far its axis is ahead of that of cylinder 1, where weights count [deg].
     """
 
@@ -100,7 +100,7 @@ class PreparedCylinder(PreparedMachine):
 
     @cached_property
     def trace(self) -> dict[str, TracedValue]:
-        """Everything about the cylinder by key, remembered."""
+        """Everything about the cylinder by key, traced."""
         from crankwork.analysis.cylinder_forces import cylinder_trace  # noqa: PLC0415 - it is made of what is solved here
 
         return cylinder_trace(self)

@@ -211,7 +211,7 @@ class Results(Mapping[str, Array | float]):
         return key in self.columns or key in self.summary or key in self.trace
 
     def columns_at(self, angles: CrankGrid | ArrayLike, keys: Iterable[str] | None = None) -> dict[str, Array]:
-        """Return columns that are remembered, at other crank angles.
+        """Return columns that are traced, at other crank angles.
 
         Parameters
         ----------

@@ -41,7 +41,7 @@ _CANCELLED = 1e-13
 
 
 class EngineTorque(NamedTuple):
-    """Torque of cylinder 1 and of all over the cycle, the speed, and their memory."""
+    """Torque of cylinder 1 and of all over the cycle, the speed, and their trace."""
 
     # Torques [N m]
     one: Curve

@@ -62,7 +62,7 @@ def simulate_transient(
 ) -> TransientResults:
     """Return how a linkage moves in time from where it is let go (artobolevsky_1988, ch. 15); nothing if it is not.
 
-    `motion`: over the crank angle, remembered; `found`: the way of a crank that does not turn fully; `summary`: what
+    `motion`: over the crank angle, traced; `found`: the way of a crank that does not turn fully; `summary`: what
     else is known, such as its flywheel; `progress`: told the part of the time that is done.
     """
     if solved.machine.transient is None:

@@ -136,7 +136,7 @@ class TransientModel:
         return kinds * len(self._joints)
 
     def _rubbing(self, piece: PathSegment, motion: Motion, crank: Transfer) -> Array:
-        """Return the rows of `TransientFriction`: rates of the joints, and their unknowns for each cause, shape (rows, n)."""
+        """Return the rows of `TransientFriction`: rates of the joints, unknowns by cause, shape (rows, n)."""
         still = OperatingState(piece.mechanism, motion)
         system, back = full_equilibrium(still), _backwards(motion)
         dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
@@ -197,9 +197,9 @@ class TransientModel:
         )
 
     def traced(self, motion: Motion, flywheel: TracedValue | None) -> tuple[TracedValue, ...]:
-        """Return what a motion in time follows from, remembered, as `Followed` takes it.
+        """Return what a motion in time follows from, traced, as `Followed` takes it.
 
-        Nothing where its columns are not those of the crank angle alone. `motion`: over the crank angle, remembered;
+        Nothing where its columns are not those of the crank angle alone. `motion`: over the crank angle, traced;
         `flywheel`: beside what the machine has.
         """
         machine, wanted = self.machine, self.wanted

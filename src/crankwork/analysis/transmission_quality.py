@@ -29,7 +29,7 @@ _LOOK, _STILL = np.linspace(-1.0, 1.0, 17), 1e-9
 
 
 def transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
-    """Yield the transmission angle of every RRR dyad and the pressure angle of every RRP dyad; `motion` remembers."""
+    """Yield the transmission angle of every RRR dyad and the pressure angle of every RRP dyad; `motion` is traced."""
     for kind, name, one, other in _pairs(mechanism, motion):
         if kind == "transmission":
             yield f"transmission_angle.{name}", angles.transmission_angle(one.cos, other.cos, one.sin, other.sin)

@@ -1,1 +1,1 @@
-"""A formula computes, remembers, prints and differentiates."""
+"""A formula computes, is traced, prints and differentiates."""

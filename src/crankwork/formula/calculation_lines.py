@@ -1,4 +1,4 @@
-"""The memory as lines that can be followed by hand: symbols, then numbers, then the value.
+"""The trace as lines that can be followed by hand: symbols, then numbers, then the value.
 
 A line stands for one formula, sum or value at one crank angle. Terms of what nobody stated are folded away, plain
 arithmetic stands where it was written, and an operand has the symbol of the name it goes by here. Keys are those of the

@@ -1,4 +1,4 @@
-"""The memory of one value as a list: all that it is made of, in the order of calculation, down to what is given."""
+"""The calculation of one value as a list: all that it is made of, in order, down to what is given."""
 
 from __future__ import annotations
 

@@ -94,7 +94,7 @@ def formula(
     """Register a function as the formula of a quantity.
 
     Called with numbers it is that function; called with a known among its arguments it returns a known of that
-    quantity, which remembers the formula and its operands. `source` is a key of the bibliography, with page, chapter or
+    quantity, which keeps the formula and its operands. `source` is a key of the bibliography, with page, chapter or
     equation. `unit` is stated where it is not the SI unit of the quantity, as that of a sine or of a transfer function;
     `constants` where numbers in the formula, drawn from measurements or tables, have units; `valid` is the range of an
     argument, in its unit, outside which the source does not vouch for the formula; `printed` is the form that books
@@ -120,7 +120,7 @@ def formula(
 
 @contextmanager
 def replaced_formula(entry: Formula, function: Callable[..., Any]) -> Iterator[None]:
-    """Let another function be a formula for a while, wherever it is called, remembered or replayed.
+    """Let another function be a formula for a while, wherever it is called, traced or replayed.
 
     `function`: what is called in its place, with the same arguments.
     """

@@ -1,4 +1,4 @@
-"""The memory played again at any crank angles.
+"""The trace evaluated again at any crank angles.
 
 A column is never interpolated: what a table shows, a quadrature sums or another cylinder delays are the same
 operations at the angles wanted.

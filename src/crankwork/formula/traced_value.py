@@ -1,8 +1,8 @@
-"""Values that remember how they came about.
+"""Values with their calculation.
 
 A known is a node of the calculation and the name it goes by where it is used. Formulas make knowns of knowns; outside
 formulas a known takes part in plain sums, products and quotients only and refuses everything else, because what is
-not remembered could neither be explained nor replayed. What does not vary with the crank angle has its value at once;
+not traced could neither be explained nor replayed. What does not vary with the crank angle has its value at once;
 a column is replayed at whatever angles are asked for.
 """
 
@@ -248,7 +248,7 @@ class FunctionValue(ProcedureValue):
 
 
 class TracedValue:
-    """A value that remembers how it came about, under the name it has here.
+    """A value with its calculation, under the name it has here.
 
     The key is that of the quantity, with what tells it from others of that quantity after a point: `joint_force.A`.
 
@@ -283,7 +283,7 @@ class TracedValue:
         return isinstance(self.node, Input) and self.node.is_absent
 
     def named(self, key: str) -> TracedValue:
-        """Return the same memory under another name."""
+        """Return the same value under another name."""
         return TracedValue(self.node, key)
 
     def __repr__(self) -> str:
@@ -317,7 +317,7 @@ class TracedValue:
         return TracedValue(Arithmetic(operator.neg, (self,)))
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
-        raise TypeError(f"{self!r} is remembered: only formulas, sums, products and quotients may take it")
+        raise TypeError(f"{self!r} is traced: only formulas, sums, products and quotients may take it")
 
     # a number taken out of the trace would be lost to notes, checks and replay
     __bool__ = __float__ = __int__ = __complex__ = __len__ = __iter__ = __getitem__ = __pow__ = __rpow__ = _refuse
@@ -388,12 +388,12 @@ def total(key: str, terms: Iterable[TracedValue]) -> TracedValue:
 
 
 def sum_terms(key: str, terms: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
-    """Return the sum of terms in order, remembered under a key if they are knowns."""
+    """Return the sum of terms in order, traced under a key if they are traced."""
     return total(key, terms) if is_traced(*terms) else sum(terms)
 
 
 def to_number(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
-    """Return the number behind a value that may be a known, for procedures that are not remembered."""
+    """Return the number behind a value that may be traced, for procedures that are not traced."""
     return value.value if isinstance(value, TracedValue) else value
 
 
@@ -415,7 +415,7 @@ def delayed(known: TracedValue, shift: float, cycle: float, key: str) -> TracedV
 
 
 def is_traced(*values: object) -> bool:
-    """Return whether any of the values remembers."""
+    """Return whether any of the values is traced."""
     return TracedValue in map(type, values)
 
 

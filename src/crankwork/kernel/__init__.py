@@ -1,1 +1,1 @@
-"""A remembered calculation compiled for many designs."""
+"""A traced calculation compiled for many designs."""

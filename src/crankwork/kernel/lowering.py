@@ -363,8 +363,13 @@ class Lowering:
         return self.graph.delayed(self.value(node.of, shift=shift), node.by or node.cycle)
 
     def _pieces(
-        self, known: TracedValue, node: Piecewise, value_of: Any, shift: float, fixed: float | None
-    ) -> KernelValue:  # noqa: ANN401
+        self,
+        known: TracedValue,
+        node: Piecewise,
+        value_of: Any,  # noqa: ANN401
+        shift: float,
+        fixed: float | None,
+    ) -> KernelValue:
         laws = tuple(self._as_value(value_of(operand)) for operand in node.operands)
         ends = tuple(self._end(place) for place in node.places)
         if fixed is not None:

@@ -190,7 +190,7 @@ class RodSwing(NamedTuple):
 def rod_swing(slider_crank: SliderCrank, grid: CrankGrid, lam: Value = None, *, part: str = "") -> RodSwing:
     """Return the sines and cosines of the rod angle and of crank and rod angle together. [-]
 
-    `lam`: its rod ratio, where that is known already; `part`: what tells this rod from another of the same memory,
+    `lam`: its rod ratio, where that is known already; `part`: what tells this rod from another of the same trace,
     `.master`. Source: kolchin_demidov_2008, ch. 6, for sin(beta).
     """
     r, l, e = slider_crank  # noqa: E741

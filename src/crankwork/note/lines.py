@@ -492,7 +492,7 @@ def _first_harmonic(results: Results) -> Iterator[TracedValue]:
 
 
 def _inertia(results: Results) -> Iterator[TracedValue]:
-    """Yield inertia forces and torques, which the forces in the joints remember."""
+    """Yield inertia forces and torques, which the forces in the joints are made of."""
     forces = [known for key, known in results.trace.items() if key.partition(".")[0] in _JOINTS]
     yield from (known for known in in_order(forces) if known.key.partition(".")[0] in _INERTIA)
 

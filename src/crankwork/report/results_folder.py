@@ -38,7 +38,7 @@ def results_folder(
     formats: Sequence[str] = ("svg",),
     theme: Theme = "print",
 ) -> Iterator[dict[str, bytes]]:
-    """Yield the files of a results folder in steps, so that progress can be shown; `missing_writers` says what is not made.
+    """Yield the files of a results folder in steps, to show progress; `missing_writers` says what is left out.
 
     `formats`: of the figures, none for none.
     """

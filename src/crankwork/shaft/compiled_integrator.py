@@ -83,7 +83,7 @@ class CompiledIntegrator(Integrator):
 class TransientReplay:
     """What a machine let go comes to: from polynomials of a trace over one cycle, where loads are of the angle alone.
 
-    `breaks`: crank angles at which a law of the loads changes [rad]; `stops` and `restitution` as of a `TransientSystem`.
+    `breaks`: crank angles at which a law of the loads changes [rad]; `stops`, `restitution`: as in `TransientSystem`.
     """
 
     breaks: tuple[float, ...]

@@ -114,6 +114,11 @@ def styles() -> str:
     return look() + style("page", "sliders", "studio")
 
 
+def _escaped(key: str, language: Language) -> str:
+    """Return a text as it may stand in an attribute."""
+    return html.escape(translate(key, language))
+
+
 def shell(language: Language) -> str:
     """Return the page of the studio in a language."""
     stored = json.dumps(dict(texts("studio", language)), ensure_ascii=False).replace("<", "\\u003c")
@@ -126,16 +131,16 @@ def shell(language: Language) -> str:
         f'<p id="notice" role="alert" hidden></p><script type="application/json" id="words">{stored}</script>',
         "<main>",
         *_left(language),
-        f'<section id="machine" aria-label="{html.escape(translate("page.machine", language))}">',
+        f'<section id="machine" aria-label="{_escaped("page.machine", language)}">',
         '<div id="film"></div><output id="chip" hidden></output>',
         '<p id="turn" hidden></p>',
         f'<p class="hint">{_text("hint", language)}</p></section>',
-        f'<section id="diagrams" aria-label="{html.escape(translate("page.diagrams", language))}">',
+        f'<section id="diagrams" aria-label="{_escaped("page.diagrams", language)}">',
         f'<select id="add" aria-label="{_text("add", language)}"></select><div class="figures"></div>',
         f'<details id="trial"><summary>{_text("vary", language)}</summary></details></section>',
         f'<section id="results" aria-label="{_text("results", language)}"></section>',
-        f'<aside id="explanation" tabindex="-1" hidden aria-label="{html.escape(translate("page.explanation", language))}">',
-        f'<button aria-label="{html.escape(translate("page.close", language))}">×</button><div class="body"></div></aside>',
+        f'<aside id="explanation" tabindex="-1" hidden aria-label="{_escaped("page.explanation", language)}">',
+        f'<button aria-label="{_escaped("page.close", language)}">×</button><div class="body"></div></aside>',
         "</main>",
         f'<dialog id="commands" aria-label="{_text("commands", language)}"><input role="combobox" aria-expanded="true"',
         f' aria-controls="found" aria-autocomplete="list" aria-label="{_text("commands", language)}">',

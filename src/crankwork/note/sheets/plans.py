@@ -115,9 +115,8 @@ class Positions(NamedTuple):
         """Return the columns that name these positions."""
         places = [position_text(float(self.degrees[row]), self.style) for row in rows]
         drive = symbol("time" if self.style.period else "crank_angle", self.language)
-        return [
-            Column(translate("columns.position", self.language), [str(row) for row in rows]), Column(f"${drive}$", places)
-        ]  # fmt: skip
+        position = Column(translate("columns.position", self.language), [str(row) for row in rows])
+        return [position, Column(f"${drive}$", places)]
 
     def column(self, key: str, sign: str = "") -> Column:
         """Return a column of a quantity at all positions."""
