@@ -61,7 +61,7 @@ __version__ = "0.1.0"
 
 # Where each name lives; it is imported when first used, so that the command line starts fast.
 _HOMES = {
-    "AppliedLoads": "loads.applied",
+    "AppliedLoads": "loads.applied_loads",
     "Comparison": "analysis.compare",
     "CrankGrid": "kinematics.crank_grid",
     "CrankworkError": "errors",
@@ -93,7 +93,7 @@ _HOMES = {
     "compare": "analysis.compare",
     "crank_shaper": "mechanism.catalog",
     "figures": "report.figures",
-    "force_at": "loads.applied",
+    "force_at": "loads.applied_loads",
     "four_bar": "mechanism.catalog",
     "json_schema": "description.machine_file",
     "load": "description.document",

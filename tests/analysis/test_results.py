@@ -71,5 +71,5 @@ def test_a_method_that_a_machine_does_not_have_is_refused_however_it_is_asked_fo
     machine = crankwork.read_machine(crankwork.template("four-bar"))
     textbook = crankwork.with_method(machine, "textbook")
     for found, method in ((machine, textbook.method), (textbook, None)):
-        with pytest.raises(MethodError, match="method textbook is one of engines"):
+        with pytest.raises(MethodError, match="method textbook exists only for cranks with rods and pistons"):
             crankwork.analyse(found, method=method)

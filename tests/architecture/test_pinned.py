@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "274ffc63bbc6",
     "quantities": "eb8dc364166d",
-    "defaults": "2c6b4fafdf12",
+    "defaults": "8ca4806cab4c",
 }
 
 

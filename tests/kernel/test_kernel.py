@@ -113,9 +113,9 @@ def test_values_and_columns_are_those_of_analyses_and_others_say_why_not(name, b
     keys = [key for key, known in study.traces[0].items() if known.varies and key not in told]
     degrees, design = np.linspace(1.3, study.cycle - 2.2, 60), study.drawn(1)[:, 0]
     trace = study.results(design).trace
-    trace = Lowering(DesignTraces(study.traces, study.rows, keys), CrankGrid.from_degrees, degrees, is_shifted=True)
+    lowering = Lowering(DesignTraces(study.traces, study.rows, keys), CrankGrid.from_degrees, degrees, is_shifted=True)
     expected = Program({key: trace[key] for key in keys})(CrankGrid.from_degrees(degrees))
-    found = played([trace.value(study.traces[0][key]) for key in keys], design, degrees, study.cycle)
+    found = played([lowering.value(study.traces[0][key]) for key in keys], design, degrees, study.cycle)
     apart = {key: np.max(np.abs(one - expected[key])) for key, one in zip(keys, found, strict=True)}
     assert {key for key, one in apart.items() if not one <= 1e-12 * max(np.max(np.abs(expected[key])), 1e-9)} == set()
 

@@ -139,7 +139,7 @@ def said_keys() -> set[str]:
     for path, tree in source_trees().items():
         for call in ast.walk(tree):
             match call:
-                case ast.Call(func=ast.Name("say") | ast.Attribute(_, "say"), args=[ast.Constant(str(key)), *_]):
+                case ast.Call(func=ast.Name("translate"), args=[ast.Constant(str(key)), *_]):
                     found.add(key if "." in key else f"sheets.{key}")
                 case ast.Call(func=ast.Attribute(_, verb), args=[ast.Constant(str(key)), *_]) if verb in SAYING:
                     if path.is_relative_to(PACKAGE / "note"):

@@ -327,7 +327,10 @@ def test_the_inertia_torque_takes_up_the_kinetic_energy(drawn: Drawn) -> None:
 def test_the_crank_gets_in_a_cycle_the_work_of_the_gas(drawn: Drawn) -> None:
     results = crankwork.analyse(drawn.machine)
     summary = results.summary
-    assert summary["mean_torque"] * 4 * math.pi == pytest.approx(summary["indicated_work"], rel=1e-10)
+    # what the shaft must be given is told as a positive torque too
+    sign = -1 if summary["indicated_work"] < 0 else 1
+    assert summary["mean_torque"] >= 0
+    assert sign * summary["mean_torque"] * 4 * math.pi == pytest.approx(summary["indicated_work"], rel=1e-10)
     assert summary["indicated_mean_pressure"] < summary["gas_pressure_max"]
     assert results.checks["work"] < 1e-10
 

@@ -110,8 +110,8 @@ def test_internal_energy_is_the_integral_of_the_specific_heat(first, slope, star
 
 def test_without_heat_and_walls_the_gas_follows_the_isentrope():
     result = _run(replace(ENGINE, heat=0.0, has_wall_loss=False, heat_ratio=1.4))
-    volume = VOLUME(result.trace.degrees)
-    invariant = result.trace.pressure * volume**1.4
+    volume = VOLUME(result.history.degrees)
+    invariant = result.history.pressure * volume**1.4
     assert np.max(np.abs(invariant / invariant[0] - 1)) < 1e-9
 
 
@@ -134,7 +134,7 @@ def test_a_machine_twice_as_large_has_the_same_pressures():
     volumes = cylinder_volumes(large, 2 * BORE, 8 * _clearance(CENTRAL))
     doubled = heat_release(replace(data, bore=2 * BORE, heat=8 * 900.0), *volumes, dead_centres(large))
     once = _run(data)
-    assert doubled.trace.pressure == pytest.approx(once.trace.pressure, rel=1e-9)
+    assert doubled.history.pressure == pytest.approx(once.history.pressure, rel=1e-9)
     assert doubled.calculated.values["indicated_work"] == pytest.approx(
         8 * once.calculated.values["indicated_work"], rel=1e-9
     )
@@ -241,10 +241,10 @@ def test_a_march_in_small_steps_with_its_own_equations_ends_at_the_same_work():
 
 def test_the_ideal_gas_law_holds_along_the_trace():
     result = _run(ENGINE)
-    volume = VOLUME(result.trace.degrees)
-    constant = result.trace.pressure * volume / result.trace.temperature
+    volume = VOLUME(result.history.degrees)
+    constant = result.history.pressure * volume / result.history.temperature
     assert constant == pytest.approx(np.full_like(constant, constant[0]), rel=1e-12)
-    lost = np.trapezoid(result.trace.wall_heat_rate, np.radians(result.trace.degrees))
+    lost = np.trapezoid(result.history.wall_heat_rate, np.radians(result.history.degrees))
     assert result.calculated.values["wall_heat"] == pytest.approx(lost, rel=1e-4)
 
 
@@ -353,7 +353,7 @@ def test_a_rise_of_pressure_beyond_the_usual_is_told_in_megapascals_a_degree():
     """Against differences of the pressure from step to step."""
     result = _run(replace(ENGINE, burning_duration=20.0, heat=1500.0))
     told = dict(result.calculated.notices)["heat_knock"]
-    steepest = np.max(np.diff(result.trace.pressure) / np.diff(result.trace.degrees))
+    steepest = np.max(np.diff(result.history.pressure) / np.diff(result.history.degrees))
     assert told["rise"] == pytest.approx(steepest / 1e6, rel=0.01)
     assert told["limit"] == 0.8
 

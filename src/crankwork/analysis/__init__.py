@@ -9,8 +9,8 @@ from crankwork.kinematics.crank_grid import Array
 __all__ = [
     "Array",
     "Notice",
-    "Results",
     "PreparedMachine",
+    "Results",
     "WorkingSpace",
     "analyse",
     "columns",

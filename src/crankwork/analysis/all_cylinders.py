@@ -76,23 +76,23 @@ class EngineTrace(NamedTuple):
         own: Mapping[str, TracedValue] = MappingProxyType({}),
     ) -> EngineTrace:
         """Return those of the engine that a cylinder belongs to; other columns are followed and sampled beside them."""
-        whole = multi_cylinder_engine(solved)
-        trace = torque_trace(whole) | bearing_trace(whole) | engine_reduction(whole)
-        first = whole.of(1, "crank_torque")
+        engine = multi_cylinder_engine(solved)
+        trace = torque_trace(engine) | bearing_trace(engine) | engine_reduction(engine)
+        first = engine.of(1, "crank_torque")
         keys = ("total_torque", *load_columns(trace).values(), "bearing_force_x.small_end")
-        inertias = REDUCTION if has_own_inertia(whole) else ()
+        inertias = REDUCTION if has_own_inertia(engine) else ()
         followed = {
             first.key: first,
             **{key: trace[key] for key in inertias},
             **{key: trace[key] for key in keys},
             **beside,
         }
-        inertia = [whole.of(number, "inertia_force") for number in whole.has("inertia_force")]
-        sampled = {key: trace[key] for key in (*_table_keys(trace), *bearing_components(whole, trace))}
-        program = Program({**own, **sampled, **{one.key: one for one in inertia}, **followed})
-        over = CycleInterpolant(followed, CrankGrid.from_degrees, whole.layout.cycle, size_of=size_of, program=program)
-        samples = Samples(program, CrankGrid.from_degrees, whole.layout.cycle)
-        return cls(whole, trace, over, over.extremes(*keys), samples)
+        inertia = [engine.of(number, "inertia_force") for number in engine.has("inertia_force")]
+        sampled = {key: trace[key] for key in (*_table_keys(trace), *bearing_components(engine, trace))}
+        program = Program({**own, **sampled, **{item.key: item for item in inertia}, **followed})
+        over = CycleInterpolant(followed, CrankGrid.from_degrees, engine.layout.cycle, size_of=size_of, program=program)
+        samples = Samples(program, CrankGrid.from_degrees, engine.layout.cycle)
+        return cls(engine, trace, over, over.extremes(*keys), samples)
 
 
 def _table_keys(trace: Mapping[str, TracedValue]) -> tuple[str, ...]:
@@ -106,29 +106,33 @@ def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
 
     Every column and single value of cylinder 1 as it was, and those of the engine.
     """
-    whole = multi_cylinder_engine(results.solved) if found is None else found.whole
-    notices = [Notice(*one) for one in whole.engine.notices]
-    machine = whole.machine
+    engine = multi_cylinder_engine(results.solved) if found is None else found.whole
+    notices = [Notice(*notice) for notice in engine.engine.notices]
+    machine = engine.machine
     stated = machine.cylinder.inclination if machine.cylinder is not None else None
     if machine.has_gravity and stated is None and machine.inclination:
         notices.append(Notice("upright", {"inclination": math.degrees(machine.inclination)}))
     if (
-        any(whole.engine.articulated_rods)
-        and whole.masses.rod_inertia_excess
-        and whole.engine.articulated_masses is None
+        any(engine.engine.articulated_rods)
+        and engine.masses.rod_inertia_excess
+        and engine.engine.articulated_masses is None
     ):
         notices.append(Notice("articulated_two_mass", {}))
-    if len({one.position for one in whole.layout.places}) == 1 < len({one.throw for one in whole.layout.places}):
+    if (
+        len({place.position for place in engine.layout.places})
+        == 1
+        < len({place.throw for place in engine.layout.places})
+    ):
         notices.append(Notice("no_spacing", {}))
-    firing = firing_trace(whole)
+    firing = firing_trace(engine)
     if found is None:
         notices.append(Notice("motion_only", {}))
         return replace(results, notices=(*results.notices, *notices), trace={**results.trace, **firing})
     _, trace, over, extremes, samples = found
-    torque = engine_torque(whole, trace, over, extremes)
-    loads = bearing_values(whole, trace, over, extremes) | wear_trace(whole, trace, samples)
-    works, harmonics = work_trace(whole, firing), harmonics_trace(whole, torque, trace)
-    delivered = delivery_trace(whole, firing, works)
+    torque = engine_torque(engine, trace, over, extremes)
+    loads = bearing_values(engine, trace, over, extremes) | wear_trace(engine, trace, samples)
+    works, harmonics = work_trace(engine, firing), harmonics_trace(engine, torque, trace)
+    delivered = delivery_trace(engine, firing, works)
     sampled = samples(results.grid)
     columns = {key: sampled[key].copy() for key in _table_keys(trace)} | Program(torque.columns)(results.grid)
     trace |= torque.columns
@@ -137,35 +141,35 @@ def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
         for name, starts in _TABLES.items()
     } | {"dynamics": (*results.groups["dynamics"], *(key for key in REDUCTION if key in columns))}
     listings: dict[str, Listing] = {
-        "firing": firing_listing(whole, firing | works),
+        "firing": firing_listing(engine, firing | works),
         "torque_harmonics": harmonics_listing(harmonics),
-        **bearing_listings(whole, loads),
+        **bearing_listings(engine, loads),
     }
-    balance, balanced, left = engine_balance(whole), dict[str, TracedValue](), dict[str, TracedValue]()
-    if whole.machine.masses is not None:
-        balanced = balance_trace(whole, balance)
-        listings["balance"] = balance_listing(whole, balance, balanced)
-        left = balance_summary(whole, balance, balanced)
+    balance, balanced, left = engine_balance(engine), dict[str, TracedValue](), dict[str, TracedValue]()
+    if engine.machine.masses is not None:
+        balanced = balance_trace(engine, balance)
+        listings["balance"] = balance_listing(engine, balance, balanced)
+        left = balance_summary(engine, balance, balanced)
         balanced |= left
-    whole_values = {key: one for key, one in {**firing, **works}.items() if key in _WHOLE_VALUES}
-    single = {**whole_values, **delivered, **torque.summary, **bearing_summary(whole, loads), **left}
-    summary = {key: one.value for key, one in single.items()}
+    whole_values = {key: value for key, value in {**firing, **works}.items() if key in _WHOLE_VALUES}
+    single = {**whole_values, **delivered, **torque.summary, **bearing_summary(engine, loads), **left}
+    summary = {key: value.value for key, value in single.items()}
     thrown, joints = dict[str, float](), dict[str, TracedValue]()
-    if any(whole.engine.articulated_rods):
+    if any(engine.engine.articulated_rods):
         from crankwork.analysis.master_joints import master_joints  # noqa: PLC0415 - few engines have such rods
         from crankwork.analysis.second_routes import throw_residuals  # noqa: PLC0415 - few engines have such rods
 
-        thrown = throw_residuals(whole, trace)
-        joints = {one.key: one for one in master_joints(whole, trace)}
-    told = [*torque.notices, *_against_cycle(whole, results.summary, summary), *_of_gases(whole, results.notices)]
+        thrown = throw_residuals(engine, trace)
+        joints = {master_joint.key: master_joint for master_joint in master_joints(engine, trace)}
+    told = [*torque.notices, *_against_cycle(engine, results.summary, summary), *_of_gases(engine, results.notices)]
     return replace(
         results,
         columns={**results.columns, **columns},
         summary={**results.summary, **summary},
         checks={
             **results.checks,
-            **torque_checks(whole, torque, samples, moved_work(results.solved, results.summary)),
-            **balance_checks(whole, balance, samples),
+            **torque_checks(engine, torque, samples, moved_work(results.solved, results.summary)),
+            **balance_checks(engine, balance, samples),
             **torque.checks,
             **thrown,
         },
@@ -178,7 +182,7 @@ def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
             **firing,
             **works,
             **trace,
-            **{key: one for key, one in _of_unlike(whole).items() if key not in trace},
+            **{key: value for key, value in _of_unlike(engine).items() if key not in trace},
             **joints,
             **loads,
             **harmonics,
@@ -189,25 +193,25 @@ def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
     )
 
 
-def _of_unlike(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+def _of_unlike(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     """Return the columns of the cylinders with articulated rods or other gas, at the crank angle of cylinder 1."""
-    first = whole.master.machine.gas
+    first = engine.master.machine.gas
     unlike = [
-        (number, one)
-        for number, one in enumerate(whole.cylinders, start=1)
-        if one.articulated_rod is not None or one.machine.gas is not first
+        (number, cylinder)
+        for number, cylinder in enumerate(engine.cylinders, start=1)
+        if cylinder.articulated_rod is not None or cylinder.machine.gas is not first
     ]
-    found = (whole.of(number, key) for number, one in unlike for key, known in one.trace.items() if known.varies)
-    return {one.key: one for one in found}
+    values = (engine.of(number, key) for number, item in unlike for key, known in item.trace.items() if known.varies)
+    return {item.key: item for item in values}
 
 
-def _of_gases(whole: MultiCylinderEngine, told: Sequence[Notice]) -> Iterator[Notice]:
+def _of_gases(engine: MultiCylinderEngine, told: Sequence[Notice]) -> Iterator[Notice]:
     """Yield which cylinders misfire, and what is to be known of the diagrams of those that have their own."""
-    if whole.engine.misfires:
-        yield Notice("misfire", {"numbers": ", ".join(map(str, whole.engine.misfires))})
+    if engine.engine.misfires:
+        yield Notice("misfire", {"numbers": ", ".join(map(str, engine.engine.misfires))})
     seen = list(told)
-    for one in whole.cylinders if whole.engine.gases else ():
-        for notice in one.notices:
+    for item in engine.cylinders if engine.engine.gases else ():
+        for notice in item.notices:
             if notice not in seen:
                 seen.append(notice)
                 yield notice
@@ -219,7 +223,7 @@ def _allowed(results: Results) -> dict[str, float]:
     if "work" in allowed:
         allowed["engine_work"] = allowed["work"]
     if "inertia_force_error" in results.summary:
-        largest = max(abs(results.summary[f"inertia_force_{one}"]) for one in ("max", "min")) or 1.0
+        largest = max(abs(results.summary[f"inertia_force_{item}"]) for item in ("max", "min")) or 1.0
         allowed["free_forces"] = results.summary["inertia_force_error"] / largest
     return allowed
 
@@ -230,17 +234,17 @@ def _belongs(table: str, key: str) -> bool:
 
 
 def _against_cycle(
-    whole: MultiCylinderEngine, one: Mapping[str, float], summary: Mapping[str, float]
+    engine: MultiCylinderEngine, values: Mapping[str, float], summary: Mapping[str, float]
 ) -> Iterator[Notice]:
     """Yield how far the mean torque is from that of the calculated cycle, or that this is of other cylinders."""
-    if not {"effective_torque", "mechanical_efficiency"} <= set(one):
+    if not {"effective_torque", "mechanical_efficiency"} <= set(values):
         return
-    gases = whole.engine.gases
-    if whole.engine.misfires or any(gas is not gases[0] or gas.factor != 1 for gas in gases):
+    gases = engine.engine.gases
+    if engine.engine.misfires or any(gas is not gases[0] or gas.factor != 1 for gas in gases):
         yield Notice("cycle_in_every", {})
-    elif not whole.machine.angular_acceleration:
+    elif not engine.machine.angular_acceleration:
         # a mean torque less what the parts take up is not that of the gas
-        cycle, mean = one["effective_torque"] / one["mechanical_efficiency"], summary["mean_torque"]
+        cycle, mean = values["effective_torque"] / values["mechanical_efficiency"], summary["mean_torque"]
         yield Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)})
 
 

@@ -65,12 +65,12 @@ def assembly_modes(machine: Machine) -> AssemblyModes:
     is_all = _is_countable(mechanism)
     circuits = all_circuits(mechanism) if is_all else [stated]
     here, _ = stated.curve.at(np.array([stated.curve.stated]))
-    found: list[AssemblyMode] = []
+    result: list[AssemblyMode] = []
     # that of the stated position first
-    order = sorted(circuits, key=lambda one: one.curve.nearest(here[0])[1] > _SAME)
+    order = sorted(circuits, key=lambda item: item.curve.nearest(here[0])[1] > _SAME)
     for number, circuit in enumerate(order, start=1):
-        found += _branches(circuit, number, here[0] if number == 1 else None)
-    return AssemblyModes(tuple(found), is_all)
+        result += _branches(circuit, number, here[0] if number == 1 else None)
+    return AssemblyModes(tuple(result), is_all)
 
 
 def _is_countable(mechanism: Mechanism) -> bool:
@@ -92,9 +92,9 @@ def _branches(circuit: Circuit, number: int, stated: Array | None) -> Iterator[A
     parts = circuit.branches(driver)
     at = circuit.curve.nearest(stated)[0] if stated is not None else None
     if at is not None:
-        parts = sorted(parts, key=lambda one: not _holds(circuit, one, at))
+        parts = sorted(parts, key=lambda item: not _holds(circuit, item, at))
     link = circuit.mechanism.driver.link
-    names = [one for one in circuit.curve.system.equations.index if one not in (link, rod_of(link))]
+    names = [item for item in circuit.curve.system.equations.index if item not in (link, rod_of(link))]
     is_turning = circuit.mechanism.driver.turns
     for count, part in enumerate(parts, start=1):
         is_stated = at is not None and _holds(circuit, part, at)
@@ -107,10 +107,10 @@ def _branches(circuit: Circuit, number: int, stated: Array | None) -> Iterator[A
         elif is_turning and not (is_stated and circuit.mechanism.driver.law):
             back = math.tau * round((start + end) / 2 / math.tau)
             start, end = start - back, end - back
-        sliders = {name: one for name, one in circuit.sliders.items() if name in names}
+        sliders = {name: value for name, value in circuit.sliders.items() if name in names}
         swings = {name: circuit.extent(link_angle(name), part).travel for name in names if name not in sliders}
-        swings = {name: one for name, one in swings.items() if one < math.tau - _FULL}
-        strokes = {name: circuit.extent(one, part).travel for name, one in sliders.items()}
+        swings = {name: value for name, value in swings.items() if value < math.tau - _FULL}
+        strokes = {name: circuit.extent(value, part).travel for name, value in sliders.items()}
         yield AssemblyMode(number, count, is_stated, start, end, turns, swings, strokes)
 
 

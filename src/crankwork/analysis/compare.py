@@ -49,10 +49,10 @@ class Comparison(NamedTuple):
 
         Of methods, those in which they differ.
         """
-        each = [summary_without_rounding(one) for one in (results, *self.others)]
-        keys = dict.fromkeys(key for one in each for key in one)
-        found = {key: tuple(one.get(key, math.nan) for one in each) for key in keys}
-        return {key: one for key, one in found.items() if not self.is_of_methods or _differ(one)}
+        each = [summary_without_rounding(other) for other in (results, *self.others)]
+        keys = dict.fromkeys(key for item in each for key in item)
+        values = {key: tuple(item.get(key, math.nan) for item in each) for key in keys}
+        return {key: value for key, value in values.items() if not self.is_of_methods or _differ(value)}
 
 
 def comparison_key(key: str, name: str) -> str:
@@ -106,11 +106,11 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     for key in keys:
         mine = results.trace[key].named(comparison_key(key, own))
         trace[comparison_key(key, own)] = mine
-        for other, one in others.items():
-            its = one.trace[key].named(comparison_key(key, other))
+        for other, value in others.items():
+            its = value.trace[key].named(comparison_key(key, other))
             trace[comparison_key(key, other)] = its
             trace[difference_key(key, other)] = (its - mine).named(difference_key(key, other))
-    if not keys and not any(one.summary.keys() & results.summary.keys() for one in others.values()):
+    if not keys and not any(other.summary.keys() & results.summary.keys() for other in others.values()):
         raise CrankworkError(ErrorMessage("compare_nothing"))
     columns = _played(trace, results.grid)
     compared = Comparison((own, *others), tuple(others.values()), keys, trace, columns, is_of_methods=not name)
@@ -120,16 +120,16 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
 def _common(every: tuple[Results, ...]) -> Iterator[str]:
     """Yield the keys of columns that all results have."""
     # a cycle of one turn has no forces of a second one
-    kinds = (*_MOTION, *_FORCES) if len({one.machine.cycle for one in every}) == 1 else _MOTION
+    kinds = (*_MOTION, *_FORCES) if len({item.machine.cycle for item in every}) == 1 else _MOTION
     for kind in kinds:
         for key in every[0].columns:
-            if key.partition(".")[0] == kind and all(key in one.columns and key in one.trace for one in every):
+            if key.partition(".")[0] == kind and all(key in item.columns and key in item.trace for item in every):
                 yield key
 
 
 def _go_alike(every: tuple[Results, ...]) -> bool:
     """Return whether columns of all results stand at angles, or times, that mean the same."""
-    return len({one.period for one in every}) == 1 and not any(one.has_positions for one in every)
+    return len({item.period for item in every}) == 1 and not any(item.has_positions for item in every)
 
 
 def _played(trace: Mapping[str, TracedValue], grid: CrankGrid) -> dict[str, Array]:
@@ -140,5 +140,5 @@ def _played(trace: Mapping[str, TracedValue], grid: CrankGrid) -> dict[str, Arra
 
 
 def _differ(values: tuple[float, ...]) -> bool:
-    size = max(abs(one) for one in values)
+    size = max(abs(value) for value in values)
     return not max(values) - min(values) <= _ALIKE * size

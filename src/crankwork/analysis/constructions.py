@@ -114,7 +114,7 @@ def tangent_ends(start: ArrayLike, corner: ArrayLike, end: ArrayLike) -> Array:
     (2,).
     """
     share = np.arange(1, _PARTS)[:, None] / _PARTS
-    a, b, c = (np.array(one) for one in (start, corner, end))
+    a, b, c = (np.array(item) for item in (start, corner, end))
     return np.hstack([a + (b - a) * share, b + (c - b) * share])
 
 

@@ -28,14 +28,16 @@ _SAMPLES = 1440
 def shaking(running: OperatingState) -> Iterator[tuple[str, TracedValue]]:
     """Yield force and moment of all moving masses on the ground, the moment about the pivot of the crank."""
     driver, loads = running.mechanism.driver, inertia_loads(running)
-    x = total("shaking_force_x", [one.x for one in loads.forces])
-    y = total("shaking_force_y", [one.y for one in loads.forces])
-    yield from ((one.key, one) for one in (x, y, shaking_force(x, y).named("shaking_force")))
+    x = total("shaking_force_x", [force.x for force in loads.forces])
+    y = total("shaking_force_y", [force.y for force in loads.forces])
+    yield from ((item.key, item) for item in (x, y, shaking_force(x, y).named("shaking_force")))
     if isinstance(driver, Crank):
         pivot = running.motion.frames[driver.link].origin
-        moments = [moment_of(arm(pivot, one.point), (one.x, one.y), f"{one.link}.shaking") for one in loads.forces]
-        turning = [one.torque for one in loads.torques]
-        stated = [one for one in (*moments, *turning) if not one.is_absent]
+        moments = [
+            moment_of(arm(pivot, force.point), (force.x, force.y), f"{force.link}.shaking") for force in loads.forces
+        ]
+        turning = [torque.torque for torque in loads.torques]
+        stated = [item for item in (*moments, *turning) if not item.is_absent]
         if stated:
             yield "shaking_moment", total("shaking_moment", stated)
 

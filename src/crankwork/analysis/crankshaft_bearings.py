@@ -52,34 +52,34 @@ class BearingLoads(NamedTuple):
     mains: tuple[BearingLoad, ...]
 
 
-def bearing_trace(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+def bearing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     """Return the loads of the bearings by key: sizes, and components in the frame of each.
 
     Source: kolchin_demidov_2008, ch. 9.
     """
-    master = whole.master.trace
+    master = engine.master.trace
     inertia = absent("big_end_inertia_force")
-    if whole.machine.masses is not None:
+    if engine.machine.masses is not None:
         mass, r, w = master["rod_big_end_mass"], master["crank_radius"], master["speed"]
         inertia = formulas.big_end_inertia_force(mass, r, w)
-    forces = {one.number: _of_rod(whole, one, inertia) for one in whole.layout.places}
-    found = {one.key: one for one in (inertia, *_crankpins(whole, forces, inertia))}
+    forces = {place.number: _of_rod(engine, place, inertia) for place in engine.layout.places}
+    values = {crankpin.key: crankpin for crankpin in (inertia, *_crankpins(engine, forces, inertia))}
     rods = [BearingLoad(-along, across) for along, across in forces.values()]
-    load, size = rods[0], _of_one_rod(whole, 1, rods[0], inertia)
-    if any(whole.engine.articulated_rods):
+    load, size = rods[0], _of_one_rod(engine, 1, rods[0], inertia)
+    if any(engine.engine.articulated_rods):
         # the master rod carries the others: its bearing is loaded as the crankpin is
-        pin = whole.layout.places[0].crankpin + 1
-        load = BearingLoad(-found[f"crankpin_radial_force.{pin}"], found[f"crankpin_tangential_force.{pin}"])
-        size = found[f"crankpin_load.{pin}"]
+        pin = engine.layout.places[0].crankpin + 1
+        load = BearingLoad(-values[f"crankpin_radial_force.{pin}"], values[f"crankpin_tangential_force.{pin}"])
+        size = values[f"crankpin_load.{pin}"]
     on_rod = formulas.big_end_bearing_load(load, RodSwing(*(master[key] for key in _SWING))).named("big_end")
-    found |= {one.key: one for one in (*on_rod, size.named("big_end_load"), *_small_end(whole))}
-    layout = _spaced(whole.layout)
-    masses = [_held(whole, one) for one in shaft_unbalances(whole, layout)]
+    values |= {item.key: item for item in (*on_rod, size.named("big_end_load"), *_small_end(engine))}
+    layout = _spaced(engine.layout)
+    masses = [_held(engine, shaft_unbalance) for shaft_unbalance in shaft_unbalances(engine, layout)]
     mains = main_journal_loads(layout, rods, masses, master["speed"])
     for at, load in enumerate(mains, start=1):
-        found |= {one.key: one for one in (*load, load.resultant.named(f"main_journal_load.{at}"))}
+        values |= {item.key: item for item in (*load, load.resultant.named(f"main_journal_load.{at}"))}
     ends = [part for load in mains for part in load]
-    return {one.key: one for one in in_order(ends, into=_of_shaft) if one.key.startswith(_ON_SHAFT)} | found
+    return {item.key: item for item in in_order(ends, into=_of_shaft) if item.key.startswith(_ON_SHAFT)} | values
 
 
 def _of_shaft(node: Node) -> tuple[TracedValue, ...]:
@@ -88,57 +88,57 @@ def _of_shaft(node: Node) -> tuple[TracedValue, ...]:
     return () if is_of_rod or isinstance(node, Delayed) else node.operands
 
 
-def _of_rod(whole: MultiCylinderEngine, place: CylinderPlace, inertia: TracedValue) -> tuple[TracedValue, TracedValue]:
+def _of_rod(engine: MultiCylinderEngine, place: CylinderPlace, inertia: TracedValue) -> tuple[TracedValue, TracedValue]:
     """Return the load of a rod on its crankpin along and across the crank arm, of its forces and its mass there."""
-    name = f"{place.crankpin + 1}.{place.number}" if len(whole.on_pin[place.crankpin]) > 1 else f"{place.crankpin + 1}"
-    trace = whole.cylinders[place.number - 1].trace
+    name = f"{place.crankpin + 1}.{place.number}" if len(engine.on_pin[place.crankpin]) > 1 else f"{place.crankpin + 1}"
+    trace = engine.cylinders[place.number - 1].trace
     # what of an articulated rod is at its knuckle pin has come through the master rod
     own = absent(inertia.key) if "knuckle_side_force" in trace else inertia
     weight, tangential = (
-        whole.of(place.number, key) if key in trace else absent(key)
+        engine.of(place.number, key) if key in trace else absent(key)
         for key in ("big_end_weight", "big_end_tangential_force")
     )
-    along: TracedValue = formulas.crankpin_radial_force(whole.of(place.number, "radial_force"), own, weight)
-    across = whole.of(place.number, "tangential_force")
+    along: TracedValue = formulas.crankpin_radial_force(engine.of(place.number, "radial_force"), own, weight)
+    across = engine.of(place.number, "tangential_force")
     if not tangential.is_absent:
         across = formulas.crankpin_tangential_force(across, tangential).named(f"crankpin_tangential_force.{name}")
     return along.named(f"crankpin_radial_force.{name}"), across
 
 
 def _crankpins(
-    whole: MultiCylinderEngine, rods: Mapping[int, tuple[TracedValue, TracedValue]], inertia: TracedValue
+    engine: MultiCylinderEngine, rods: Mapping[int, tuple[TracedValue, TracedValue]], inertia: TracedValue
 ) -> Iterator[TracedValue]:
     """Yield radial and tangential force on every unlike crankpin and their resultant; of several rods, the sums."""
-    for pin in distinct_crankpins(whole):
-        some = [one.number for one in whole.on_pin[pin - 1]]
+    for pin in distinct_crankpins(engine):
+        some = [item.number for item in engine.on_pin[pin - 1]]
         along = total(f"crankpin_radial_force.{pin}", [rods[at][0] for at in some])
         across = total(f"crankpin_tangential_force.{pin}", [rods[at][1] for at in some])
         load = BearingLoad(-along, across)
-        size = load.resultant if len(some) > 1 else _of_one_rod(whole, some[0], load, inertia)
+        size = load.resultant if len(some) > 1 else _of_one_rod(engine, some[0], load, inertia)
         yield from (along, across, size.named(f"crankpin_load.{pin}"))
 
 
-def _of_one_rod(whole: MultiCylinderEngine, number: int, rod: BearingLoad, inertia: TracedValue) -> TracedValue:
-    if "big_end_weight" in whole.cylinders[number - 1].trace:
+def _of_one_rod(engine: MultiCylinderEngine, number: int, rod: BearingLoad, inertia: TracedValue) -> TracedValue:
+    if "big_end_weight" in engine.cylinders[number - 1].trace:
         size: TracedValue = rod.resultant
         return size
-    T, K = whole.of(number, "tangential_force"), whole.of(number, "radial_force")
+    T, K = engine.of(number, "tangential_force"), engine.of(number, "radial_force")
     load: TracedValue = formulas.crankpin_load(T, K, inertia)
     return load
 
 
-def _small_end(whole: MultiCylinderEngine) -> Iterator[TracedValue]:
+def _small_end(engine: MultiCylinderEngine) -> Iterator[TracedValue]:
     """Yield the force of piston 1 on its pin, its side force with what articulated rods add, and the load."""
-    trace, machine = whole.master.trace, whole.machine
+    trace, machine = engine.master.trace, engine.machine
     # that of the inertia force, where a document has its own
     acceleration = trace.get("inertia_acceleration", trace["piston_acceleration"])
     mass, along, across = absent("piston_mass"), absent("weight_force.piston"), [trace["side_force"]]
-    across += [whole.of(number, "knuckle_side_force") for number in whole.has("knuckle_side_force")]
+    across += [engine.of(number, "knuckle_side_force") for number in engine.has("knuckle_side_force")]
     if machine.masses is not None:
         mass = trace["piston_mass"]
         if machine.has_gravity:
-            g = given("gravity", whole.master.method.gravity, "method.gravity")
-            cos, sin = traced_inputs.inclination(machine, whole.master.lean)
+            g = given("gravity", engine.master.method.gravity, "method.gravity")
+            cos, sin = traced_inputs.inclination(machine, engine.master.lean)
             along = weight_force(mass, g, cos).named("weight_force.piston")
             beside = transverse_weight(mass, g, sin).named("transverse_weight.piston")
             across += [beside] if beside.value else []
@@ -151,41 +151,41 @@ def _small_end(whole: MultiCylinderEngine) -> Iterator[TracedValue]:
     yield size
 
 
-def bearing_components(whole: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def bearing_components(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the components of the loads of all bearings."""
-    keys = [f"crankpin_{way}_force.{pin}" for pin in distinct_crankpins(whole) for way in ("radial", "tangential")]
-    keys += [f"{kind}.{name}" for name in _framed(whole) for kind in (_X, _Y)]
+    keys = [f"crankpin_{way}_force.{pin}" for pin in distinct_crankpins(engine) for way in ("radial", "tangential")]
+    keys += [f"{kind}.{name}" for name in _framed(engine) for kind in (_X, _Y)]
     return {key: trace[key] for key in keys}
 
 
-def _framed(whole: MultiCylinderEngine) -> list[str]:
+def _framed(engine: MultiCylinderEngine) -> list[str]:
     """Return the bearings whose loads have components in a frame of their own."""
-    journals = max(place.throw for place in whole.layout.places) + 2
+    journals = max(place.throw for place in engine.layout.places) + 2
     return ["big_end", "small_end", *(f"main_journal.{at}" for at in range(1, journals + 1))]
 
 
-def bearing_loads(whole: MultiCylinderEngine, columns: Mapping[str, Array]) -> BearingLoads:
+def bearing_loads(engine: MultiCylinderEngine, columns: Mapping[str, Array]) -> BearingLoads:
     """Return the loads of the bearings from columns at crank angles of cylinder 1."""
     crankpins = {
         pin: BearingLoad(-columns[f"crankpin_radial_force.{pin}"], columns[f"crankpin_tangential_force.{pin}"])
-        for pin in distinct_crankpins(whole)
+        for pin in distinct_crankpins(engine)
     }
-    big, small, *others = (BearingLoad(columns[f"{_X}.{name}"], columns[f"{_Y}.{name}"]) for name in _framed(whole))
+    big, small, *others = (BearingLoad(columns[f"{_X}.{name}"], columns[f"{_Y}.{name}"]) for name in _framed(engine))
     return BearingLoads(crankpins, big, small, tuple(others))
 
 
-def distinct_crankpins(whole: MultiCylinderEngine) -> tuple[int, ...]:
+def distinct_crankpins(engine: MultiCylinderEngine) -> tuple[int, ...]:
     """Return the numbers of the crankpins whose loads are not those of an earlier one, only later."""
-    cycle, seen, kept = whole.layout.cycle, set(), []
-    for pin, places in whole.on_pin.items():
+    cycle, seen, kept = engine.layout.cycle, set(), []
+    for pin, places in engine.on_pin.items():
         forms = [
             tuple(
                 sorted(
                     (
-                        round((one.firing_angle - first.firing_angle) % cycle, 6),
-                        id(whole.cylinders[one.number - 1]),
+                        round((place.firing_angle - first.firing_angle) % cycle, 6),
+                        id(engine.cylinders[place.number - 1]),
                     )
-                    for one in places
+                    for place in places
                 )
             )
             for first in places
@@ -199,40 +199,40 @@ def distinct_crankpins(whole: MultiCylinderEngine) -> tuple[int, ...]:
 def _spaced(layout: Layout) -> Layout:
     """Return the layout with a pitch of its own where none is known: without one, forces act mid-throw."""
     journals = layout.journal_positions
-    if len(journals) > 1 and all(one < other for one, other in pairwise(journals)):
+    if len(journals) > 1 and all(item < other for item, other in pairwise(journals)):
         return layout
     throws = max(place.throw for place in layout.places) + 1
     places = tuple(replace(place, position=float(place.throw)) for place in layout.places)
     return replace(layout, places=places, journal_positions=tuple(at - 0.5 for at in range(throws + 1)))
 
 
-def shaft_unbalances(whole: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
+def shaft_unbalances(engine: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
     """Return the throws and counterweights of the crankshaft.
 
     `layout`: its cylinders, along the shaft as they are to be taken [m].
     """
-    if whole.machine.masses is None:
-        return counterweights(whole, layout)
-    trace, found = whole.master.trace, []
+    if engine.machine.masses is None:
+        return counterweights(engine, layout)
+    trace, result = engine.master.trace, []
     mass, r = trace["crank_mass"], trace["crank_radius"]
     pins = {place.crankpin: place.throw for place in layout.places}
-    for pin, members in whole.on_pin.items():
+    for pin, members in engine.on_pin.items():
         place = layout.places[members[0].number - 1]
-        middle = float(np.mean([layout.places[one.number - 1].position for one in members]))
+        middle = float(np.mean([layout.places[member.number - 1].position for member in members]))
         # split pins share the mass of their throw
         share = list(pins.values()).count(place.throw)
         moment = (mass / share * r if share > 1 else mass * r).named("shaft_unbalance.throw")
-        found.append(Unbalance(moment, place.pin_angle, middle, f"throw.{pin + 1}"))
-    return (*(one for one in found if one.mass_moment.value), *counterweights(whole, layout))
+        result.append(Unbalance(moment, place.pin_angle, middle, f"throw.{pin + 1}"))
+    return (*(item for item in result if item.mass_moment.value), *counterweights(engine, layout))
 
 
-def _held(whole: MultiCylinderEngine, one: Unbalance) -> Unbalance:
+def _held(engine: MultiCylinderEngine, one: Unbalance) -> Unbalance:
     """Return a mass on the shaft with its weight and its inertia across, where the machine has them."""
-    machine, moving = whole.machine, whole.master.moving
+    machine, moving = engine.machine, engine.master.moving
     if not (machine.has_gravity or machine.angular_acceleration):
         return one
-    g = given("gravity", whole.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
-    cos, sin = traced_inputs.inclination(machine, whole.master.lean)
+    g = given("gravity", engine.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
+    cos, sin = traced_inputs.inclination(machine, engine.master.lean)
     angle, r = moving.angle.shifted(one.angle), moving.lengths.crank_radius
     along = unbalance_weight(one.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
     across = unbalance_tangential_force(
@@ -251,12 +251,12 @@ def counterweights(whole: MultiCylinderEngine, layout: Layout) -> tuple[Unbalanc
     rotating = rotating_masses(whole) * engine.rotating_share
     share = engine.reciprocating_share
     weights = throw_counterweights(layout, reciprocating_masses(whole), rotating, r, share)
-    found = [
-        one._replace(mass_moment=_counterweight(whole, pin), name=f"counterweights.{pin + 1}")
-        for one, pin in zip(weights, whole.on_pin, strict=True)
-        if one.mass_moment + engine.counterweight
+    result = [
+        weight._replace(mass_moment=_counterweight(whole, pin), name=f"counterweights.{pin + 1}")
+        for weight, pin in zip(weights, whole.on_pin, strict=True)
+        if weight.mass_moment + engine.counterweight
     ]
-    return tuple(found)
+    return tuple(result)
 
 
 def _counterweight(whole: MultiCylinderEngine, pin: int) -> TracedValue:
@@ -277,25 +277,25 @@ def _counterweight(whole: MultiCylinderEngine, pin: int) -> TracedValue:
     return total(key, terms)
 
 
-def rotating_mass_of(whole: MultiCylinderEngine, place: CylinderPlace) -> TracedValue:
+def rotating_mass_of(engine: MultiCylinderEngine, place: CylinderPlace) -> TracedValue:
     """Return the rotating mass of a cylinder, that of a shared throw divided among its cylinders."""
-    on_throw = [one.throw for one in whole.layout.places].count(place.throw)
-    trace = whole.master.trace
-    own = whole.cylinders[place.number - 1].trace
+    on_throw = [place.throw for place in engine.layout.places].count(place.throw)
+    trace = engine.master.trace
+    own = engine.cylinders[place.number - 1].trace
     mass = own.get("knuckle_mass", trace["rod_big_end_mass"]) + trace["crank_mass"] / on_throw
     return mass.named("rotating_mass.of_cylinder")
 
 
-def rotating_masses(whole: MultiCylinderEngine) -> Array:
+def rotating_masses(engine: MultiCylinderEngine) -> Array:
     """Return the rotating masses, that of a shared throw divided among its cylinders, shape (cylinders,)."""
-    throws, crank = [one.throw for one in whole.layout.places], whole.masses.crank
-    ends = [one.rod_big_end for one in whole.each_masses]
+    throws, crank = [place.throw for place in engine.layout.places], engine.masses.crank
+    ends = [each_mass.rod_big_end for each_mass in engine.each_masses]
     return np.array([end + crank / throws.count(throw) for end, throw in zip(ends, throws, strict=True)])
 
 
-def reciprocating_masses(whole: MultiCylinderEngine) -> Array:
+def reciprocating_masses(engine: MultiCylinderEngine) -> Array:
     """Return the reciprocating masses, shape (cylinders,). [kg]"""
-    return np.array([one.reciprocating for one in whole.each_masses])
+    return np.array([each_mass.reciprocating for each_mass in engine.each_masses])
 
 
 def bearing_columns(trace: Mapping[str, TracedValue]) -> tuple[str, ...]:
@@ -316,25 +316,25 @@ def load_columns(trace: Mapping[str, TracedValue]) -> dict[str, str]:
 
 
 def bearing_values(
-    whole: MultiCylinderEngine,
+    engine: MultiCylinderEngine,
     trace: Mapping[str, TracedValue],
     over: CycleInterpolant,
     extremes: Mapping[str, TracedValue],
 ) -> dict[str, TracedValue]:
     """Return what the loads come to over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
-    found = dict[str, TracedValue]()
+    values = dict[str, TracedValue]()
     for name, key in load_columns(trace).items():
         of = name.partition(".")[0]
         part = _SIZES.get(of, "crankpin")
-        diameter, length = (getattr(whole.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
+        diameter, length = (getattr(engine.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
         size = None
         if diameter is not None and length is not None:
             size = (
                 given(f"bearing_diameter.{of}", diameter, f"bearings.{part}_diameter"),
                 given(f"bearing_length.{of}", length, f"bearings.{part}_length"),
             )
-        found |= load_values(name, key, over, extremes, size)
-    return found | reversal_values("bearing_force_x.small_end", over, extremes)
+        values |= load_values(name, key, over, extremes, size)
+    return values | reversal_values("bearing_force_x.small_end", over, extremes)
 
 
 # what its sizes are called in a description; of the others those of the crankpin
@@ -342,38 +342,40 @@ _SIZES = {"small_end": "pin", "main_journal": "main"}
 
 
 def wear_trace(
-    whole: MultiCylinderEngine, trace: Mapping[str, TracedValue], samples: Samples
+    engine: MultiCylinderEngine, trace: Mapping[str, TracedValue], samples: Samples
 ) -> dict[str, TracedValue]:
     """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes.
 
     `samples`: the components of the loads.
     """
-    rays, found = whole.engine.bearings.rays, dict[str, TracedValue]()
-    loads = bearing_loads(whole, samples(CrankGrid.from_degrees(np.arange(0.0, whole.layout.cycle, WEAR_STEP))))
+    rays, values = engine.engine.bearings.rays, dict[str, TracedValue]()
+    loads = bearing_loads(engine, samples(CrankGrid.from_degrees(np.arange(0.0, engine.layout.cycle, WEAR_STEP))))
     for pin, load in loads.crankpins.items():
         of = trace[f"crankpin_radial_force.{pin}"], trace[f"crankpin_tangential_force.{pin}"]
         table = wear_table(f"wear_sum.crankpin.{pin}", load, of, rays)
         name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
-        found |= {table.key: table, name: hole_of(name, table, of, rays)}
+        values |= {table.key: table, name: hole_of(name, table, of, rays)}
     for at, load in enumerate(loads.mains, start=1):
         of = trace[f"{_X}.main_journal.{at}"], trace[f"{_Y}.main_journal.{at}"]
         key = f"wear_sum.main_journal.{at}"
-        found[key] = wear_table(key, load, of, rays)
-    return found
+        values[key] = wear_table(key, load, of, rays)
+    return values
 
 
-def bearing_listings(whole: MultiCylinderEngine, found: Mapping[str, TracedValue]) -> dict[str, Listing]:
+def bearing_listings(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, Listing]:
     """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
-    result = {"bearing_loads": loads_listing(found)}
+    result = {"bearing_loads": loads_listing(values)}
     for listing, owner in (("crankpin_wear", "crankpin"), ("main_wear", "main_journal")):
-        tables = {key.rpartition(".")[2]: one for key, one in found.items() if key.startswith(f"wear_sum.{owner}.")}
-        result[listing] = wear_listing(tables, whole.engine.bearings.rays)
+        tables = {
+            key.rpartition(".")[2]: value for key, value in values.items() if key.startswith(f"wear_sum.{owner}.")
+        }
+        result[listing] = wear_listing(tables, engine.engine.bearings.rays)
     return result
 
 
-def bearing_summary(whole: MultiCylinderEngine, found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def bearing_summary(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return mean and largest crankpin load, where the oil hole should be, and the reversal of the small-end load."""
-    pins, result = distinct_crankpins(whole), dict[str, TracedValue]()
+    pins, result = distinct_crankpins(engine), dict[str, TracedValue]()
     for pin in pins:
         name = f".{pin}" if len(pins) > 1 else ""
         for key, of in (
@@ -381,6 +383,6 @@ def bearing_summary(whole: MultiCylinderEngine, found: Mapping[str, TracedValue]
             ("crankpin_load_max", "bearing_load_max"),
             ("crankpin_load_max_angle", "bearing_load_max_angle"),
         ):
-            result[f"{key}{name}"] = found[f"{of}.crankpin.{pin}"].named(f"{key}{name}")
-        result[f"oil_hole_angle{name}"] = found[f"oil_hole_angle{name}"]
-    return result | {key: found[key] for key in ("reversal_duration", "reversal_ratio")}
+            result[f"{key}{name}"] = values[f"{of}.crankpin.{pin}"].named(f"{key}{name}")
+        result[f"oil_hole_angle{name}"] = values[f"oil_hole_angle{name}"]
+    return result | {key: values[key] for key in ("reversal_duration", "reversal_ratio")}

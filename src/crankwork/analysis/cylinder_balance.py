@@ -67,35 +67,35 @@ class EngineBalance(NamedTuple):
     @property
     def rows(self) -> dict[str, OrderBalance]:
         """What is free by name: of each kind of mass, and what is left."""
-        found = {f"reciprocating.{one.order}": one for one in self.reciprocating} | {"rotating": self.rotating}
+        values = {f"reciprocating.{item.order}": item for item in self.reciprocating} | {"rotating": self.rotating}
         if self.weights:
-            found["counterweights"] = self.counterweights
-        found |= {f"balance_shafts.{one.order}": one for one in self.shafts}
-        found |= {f"knuckle_pins.{one.order}": one for one in self.knuckles}
+            values["counterweights"] = self.counterweights
+        values |= {f"balance_shafts.{shaft.order}": shaft for shaft in self.shafts}
+        values |= {f"knuckle_pins.{knuckle.order}": knuckle for knuckle in self.knuckles}
         if self.weights or self.shafts or self.rotating.force.largest or self.rotating.moment.largest:
-            found |= {f"residual.{one.order}": one for one in self.residual}
-        return found
+            values |= {f"residual.{item.order}": item for item in self.residual}
+        return values
 
 
-def engine_balance(whole: MultiCylinderEngine) -> EngineBalance:
+def engine_balance(engine: MultiCylinderEngine) -> EngineBalance:
     """Return what the masses of an engine leave free.
 
     Source: den_hartog_1956, ch. 5; taylor_1985, vol. 2, ch. 8.
     """
-    layout, w = whole.layout, whole.master.speed
-    r = whole.master.lengths.crank_radius
-    harmonics = _harmonics(whole)
-    reciprocating = free_forces(layout, reciprocating_masses(whole), r, w, harmonics)
-    turning = rotating_unbalances(layout, rotating_masses(whole), r)
-    weights = counterweights(whole, layout)
+    layout, w = engine.layout, engine.master.speed
+    r = engine.master.lengths.crank_radius
+    harmonics = _harmonics(engine)
+    reciprocating = free_forces(layout, reciprocating_masses(engine), r, w, harmonics)
+    turning = rotating_unbalances(layout, rotating_masses(engine), r)
+    weights = counterweights(engine, layout)
     rotating, balanced = turning_forces(layout, turning, w), turning_forces(layout, weights, w)
-    knuckles = _knuckles(whole, harmonics.orders)
+    knuckles = _knuckles(engine, harmonics.orders)
     before = balance_sum((*reciprocating, rotating, balanced, *knuckles))
     shaft_weights = tuple(
         weight
         for part in before
-        if part.order in whole.engine.balance_shafts
-        for weight in balance_shafts(part, w, _planes(whole, part))
+        if part.order in engine.engine.balance_shafts
+        for weight in balance_shafts(part, w, _planes(engine, part))
     )
     shafts = shaft_forces(shaft_weights, w)
     residual = balance_sum((*before, *shafts))
@@ -104,123 +104,128 @@ def engine_balance(whole: MultiCylinderEngine) -> EngineBalance:
     )
 
 
-def _harmonics(whole: MultiCylinderEngine) -> InertiaHarmonics:
+def _harmonics(engine: MultiCylinderEngine) -> InertiaHarmonics:
     """Return the orders of the piston acceleration, of each cylinder where some rods are articulated.
 
     Odd orders beyond the first are those of offset cylinders and articulated rods.
     """
-    found = _all_harmonics(whole)
-    size = np.abs(found.coefficients).reshape(-1, len(ALL_ORDERS)).max(axis=0)
+    result = _all_harmonics(engine)
+    size = np.abs(result.coefficients).reshape(-1, len(ALL_ORDERS)).max(axis=0)
     kept = [at for at, order in enumerate(ALL_ORDERS) if order in ORDERS or size[at] > _ROUNDING * size.max()]
-    return InertiaHarmonics(tuple(ALL_ORDERS[at] for at in kept), found.coefficients[..., kept])
+    return InertiaHarmonics(tuple(ALL_ORDERS[at] for at in kept), result.coefficients[..., kept])
 
 
-def _all_harmonics(whole: MultiCylinderEngine) -> InertiaHarmonics:
-    lengths, method = whole.master.lengths, whole.master.method
-    if whole.moves_alike:
+def _all_harmonics(engine: MultiCylinderEngine) -> InertiaHarmonics:
+    lengths, method = engine.master.lengths, engine.master.method
+    if engine.moves_alike:
         ratio = method.inertia_rod_ratio
         if ratio is not None and not method.is_exact:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)
         return inertia_harmonics(lengths, ALL_ORDERS, method)
-    turn = _turn(whole)
+    turn = _turn(engine)
     # that of the inertia force, where a document has its own
-    own = [one.trace.get("inertia_acceleration", one.trace["piston_acceleration"]) for one in whole.cylinders]
-    rows = [replay(one.node.operands[0], turn) for one in own]
+    own = [
+        cylinder.trace.get("inertia_acceleration", cylinder.trace["piston_acceleration"])
+        for cylinder in engine.cylinders
+    ]
+    rows = [replay(item.node.operands[0], turn) for item in own]
     return sampled_harmonics(np.stack(rows), lengths.crank_radius, ALL_ORDERS)
 
 
-def _turn(whole: MultiCylinderEngine) -> CrankGrid:
+def _turn(engine: MultiCylinderEngine) -> CrankGrid:
     """Return samples of one turn, so many that orders which they cannot tell apart are nothing.
 
     The orders of a slider-crank fall by a factor that comes near one where crank and offset come near the rod.
     """
-    r, l, e = whole.master.lengths  # noqa: E741
-    fall = math.acosh(max(l / (r + max(map(abs, (e, *whole.engine.offsets)))), 1.0 + 1e-9))
-    least = 2 if any(whole.engine.articulated_rods) else 1
+    r, l, e = engine.master.lengths  # noqa: E741
+    fall = math.acosh(max(l / (r + max(map(abs, (e, *engine.engine.offsets)))), 1.0 + 1e-9))
+    least = 2 if any(engine.engine.articulated_rods) else 1
     count = 360 * min(max(math.ceil((_DECADES * math.log(10) / fall + max(ALL_ORDERS)) / 360), least), _MOST)
     return CrankGrid.from_degrees(np.arange(count) * (360 / count))
 
 
-def _knuckles(whole: MultiCylinderEngine, orders: Sequence[int]) -> tuple[OrderBalance, ...]:
+def _knuckles(engine: MultiCylinderEngine, orders: Sequence[int]) -> tuple[OrderBalance, ...]:
     """Return what masses at knuckle pins leave free beyond the same masses at the crankpin, by order."""
-    w, r, parts = whole.master.speed, whole.master.lengths.crank_radius, list[OrderBalance]()
-    for place, one in zip(whole.layout.places, whole.cylinders, strict=True):
-        if one.moving.articulated_rod is None or "knuckle_mass" not in one.trace:
+    w, r, parts = engine.master.speed, engine.master.lengths.crank_radius, list[OrderBalance]()
+    for place, cylinder in zip(engine.layout.places, engine.cylinders, strict=True):
+        if cylinder.moving.articulated_rod is None or "knuckle_mass" not in cylinder.trace:
             continue
-        own = _turn(whole).shifted(-place.firing_angle)
-        x, y = (replay(side.position_2, own) for side in one.moving.articulated_rod.knuckle)
+        own = _turn(engine).shifted(-place.firing_angle)
+        x, y = (replay(side.position_2, own) for side in cylinder.moving.articulated_rod.knuckle)
         away = (x + r * own.cos) + 1j * (y + r * own.sin)
-        vectors = -one.trace["knuckle_mass"].value * w**2 * away * unit_vectors(place.axis)
+        vectors = -cylinder.trace["knuckle_mass"].value * w**2 * away * unit_vectors(place.axis)
         spectrum = np.fft.fft(vectors) / len(own)
         for order in orders:
             force = Ellipse(complex(spectrum[order]), complex(spectrum[-order]))
-            parts.append(OrderBalance(order, force, Ellipse(*(place.position * one for one in force))))
+            parts.append(OrderBalance(order, force, Ellipse(*(place.position * item for item in force))))
     return balance_sum(parts)
 
 
-def _planes(whole: MultiCylinderEngine, part: OrderBalance) -> tuple[float] | tuple[float, float]:
+def _planes(engine: MultiCylinderEngine, part: OrderBalance) -> tuple[float] | tuple[float, float]:
     """Return where the weights of a pair of shafts stand: in the middle, or at the outermost cylinders for a moment."""
-    positions = [one.position for one in whole.layout.places]
+    positions = [place.position for place in engine.layout.places]
     first, last = min(positions), max(positions)
     return (0.0,) if first == last or not part.moment.largest else (first, last)
 
 
-def balance_trace(whole: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
+def balance_trace(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
     """Return what is free by row, and what it is made of: formulas where all cylinders are alike, else vector sums."""
-    found = dict(_order_forces(whole, balance) | _rotating_forces(whole) | _weights(whole, balance))
-    has_moments = bool(balance_pitch(whole.layout))
+    values = dict(_order_forces(engine, balance) | _rotating_forces(engine) | _weights(engine, balance))
+    has_moments = bool(balance_pitch(engine.layout))
     for name, one in balance.rows.items():
         keys = [f"free_force.{row}" for row, other in balance.rows.items() if other.order == one.order]
-        parts = [found[key] for key in keys if key in found] if name.startswith("residual") else _parts(name, found)
-        told = _told(whole, balance, found, one.order) if name.startswith("residual") else {}
+        parts = [values[key] for key in keys if key in values] if name.startswith("residual") else _parts(name, values)
+        told = _told(engine, balance, values, one.order) if name.startswith("residual") else {}
         sums = ProcedureValue(one.force.largest, "vector_sum", parts, argument=told.get("force"))
-        force = found.setdefault(f"free_force.{name}", TracedValue(sums, f"free_force.{name}"))
+        force = values.setdefault(f"free_force.{name}", TracedValue(sums, f"free_force.{name}"))
         rest = {"free_force_min": one.force.least, "free_force_direction": math.radians(one.force.direction)}
         if has_moments:
             moment = TracedValue(ProcedureValue(one.moment.largest, "vector_sum", parts, argument=told.get("moment")))
-            found.setdefault(f"free_moment.{name}", moment)
+            values.setdefault(f"free_moment.{name}", moment)
             rest["free_moment_min"] = one.moment.least
-        found |= {
+        values |= {
             f"{key}.{name}": TracedValue(ProcedureValue(value, "vector_sum", (force,))) for key, value in rest.items()
         }
-    return {key: known.named(key) for key, known in found.items()}
+    return {key: known.named(key) for key, known in values.items()}
 
 
-def _parts(name: str, found: Mapping[str, TracedValue]) -> list[TracedValue]:
+def _parts(name: str, values: Mapping[str, TracedValue]) -> list[TracedValue]:
     """Return the forces that a row is the sum of."""
     kind, _, order = name.partition(".")
     start = f"order_inertia_force.{order}." if kind == "reciprocating" else f"unbalance_force.{kind}"
-    return [known for key, known in found.items() if key.startswith(start)]
+    return [known for key, known in values.items() if key.startswith(start)]
 
 
 def _told(
-    whole: MultiCylinderEngine, balance: EngineBalance, found: Mapping[str, TracedValue], order: int
+    engine: MultiCylinderEngine, balance: EngineBalance, values: Mapping[str, TracedValue], order: int
 ) -> dict[str, TracedValue]:
     """Return force and moment that are left of an order, made of the forces of one cylinder and of each counterweight.
 
     Nothing where what turns does not follow from these: with balance shafts, and with articulated rods.
     """
-    rows = {name: one for name, one in balance.rows.items() if one.order == order and not name.startswith("residual")}
+    rows = {
+        name: value for name, value in balance.rows.items() if value.order == order and not name.startswith("residual")
+    }
     terms = list[tuple[TracedValue, OrderBalance]]()
-    for name, one in rows.items():
+    for name, value in rows.items():
         kind = name.partition(".")[0]
         if kind == "counterweights":
             for weight in balance.weights:
                 if not isinstance(weight.mass_moment, TracedValue):
                     return {}
-                force = unbalance_force(weight.mass_moment, whole.master.trace["speed"])
-                terms.append((force, turning_forces(whole.layout, (weight,), whole.master.speed)))
-        elif one.force.largest or one.moment.largest:
+                force = unbalance_force(weight.mass_moment, engine.master.trace["speed"])
+                terms.append((force, turning_forces(engine.layout, (weight,), engine.master.speed)))
+        elif value.force.largest or value.moment.largest:
             key = {"reciprocating": f"order_inertia_force.{order}", "rotating": "unbalance_force.rotating"}.get(
                 kind, ""
             )
-            if key not in found:
+            if key not in values:
                 return {}
-            terms.append((found[key], one))
+            terms.append((values[key], value))
     made = {}
     for kind in ("force", "moment"):
         ways = [
-            [(force, getattr(getattr(one, kind), way) / force.value) for force, one in terms]
+            [(force, getattr(getattr(item, kind), way) / force.value) for force, item in terms]
             for way in Ellipse._fields
         ]  # fmt: skip
         sizes = [_size_of(way) for way in ways if any(factor for _, factor in way)]
@@ -233,15 +238,15 @@ def _size_of(way: Sequence[tuple[TracedValue, complex]]) -> TracedValue:
     """Return the size of a sum of forces times vectors, which are those of the layout but for rounding."""
     x, y = (
         total("", [force * round(part, _DIGITS) for (force, _), part in zip(way, parts, strict=True)])
-        for parts in ([one.real for _, one in way], [one.imag for _, one in way])
+        for parts in ([item.real for _, item in way], [item.imag for _, item in way])
     )
     size: TracedValue = amplitude_of_harmonic(x, y)
     return size
 
 
-def _order_forces(whole: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
+def _order_forces(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
     """Return the inertia force of each order of one cylinder and, where all are alike, what is free of it."""
-    found, trace, layout = dict[str, TracedValue](), whole.master.trace, whole.layout
+    values, trace, layout = dict[str, TracedValue](), engine.master.trace, engine.layout
     of_articulated = balance.harmonics.coefficients.ndim > 1
     pitch, orders = balance_pitch(layout), balance.harmonics.orders
     for at, (order, factor) in enumerate(zip(orders, layout_factors(layout, orders, pitch or 1.0), strict=True)):
@@ -250,7 +255,7 @@ def _order_forces(whole: MultiCylinderEngine, balance: EngineBalance) -> dict[st
             if not row[at]:
                 # an order that the method does not have
                 continue
-            of = whole.cylinders[number - 1].trace
+            of = engine.cylinders[number - 1].trace
             acceleration = of.get("inertia_acceleration", of["piston_acceleration"])
             is_plain = "inertia_acceleration" not in of and not of_articulated
             by = _coefficient(of, order, balance.harmonics.coefficients[at]) if is_plain else None
@@ -259,97 +264,99 @@ def _order_forces(whole: MultiCylinderEngine, balance: EngineBalance) -> dict[st
             force = order_inertia_force(
                 of["reciprocating_mass"], trace["crank_radius"], trace["speed"], coefficient
             ).named(f"order_inertia_force.{name}")
-            found |= {one.key: one for one in (coefficient, force)}
+            values |= {item.key: item for item in (coefficient, force)}
             if not of_articulated:
-                found |= _freed(f"reciprocating.{order}", f"{order}", factor, pitch, force)
-    return found
+                values |= _freed(f"reciprocating.{order}", f"{order}", factor, pitch, force)
+    return values
 
 
 def _coefficient(trace: Mapping[str, TracedValue], order: int, value: complex) -> TracedValue:
     """Return the amplitude of an order of the acceleration, over the crank radius, of its waves."""
     of, r = trace["piston_transfer_2"], trace["crank_radius"]
     waves = {"cosine": value.real * r.value, "sine": -value.imag * r.value}
-    found: TracedValue = (
-        amplitude_of_harmonic(*(TracedValue(HarmonicCoefficient(one, of, part, order)) for part, one in waves.items()))
+    result: TracedValue = (
+        amplitude_of_harmonic(
+            *(TracedValue(HarmonicCoefficient(value, of, part, order)) for part, value in waves.items())
+        )
         / r
     )
-    return found
+    return result
 
 
 def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: TracedValue) -> dict[str, TracedValue]:
     """Return force and moment that a layout leaves free of a force that all cylinders have alike."""
     K_F = TracedValue(ProcedureValue(factor.force.largest, "vector_sum"), f"force_factor.{name}")
-    found = [K_F, free_force(K_F, force).named(f"free_force.{row}")]
+    values = [K_F, free_force(K_F, force).named(f"free_force.{row}")]
     if pitch:
         K_M, a_z = (
             TracedValue(ProcedureValue(factor.moment.largest, "vector_sum"), f"moment_factor.{name}"),
             given("balance_pitch", pitch, "engine.spacing"),
         )
-        found += [K_M, free_moment(K_M, a_z, force).named(f"free_moment.{row}")]
-    return {one.key: one for one in found}
+        values += [K_M, free_moment(K_M, a_z, force).named(f"free_moment.{row}")]
+    return {item.key: item for item in values}
 
 
 def balance_pitch(layout: Layout) -> float:
     """Return the distance between neighbouring cylinders of the first bank, of all where it has one; zero if none."""
     places = layout.places
-    for some in ([one for one in places if one.axis == places[0].axis], places):
-        along = sorted({one.position for one in some})
+    for some in ([place for place in places if place.axis == places[0].axis], places):
+        along = sorted({item.position for item in some})
         if len(along) > 1:
             return min(after - before for before, after in pairwise(along))
     return 0.0
 
 
-def _rotating_forces(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+def _rotating_forces(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     """Return force and moment of the rotating masses, where those of all cylinders are the same."""
-    layout, masses = whole.layout, rotating_masses(whole)
+    layout, masses = engine.layout, rotating_masses(engine)
     if not masses[0] or not np.all(masses == masses[0]):
         return {}
     mass, r, w = (
-        rotating_mass_of(whole, layout.places[0]),
-        *(whole.master.trace[key] for key in ("crank_radius", "speed")),
+        rotating_mass_of(engine, layout.places[0]),
+        *(engine.master.trace[key] for key in ("crank_radius", "speed")),
     )
     unbalance = (mass * r).named("shaft_unbalance.rotating")
     force = unbalance_force(unbalance, w).named("unbalance_force.rotating")
     pitch = balance_pitch(layout)
     factor = turning_forces(layout, rotating_unbalances(layout, 1.0, 1.0), 1.0)
     moment = Ellipse(*(part / (pitch or 1.0) for part in factor.moment))
-    found = {one.key: one for one in (mass, unbalance, force)}
-    return found | _freed("rotating", "rotating", factor._replace(moment=moment), pitch, force)
+    values = {item.key: item for item in (mass, unbalance, force)}
+    return values | _freed("rotating", "rotating", factor._replace(moment=moment), pitch, force)
 
 
-def _weights(whole: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
+def _weights(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
     """Return the mass moments of counterweights and balance shafts, and the forces of these."""
-    moments = [one.mass_moment for one in balance.weights if isinstance(one.mass_moment, TracedValue)]
-    found = {one.key: one for one in in_order(moments) if one.key.startswith(_OF_WEIGHTS)}
+    moments = [weight.mass_moment for weight in balance.weights if isinstance(weight.mass_moment, TracedValue)]
+    values = {item.key: item for item in in_order(moments) if item.key.startswith(_OF_WEIGHTS)}
     for at, weight in enumerate(balance.shaft_weights, start=1):
         moment = TracedValue(ProcedureValue(weight.mass_moment, "vector_sum"), f"balance_shaft_moment.{at}")
-        force = unbalance_force(moment, weight.order * whole.master.trace["speed"])
-        found |= {moment.key: moment, f"unbalance_force.balance_shafts.{at}": force}
-    return {key: one.named(key) for key, one in found.items()}
+        force = unbalance_force(moment, weight.order * engine.master.trace["speed"])
+        values |= {moment.key: moment, f"unbalance_force.balance_shafts.{at}": force}
+    return {key: value.named(key) for key, value in values.items()}
 
 
 _OF_WEIGHTS = ("rotating_mass", "counterweight_moment")
 
 
 def balance_summary(
-    whole: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]
+    engine: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
     """Return what is left free by order, and the share of the reciprocating masses that counterweights take best."""
     kind = "residual" if any(name.startswith("residual") for name in balance.rows) else "reciprocating"
     free = [key for key in trace if key.startswith((f"free_force.{kind}.", f"free_moment.{kind}."))]
-    return {key: trace[key] for key in free if trace[key].value} | _best_weights(whole, balance, trace)
+    return {key: trace[key] for key in free if trace[key].value} | _best_weights(engine, balance, trace)
 
 
 def _best_weights(
-    whole: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]
+    engine: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
     """Return the share at which what turns with the crank is gone, or least, and the counterweights with that share.
 
     Nothing where the reciprocating masses on the throws cancel each other.
     """
-    layout, r, w = whole.layout, whole.master.lengths.crank_radius, whole.master.speed
+    layout, r, w = engine.layout, engine.master.lengths.crank_radius, engine.master.speed
     before = balance_sum((*balance.reciprocating, *balance.knuckles))[0]
-    turning = turning_forces(layout, rotating_unbalances(layout, reciprocating_masses(whole), r), w)
+    turning = turning_forces(layout, rotating_unbalances(layout, reciprocating_masses(engine), r), w)
     swinging, whole_part = before.force.forward, turning.force.forward
     if not whole_part:
         swinging, whole_part = before.moment.forward, turning.moment.forward
@@ -365,44 +372,44 @@ def _best_weights(
     moments = [
         total(f"best_counterweight_moment.{pin + 1}", [
             counterweight_moment(
-                rotating_mass_of(whole, place), share,
-                whole.cylinders[place.number - 1].trace["reciprocating_mass"], whole.master.trace["crank_radius"],
+                rotating_mass_of(engine, place), share,
+                engine.cylinders[place.number - 1].trace["reciprocating_mass"], engine.master.trace["crank_radius"],
             ).named(f"best_counterweight_moment.{pin + 1}.{place.number}")
-            for place in whole.on_pin[pin]
+            for place in engine.on_pin[pin]
         ])
-        for pin in sorted(whole.on_pin)
+        for pin in sorted(engine.on_pin)
     ]  # fmt: skip
-    alike = all(math.isclose(one.value, moments[0].value, rel_tol=1e-12) for one in moments)
+    alike = all(math.isclose(moment.value, moments[0].value, rel_tol=1e-12) for moment in moments)
     if alike:
         moments = [moments[0].named("best_counterweight_moment")]
-    return {one.key: one for one in (share, *moments)}
+    return {moment.key: moment for moment in (share, *moments)}
 
 
-def balance_listing(whole: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]) -> Listing:
+def balance_listing(engine: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]) -> Listing:
     """Return forces and moments by order: of each kind of mass, and what is left."""
     kinds = ["free_force", "free_force_min", "free_force_direction"]
-    if balance_pitch(whole.layout):
+    if balance_pitch(engine.layout):
         kinds += ["free_moment", "free_moment_min"]
     rows = tuple(balance.rows)
     return Listing({kind: np.array([trace[f"{kind}.{name}"].value for name in rows]) for kind in kinds}, rows)
 
 
-def balance_checks(whole: MultiCylinderEngine, balance: EngineBalance, samples: Samples) -> dict[str, float]:
+def balance_checks(engine: MultiCylinderEngine, balance: EngineBalance, samples: Samples) -> dict[str, float]:
     """Return how far the orders are from the Fourier transform of the summed inertia forces."""
-    if whole.machine.masses is None or whole.machine.angular_acceleration:
+    if engine.machine.masses is None or engine.machine.angular_acceleration:
         return {}
-    turn = _turn(whole)
-    force = whole.each_of("inertia_force", samples(turn))
+    turn = _turn(engine)
+    force = engine.each_of("inertia_force", samples(turn))
     # the inertia force is positive towards the crankshaft, the axis points to the head
-    vectors = -force.T @ unit_vectors([one.axis for one in whole.layout.places])
+    vectors = -force.T @ unit_vectors([place.axis for place in engine.layout.places])
     spectrum = np.fft.fft(vectors) / len(turn)
     scale = float(np.max(np.abs(force))) or 1.0
     # crank angles count from the axis of cylinder 1, which is where the phasors begin as well
     apart = [
-        max(abs(spectrum[one.order] - one.force.forward), abs(spectrum[-one.order] - one.force.backward))
-        for one in balance.reciprocating
+        max(abs(spectrum[item.order] - item.force.forward), abs(spectrum[-item.order] - item.force.backward))
+        for item in balance.reciprocating
     ]
     # an order that is not listed is none
-    left = set(ALL_ORDERS) - {one.order for one in balance.reciprocating}
-    apart += [abs(spectrum[order]) for one in left for order in (one, -one)]
+    left = set(ALL_ORDERS) - {item.order for item in balance.reciprocating}
+    apart += [abs(spectrum[order]) for item in left for order in (item, -item)]
     return {"free_forces": float(max(apart)) / scale}

@@ -84,7 +84,7 @@ def columns(solved: PreparedCylinder, grid: CrankGrid, keys: Iterable[str] = COL
 
 
 def _by_key(found: Iterable[TracedValue]) -> dict[str, TracedValue]:
-    return {one.key: one for one in found}
+    return {item.key: item for item in found}
 
 
 def _masses(solved: PreparedCylinder, masses: CrankGearMasses, moving: CylinderKinematics) -> Iterator[TracedValue]:
@@ -137,7 +137,7 @@ def _rod_forces(solved: PreparedCylinder, moving: CylinderKinematics) -> Iterato
     yield slider_crank.tangential_factor(swing.sin_sum, swing.cos)
     rotating = list(_rotating(solved, moving))
     yield from rotating
-    weight = next((one for one in rotating if one.key == "rotating_torque"), absent("rotating_torque"))
+    weight = next((item for item in rotating if item.key == "rotating_torque"), absent("rotating_torque"))
     yield forces.crank_torque(rod.tangential, r, weight)
     yield forces.overturning_moment(rod.side, trace["pin_distance"], P, e)
 
@@ -230,7 +230,7 @@ def _articulated_forces(solved: PreparedCylinder, moving: CylinderKinematics) ->
     trace, rod = moving.trace, moving.articulated_rod
     couple = list(_couple(solved, moving, rod.own.length))
     yield from couple
-    mass, accelerations = absent("knuckle_mass"), [absent(f"knuckle_acceleration_{one}") for one in "xy"]
+    mass, accelerations = absent("knuckle_mass"), [absent(f"knuckle_acceleration_{item}") for item in "xy"]
     if "knuckle_mass" in trace:
         w, eps, (x, y) = moving.speed, moving.angular_acceleration, rod.knuckle
         mass = trace["knuckle_mass"]
@@ -243,11 +243,11 @@ def _articulated_forces(solved: PreparedCylinder, moving: CylinderKinematics) ->
     lean_cos, lean_sin = traced_inputs.inclination(solved.machine, solved.lean)
     dN, across = couple[-1] if couple else absent("side_force.couple"), trace.get("transverse_weight", absent(""))
     held = KnuckleMass(mass, accelerations[0], accelerations[1], g, lean_cos, lean_sin, dN, across)
-    found = articulated_forces(trace["piston_force"], moving.lengths, solved.articulated_rod, moving.angle, rod, held)
-    yield from (found.side.named("side_force"), found.along.named("rod_force"), *found.knuckle)
-    yield from (found.radial.named("radial_force"), found.tangential.named("tangential_force"))
-    yield from (found.couple.named("knuckle_couple"), found.master_side.named("knuckle_side_force"))
-    torque = forces.crank_torque(found.tangential.named("tangential_force"), moving.lengths.crank_radius, absent(""))
+    result = articulated_forces(trace["piston_force"], moving.lengths, solved.articulated_rod, moving.angle, rod, held)
+    yield from (result.side.named("side_force"), result.along.named("rod_force"), *result.knuckle)
+    yield from (result.radial.named("radial_force"), result.tangential.named("tangential_force"))
+    yield from (result.couple.named("knuckle_couple"), result.master_side.named("knuckle_side_force"))
+    torque = forces.crank_torque(result.tangential.named("tangential_force"), moving.lengths.crank_radius, absent(""))
     yield from (torque, (-torque).named("overturning_moment"))
 
 

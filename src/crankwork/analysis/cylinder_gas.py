@@ -31,21 +31,21 @@ def space_trace(solved: PreparedCylinder, moving: CylinderKinematics) -> dict[st
         return {}
     bore = traced_inputs.bore(solved.machine, cylinder.bore)
     area = gas.piston_area(solved.method.pi, bore)
-    found = [bore, area]
+    values = [bore, area]
     if space is not None:
         stroke = solved.traced_stroke(moving.lengths)
         swept = gas.swept_volume(area, stroke)
-        found += [stroke, swept]
+        values += [stroke, swept]
         if not space.clearance:
-            found.append(absent("clearance_volume"))
+            values.append(absent("clearance_volume"))
         elif cylinder.compression_ratio is not None and cylinder.clearance_volume is None:
             ratio = given("compression_ratio", cylinder.compression_ratio, "cylinder.compression_ratio")
             clearance = gas.clearance_volume(swept, ratio)
-            found += [clearance, gas.compression_ratio(swept, clearance)]
+            values += [clearance, gas.compression_ratio(swept, clearance)]
         else:
             clearance = given("clearance_volume", space.clearance, "cylinder.clearance_volume")
-            found += [clearance, gas.compression_ratio(swept, clearance)]
-    return {one.key: one for one in found}
+            values += [clearance, gas.compression_ratio(swept, clearance)]
+    return {item.key: item for item in values}
 
 
 def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKinematics) -> dict[str, TracedValue]:
@@ -73,8 +73,8 @@ def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKin
         rod_area = gas.piston_area(solved.method.pi, diameter).named("piston_area.rod")
         back = given("back_pressure", space.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
-    found = {one.key: one for one in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
-    return found | _filling(solved, space, (of_cycle, volume))
+    values = {item.key: item for item in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
+    return values | _filling(solved, space, (of_cycle, volume))
 
 
 def _filling(
@@ -139,20 +139,20 @@ def _rod_diameter(solved: PreparedCylinder) -> float:
 
 def _ends_of_polytropes(solved: PreparedCylinder, space: WorkingSpace, volume: TracedValue) -> dict[str, TracedValue]:
     """Return volume and pressure at the ends of each polytrope of a diagram that was given by its points."""
-    given_gas, found = solved.machine.gas, dict[str, TracedValue]()
+    given_gas, values = solved.machine.gas, dict[str, TracedValue]()
     if given_gas is None or given_gas.measured is not None or given_gas.calculated is not None:
-        return found
+        return values
     for segment in space.diagram.segments:
         if segment.law != "polytropic" or not segment.origin:
             continue
         p_1, V_1, exponent = polytrope_origin(space.diagram, segment, volume, given_gas.path)
-        found |= {p_1.key: p_1, V_1.key: V_1}
+        values |= {p_1.key: p_1, V_1.key: V_1}
         for name, (degrees, _) in space.diagram.named.items():
             if name != segment.origin and degrees in (segment.start, segment.end):
                 V = at_angle(volume, degrees, f"cylinder_volume.{name}")
                 end = gas.polytropic_pressure(p_1, V_1, V, exponent).named(f"diagram_pressure.{name}")
-                found |= {V.key: V, end.key: end}
-    return found
+                values |= {V.key: V, end.key: end}
+    return values
 
 
 def cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:

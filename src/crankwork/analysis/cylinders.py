@@ -44,12 +44,12 @@ class MultiCylinderEngine:
 
     def has(self, key: str) -> tuple[int, ...]:
         """Return the numbers of the cylinders that have a column."""
-        return tuple(number for number, one in enumerate(self.cylinders, start=1) if key in one.trace)
+        return tuple(number for number, cylinder in enumerate(self.cylinders, start=1) if key in cylinder.trace)
 
     def each(self, key: str, degrees: ArrayLike) -> Array:
         """Return a column of every cylinder at crank angles of cylinder 1, shape (cylinders, n). [SI]"""
         knowns = [self.of(number, key) for number in range(1, len(self.cylinders) + 1)]
-        return self.each_of(key, Program({one.key: one for one in knowns})(CrankGrid.from_degrees(degrees)))
+        return self.each_of(key, Program({known.key: known for known in knowns})(CrankGrid.from_degrees(degrees)))
 
     def each_of(self, key: str, columns: Mapping[str, Array]) -> Array:
         """Return a column of every cylinder, shape (cylinders, n), out of columns of the whole engine. [SI]"""
@@ -63,7 +63,7 @@ class MultiCylinderEngine:
     @property
     def moves_alike(self) -> bool:
         """Whether the piston of every cylinder moves as that of the first does."""
-        return len({(one.lengths, one.articulated_rod) for one in self.cylinders}) == 1
+        return len({(cylinder.lengths, cylinder.articulated_rod) for cylinder in self.cylinders}) == 1
 
     @property
     def layout(self) -> Layout:
@@ -83,13 +83,13 @@ class MultiCylinderEngine:
     @property
     def each_masses(self) -> tuple[CrankGearMasses, ...]:
         """The masses of every cylinder by number: piston and rod, and the throw with the first on it."""
-        return tuple(one.machine.masses or CrankGearMasses() for one in self.cylinders)
+        return tuple(cylinder.machine.masses or CrankGearMasses() for cylinder in self.cylinders)
 
     @cached_property
     def on_pin(self) -> dict[int, tuple[CylinderPlace, ...]]:
         """The cylinders of each crankpin."""
         pins = sorted({place.crankpin for place in self.layout.places})
-        return {pin: tuple(one for one in self.layout.places if one.crankpin == pin) for pin in pins}
+        return {pin: tuple(place for place in self.layout.places if place.crankpin == pin) for pin in pins}
 
 
 def multi_cylinder_engine(solved: PreparedCylinder) -> MultiCylinderEngine:
@@ -141,10 +141,10 @@ def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
     """
     places, articulated_rod = engine.layout.places, engine.articulated_rods[at] if engine.articulated_rods else None
     offset = engine.offsets[at] if engine.offsets else None
-    gas = next((one for one, gas in enumerate(engine.gases) if gas is engine.gases[at]), 0)
+    gas = next((item for item, gas in enumerate(engine.gases) if gas is engine.gases[at]), 0)
     if not (machine.has_gravity or machine.angular_acceleration):
         return _Kind(articulated_rod, offset, gas)
-    first = next(one for one in places if one.throw == places[at].throw)
+    first = next(place for place in places if place.throw == places[at].throw)
     return _Kind(articulated_rod, offset, gas, places[at].axis - places[0].axis, places[at] is first)
 
 
@@ -153,7 +153,7 @@ def _own_machine(machine: Machine, articulated_rod: ArticulatedRod | None, *, is
     if articulated_rod is not None and machine.masses is not None:
         own = machine.engine.articulated_masses if machine.engine is not None else None
         parts = ("rod_small_end", "rod_big_end", "rod_inertia_excess")
-        rod = {"rod_inertia_excess": 0.0} if own is None else {one: getattr(own, one) for one in parts}
+        rod = {"rod_inertia_excess": 0.0} if own is None else {part: getattr(own, part) for part in parts}
         machine = replace(machine, masses=replace(machine.masses, **rod))
     if not is_first and machine.masses is not None:
         machine = replace(machine, masses=replace(machine.masses, crank=0.0))

@@ -23,129 +23,129 @@ _LISTED = ("bank_axis", "crankpin_angle", "firing_angle", "firing_interval")
 _OF_SLAVES = ("top_dead_centre_angle", "stroke", "swept_volume")
 
 
-def firing_trace(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+def firing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     """Return number and volume of the cylinders, where each stands and when it fires."""
-    count, layout = given("cylinder_count", float(len(whole.cylinders)), "engine.cylinders"), whole.layout
-    found = {count.key: count}
+    count, layout = given("cylinder_count", float(len(engine.cylinders)), "engine.cylinders"), engine.layout
+    values = {count.key: count}
     for place in layout.places:
         for key, degrees, path in (
             ("bank_axis", place.axis, "engine.bank_angle"),
             ("crankpin_angle", place.pin_angle, "engine.throws"),
             ("firing_angle", place.firing_angle, "engine.firing_order"),
         ):
-            found[f"{key}.{place.number}"] = given(f"{key}.{place.number}", math.radians(degrees), path)
-    sizes = _sizes(whole, found)
-    return found | _intervals(whole, found | sizes) | sizes
+            values[f"{key}.{place.number}"] = given(f"{key}.{place.number}", math.radians(degrees), path)
+    sizes = _sizes(engine, values)
+    return values | _intervals(engine, values | sizes) | sizes
 
 
-def _intervals(whole: MultiCylinderEngine, found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def _intervals(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the firing interval; of uneven firing that of each cylinder, up to the next.
 
     Where offsets differ a cylinder fires at its own top dead centre.
     """
-    layout, cycle = whole.layout, traced_inputs.cycle_angle(whole.machine)
+    layout, cycle = engine.layout, traced_inputs.cycle_angle(engine.machine)
     if is_even(firing_intervals(layout)):
-        return {"firing_interval": even_firing_interval(cycle, found["cylinder_count"])}
+        return {"firing_interval": even_firing_interval(cycle, values["cylinder_count"])}
     kind = "top_dead_centre_angle" if any(place.top for place in layout.places) else "firing_angle"
     order, result = layout.firing_order, {}
     for number, following in zip(order, (*order[1:], order[0]), strict=True):
-        key, fired, after = f"firing_interval.{number}", found[f"{kind}.{number}"], found[f"{kind}.{following}"]
+        key, fired, after = f"firing_interval.{number}", values[f"{kind}.{number}"], values[f"{kind}.{following}"]
         if after.value <= fired.value:
             after = after + cycle if after.value else cycle
         result[key] = (after - fired).named(key)
     return result
 
 
-def _sizes(whole: MultiCylinderEngine, found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the volume of all cylinders, and stroke and dead centre of each where pistons move differently."""
-    result, numbered = dict[str, TracedValue](), list(enumerate(whole.cylinders, start=1))
-    if not whole.moves_alike:
-        for number, one in numbered:
-            top = (whole.layout.places[number - 1].firing_angle + one.stroke[1]) % whole.layout.cycle
-            lengths = SliderCrank(*(one.trace[key] for key in ("crank_radius", "rod_length", "offset")))
+    result, numbered = dict[str, TracedValue](), list(enumerate(engine.cylinders, start=1))
+    if not engine.moves_alike:
+        for number, item in numbered:
+            top = (engine.layout.places[number - 1].firing_angle + item.stroke[1]) % engine.layout.cycle
+            lengths = SliderCrank(*(item.trace[key] for key in ("crank_radius", "rod_length", "offset")))
             result[f"top_dead_centre_angle.{number}"] = TracedValue(
                 ProcedureValue(math.radians(top), "dead_centre", lengths)
             )
-            result[f"stroke.{number}"] = one.traced_stroke(lengths)
-    if all(one.space is not None for one in whole.cylinders):
-        volumes = [one.trace["swept_volume"] for one in whole.cylinders]
-        if whole.moves_alike:
-            result["displacement"] = displacement(volumes[0], found["cylinder_count"])
+            result[f"stroke.{number}"] = item.traced_stroke(lengths)
+    if all(cylinder.space is not None for cylinder in engine.cylinders):
+        volumes = [cylinder.trace["swept_volume"] for cylinder in engine.cylinders]
+        if engine.moves_alike:
+            result["displacement"] = displacement(volumes[0], values["cylinder_count"])
         else:
-            each = {f"swept_volume.{number}": one for number, one in enumerate(volumes, start=1)}
+            each = {f"swept_volume.{number}": volume for number, volume in enumerate(volumes, start=1)}
             result |= each
-            result["displacement"] = total("displacement", (one.named(key) for key, one in each.items()))
-    return {key: one.named(key) for key, one in result.items()}
+            result["displacement"] = total("displacement", (value.named(key) for key, value in each.items()))
+    return {key: value.named(key) for key, value in result.items()}
 
 
-def work_trace(whole: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def work_trace(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the works of all cylinders, and the power and the mean torque that follow; nothing without gas in each."""
-    works = [work_of_gas(one, one.space) for one in whole.cylinders if one.space is not None]
-    if len(works) < len(whole.cylinders):
+    works = [work_of_gas(cylinder, cylinder.space) for cylinder in engine.cylinders if cylinder.space is not None]
+    if len(works) < len(engine.cylinders):
         return {}
-    cycle, several = traced_inputs.cycle_angle(whole.machine), len(works) > 1
-    found = {f"indicated_work.{number}": one for number, one in enumerate(works, start=1)} if several else {}
+    cycle, several = traced_inputs.cycle_angle(engine.machine), len(works) > 1
+    values = {f"indicated_work.{number}": work for number, work in enumerate(works, start=1)} if several else {}
     work, name = works[0].named("indicated_work"), "indicated_power"
     if several:
-        work = total("indicated_work.all", (one.named(key) for key, one in found.items()))
+        work = total("indicated_work.all", (value.named(key) for key, value in values.items()))
         name = "engine_indicated_power"
-    found["indicated_power"] = indicated_power(work, whole.master.trace["speed"], cycle).named(name)
-    if whole.is_uniform:
+    values["indicated_power"] = indicated_power(work, engine.master.trace["speed"], cycle).named(name)
+    if engine.is_uniform:
         torque = mean_torque_of_work(firing["cylinder_count"], works[0].named("indicated_work"), cycle)
     else:
         each = [
             mean_torque(work, cycle).named(f"mean_torque.indicated.{number}")
             for number, work in enumerate(works, start=1)
         ]
-        found |= {one.key: one for one in each}
+        values |= {item.key: item for item in each}
         torque = total("mean_torque.indicated", each)
-    found["mean_torque.indicated"] = torque
-    return {key: one if key == "indicated_power" else one.named(key) for key, one in found.items()}
+    values["mean_torque.indicated"] = torque
+    return {key: value if key == "indicated_power" else value.named(key) for key, value in values.items()}
 
 
 def delivery_trace(
-    whole: MultiCylinderEngine, firing: Mapping[str, TracedValue], works: Mapping[str, TracedValue]
+    engine: MultiCylinderEngine, firing: Mapping[str, TracedValue], works: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
     """Return what all cylinders with valves deliver per unit of time, after the flow of one of them or of each.
 
     `firing` and `works`: number and work of the cylinders. Nothing of one cylinder alone, whose delivery is its own.
     """
-    gases = {number: one.machine.gas for number, one in enumerate(whole.cylinders, start=1)}
+    gases = {number: cylinder.machine.gas for number, cylinder in enumerate(engine.cylinders, start=1)}
     valved = {number: gas.valves for number, gas in gases.items() if gas is not None and gas.valves is not None}
-    if not valved or "indicated_power" not in works or len(whole.cylinders) < 2:
+    if not valved or "indicated_power" not in works or len(engine.cylinders) < 2:
         return {}
     cycle, speed, flows = (
-        traced_inputs.cycle_angle(whole.machine),
-        whole.master.trace["speed"],
+        traced_inputs.cycle_angle(engine.machine),
+        engine.master.trace["speed"],
         dict[int, TracedValue](),
     )
     for number, valves in valved.items():
-        trace = whole.cylinders[number - 1].trace
+        trace = engine.cylinders[number - 1].trace
         stated = StatedValves(valves, "gas.valves")
         volume = stated.drawn(trace["clearance_volume"], trace["swept_volume"])["induced_volume"]
         flows[number] = inlet_flow(volume, speed, cycle).named(f"inlet_flow.{number}")
     stated = StatedValves(next(iter(valved.values())), "gas.valves")
-    if whole.is_uniform:
+    if engine.is_uniform:
         one = flows[1].named("inlet_flow.of_cylinder")
-        found, flow = {one.key: one}, firing["cylinder_count"] * one
+        values, flow = {one.key: one}, firing["cylinder_count"] * one
     else:
-        found = {one.key: one for one in flows.values()}
-        flow = total("inlet_flow", found.values())
-    return found | stated.passed(flow, works["indicated_power"])
+        values = {flow.key: flow for flow in flows.values()}
+        flow = total("inlet_flow", values.values())
+    return values | stated.passed(flow, works["indicated_power"])
 
 
-def firing_listing(whole: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> Listing:
+def firing_listing(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> Listing:
     """Return where each cylinder stands and fires; where they differ, also stroke, dead centre and work.
 
     `firing`: number, volume, firing and work of the cylinders.
     """
-    numbers = [one.number for one in whole.layout.places]
+    numbers = [place.number for place in engine.layout.places]
     columns = {"cylinder_number": np.array(numbers, dtype=float)}
     unlike = _OF_SLAVES if "stroke.1" in firing else ()
-    if unlike or whole.engine.gases:
+    if unlike or engine.engine.gases:
         unlike = (*unlike, "indicated_work")
     for kind in (*_LISTED, *unlike):
         each = [firing.get(f"{kind}.{number}", firing.get(kind)) for number in numbers]
-        if all(one is not None for one in each):
-            columns[kind] = np.array([one.value for one in each if one is not None])
+        if all(item is not None for item in each):
+            columns[kind] = np.array([item.value for item in each if item is not None])
     return Listing(columns)

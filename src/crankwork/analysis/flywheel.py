@@ -51,15 +51,15 @@ def extreme_speeds(machine: Machine) -> tuple[TracedValue, TracedValue]:
 
 def turning_inertia(machine: Machine, key: str) -> TracedValue:
     """Return the moment of inertia of all that turns and is given under a key; absent where nothing is."""
-    whole, wheel = machine.drive.inertia, tuple(_given_wheel(machine))
-    if not whole:
+    engine, wheel = machine.drive.inertia, tuple(_given_wheel(machine))
+    if not engine:
         return absent(key)
-    plain, own = given(key, whole, "flywheel.inertia"), machine.stated.get("crank.inertia")
+    plain, own = given(key, engine, "flywheel.inertia"), machine.stated.get("crank.inertia")
     beside = () if own is None else (given("reduced_inertia.shaft", own.value, "crank.inertia"),)
     # that of a heavy crank is one of the bodies
     for parts in ((*beside, *wheel), wheel):
-        if parts and (found := traced_inputs.checked(total(key, parts), plain)) is not plain:
-            return found
+        if parts and (result := traced_inputs.checked(total(key, parts), plain)) is not plain:
+            return result
     return plain
 
 
@@ -95,10 +95,12 @@ def _of_rim(name: str, value: float) -> TracedValue:
 
 def given_flywheel_dimensions(machine: Machine, w: TracedValue) -> dict[str, TracedValue]:
     """Return what follows of the sizes of a flywheel that is given, beside those that are stated."""
-    found = dict[str, TracedValue]()
+    values = dict[str, TracedValue]()
     for wheel in _given_wheel(machine):
-        found |= flywheel_dimensions(machine, wheel, w)
-    return {key: one for key, one in found.items() if key != "flywheel_mass" or "flywheel.mass" not in machine.stated}
+        values |= flywheel_dimensions(machine, wheel, w)
+    return {
+        key: value for key, value in values.items() if key != "flywheel_mass" or "flywheel.mass" not in machine.stated
+    }
 
 
 def flywheel_dimensions(machine: Machine, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
@@ -106,43 +108,43 @@ def flywheel_dimensions(machine: Machine, inertia: TracedValue, w: TracedValue) 
     wheel = machine.drive.wheel
     if wheel is None:
         return {}
-    found = dict[str, TracedValue]()
+    values = dict[str, TracedValue]()
     if wheel.gyration_radius is not None:
-        found["flywheel_mass"] = mass_of_wheel(inertia, _gyration(wheel.gyration_radius))
+        values["flywheel_mass"] = mass_of_wheel(inertia, _gyration(wheel.gyration_radius))
     if wheel.rim is not None:
-        found |= _rim(machine, wheel.rim, inertia, w)
-    return {key: one.named(key) for key, one in found.items()}
+        values |= _rim(machine, wheel.rim, inertia, w)
+    return {key: value.named(key) for key, value in values.items()}
 
 
 def _rim(machine: Machine, rim: RimSpec, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
     """Return speed, diameter, mass and section of a rim, as far as they follow."""
-    found = dict[str, TracedValue]()
+    values = dict[str, TracedValue]()
     density = None if rim.density is None else _of_rim("density", rim.density)
     if rim.diameter is not None:
         diameter = _of_rim("diameter", rim.diameter)
-        speed = found["rim_speed"] = rim_speed(w, diameter)
+        speed = values["rim_speed"] = rim_speed(w, diameter)
     else:
         if rim.speed is not None:
             speed = _of_rim("speed", rim.speed)
         else:
-            speed = found["rim_speed"] = rim_speed_of_stress(_of_rim("stress", rim.stress or 0.0), density)
-        diameter = found["rim_diameter"] = rim_diameter(speed, w)
+            speed = values["rim_speed"] = rim_speed_of_stress(_of_rim("stress", rim.stress or 0.0), density)
+        diameter = values["rim_diameter"] = rim_diameter(speed, w)
     if density is not None and rim.stress is None:
-        found["rim_stress"] = hoop_stress(density, speed)
+        values["rim_stress"] = hoop_stress(density, speed)
     part = inertia if rim.share == 1 else (_of_rim("share", rim.share) * inertia).named("rim_inertia")
-    mass = found["rim_mass"] = mass_for_inertia_of_rim(part, diameter)
+    mass = values["rim_mass"] = mass_for_inertia_of_rim(part, diameter)
     if density is None or (rim.width is not None and rim.thickness is not None):
-        return found
-    section = found["rim_section"] = rim_section(mass, machine.method.pi, diameter, density)
+        return values
+    section = values["rim_section"] = rim_section(mass, machine.method.pi, diameter, density)
     if rim.ratio is not None:
         ratio = _of_rim("ratio", rim.ratio)
-        thickness = found["rim_thickness"] = rim_thickness(section, ratio)
-        found["rim_width"] = thickness * ratio
+        thickness = values["rim_thickness"] = rim_thickness(section, ratio)
+        values["rim_width"] = thickness * ratio
     elif rim.width is not None:
-        found["rim_thickness"] = section / _of_rim("width", rim.width)
+        values["rim_thickness"] = section / _of_rim("width", rim.width)
     elif rim.thickness is not None:
-        found["rim_width"] = section / _of_rim("thickness", rim.thickness)
-    return found
+        values["rim_width"] = section / _of_rim("thickness", rim.thickness)
+    return values
 
 
 def recovery_torque_values(

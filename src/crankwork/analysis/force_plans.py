@@ -52,35 +52,35 @@ def force_plans(results: Results, degrees: float) -> list[ForcePolygon]:
     if isinstance(mechanism.driver, Cylinder | LinkMotor) or mechanism.passages or results.machine.redundant:
         return []
     running = operating_state(solved, linkage_motion(mechanism, CrankGrid.from_degrees([degrees])))
-    found, motion, wrenches = joint_forces(running), running.motion, link_wrenches(running)
-    reactions: dict[str, Reaction] = {**found.pins, **found.guides}
+    result, motion, wrenches = joint_forces(running), running.motion, link_wrenches(running)
+    reactions: dict[str, Reaction] = {**result.pins, **result.guides}
     pivots = names_of_pivots(mechanism)
 
     def on_group(links: tuple[str, ...]) -> Iterator[PolygonForce]:
         for link in links:
             wrench = wrenches[link]
-            yield PolygonForce("load", link, *(float(np.ravel(one)[0]) for one in (wrench.x, wrench.y)))
+            yield PolygonForce("load", link, *(float(np.ravel(item)[0]) for item in (wrench.x, wrench.y)))
         for joint in joints(mechanism):
             inside = [link for link in (joint.link, joint.other) if link in links]
             if len(inside) == 1:
                 reaction = reactions[joint.name]
                 held = reaction_wrench(reaction, motion, joint.link)
                 sign = 1.0 if inside[0] == joint.link else -1.0
-                parts = (sign * float(np.ravel(one)[0]) for one in (held.x, held.y))
+                parts = (sign * float(np.ravel(item)[0]) for item in (held.x, held.y))
                 kind: Literal["pin", "guide"] = "pin" if isinstance(reaction, PinForce) else "guide"
                 yield PolygonForce(kind, pivots.get(joint.name, joint.name), *parts)
         if isinstance(mechanism.driver, DrivingSlider) and mechanism.driver.link in links:
             pushed = float(results.columns_at(np.array([degrees]), ["driver_force"])["driver_force"][0])
-            cos, sin = (float(np.ravel(one)[0]) for one in motion.frames[mechanism.driver.link][1:3])
+            cos, sin = (float(np.ravel(frame)[0]) for frame in motion.frames[mechanism.driver.link][1:3])
             yield PolygonForce("driver", mechanism.driver.link, pushed * cos, pushed * sin)
 
     driven = tuple(name for name in motion.frames if name not in _of_groups(results) and name != GROUND)
     plans = []
     for links in (*(group_links(group) for group in reversed(mechanism.dyads)), driven):
         forces = tuple(on_group(links))
-        most = max((one.size for one in forces), default=0.0)
+        most = max((force.size for force in forces), default=0.0)
         if most > 0:
-            plans.append(ForcePolygon(links, tuple(one for one in forces if one.size > _NOTHING * most)))
+            plans.append(ForcePolygon(links, tuple(force for force in forces if force.size > _NOTHING * most)))
     return plans
 
 

@@ -67,7 +67,7 @@ class FrictionEquilibrium:
     def at(self, degrees: Array, *, thorough: bool = False) -> FrictionForces:
         """Return forces, torque and status at crank angles. [deg]"""
         running = self.running(CrankGrid.from_degrees(degrees))
-        senses = {one: steps(degrees) for one, steps in self.senses.items()}
+        senses = {key: steps(degrees) for key, steps in self.senses.items()}
         return solve_with_friction(
             running, friction_joints(running, self.solved.machine.friction, senses), thorough=thorough
         )
@@ -83,10 +83,10 @@ class FrictionRegimes:
     def __init__(self, balance: FrictionEquilibrium, span: tuple[float, float]) -> None:
         self._balance, self._span = balance, span
         start, end = span
-        edges = [one for steps in balance.senses.values() for one in steps.ends]
+        edges = [end for steps in balance.senses.values() for end in steps.ends]
         count = max(int(np.ceil((end - start) / _STEP)), 1)
         # what jumps does so right after an edge
-        beside = [one + _PLACED / 2 for one in edges if one < end]
+        beside = [edge + _PLACED / 2 for edge in edges if edge < end]
         self.degrees = np.unique([*np.linspace(start, end, count + 1), *edges, *beside])
         self.found = balance.at(self.degrees, thorough=True)
         self._is_double = bool(self.found.has_another.any())
@@ -97,8 +97,8 @@ class FrictionRegimes:
         places = self._crossings(degrees, rows)
         is_known = bool(np.all(np.isin(self.found.status, (CONVERGED, NO_POSITION))))
         self.is_free = is_known and not np.any(rows["margin"] < 0)
-        self._changes = sorted({one for key in _CHANGES for one in places.get(key, ())})
-        self.knots = tuple(sorted({one for found in places.values() for one in found} | set(edges)))
+        self._changes = sorted({item for key in _CHANGES for item in places.get(key, ())})
+        self.knots = tuple(sorted({item for place in places.values() for item in place} | set(edges)))
 
     def _rows(self, degrees: Array) -> dict[str, Array]:
         return self._rows_of(self._balance.at(degrees))
@@ -136,7 +136,7 @@ class FrictionRegimes:
             if new.size:
                 order = np.argsort(np.concatenate([degrees, new]))
                 degrees = np.concatenate([degrees, new])[order]
-                rows = {key: np.concatenate([rows[key], one])[order] for key, one in self._rows(new).items()}
+                rows = {key: np.concatenate([rows[key], value])[order] for key, value in self._rows(new).items()}
         return degrees, rows
 
     def _crossings(self, degrees: Array, rows: Mapping[str, Array]) -> dict[str, list[float]]:
@@ -149,7 +149,7 @@ class FrictionRegimes:
             at = np.flatnonzero(signs[1:] != signs[:-1])
             ends = np.concatenate([at[signs[at] == 0], at[signs[at + 1] == 0] + 1])
             found[key] = degrees[ends].tolist()
-            brackets += [(number, one) for one in at[(signs[at] != 0) & (signs[at + 1] != 0)].tolist()]
+            brackets += [(number, item) for item in at[(signs[at] != 0) & (signs[at + 1] != 0)].tolist()]
         if brackets:
             number, at = np.array(brackets).T
             values = np.array([*rows.values()])
@@ -166,23 +166,23 @@ class FrictionRegimes:
             keys = [*rows]
             ends_of = values[number, at], values[number, at + 1]
             placed = _between(value_at, degrees[at], degrees[at + 1], ends_of)
-            for one, place in zip(number.tolist(), placed.tolist(), strict=True):
-                found[keys[one]].append(place)
+            for item, place in zip(number.tolist(), placed.tolist(), strict=True):
+                found[keys[item]].append(place)
         return found
 
     @property
     def drives(self) -> StepFunction:
         """Who drives: 1 the crank, -1 the load, 0 where neither moves the other."""
         edges, middles = self._stretches()
-        found = self._balance.at(middles)
-        ideal, actual = found.ideal_torque, np.asarray(found.joint_forces.balancing_torque)
+        result = self._balance.at(middles)
+        ideal, actual = result.ideal_torque, np.asarray(result.joint_forces.balancing_torque)
         least = 1e-12 * np.max(np.abs(self.found.ideal_torque), initial=0.0, where=np.isfinite(self.found.ideal_torque))
         both = np.where(np.minimum(ideal, actual) > least, 1.0, np.where(np.maximum(ideal, actual) < -least, -1.0, 0.0))
         return StepFunction(tuple(edges[1:].tolist()), tuple(both.tolist()))
 
     def _stretches(self) -> tuple[Array, Array]:
         """Return the edges of stretches in which nothing changes, and their middles. [deg]"""
-        inner = [one for one in self._changes if self._span[0] + _PLACED < one < self._span[1] - _PLACED]
+        inner = [change for change in self._changes if self._span[0] + _PLACED < change < self._span[1] - _PLACED]
         edges = np.array([self._span[0], *inner, self._span[1]])
         return edges, (edges[1:] + edges[:-1]) / 2
 
@@ -192,18 +192,18 @@ class FrictionRegimes:
         `codes`: which of that.
         """
         edges, middles = self._stretches()
-        found = self._balance.at(middles, thorough=self._is_double)
+        result = self._balance.at(middles, thorough=self._is_double)
         period = 0.0
         if solved.machine.mechanism.driver.law is not None:
             period = solved.machine.mechanism.driver.law.period / 360.0
         told = {
-            "self_locking": found.status == SELF_LOCKING,
-            "not_balanced": ~np.isin(found.status, (CONVERGED, SELF_LOCKING, NO_POSITION)),
-            "two_balances": found.has_another,
-            "friction_holds": (found.status == CONVERGED) & found.held,
+            "self_locking": result.status == SELF_LOCKING,
+            "not_balanced": ~np.isin(result.status, (CONVERGED, SELF_LOCKING, NO_POSITION)),
+            "two_balances": result.has_another,
+            "friction_holds": (result.status == CONVERGED) & result.held,
         }
         # what only grows with the speed holds nothing
-        is_dry = any(_is_dry(one) for one in solved.machine.friction)
+        is_dry = any(_is_dry(item) for item in solved.machine.friction)
         for code, is_so in told.items():
             if code in codes and (is_dry or code != "friction_holds"):
                 yield from self._runs(code, edges, is_so, period)
@@ -228,7 +228,7 @@ def _between(value_at: Callable[[Array, Truth], Array], low: Array, high: Array,
     `value_at` gives the functions of some of the places. What is not known counts as another sign. `ends`: their values
     at both places.
     """
-    (low, high), (first, last) = (low.copy(), high.copy()), (one.copy() for one in ends)
+    (low, high), (first, last) = (low.copy(), high.copy()), (end.copy() for end in ends)
     for _ in range(_HALVINGS):
         some = high - low > _PLACED
         if not some.any():

@@ -30,7 +30,7 @@ def full_turn_bounds(mechanism: Mechanism) -> Iterator[LengthBound]:
     """Yield what the first dyad that does not close all round needs of its links, or of the crank."""
     placed = place(mechanism, _DENSE)
     still = np.zeros(len(_DENSE))
-    points = {name: np.array([axis.position + still for axis in one]) for name, one in placed.points.items()}
+    points = {name: np.array([axis.position + still for axis in value]) for name, value in placed.points.items()}
     for dyad, closure in zip(mechanism.dyads, placed.closures, strict=True):
         # a change point is passed
         if np.all(closure.value > -_PASSED * closure.scale):
@@ -69,7 +69,7 @@ def _of_crank(mechanism: Mechanism, dyad: Dyad | Chain) -> Iterator[LengthBound]
                 short = abs(dyad.length_a - dyad.length_b)
                 yield LengthBound("crank.radius", "≤", min(dyad.length_a + dyad.length_b - frame, frame - short))
         case RRP(guide_link="") if dyad.joint == crank.pin:
-            x, y = (one - other for one, other in zip(crank.pivot, dyad.guide_point, strict=True))
+            x, y = (item - other for item, other in zip(crank.pivot, dyad.guide_point, strict=True))
             aside = abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
             yield LengthBound("crank.radius", "≤", dyad.length - aside)
         case RPR() if dyad.joint == crank.pin and dyad.pivot in mechanism.ground:

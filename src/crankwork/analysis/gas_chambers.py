@@ -60,13 +60,13 @@ def solve_linkage(machine: Machine, motion: Motion) -> PreparedLinkage:
 
 def gas_summary(solved: PreparedLinkage) -> dict[str, TracedValue]:
     """Return the single values of the gas in each chamber, and work and power of all of it."""
-    chambers, found = solved.machine.chambers, dict(solved.filling.singles)
+    chambers, values = solved.machine.chambers, dict(solved.filling.singles)
     for name in chambers:
-        power = _per_time(solved, name)(found[f"indicated_work.{name}"])
-        found[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
+        power = _per_time(solved, name)(values[f"indicated_work.{name}"])
+        values[f"indicated_power.{name}"] = power.named(f"indicated_power.{name}")
     if chambers:
-        found["indicated_power"] = total("indicated_power", [found[f"indicated_power.{name}"] for name in chambers])
-    return found | _cycle(solved) | _delivery(solved, found)
+        values["indicated_power"] = total("indicated_power", [values[f"indicated_power.{name}"] for name in chambers])
+    return values | _cycle(solved) | _delivery(solved, values)
 
 
 def _cycle(solved: PreparedLinkage) -> dict[str, TracedValue]:
@@ -82,42 +82,42 @@ def _per_time(solved: PreparedLinkage, name: str) -> Callable[[TracedValue], Tra
     chamber, law = solved.machine.chambers[name], solved.machine.mechanism.driver.law
     if law is not None:
         period = given("period", law.period, "driver.period")
-        return lambda one: one / period
+        return lambda item: item / period
     w = speed_of(solved.machine)
     cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
     again = own_cycle(chamber, solved.machine.mechanism.period) / chamber.cycle
-    whole = cycle if again == 1 else again * cycle.named(f"cycle_angle.{name}.stated")
+    engine = cycle if again == 1 else again * cycle.named(f"cycle_angle.{name}.stated")
     is_work = gas.indicated_power
-    return lambda one: (inlet_flow if one.key.startswith("induced") else is_work)(one, w, whole)
+    return lambda item: (inlet_flow if item.key.startswith("induced") else is_work)(item, w, engine)
 
 
-def _delivery(solved: PreparedLinkage, found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def _delivery(solved: PreparedLinkage, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return what passes the valves of each chamber; of several what the first stage draws in, and all take up."""
     chambers, none = solved.machine.chambers, absent("clearance_volume")
     result = dict[str, TracedValue]()
-    valved = {name: one.valves for name, one in chambers.items() if one.valves is not None}
+    valved = {name: value.valves for name, value in chambers.items() if value.valves is not None}
     for name in valved:
         stated = stated_valves(f"chambers.{name}", chambers[name])
         if stated is not None:
-            clearance, swept = found.get(f"clearance_volume.{name}", none), found[f"swept_volume.{name}"]
-            power = found[f"indicated_power.{name}"]
+            clearance, swept = values.get(f"clearance_volume.{name}", none), values[f"swept_volume.{name}"]
+            power = values[f"indicated_power.{name}"]
             result |= stated.delivery(clearance, swept, power, _per_time(solved, name))
     if len(valved) > 1:
-        lowest = min(one.suction for one in valved.values())
-        first = [name for name, one in valved.items() if one.suction == lowest]
+        lowest = min(value.suction for value in valved.values())
+        first = [name for name, value in valved.items() if value.suction == lowest]
         for key in ("inlet_flow", "gas_mass_flow", "free_air_delivery"):
             result |= _together(key, first, result)
         if len(valved) == len(chambers):
             result |= _together("isothermal_power", list(valved), result)
-        if "isothermal_power" in result and found["indicated_power"].value:
-            efficiency = isothermal_efficiency(result["isothermal_power"], found["indicated_power"])
+        if "isothermal_power" in result and values["indicated_power"].value:
+            efficiency = isothermal_efficiency(result["isothermal_power"], values["indicated_power"])
             result["isothermal_efficiency"] = efficiency
     return result
 
 
-def _together(key: str, names: Sequence[str], found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def _together(key: str, names: Sequence[str], values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the sum of what several chambers have of a kind, nothing if one of them has it not."""
-    parts = [found[f"{key}.{name}"] for name in names if f"{key}.{name}" in found]
+    parts = [values[f"{key}.{name}"] for name in names if f"{key}.{name}" in values]
     return {key: total(key, parts)} if len(parts) == len(names) else {}
 
 
@@ -131,7 +131,7 @@ class Indicator(NamedTuple):
 
 def indicators(results: Results) -> dict[str, Indicator]:
     """Return the indicator diagrams of the chambers by name, with both sides of every jump."""
-    machine, found = results.machine, {}
+    machine, values = results.machine, {}
     for name in machine.chambers:
         keys = (f"cylinder_volume.{name}", f"diagram_pressure.{name}")
         corners = breakpoints_of((results.trace[key] for key in keys), machine.cycle)
@@ -139,8 +139,8 @@ def indicators(results: Results) -> dict[str, Indicator]:
         degrees = np.unique(fine)
         columns = results.columns_at(degrees, keys)
         volume, pressure = (np.append(columns[key], columns[key][0]) for key in keys)
-        found[name] = Indicator(volume, pressure, np.append(degrees, machine.cycle))
-    return found
+        values[name] = Indicator(volume, pressure, np.append(degrees, machine.cycle))
+    return values
 
 
 def _against(filling: ChamberGas, chambers: Mapping[str, Chamber], period: float) -> dict[str, float]:
@@ -166,8 +166,8 @@ def gas_check(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
         torque = torque * rate_by_angle(motion, machine.mechanism.driver.law)
     over = CycleInterpolant({"": torque}, CrankGrid.from_degrees, machine.cycle)
     work, against = 0.0, _against(filling, machine.chambers, machine.mechanism.period)
-    for name, one in machine.chambers.items():
-        cycle = own_cycle(one, machine.mechanism.period)
+    for name, value in machine.chambers.items():
+        cycle = own_cycle(value, machine.mechanism.period)
         done = filling.singles[f"indicated_work.{name}"].value - against[name]
         work += done * machine.cycle / cycle
     by_pressures = _work_of_valves(solved)
@@ -179,12 +179,12 @@ def gas_check(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
 def _work_of_valves(solved: PreparedLinkage) -> dict[str, float]:
     """Return how far the work of chambers with valves is from that which follows from pressures alone."""
     apart, singles = list[float](), solved.filling.singles
-    for name, one in solved.machine.chambers.items():
-        stated = stated_valves(f"chambers.{name}", one)
+    for name, value in solved.machine.chambers.items():
+        stated = stated_valves(f"chambers.{name}", value)
         # pipes take what no pressures of valves tell
         if stated is not None and not stated.valves.has_pipes:
             sizes = [singles[key].value if key in singles else 0.0
                      for key in (f"clearance_volume.{name}", f"swept_volume.{name}")]  # fmt: skip
             work = stated.work(*sizes)
-            apart.append(abs(singles[f"indicated_work.{name}"].value - one.factor * work) / abs(work))
+            apart.append(abs(singles[f"indicated_work.{name}"].value - value.factor * work) / abs(work))
     return {"valves": max(apart)} if apart else {}

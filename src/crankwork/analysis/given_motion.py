@@ -43,11 +43,11 @@ DYNAMICS = (
 def analyse_tabulated(machine: Machine, table: TransferTable) -> Results:
     """Return reduced inertia and torques at the positions of a table (artobolevsky_1988, ch. 15 and 16)."""
     solved = PreparedMachine(machine, machine.method, machine.speed * machine.method.pi / math.pi)
-    grid = CrankGrid.from_degrees([round(math.degrees(one), 9) for one in table.angles])
+    grid = CrankGrid.from_degrees([round(math.degrees(angle), 9) for angle in table.angles])
     trace = _trace(machine, table, grid)
     columns = Program(trace)(grid)
     summary = _summary(machine, columns, trace)
-    values = {key: one.value for key, one in summary.items()}
+    values = {key: value.value for key, value in summary.items()}
     groups = {"dynamics": DYNAMICS}
     return Results(solved, grid, columns, values, {}, _notices(machine, table), groups, trace={**trace, **summary})
 
@@ -83,7 +83,7 @@ def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str,
     """Return the columns of a table."""
 
     def row(key: str, values: Iterable[float], path: str = "", of: tuple[TracedValue, ...] = ()) -> TracedValue:
-        values, degrees = tuple(float(one) for one in values), tuple(grid.degrees.tolist())
+        values, degrees = tuple(float(value) for value in values), tuple(grid.degrees.tolist())
         if len(values) == 1:
             return given(key, values[0], f"{path}[1]") if values[0] else absent(key)
         if path:
@@ -98,10 +98,10 @@ def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str,
             given(f"{key}.{body.name}", value, f"{path}.{name}") if value else absent(key)
             for key, name, value in (("body_mass", "mass", body.mass), ("body_inertia", "inertia", body.inertia))
         )
-        found: TracedValue = reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
-        return found.named(f"reduced_inertia.{body.name}")
+        result: TracedValue = reduced_inertia_of_ratios(mass, velocity, inertia, rotation)
+        return result.named(f"reduced_inertia.{body.name}")
 
-    w, inertia = speed_of(machine), total("reduced_inertia", [part(one) for one in table.bodies])
+    w, inertia = speed_of(machine), total("reduced_inertia", [part(body) for body in table.bodies])
     trace = {"crank_angle": TracedValue(AngleFunction("angle"), "crank_angle"), "reduced_inertia": inertia}
     trace["reduced_inertia_1"] = change = _change(table, grid, inertia, row).named("reduced_inertia_1")
     dynamic: TracedValue = dynamic_torque(w, change, absent("reduced_inertia"), absent("angular_acceleration"))
@@ -113,7 +113,7 @@ def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str,
     torques = static, trace["dynamic_torque"], efficiency_of(machine.drive)
     drives = replay(balancing, grid) > 0
     # each position has its own law: positions have nothing between them
-    laws = tuple((driving_torque_as_motor if one else driving_torque_as_brake)(*torques) for one in drives)
+    laws = tuple((driving_torque_as_motor if drive else driving_torque_as_brake)(*torques) for drive in drives)
     driving = TracedValue(Piecewise(grid.degrees.tolist(), laws), "driving_torque")
     return trace | {"static_torque": static, "balancing_torque": balancing, "driving_torque": driving}
 
@@ -163,7 +163,7 @@ def _summary(
             result[f"{key}_{word}_angle"] = TracedValue(
                 ProcedureValue(float(columns["crank_angle"][row]), f"{word}_angle", of, at)
             )
-    return {key: one.named(key) for key, one in result.items()}
+    return {key: value.named(key) for key, value in result.items()}
 
 
 def _notices(machine: Machine, table: TransferTable) -> tuple[Notice, ...]:

@@ -64,19 +64,19 @@ def analyse_turning(machine: Machine, turning: ShaftTorques, grid: CrankGrid | N
     w = _speed(machine)
     solved = PreparedMachine(machine, machine.method, w.value)
     grid = grid or CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
-    found = _of_course(machine, turning, w) if _has_course(turning) else _of_energies(machine, turning, w)
-    columns = {"crank_angle": TracedValue(AngleFunction("angle"), "crank_angle"), **found.columns}
-    summary = {key: one.named(key) for key, one in found.summary.items()}
-    trace = {**columns, **summary, **found.between}
+    result = _of_course(machine, turning, w) if _has_course(turning) else _of_energies(machine, turning, w)
+    columns = {"crank_angle": TracedValue(AngleFunction("angle"), "crank_angle"), **result.columns}
+    summary = {key: value.named(key) for key, value in result.summary.items()}
+    trace = {**columns, **summary, **result.between}
     return Results(
         solved,
         grid,
         Program(columns)(grid),
-        {key: one.value for key, one in summary.items()},
-        found.checks,
-        found.notices,
+        {key: value.value for key, value in summary.items()},
+        result.checks,
+        result.notices,
         {"turning": COLUMNS},
-        found.listings,
+        result.listings,
         trace=trace,
     )
 
@@ -93,7 +93,7 @@ class _Turned(NamedTuple):
 
 
 def _has_course(turning: ShaftTorques) -> bool:
-    return all(one.is_complete for one in turning.diagrams.values())
+    return all(diagram.is_complete for diagram in turning.diagrams.values())
 
 
 def _speed(machine: Machine) -> TracedValue:
@@ -146,26 +146,30 @@ def _of_course(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turn
     drive, load = (made.get(key, mean).named(key) for key in ("turning_moment", "load_torque"))
     columns = {"turning_moment": drive, "load_torque": load, "excess_torque": (drive - load).named("excess_torque")}
     net = columns["excess_torque"]
-    torque, found = _excess(turning, over)
+    torque, result = _excess(turning, over)
     own = turning_inertia(machine, "whole_inertia")
-    balance = Balance(net, torque, own, Curve.constant(own.value, turning.cycle), found, sign=1.0)
+    balance = Balance(net, torque, own, Curve.constant(own.value, turning.cycle), result, sign=1.0)
     excess, turn = excess_of(balance), analyse_speed(machine, balance, w, "extremes")
     columns |= turn.columns
     summary = {**_given_values(machine, w), "mean_torque": mean, **_power(machine, turning, mean, w)}
     summary |= _extremes_of(made, over) | _per_cycle(machine, mean, excess) | turn.summary
     inertia = 0.0 if turn.speed is None else turn.speed.inertia.mean
     if turn.speed is not None:
-        whole = next((one for key, one in turn.between.items() if key in ("whole_inertia", "flywheel_inertia")), own)
-        turned = acceleration_of_crank(net, absent("speed"), whole, absent("reduced_inertia_1"))
+        engine = next(
+            (value for key, value in turn.between.items() if key in ("whole_inertia", "flywheel_inertia")), own
+        )
+        turned = acceleration_of_crank(net, absent("speed"), engine, absent("reduced_inertia_1"))
         columns["angular_acceleration"] = turned
         summary |= _extremes("angular_acceleration", turned, torque * (1 / inertia))
-    checks = _checks(turning, over, columns, (found, turn.speed, inertia))
+    checks = _checks(turning, over, columns, (result, turn.speed, inertia))
     notices = (*_notices(turning), *turn.notices)
-    listings = {"energy_extremes": _listing(found, turn.speed)}
-    columns = {key: one.named(key) for key, one in columns.items()}
-    stretches = (one for one in in_order([*made.values(), *means.values()]) if one.key.partition(".")[0] in _STRETCHES)
-    between = {one.key: one for one in stretches if one.key not in _STRETCHES} | turn.between
-    summary |= {key: one for key, one in between.items() if key.startswith("shearing_force.")}
+    listings = {"energy_extremes": _listing(result, turn.speed)}
+    columns = {key: value.named(key) for key, value in columns.items()}
+    stretches = (
+        item for item in in_order([*made.values(), *means.values()]) if item.key.partition(".")[0] in _STRETCHES
+    )
+    between = {stretch.key: stretch for stretch in stretches if stretch.key not in _STRETCHES} | turn.between
+    summary |= {key: value for key, value in between.items() if key.startswith("shearing_force.")}
     return _Turned(columns, summary, between, checks, notices, listings)
 
 
@@ -176,7 +180,7 @@ def _keys(turning: ShaftTorques) -> Iterator[tuple[str, str]]:
 
 def _blows(diagram: TorqueDiagram) -> float:
     """Return the work of a period that is done at once. [J]"""
-    return sum(one.work for one in diagram.strokes if not one.over) * len(diagram.delays)
+    return sum(stroke.work for stroke in diagram.strokes if not stroke.over) * len(diagram.delays)
 
 
 def _mean(over: CycleInterpolant, machine: Machine, turning: ShaftTorques, table: str, w: TracedValue) -> TracedValue:
@@ -201,34 +205,34 @@ def _excess(turning: ShaftTorques, over: CycleInterpolant) -> tuple[Curve, Exces
     net = Curve.constant(0.0, turning.cycle)
     for table, key in _keys(turning):
         net = net + _curve(over, key) * parts[table]
-    found = excess_work(net)
+    result = excess_work(net)
     low, _, high, _ = net.extremes()
-    if found.work <= _NOTHING * turning.cycle * max(abs(low), abs(high)):
+    if result.work <= _NOTHING * turning.cycle * max(abs(low), abs(high)):
         # what only rounding moves stands
-        net = Curve.constant(found.mean_torque, turning.cycle)
-        found = excess_work(net)
+        net = Curve.constant(result.mean_torque, turning.cycle)
+        result = excess_work(net)
     jumps = [
         _saw(diagram, turning.cycle) * parts[table] for table, diagram in turning.diagrams.items() if _blows(diagram)
     ]
     if not jumps:
-        return net - found.mean_torque, found
-    curve, at_once = found.curve, 0.0
-    for one in jumps:
-        curve = curve + one
+        return net - result.mean_torque, result
+    curve, at_once = result.curve, 0.0
+    for jump in jumps:
+        curve = curve + jump
     for table, diagram in turning.diagrams.items():
         at_once += parts[table] * _blows(diagram) / diagram.period
-    mean = found.mean_torque + at_once
-    whole = ExcessWork(curve, curve.extremes(), mean, mean * turning.cycle)
-    return net - mean, whole
+    mean = result.mean_torque + at_once
+    engine = ExcessWork(curve, curve.extremes(), mean, mean * turning.cycle)
+    return net - mean, engine
 
 
 def _saw(diagram: TorqueDiagram, cycle: float) -> Curve:
     """Return the work that is done at once, less its mean over the angle, zero at an angle of zero."""
     jumps = sorted(
-        ((one.start + delay) % diagram.period + at * diagram.period, one.work)
+        ((stroke.start + delay) % diagram.period + at * diagram.period, stroke.work)
         for at in range(round(cycle / diagram.period))
-        for one in diagram.strokes
-        if not one.over
+        for stroke in diagram.strokes
+        if not stroke.over
         for delay in diagram.delays
     )
     slope, done = sum(work for _, work in jumps) / cycle, 0.0
@@ -242,11 +246,11 @@ def _saw(diagram: TorqueDiagram, cycle: float) -> Curve:
 
 def _extremes_of(made: Mapping[str, TracedValue], over: CycleInterpolant) -> dict[str, TracedValue]:
     """Return the extremes of torques that are not constant."""
-    found = dict[str, TracedValue]()
+    values = dict[str, TracedValue]()
     for key, known in made.items():
         if known.varies:
-            found |= _extremes(key, known, _curve(over, key))
-    return found
+            values |= _extremes(key, known, _curve(over, key))
+    return values
 
 
 def _extremes(key: str, known: TracedValue, curve: Curve) -> dict[str, TracedValue]:
@@ -293,19 +297,19 @@ def _turning_points(energy: Curve) -> tuple[Array, Array]:
     if abs(course[0][1] - course[-1][1]) <= _ROUNDED * size:
         course.pop()
     kept = [
-        one
-        for last, one, following in zip([course[-1], *course[:-1]], course, [*course[1:], course[0]], strict=True)
-        if (one[1] - last[1]) * (following[1] - one[1]) < 0
+        item
+        for last, item, following in zip([course[-1], *course[:-1]], course, [*course[1:], course[0]], strict=True)
+        if (item[1] - last[1]) * (following[1] - item[1]) < 0
     ]
     return np.array([at for at, _ in kept]), np.array([value for _, value in kept])
 
 
 def _notices(turning: ShaftTorques) -> Iterator[Notice]:
     """Yield notices of work that is done at once, and of works that differ."""
-    if any(_blows(one) for one in turning.diagrams.values()):
+    if any(_blows(diagram) for diagram in turning.diagrams.values()):
         yield Notice("work_at_once", {})
     if turning.torque is not None and turning.load is not None:
-        driven, taken = (one.work / one.period * turning.cycle for one in (turning.torque, turning.load))
+        driven, taken = (item.work / item.period * turning.cycle for item in (turning.torque, turning.load))
         if abs(driven - taken) > _ROUNDED * max(abs(driven), abs(taken)):
             yield Notice("work_differs", {"driven": driven, "taken": taken})
 
@@ -317,12 +321,12 @@ def _checks(
     turned: tuple[ExcessWork, TrueSpeed | None, float],
 ) -> dict[str, float]:
     """Return residuals between what was integrated and the works of the diagrams in closed form."""
-    (found, speed, inertia), cycle = turned, turning.cycle
+    (values, speed, inertia), cycle = turned, turning.cycle
     works = {key: turning.diagrams[table].work_to for table, key in _keys(turning)}
     angles = np.linspace(0.0, cycle, 721)[:-1] + cycle / 1440
     end = np.array([cycle])
     size = max((float(np.ptp(np.append(work(angles), work(end)))) for work in works.values()), default=0.0) or 1.0
-    whole = {
+    engine = {
         key: abs(over.integral(key) + _blows(diagram) * cycle / diagram.period - float(works[key](end)[0]))
         for (_, key), diagram in zip(_keys(turning), turning.diagrams.values(), strict=True)
     }
@@ -331,8 +335,8 @@ def _checks(
     for key, work in works.items():
         energy += sense[key] * (work(angles) - work(end) * angles / cycle)
     energy -= energy[0]
-    checks = {"turning_work": max(whole.values()) / size}
-    gained = found.curve(angles) - found.curve(angles[:1])
+    checks = {"turning_work": max(engine.values()) / size}
+    gained = values.curve(angles) - values.curve(angles[:1])
     checks["turning_energy"] = float(np.max(np.abs(gained - energy))) / size
     if speed is not None:
         grid = CrankGrid.from_radians(angles)
@@ -353,8 +357,8 @@ def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Tu
     checks = {}
     if diagram.loops:
         excess, energies = _of_loops(machine, diagram, table)
-        between |= {one.key: one for one in energies}
-        every = np.array([one.value for one in energies])
+        between |= {energy.key: energy for energy in energies}
+        every = np.array([energy.value for energy in energies])
         number = np.arange(1.0, every.size + 1)
         listings["energy_extremes"] = Listing({
             "loop_number": number,
@@ -403,7 +407,7 @@ def _of_loops(machine: Machine, diagram: TorqueDiagram, table: str) -> tuple[Tra
             else loop.named(f"kinetic_energy_change.{number}")
         )
         energies.append(after)
-    ordered = sorted(energies, key=lambda one: one.value)
+    ordered = sorted(energies, key=lambda item: item.value)
     least, largest = ordered[0], ordered[-1]
     return (largest - least).named("excess_work"), energies
 
@@ -453,7 +457,7 @@ def turning_diagram(results: Results, step: float = 0.5) -> TurningDiagram | Non
     beside = np.concatenate([breaks[1:] - _BESIDE, breaks[:-1] + _BESIDE])
     even = np.linspace(0.0, cycle, min(max(round(cycle / step), 360), _MOST_DRAWN) + 1)
     degrees = np.unique(np.concatenate([even, beside]))
-    found = results.columns_at(degrees, shown)
+    result = results.columns_at(degrees, shown)
     extremes = results.listings["energy_extremes"].columns
     ends, works = np.degrees(extremes["crank_angle"]), extremes["loop_work"]
     loops = []
@@ -464,10 +468,10 @@ def turning_diagram(results: Results, step: float = 0.5) -> TurningDiagram | Non
             # the larger part of a loop that goes on in the next period
             later = cycle - start > end
             inside &= degrees > start if later else degrees < end
-        weight = np.abs(found["turning_moment"] - found["load_torque"])[inside]
+        weight = np.abs(result["turning_moment"] - result["load_torque"])[inside]
         if weight.size and weight.any():
             middle = float(degrees[inside] @ weight / weight.sum())
-            height = float(np.interp(middle, degrees, found["turning_moment"] + found["load_torque"])) / 2
+            height = float(np.interp(middle, degrees, result["turning_moment"] + result["load_torque"])) / 2
             loops.append((middle, height, work))
-    torque, load, energy = (found[key] for key in shown)
+    torque, load, energy = (result[key] for key in shown)
     return TurningDiagram(degrees, torque, load, energy, tuple(loops))

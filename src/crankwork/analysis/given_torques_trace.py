@@ -46,9 +46,9 @@ def work_scale(machine: Machine, table: str) -> TracedValue | None:
     """Return the work that an area of a drawing stands for, None without a scale."""
     stated = {name: machine.stated.get(f"{table}.scale.{name}") for name in ("work", "torque", "angle")}
     known = {
-        name: given(f"{name}_scale", one.value, f"{table}.scale.{name}")
-        for name, one in stated.items()
-        if one is not None
+        name: given(f"{name}_scale", value.value, f"{table}.scale.{name}")
+        for name, value in stated.items()
+        if value is not None
     }
     if "work" in known:
         return known["work"]

@@ -29,7 +29,7 @@ class LoadInput(NamedTuple):
 
 def stated_loads(machine: Machine) -> tuple[LoadInput, ...]:
     """Return the loads of a linkage as its description states them."""
-    return tuple(_stated(one) for one in machine.loads)
+    return tuple(_stated(load) for load in machine.loads)
 
 
 def _stated(load: Load) -> LoadInput:
@@ -76,28 +76,28 @@ def stated_friction(machine: Machine) -> tuple[FrictionInput, ...]:
     from crankwork.dynamics.friction import PinFriction  # noqa: PLC0415
 
     shown = names_of_pivots(machine.mechanism)
-    found = []
-    for one in machine.friction:
-        if isinstance(one, PinFriction):
-            name = shown.get(one.joint, one.joint)
+    result = []
+    for item in machine.friction:
+        if isinstance(item, PinFriction):
+            name = shown.get(item.joint, item.joint)
             amounts = {
-                "pin_friction": (one.coefficient, ""),
-                "pin_radius": (one.radius, "mm"),
-                "constant_moment": (one.moment, "N*m"),
-                "angular_damping": (one.damping, "N*m*s/rad"),
+                "pin_friction": (item.coefficient, ""),
+                "pin_radius": (item.radius, "mm"),
+                "constant_moment": (item.moment, "N*m"),
+                "angular_damping": (item.damping, "N*m*s/rad"),
             }
         else:
-            name = one.slider
+            name = item.slider
             amounts = {
-                "guide_friction": (one.coefficient, ""),
-                "piece_length": (one.length, "mm"),
-                "piece_middle_x": (one.middle[0], "mm"),
-                "piece_middle_y": (one.middle[1], "mm"),
-                "constant_force": (one.force, "N"),
-                "damping": (one.damping, "N*s/m"),
+                "guide_friction": (item.coefficient, ""),
+                "piece_length": (item.length, "mm"),
+                "piece_middle_x": (item.middle[0], "mm"),
+                "piece_middle_y": (item.middle[1], "mm"),
+                "constant_force": (item.force, "N"),
+                "damping": (item.damping, "N*s/m"),
             }
-        found.append(FrictionInput(name, {key: value for key, value in amounts.items() if value[0]}))
-    return tuple(found)
+        result.append(FrictionInput(name, {key: value for key, value in amounts.items() if value[0]}))
+    return tuple(result)
 
 
 class ChamberInput(NamedTuple):
@@ -125,21 +125,21 @@ class ChargeInput(NamedTuple):
 
 def stated_chambers(machine: Machine) -> tuple[ChamberInput, ...]:
     """Return the chambers of a linkage as its description states them."""
-    return tuple(_stated_chamber(name, one, machine) for name, one in machine.chambers.items())
+    return tuple(_stated_chamber(name, value, machine) for name, value in machine.chambers.items())
 
 
 def stated_charges(machine: Machine) -> tuple[ChargeInput, ...]:
     """Return what is sealed in the chambers of a linkage."""
     return tuple(
         ChargeInput(
-            name, one.chambers, tuple((dead.volume, dead.temperature) for dead in one.dead_volumes), one.exponent
+            name, value.chambers, tuple((dead.volume, dead.temperature) for dead in value.dead_volumes), value.exponent
         )
-        for name, one in machine.charges.items()
+        for name, value in machine.charges.items()
     )
 
 
 def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> ChamberInput:
-    charge = next((key for key, one in machine.charges.items() if name in one.chambers), "")
+    charge = next((key for key, value in machine.charges.items() if name in value.chambers), "")
     names, amounts = dict[str, str](), dict[str, tuple[float, str]]()
     if charge:
         kind, names = "charge" if chamber.temperature is None else "charge_at", {"name": charge}
@@ -159,6 +159,6 @@ def _stated_chamber(name: str, chamber: Chamber, machine: Machine) -> ChamberInp
         law = machine.mechanism.driver.law
         amounts = {"cycle": (math.radians(chamber.cycle), "deg") if law is None else (law.period, "s")}
     return ChamberInput(
-        name, tuple((one.slider, one.sense) for one in chamber.faces), face_names(name, chamber), chamber.ambient,
+        name, tuple((face.slider, face.sense) for face in chamber.faces), face_names(name, chamber), chamber.ambient,
         kind, names, amounts, chamber.factor, math.radians(chamber.delay),
     )  # fmt: skip

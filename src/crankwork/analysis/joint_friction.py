@@ -87,14 +87,14 @@ def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mappin
         return FrictionColumns({}, {}, (), is_free=False)
     motion = running.motion
     places, span = list(_places(solved)), _span(motion)
-    velocities = {one.law: _velocity(motion, one, running.speed) for one in places}
+    velocities = {place.law: _velocity(motion, place, running.speed) for place in places}
     senses = _senses(motion, velocities)
     balance = FrictionEquilibrium(solved, senses)
     course = FrictionRegimes(balance, span)
     root, friction, forces = _with_friction(places, velocities, balance, course.knots, running)
-    columns = {one.key: one for one in friction.values()}
-    powers = [_power(one, friction[one.law], velocities[one.law]) for one in places]
-    columns |= {one.key: one for one in powers} | {"friction_power": total("friction_power", powers)}
+    columns = {value.key: value for value in friction.values()}
+    powers = [_power(place, friction[place.law], velocities[place.law]) for place in places]
+    columns |= {power.key: power for power in powers} | {"friction_power": total("friction_power", powers)}
     columns |= _forces(solved, forces)
     notices, standing, is_free = [*course.notices(solved, _OF_MOTION)], course, course.is_free
     if solved.machine.mechanism.driver.law is not None:
@@ -113,7 +113,7 @@ def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mappin
         columns |= {static.key: static} | _efficiency(trace["static_torque"], static, standing)
     notices += standing.notices(solved, ("friction_holds",))
     checks = _checks(balance, course, columns, root)
-    return FrictionColumns({key: one.named(key) for key, one in columns.items()}, checks, tuple(notices), is_free)
+    return FrictionColumns({key: value.named(key) for key, value in columns.items()}, checks, tuple(notices), is_free)
 
 
 def mean_values(over: CycleInterpolant) -> Iterator[TracedValue]:
@@ -132,7 +132,7 @@ def _places(solved: PreparedLinkage) -> Iterator[_Place]:
     machine, held = solved.machine, all_links_and_joints(solved.machine.mechanism)[1]
     for law in machine.friction:
         kind, name = (SlidingJoint, law.slider) if isinstance(law, GuideFriction) else (Pin, law.joint)
-        joint = next(one for one in held if isinstance(one, kind) and one.name == name)
+        joint = next(item for item in held if isinstance(item, kind) and item.name == name)
         shown = names_of_pivots(solved.machine.mechanism).get(name, name) if kind is Pin else name
         yield _Place(joint, law, shown, f"friction.{'pins' if kind is Pin else 'sliders'}.{shown}")
 
@@ -155,18 +155,18 @@ def _velocity(motion: Motion, place: _Place, w: TracedValue) -> TracedValue:
 
 def _senses(motion: Motion, velocities: Mapping[Friction, TracedValue]) -> dict[Friction, StepFunction]:
     """Return the direction of the friction of each joint: against the velocity, none where a law dwells."""
-    varying = {str(at): one for at, one in enumerate(velocities.values()) if one.varies}
+    varying = {str(at): velocity for at, velocity in enumerate(velocities.values()) if velocity.varies}
     over = interpolant_of(motion.grid)(varying)
     end, found = float(over.edges[-1]), []
     middles = (over.edges[1:] + over.edges[:-1]) / 2
     size = {
-        at: max(float(np.max(np.abs(over.at(str(at), middles)))) if one.varies else abs(one.value), 0.0)
-        for at, one in enumerate(velocities.values())
+        at: max(float(np.max(np.abs(over.at(str(at), middles)))) if velocity.varies else abs(velocity.value), 0.0)
+        for at, velocity in enumerate(velocities.values())
     }
     kinds = [isinstance(law, GuideFriction) for law in velocities]
-    for at, one in enumerate(velocities.values()):
-        ends, values = [end], [-float(np.sign(one.node.value or 0.0))]
-        if one.varies:
+    for at, velocity in enumerate(velocities.values()):
+        ends, values = [end], [-float(np.sign(velocity.node.value or 0.0))]
+        if velocity.varies:
             edges = np.unique([float(over.edges[0]), *over.breaks, *over.crossings(str(at)), end])
             inside = over.at(str(at), (edges[1:] + edges[:-1]) / 2)
             largest = max(size[other] for other, kind in enumerate(kinds) if kind == kinds[at])
@@ -192,19 +192,21 @@ def _with_friction(
     root = Root(balance)
     root.knots = knots
     friction, loads, pressing = dict[Friction, TracedValue](), AppliedLoads(), dict[Friction, TracedValue]()
-    for at, one in enumerate(places):
-        sense = _sense(balance.senses[one.law], velocities[one.law], one.name)
-        kind = "joint_force_with_friction" if isinstance(one.joint, Pin) else "pressing_force"
-        pressing[one.law] = TracedValue(Component(root, at), f"{kind}.{one.name}")
-        value = friction[one.law] = _law(one, sense, pressing[one.law], velocities[one.law])
-        loads = loads.also(_on_links(running, one, value))
+    for at, place in enumerate(places):
+        sense = _sense(balance.senses[place.law], velocities[place.law], place.name)
+        kind = "joint_force_with_friction" if isinstance(place.joint, Pin) else "pressing_force"
+        pressing[place.law] = TracedValue(Component(root, at), f"{kind}.{place.name}")
+        value = friction[place.law] = _law(place, sense, pressing[place.law], velocities[place.law])
+        loads = loads.also(_on_links(running, place, value))
     forces = joint_forces(replace(running, loads=running.loads.also(loads)))
-    root.residuals = tuple(_missing(one, pressing[one.law], forces) for one in places)
+    root.residuals = tuple(_missing(place, pressing[place.law], forces) for place in places)
     return root, friction, forces
 
 
 def _sense(steps: StepFunction, velocity: TracedValue, name: str) -> TracedValue:
-    values = tuple(TracedValue(ProcedureValue(one, "against", (velocity,)), "friction_sense") for one in steps.values)
+    values = tuple(
+        TracedValue(ProcedureValue(value, "against", (velocity,)), "friction_sense") for value in steps.values
+    )
     return (values[0] if len(values) == 1 else TracedValue(Piecewise(steps.ends, values))).named(
         f"friction_sense.{name}"
     )
@@ -312,7 +314,9 @@ def _efficiency(ideal: TracedValue, actual: TracedValue, course: FrictionRegimes
     if not any(steps.values):
         return {}
     return {
-        "instantaneous_efficiency": TracedValue(Piecewise(steps.ends, tuple(laws[int(one)] for one in steps.values)))
+        "instantaneous_efficiency": TracedValue(
+            Piecewise(steps.ends, tuple(laws[int(value)] for value in steps.values))
+        )
     }
 
 
@@ -326,18 +330,18 @@ def _checks(
     if not degrees.size:
         return {}
     grid = CrankGrid.from_degrees(degrees)
-    found, running = balance.at(degrees), balance.running(grid)
-    power = running.speed * np.asarray(found.joint_forces.balancing_torque)
-    key = next(one for one in FOLLOWED if one in columns)
-    missing = {str(at): one for at, one in enumerate(root.residuals)}
+    values, running = balance.at(degrees), balance.running(grid)
+    power = running.speed * np.asarray(values.joint_forces.balancing_torque)
+    key = next(item for item in FOLLOWED if item in columns)
+    missing = {str(at): residual for at, residual in enumerate(root.residuals)}
     torque, loss, *missed = Program({"": columns[key], "loss": columns["friction_power"], **missing})(grid).values()
     # what presses nowhere is rounded to the size of the other forces
-    sizes = [*found.pressing.values(), *(np.asarray(one.resultant) for one in found.joint_forces.pins.values())]
-    largest = max(float(np.max(one)) for one in sizes)
+    sizes = [*values.pressing.values(), *(np.asarray(pin.resultant) for pin in values.joint_forces.pins.values())]
+    largest = max(float(np.max(size)) for size in sizes)
     return {
         "friction_power": relative_difference(running.speed * torque_by_energy(running) + loss, power),
         "friction_forces": max(
-            relative_difference(torque, np.asarray(found.joint_forces.balancing_torque)),
+            relative_difference(torque, np.asarray(values.joint_forces.balancing_torque)),
             float(np.max(np.abs(missed))) / largest if largest else 0.0,
         ),
     }

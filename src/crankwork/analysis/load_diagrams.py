@@ -89,8 +89,8 @@ class EngineDiagrams:
     @cached_property
     def torque(self) -> EngineTorque:
         """Torque of one cylinder and of all, and speed."""
-        found = EngineTrace.of(self.whole.master)
-        return engine_torque(found.whole, found.trace, found.over, found.extremes)
+        result = EngineTrace.of(self.whole.master)
+        return engine_torque(result.whole, result.trace, result.over, result.extremes)
 
     @cached_property
     def excess(self) -> ExcessWork:
@@ -131,9 +131,9 @@ class EngineDiagrams:
         `degrees`: its own crank angles.
         """
         gases = self.whole.engine.gases
-        firsts = [at for at, gas in enumerate(gases) if at and all(gas is not one for one in gases[:at])]
-        found = Program({str(at): self.whole.cylinders[at].trace["gas_pressure"] for at in firsts})
-        return {int(at) + 1: one for at, one in found(CrankGrid.from_degrees(degrees)).items()}
+        firsts = [at for at, gas in enumerate(gases) if at and all(gas is not gase for gase in gases[:at])]
+        values = Program({str(at): self.whole.cylinders[at].trace["gas_pressure"] for at in firsts})
+        return {int(at) + 1: value for at, value in values(CrankGrid.from_degrees(degrees)).items()}
 
     @property
     def pin_sizes(self) -> tuple[Array, Mapping[str, Array]]:
@@ -175,14 +175,14 @@ class EngineDiagrams:
     def loci(self) -> dict[int, tuple[Locus, Locus]]:
         """The forces of each order of cylinders and cranks, and of all, where either is not nothing."""
         balance = self.balance
-        before = {one.order: one.force for one in balance_sum((*balance.reciprocating, balance.rotating))}
-        after = {one.order: one.force for one in balance.residual}
+        before = {item.order: item.force for item in balance_sum((*balance.reciprocating, balance.rotating))}
+        after = {item.order: item.force for item in balance.residual}
         least = _ROUNDING * self.whole.masses.reciprocating * self.whole.master.lengths.crank_radius
         least *= self.whole.master.speed**2
         return {
-            order: (_locus(one), _locus(after[order]))
-            for order, one in before.items()
-            if order <= _LOCI and max(one.largest, after[order].largest) > least
+            order: (_locus(value), _locus(after[order]))
+            for order, value in before.items()
+            if order <= _LOCI and max(value.largest, after[order].largest) > least
         }
 
     @property

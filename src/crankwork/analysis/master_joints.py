@@ -11,17 +11,17 @@ from crankwork.dynamics.reaction import joint_force
 from crankwork.formula.traced_value import TracedAngle, TracedValue, total
 
 
-def master_joints(whole: MultiCylinderEngine, loads: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
+def master_joints(engine: MultiCylinderEngine, loads: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
     """Yield the forces in the joints of every unlike master rod, by the names that they have for a rod alone.
 
     `loads`: those of the crankpins.
     """
-    pin, piston = joint_names(whole.master)
-    for at in distinct_crankpins(whole):
-        passed = [whole.of(one.number, "knuckle_side_force") for one in whole.on_pin[at - 1] if one.master]
+    pin, piston = joint_names(engine.master)
+    for at in distinct_crankpins(engine):
+        passed = [engine.of(item.number, "knuckle_side_force") for item in engine.on_pin[at - 1] if item.master]
         if not passed:
             continue
-        place = next(one for one in whole.on_pin[at - 1] if not one.master)
+        place = next(item for item in engine.on_pin[at - 1] if not item.master)
         number, own = place.number, "" if place.number == 1 else f".{place.number}"
         angle = TracedAngle().shifted(-place.firing_angle)
         radial, tangential = (loads[f"crankpin_{way}_force.{at}"] for way in ("radial", "tangential"))
@@ -29,8 +29,8 @@ def master_joints(whole: MultiCylinderEngine, loads: Mapping[str, TracedValue]) 
         yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}{own}")
         yield joint_force(tangential, radial).named(f"joint_force.{pin}{own}")
         side = total(f"knuckle_side_force{own}", passed)
-        x, y = (whole.of(number, f"joint_force_{way}.{piston}") for way in "xy")
+        x, y = (engine.of(number, f"joint_force_{way}.{piston}") for way in "xy")
         across = (x - side).named(f"joint_force_x.{piston}{own}")
         yield across
         yield joint_force(across, y).named(f"joint_force.{piston}{own}")
-        yield (whole.of(number, f"normal_force.{piston}") - side).named(f"normal_force.{piston}{own}")
+        yield (engine.of(number, f"normal_force.{piston}") - side).named(f"normal_force.{piston}{own}")

@@ -108,9 +108,9 @@ def analyse_linkage(
     """
     moved = _moved(machine, grid)
     machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
-    trace, rubbing, table, found = moved.trace, moved.rubbing, moved.table, reached.travel
+    trace, rubbing, table, result = moved.trace, moved.rubbing, moved.table, reached.travel
     over, summary, told, unusual, program = _singles(moved, trace)
-    notices = reached.notices + tuple(Notice(*one) for one in solved.filling.notices)
+    notices = reached.notices + tuple(Notice(*notice) for notice in solved.filling.notices)
     notices += rubbing.notices + told
     checks = (
         _checks(solved, clear_of_changes(machine.mechanism, reached.motion))
@@ -118,11 +118,11 @@ def analyse_linkage(
         | rubbing.checks
     )
     between = {"mobility": mobility(machine.whole)}
-    if found is None and "reduced_inertia" in trace:
+    if result is None and "reduced_inertia" in trace:
         for turn in _turns(machine, over, {**trace, **summary}):
             trace |= turn.columns
             checks |= turn.checks
-            summary |= {key: one.named(key) for key, one in turn.summary.items()}
+            summary |= {key: value.named(key) for key, value in turn.summary.items()}
             between |= turn.between
             notices += turn.notices
     summary |= _power_of_valves(machine, trace | summary)
@@ -132,17 +132,17 @@ def analyse_linkage(
         summary |= {key: known.named(key) for key, known in balance}
     cycle = BearingCycle(machine, moved.bearings, over, program)
     summary |= cycle.summary()
-    ran = simulate_transient(solved, motion, found, summary, progress)
+    ran = simulate_transient(solved, motion, result, summary, progress)
     summary, checks = summary | ran.summary, checks | ran.checks
     notices += ran.notices + tuple(_of_machine(machine))
     # where links pass through a line, that is told already
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(trace)(table))
     # of a link that never turns
-    none = {key for key, one in columns.items() if key.startswith("instant_centre_") and np.isnan(one).all()}
-    columns = {key: one for key, one in columns.items() if key not in none}
-    trace = {key: one for key, one in trace.items() if key not in none}
-    values = {key: one.value for key, one in summary.items()}
+    none = {key for key, value in columns.items() if key.startswith("instant_centre_") and np.isnan(value).all()}
+    columns = {key: value for key, value in columns.items() if key not in none}
+    trace = {key: value for key, value in trace.items() if key not in none}
+    values = {key: value.value for key, value in summary.items()}
     trace |= {**summary, **between}
     harmonics = cache(partial(_harmonics, moved, over))
     deferred = Deferred(trace, lambda: cycle.trace() | harmonics())
@@ -181,12 +181,12 @@ def linkage_columns(machine: Machine) -> Results:
     return Results(moved.solved, moved.table, {}, {}, {}, (), {}, trace=moved.trace)
 
 
-def _power_of_valves(machine: Machine, found: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+def _power_of_valves(machine: Machine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the power that a compressor or pump without a motor of its own needs."""
-    has_valves = any(one.valves is not None for one in machine.chambers.values())
-    if not has_valves or "motor_power" in found or not _is_needed(found.get("mean_torque")):
+    has_valves = any(chamber.valves is not None for chamber in machine.chambers.values())
+    if not has_valves or "motor_power" in values or not _is_needed(values.get("mean_torque")):
         return {}
-    of = absent("power_reserve", 1.0), found["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
+    of = absent("power_reserve", 1.0), values["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
     return {"motor_power": needed_power(*of)}
 
 
@@ -198,9 +198,9 @@ def _is_needed(mean: TracedValue | None) -> bool:
 def linkage_value(machine: Machine, key: str) -> Results:
     """Return what is found over the cycle of a linkage of one thing, which a key names; no checks, and no table."""
     moved, (_, _, name) = _moved(machine, None), key.partition(".")
-    of_one = {one: known for one, known in moved.trace.items() if one.partition(".")[2] == name}
+    of_one = {key: known for key, known in moved.trace.items() if key.partition(".")[2] == name}
     summary = _singles(moved, of_one, name).summary
-    values = {one: known.value for one, known in summary.items()}
+    values = {key: known.value for key, known in summary.items()}
     return Results(moved.solved, moved.table, {}, values, {}, (), {}, trace=of_one | summary)
 
 
@@ -216,19 +216,19 @@ class _Singles(NamedTuple):
 
 def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None = None) -> _Singles:
     """Return the single values that follow from traced columns; `name`: of one thing only."""
-    machine, found = moved.machine, moved.reached.travel
+    machine, result = moved.machine, moved.reached.travel
     quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
     quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
-    quality = {key: one for key, one in quality.items() if name is None or key.partition(".")[2] == name}
+    quality = {key: value for key, value in quality.items() if name is None or key.partition(".")[2] == name}
     pivoted = pivoted_links(machine.mechanism)
     followed = _followed(trace, pivoted, has_friction=moved.rubbing.is_free) | quality
     told = list[Notice]()
-    start, end = (0.0, machine.cycle) if found is None else machine.working_range or open_range(found)
-    ends = _where_unbounded(machine, found)
-    without = find_singular_columns(followed, *ends, machine.cycle if found is None else found.end - found.start)
+    start, end = (0.0, machine.cycle) if result is None else machine.working_range or open_range(result)
+    ends = _where_unbounded(machine, result)
+    without = find_singular_columns(followed, *ends, machine.cycle if result is None else result.end - result.start)
     told += _told_boundless(without)
-    if machine.working_range is None or found is None:
-        followed = {key: one for key, one in followed.items() if not any(key in some for some in without)}
+    if machine.working_range is None or result is None:
+        followed = {key: value for key, value in followed.items() if not any(key in some for some in without)}
     else:
         told.append(Notice("working_range", {"from": start, "to": end}))
     if name is None:
@@ -236,9 +236,9 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
     program = Program({**followed, **moved.bearings.of_journals})
     over = CycleInterpolant(followed, CrankGrid.from_degrees, end - start, start, program=program)
     extremes, unusual = quality_of(over)
-    summary = _summary(moved.solved, over, extremes, is_whole=found is None)
-    if found is not None:
-        summary |= limits_of(found, trace)
+    summary = _summary(moved.solved, over, extremes, is_whole=result is None)
+    if result is not None:
+        summary |= limits_of(result, trace)
     return _Singles(over, summary, tuple(told), unusual, program)
 
 
@@ -277,16 +277,17 @@ def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
 
 def _of_machine(machine: Machine) -> Iterator[Notice]:
     """Yield notices of links too many, and of what is not known of them, of gears without teeth, and of a law."""
-    for one in machine.redundant:
+    for item in machine.redundant:
         freedom = float(mobility(machine.whole).value)
-        if one.share is None:
-            yield Notice("redundant_unshared", {"name": one.member.name, "mobility": freedom})
+        if item.share is None:
+            yield Notice("redundant_unshared", {"name": item.member.name, "mobility": freedom})
         else:
             yield Notice(
-                "redundant", {"name": one.member.name, "mobility": freedom, "share": one.share, "other": one.reference}
+                "redundant",
+                {"name": item.member.name, "mobility": freedom, "share": item.share, "other": item.reference},
             )
     driver = machine.mechanism.driver
-    if isinstance(driver, Crank) and any(one.pressure_angle is None for one in driver.geared):
+    if isinstance(driver, Crank) and any(item.pressure_angle is None for item in driver.geared):
         yield Notice("geared", {})
     if driver.law is not None:
         yield Notice("by_law", {})
@@ -310,8 +311,8 @@ def _where_unbounded(machine: Machine, found: CrankRange | None) -> tuple[list[f
     if found is not None:
         return [found.start, found.end], [1.0, -1.0]
     passages = machine.mechanism.passages.values()
-    changes = sorted({one for passage in passages for one in passage.changes if 0.0 <= one <= machine.cycle})
-    return changes, [-1.0 if one == machine.cycle else 1.0 for one in changes]
+    changes = sorted({change for passage in passages for change in passage.changes if 0.0 <= change <= machine.cycle})
+    return changes, [-1.0 if change == machine.cycle else 1.0 for change in changes]
 
 
 def _told_boundless(found: SingularColumns) -> Iterator[Notice]:
@@ -325,8 +326,8 @@ def _told_boundless(found: SingularColumns) -> Iterator[Notice]:
 def _where(columns: Mapping[str, tuple[float, ...]]) -> dict[str, float | str]:
     """Return the kinds of some columns, and the crank angles that they are told of."""
     kinds = dict.fromkeys(key.partition(".")[0] for key in columns)
-    angles = sorted({at for some in columns.values() for at in some})
-    return {"angles": "°, ".join(f"{one:.6g}" for one in angles), "quantities": ", ".join(kinds)}
+    angles = sorted({at for column in columns.values() for at in column})
+    return {"angles": "°, ".join(f"{angle:.6g}" for angle in angles), "quantities": ", ".join(kinds)}
 
 
 def _followed(
@@ -343,9 +344,9 @@ def _followed(
     )  # fmt: skip
     turning = {f"{kind}.{name}" for kind in _TURNING for name in pivoted}
     return {
-        key: one
-        for key, one in trace.items()
-        if key in DYNAMICS or key.partition(".")[0] in kinds or (key in turning and one.varies)
+        key: value
+        for key, value in trace.items()
+        if key in DYNAMICS or key.partition(".")[0] in kinds or (key in turning and value.varies)
     }
 
 
@@ -377,7 +378,7 @@ def _summary(
                 angle = extremes[f"{kind}_{word}_angle{dot}{name}"]
                 result |= _at_time(extreme, angle, law) if law else {f"{kind}_{word}_angle{dot}{name}": angle}
     if is_whole and law is None:
-        result |= time_ratios(over, {key: one.named(key) for key, one in result.items()})
+        result |= time_ratios(over, {key: value.named(key) for key, value in result.items()})
     if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.columns:
         # inertia does no work in a cycle, friction does
         torque = "torque_with_friction" if has_friction(machine.drive, over) else "static_torque"
@@ -385,9 +386,9 @@ def _summary(
         # an engine gives torque, and what it gives is told
         result["mean_torque"] = needed if needed.value >= 0 else (-needed).named("mean_torque")
     if is_whole:
-        result |= {one.key: one for one in mean_values(over)}
+        result |= {mean_value.key: mean_value for mean_value in mean_values(over)}
     result |= gas_summary(solved)
-    return {key: one if key == "mean_torque" else one.named(key) for key, one in result.items()}
+    return {key: value if key == "mean_torque" else value.named(key) for key, value in result.items()}
 
 
 def _given_values(machine: Machine) -> dict[str, TracedValue]:
@@ -421,19 +422,19 @@ def _checks(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
     if not (solved.machine.mechanism.bodies or solved.machine.loads or solved.machine.chambers):
         return {}
     running, grid = operating_state(solved, motion), motion.grid
-    found = joint_forces(running)
-    reference = found.balancing_torque
+    values = joint_forces(running)
+    reference = values.balancing_torque
     some = _every(grid, len(solved.machine.drawn.members))
     part = operating_state(solved, linkage_motion(solved.machine.mechanism, grid[some]))
     # forces that do no work balance each other to their own rounding, so a torque of zero is measured by them
-    sizes = [float(np.max(pin.resultant)) for pin in found.pins.values()]
+    sizes = [float(np.max(pin.resultant)) for pin in values.pins.values()]
     turning = _lever(solved.machine.mechanism.driver) * max(sizes, default=0.0)
     scale = max(float(np.max(np.abs(reference))), turning) or 1.0
     apart = {
         name: route(part) - reference[some] if name == "whole_system" else route(running) - reference
         for name, route in TORQUE_METHODS.items()
     }
-    return {name: float(np.max(np.abs(one))) / scale for name, one in apart.items()}
+    return {name: float(np.max(np.abs(value))) / scale for name, value in apart.items()}
 
 
 def _lever(driver: Driver) -> float:
@@ -457,7 +458,7 @@ def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
     """Return the balancing torque by five routes; at a change point the mean of both sides of it."""
     solved: PreparedLinkage = results.solved
     asked, mechanism = np.atleast_1d(np.asarray(degrees, dtype=float)), solved.machine.mechanism
-    changes = np.array([one for passage in mechanism.passages.values() for one in passage.changes])
+    changes = np.array([change for passage in mechanism.passages.values() for change in passage.changes])
     aside = np.zeros_like(asked)
     if changes.size:
         aside[np.abs(asked[:, None] - changes).min(axis=1) < _BESIDE] = _BESIDE
@@ -467,7 +468,7 @@ def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
         sides.append(
             {"by_groups": torque_by_groups(running), **{name: route(running) for name, route in TORQUE_METHODS.items()}}
         )
-    torques = {name: np.mean([one[name] for one in sides], axis=0) for name in sides[0]}
+    torques = {name: np.mean([side[name] for side in sides], axis=0) for name in sides[0]}
     return TorqueByRoutes(torques, differences(list(torques.values())))
 
 

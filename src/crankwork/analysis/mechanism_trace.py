@@ -67,19 +67,19 @@ def linkage_trace(solved: PreparedLinkage, running: OperatingState) -> dict[str,
     """
     machine, motion, w, eps = solved.machine, running.motion, running.speed, running.angular_acceleration
     if motion.driver is not None and machine.mechanism.driver.law is not None:
-        return {key: one.named(key) for key, one in _by_law(solved, running, machine.mechanism.driver.law).items()}
+        return {key: value.named(key) for key, value in _by_law(solved, running, machine.mechanism.driver.law).items()}
     columns: dict[str, TracedValue] = {"crank_angle": angle_of(motion.grid), **dict(_moving(machine, motion, w, eps))}
     columns |= solved.filling.columns
     if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction or machine.drive.inertia:
         columns |= _at_work(solved, running)
-    return {key: one.named(key) for key, one in columns.items()}
+    return {key: value.named(key) for key, value in columns.items()}
 
 
 def _by_law(solved: PreparedLinkage, running: OperatingState, law: Law) -> dict[str, TracedValue]:
     """Return the columns of a linkage whose driver follows a law over time, with what the driver has to give."""
     machine, motion = solved.machine, running.motion
     q, rate, second = motion.driver or Transfer(None, None, None)
-    columns = {"time": clock(law), **{one.key: one for one in (q, rate, second)}}
+    columns = {"time": clock(law), **{item.key: item for item in (q, rate, second)}}
     columns |= {**dict(_moving(machine, motion, rate, second)), **solved.filling.columns}
     if machine.mechanism.bodies or machine.loads or machine.chambers or machine.friction:
         torque, forces = _forces(solved, running)
@@ -116,24 +116,24 @@ def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) 
         yield f"point_x.{name}", x.position
         yield f"point_y.{name}", y.position
         yield from _rates_of_point(name, PointMotion(x, y), w, eps)
-    for name, one in motion.links.items():
+    for name, value in motion.links.items():
         if name != driver.link or not isinstance(driver, Crank | LinkMotor):
-            yield f"link_angle.{name}", one.position
-            yield f"link_angular_velocity.{name}", rates.link_angular_velocity(one.position_1, w)
-            turning = link_angular_acceleration(one.position_2, w, one.position_1, eps)
+            yield f"link_angle.{name}", value.position
+            yield f"link_angular_velocity.{name}", rates.link_angular_velocity(value.position_1, w)
+            turning = link_angular_acceleration(value.position_2, w, value.position_1, eps)
             yield f"link_angular_acceleration.{name}", turning
     carrier = {
-        one.name: one.other
-        for one in joints(machine.mechanism)
-        if isinstance(one, SlidingJoint) and one.other != GROUND
+        joint.name: joint.other
+        for joint in joints(machine.mechanism)
+        if isinstance(joint, SlidingJoint) and joint.other != GROUND
     }
-    for name, one in motion.sliders.items():
-        yield f"slider_displacement.{name}", one.position
-        yield f"slider_velocity.{name}", rates.slider_velocity(one.position_1, w)
-        yield f"slider_acceleration.{name}", rates.slider_acceleration(one.position_2, w, one.position_1, eps)
+    for name, value in motion.sliders.items():
+        yield f"slider_displacement.{name}", value.position
+        yield f"slider_velocity.{name}", rates.slider_velocity(value.position_1, w)
+        yield f"slider_acceleration.{name}", rates.slider_acceleration(value.position_2, w, value.position_1, eps)
         turning = motion.frames[carrier[name]].angle_1 if name in carrier else absent("link_angle_1")
         if not turning.is_absent:
-            velocity = rates.slider_velocity(one.position_1, w).named(f"slider_velocity.{name}")
+            velocity = rates.slider_velocity(value.position_1, w).named(f"slider_velocity.{name}")
             carried = rates.link_angular_velocity(turning, w).named(f"link_angular_velocity.{carrier[name]}")
             yield f"coriolis_acceleration.{name}", rates.coriolis_acceleration(carried, velocity)
     yield from transmissions(machine.mechanism, motion)
@@ -150,8 +150,8 @@ def _rates_of_point(
     a_x = rates.point_acceleration_x(x_2, w, x_1, eps).named(f"point_acceleration_x.{name}")
     a_y = rates.point_acceleration_y(y_2, w, y_1, eps).named(f"point_acceleration_y.{name}")
     velocity, acceleration = rates.point_velocity(v_x, v_y), rates.point_acceleration(a_x, a_y)
-    yield from ((one.key, one) for one in (v_x, v_y, velocity.named(f"point_velocity.{name}")))
-    yield from ((one.key, one) for one in (a_x, a_y, acceleration.named(f"point_acceleration.{name}")))
+    yield from ((item.key, item) for item in (v_x, v_y, velocity.named(f"point_velocity.{name}")))
+    yield from ((item.key, item) for item in (a_x, a_y, acceleration.named(f"point_acceleration.{name}")))
 
 
 def _at_work(solved: PreparedLinkage, running: OperatingState) -> dict[str, TracedValue]:
@@ -175,7 +175,7 @@ def _at_work(solved: PreparedLinkage, running: OperatingState) -> dict[str, Trac
         "driving_torque": _driving(static, dynamic, balancing, machine.drive, motion),
         **_forces(solved, running)[1],
     }
-    if any(not is_zero(one.mass) for one in mechanism.bodies):
+    if any(not is_zero(body.mass) for body in mechanism.bodies):
         columns |= shaking(running)
     return columns if reduced.is_absent else columns | {"reduced_torque": reduced}
 
@@ -190,7 +190,7 @@ def _driving(
         return motor
     ends, is_brake = interpolant_of(motion.grid)({"": balancing}).sign_intervals("")
     brake: TracedValue = driving_torque_as_brake(static, dynamic, eta)
-    return TracedValue(Piecewise(ends, tuple(brake if one else motor for one in is_brake)), "driving_torque")
+    return TracedValue(Piecewise(ends, tuple(brake if item else motor for item in is_brake)), "driving_torque")
 
 
 def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedValue, dict[str, TracedValue]]:
@@ -198,20 +198,20 @@ def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedVal
 
     The joint of crank and ground has the name of its fixed point.
     """
-    found, along = traced_joint_forces(solved, running)
+    values, along = traced_joint_forces(solved, running)
     if not is_shared(solved.machine.redundant):
-        return found.balancing_torque, {}
+        return values.balancing_torque, {}
     pivots = names_of_pivots(solved.machine.mechanism)
     columns: dict[str, TracedValue] = {}
-    for joint, pin in found.pins.items():
+    for joint, pin in values.pins.items():
         name = pivots.get(joint, joint)
         columns |= {
             f"joint_force_x.{name}": pin.x,
             f"joint_force_y.{name}": pin.y,
             f"joint_force.{name}": pin.resultant,
         }
-    for name, (across, apart) in found.teeth.items():
+    for name, (across, apart) in values.teeth.items():
         columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": apart}
-    for name, guide in found.guides.items():
+    for name, guide in values.guides.items():
         columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
-    return found.balancing_torque, columns | along
+    return values.balancing_torque, columns | along

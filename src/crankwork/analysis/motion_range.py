@@ -58,28 +58,28 @@ class ReachableMotion(NamedTuple):
 
 def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
     """Return the motion of a linkage in steps, and notices of what keeps it from turning simply."""
-    whole, mechanism = CrankGrid.steps(step, machine.cycle), machine.mechanism
+    engine, mechanism = CrankGrid.steps(step, machine.cycle), machine.mechanism
     try:
-        moved = linkage_motion(mechanism, whole)
+        moved = linkage_motion(mechanism, engine)
     except GeometryError as error:
-        told = _branch_first(mechanism, whole, error.args[0])
+        told = _branch_first(mechanism, engine, error.args[0])
         # a law either passes what its linkage reaches, or has to be changed
         if not has_steady_crank(mechanism):
             raise GeometryError(told) from None
         try:
-            found = find_crank_range(mechanism, machine.way)
+            result = find_crank_range(mechanism, machine.way)
         except GeometryError:
             if told is error.args[0]:
                 raise
             raise GeometryError(told) from None
-        if found.is_whole:
+        if result.is_whole:
             raise
-        notices = [Notice("partial", {"message": told, "from": found.start, "to": found.end})]
+        notices = [Notice("partial", {"message": told, "from": result.start, "to": result.end})]
         if any(isinstance(group, Chain) for group in mechanism.dyads):
             notices.append(Notice("circuit_of_chain", {}))
-        moved = linkage_motion(mechanism, _inside(found, step))
-        return ReachableMotion(moved, found, (*notices, *_told(mechanism, found)))
-    margins = [np.min(one.value) / one.scale for one in place(mechanism, whole).closures]
+        moved = linkage_motion(mechanism, _inside(result, step))
+        return ReachableMotion(moved, result, (*notices, *_told(mechanism, result)))
+    margins = [np.min(closure.value) / closure.scale for closure in place(mechanism, engine).closures]
     is_near = has_steady_crank(mechanism) and min(margins, default=1.0) < _NEARLY_SINGULAR
     return ReachableMotion(
         moved, None, tuple(_told(mechanism, find_crank_range(mechanism, machine.way) if is_near else None))
@@ -90,11 +90,11 @@ def _branch_first(mechanism: Mechanism, grid: CrankGrid, told: str) -> str:
     """Return why a linkage does not move as is asked, the fewest other branches with which it does before all else."""
     # the branch of the last dyad moves nothing that has to close
     before = enumerate(mechanism.dyads[:-1])
-    other = {index: replace(one, branch=-one.branch) for index, one in before if isinstance(one, RRR | RRP | RPR)}
-    if mechanism.passages or len(other) > _MOST_SIGNED or any(isinstance(one, Chain) for one in mechanism.dyads):
+    other = {index: replace(item, branch=-item.branch) for index, item in before if isinstance(item, RRR | RRP | RPR)}
+    if mechanism.passages or len(other) > _MOST_SIGNED or any(isinstance(dyad, Chain) for dyad in mechanism.dyads):
         return told
-    for some in (some for count in range(1, len(other) + 1) for some in combinations(other, count)):
-        dyads = tuple(other[index] if index in some else one for index, one in enumerate(mechanism.dyads))
+    for some in (combination for count in range(1, len(other) + 1) for combination in combinations(other, count)):
+        dyads = tuple(other[index] if index in some else dyad for index, dyad in enumerate(mechanism.dyads))
         with suppress(GeometryError):
             assembled(replace(mechanism, dyads=dyads), grid)
             written = ", ".join(f"{_branch_key(other[index])} = {other[index].branch}" for index in some)
@@ -122,16 +122,16 @@ def _inside(found: CrankRange, step: float) -> CrankGrid:
 
 def _told(mechanism: Mechanism, found: CrankRange | None) -> Iterator[Notice]:
     """Yield notices of change points that are passed, or nearly."""
-    changes = sorted({one for passage in mechanism.passages.values() for one in passage.changes})
+    changes = sorted({change for passage in mechanism.passages.values() for change in passage.changes})
     if changes:
-        shown = sorted({round(one % mechanism.period, 6) for one in changes})
-        yield Notice("change_points", {"angles": "°, ".join(f"{one:g}" for one in shown)})
+        shown = sorted({round(change % mechanism.period, 6) for change in changes})
+        yield Notice("change_points", {"angles": "°, ".join(f"{item:g}" for item in shown)})
     if mechanism.period > _TURN and (found is None or found.is_whole):
         yield Notice("two_turns", {"turns": round(mechanism.period / _TURN)})
     geared = mechanism.driver.geared if isinstance(mechanism.driver, Crank) and found is None else ()
-    for one in geared:
-        if not period_in_turns(one.ratio):
-            yield Notice("no_cycle", {"name": one.link, "ratio": one.ratio})
+    for item in geared:
+        if not period_in_turns(item.ratio):
+            yield Notice("no_cycle", {"name": item.link, "ratio": item.ratio})
     for degrees, miss in near_changes(found.circuit) if found else ():
         yield Notice("nearly_change_point", {"angle": degrees, "miss": miss})
 
@@ -193,15 +193,15 @@ def limits_of(found: CrankRange, trace: Mapping[str, TracedValue]) -> dict[str, 
     ):
         values[key] = TracedValue(ProcedureValue(math.radians(degrees), "circuit"), key)
     angles = {name: (f"link_angle.{name}", link_angle(name)) for name in circuit.curve.system.equations.index}
-    sliders = {name: (f"slider_displacement.{name}", one) for name, one in circuit.sliders.items()}
+    sliders = {name: (f"slider_displacement.{name}", value) for name, value in circuit.sliders.items()}
     for kind, each in (("link_swing", angles), ("slider_stroke", sliders)):
         for name, (column, coordinate) in each.items():
             if column not in trace or (kind == "link_swing" and name in sliders):
                 continue
-            on_branch, whole = circuit.extents(coordinate, found.branch, circuit.full_part)
+            on_branch, engine = circuit.extents(coordinate, found.branch, circuit.full_part)
             turns = kind == "link_swing" and circuit.turns(name) != 0
-            for key, extent, word in ((kind, on_branch, "branch"), (f"{kind}_circuit", whole, "circuit")):
-                if not (kind == "link_swing" and _is_full(extent)) and not (turns and extent is whole):
+            for key, extent, word in ((kind, on_branch, "branch"), (f"{kind}_circuit", engine, "circuit")):
+                if not (kind == "link_swing" and _is_full(extent)) and not (turns and extent is engine):
                     values[f"{key}.{name}"] = TracedValue(
                         ProcedureValue(extent.travel, word, (trace[column],)), f"{key}.{name}"
                     )

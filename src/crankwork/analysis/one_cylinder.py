@@ -54,24 +54,24 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     if machine.engine is None or "crank_torque" not in solved.trace:
         program = Program(own | followed)
         samples = Samples(program, CrankGrid.from_degrees, machine.cycle)
-        whole = None
+        engine = None
         over = CycleInterpolant(followed, CrankGrid.from_degrees, machine.cycle, size_of=wrong, program=program)
     else:
         from crankwork.analysis.all_cylinders import EngineTrace  # noqa: PLC0415 - loaded where it is needed
 
         # what one cylinder does is followed together with what all do
-        whole = EngineTrace.of(solved, followed, wrong, own)
-        samples, over = whole.samples, whole.over
-    found = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
-    found = _by_own_keys(machine, found)
+        engine = EngineTrace.of(solved, followed, wrong, own)
+        samples, over = engine.samples, engine.over
+    result = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
+    result = _by_own_keys(machine, result)
     calculated = solved.space.calculated if solved.space is not None else None
-    summary = {key: known.value for key, known in found.items()}
+    summary = {key: known.value for key, known in result.items()}
     if calculated is not None:
         summary |= cycle_values(calculated.values)
     trace = (
         ({} if calculated is None else {**cycle_values(calculated.trace), **calculated.peak})
         | _by_own_keys(machine, solved.trace)
-        | found
+        | result
     )
     if calculated is not None and "geometric_compression_ratio" in calculated.trace:
         # that of the closed cylinder, as the summary has it
@@ -91,7 +91,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         return results
     from crankwork.analysis.all_cylinders import with_whole_engine  # noqa: PLC0415 - loaded where it is needed
 
-    return with_whole_engine(results, whole)
+    return with_whole_engine(results, engine)
 
 
 def own_key(machine: Machine, key: str) -> str:
@@ -112,76 +112,76 @@ def _only(names: Mapping[str, str], columns: Mapping[str, Array]) -> dict[str, A
 def _followed(solved: PreparedCylinder) -> tuple[dict[str, TracedValue], dict[str, str]]:
     """Return what the summary is about, of an approximate method with its errors, and what each is an error of."""
     trace, wrong = solved.trace, dict[str, str]()
-    found = {key: trace[key] for key in (*_MOVING, *_PUSHING) if key in trace}
+    values = {key: trace[key] for key in (*_MOVING, *_PUSHING) if key in trace}
     if not solved.method.is_exact:
         exact = prepare(solved.machine, replace(solved.method.named("exact"), inertia_rod_ratio=None)).trace
         wrong = {f"{key}_error": key for key in ("piston_displacement", *_MOVING, *_WRONG_FORCES) if key in trace}
-        found |= {key: trace[key] for key in wrong.values()}
-        found |= {
+        values |= {key: trace[key] for key in wrong.values()}
+        values |= {
             error: (trace[key].named(key) - exact[key].named(f"{key}.exact")).named(error)
             for error, key in wrong.items()
         }
-    return found, wrong
+    return values, wrong
 
 
 def _geometry(solved: PreparedCylinder) -> dict[str, TracedValue]:
     trace, lengths = solved.trace, solved.lengths
-    found = {key: trace[key] for key in ("crank_radius", "rod_length")}
-    r, l, e = found["crank_radius"], found["rod_length"], trace["offset"]  # noqa: E741
-    found |= {"rod_ratio": solved.moving.lengths.rod_ratio, "stroke": traced_inputs.stroke(solved.moving.lengths)}
+    values = {key: trace[key] for key in ("crank_radius", "rod_length")}
+    r, l, e = values["crank_radius"], values["rod_length"], trace["offset"]  # noqa: E741
+    values |= {"rod_ratio": solved.moving.lengths.rod_ratio, "stroke": traced_inputs.stroke(solved.moving.lengths)}
     if not e.is_absent:
-        found |= {"offset": e, "relative_offset": relative_offset(e, r)}
+        values |= {"offset": e, "relative_offset": relative_offset(e, r)}
         top = top_dead_centre_angle if lengths.offset > 0 else top_dead_centre_angle_before
-        found["top_dead_centre_angle"] = top(*((e, l, r) if lengths.offset > 0 else (math.pi, e, l, r)))
-        found["bottom_dead_centre_angle"] = bottom_dead_centre_angle(math.pi, e, l, r)
+        values["top_dead_centre_angle"] = top(*((e, l, r) if lengths.offset > 0 else (math.pi, e, l, r)))
+        values["bottom_dead_centre_angle"] = bottom_dead_centre_angle(math.pi, e, l, r)
     of_cylinder = ("bore", "piston_area", "swept_volume", "clearance_volume", "compression_ratio")
     wanted = (*of_cylinder, "reciprocating_mass", "rotating_mass")
-    return found | {key: trace[key] for key in wanted if key in trace and not trace[key].is_absent}
+    return values | {key: trace[key] for key in wanted if key in trace and not trace[key].is_absent}
 
 
 def _motion(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
     trace = solved.trace
     n = traced_inputs.revolutions(solved.machine)
     stroke = traced_inputs.stroke(solved.moving.lengths)
-    found = {
+    values = {
         "rotational_speed": given("rotational_speed", solved.machine.speed, "crank.speed"),
         "speed": trace["speed"],
         "mean_piston_speed": mean_piston_speed(stroke, n),
     }
-    found |= over.extremes(*_MOVING)
+    values |= over.extremes(*_MOVING)
     if solved.machine.angular_acceleration:
-        found["angular_acceleration"] = traced_inputs.acceleration(solved.machine)
+        values["angular_acceleration"] = traced_inputs.acceleration(solved.machine)
     if not solved.method.is_exact:
-        found |= over.errors(*(f"{key}_error" for key in ("piston_displacement", *_MOVING)))
-    return found
+        values |= over.errors(*(f"{key}_error" for key in ("piston_displacement", *_MOVING)))
+    return values
 
 
 def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, TracedValue]:
     trace, cycle = solved.trace, traced_inputs.cycle_angle(solved.machine)
     if "piston_force" not in trace:
         return {}
-    found = over.errors(*(key for key in (f"{one}_error" for one in _WRONG_FORCES) if key in over.columns))
-    found |= over.extremes(*(key for key in _PUSHING if key in trace))
+    values = over.errors(*(key for key in (f"{item}_error" for item in _WRONG_FORCES) if key in over.columns))
+    values |= over.extremes(*(key for key in _PUSHING if key in trace))
     if "rotating_inertia_force" in trace:
-        found["rotating_inertia_force"] = trace["rotating_inertia_force"]
+        values["rotating_inertia_force"] = trace["rotating_inertia_force"]
     mean = over.mean("crank_torque", "mean_torque")
     if solved.space is not None:
-        work = found["indicated_work"] = work_of_gas(solved, solved.space)
+        work = values["indicated_work"] = work_of_gas(solved, solved.space)
         if solved.machine.angular_acceleration:
             # what speeds up the parts is none of a cycle that repeats
             mean = gas_formulas.mean_torque(work, cycle).named("mean_torque")
-        found["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, trace["swept_volume"])
-        power = found["indicated_power"] = gas_formulas.indicated_power(work, trace["speed"], cycle)
+        values["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, trace["swept_volume"])
+        power = values["indicated_power"] = gas_formulas.indicated_power(work, trace["speed"], cycle)
         valves = solved.machine.gas.valves if solved.machine.gas is not None else None
         if valves is not None:
             stated = StatedValves(valves, "gas.valves")
-            found |= stated.drawn(trace["clearance_volume"], trace["swept_volume"])
+            values |= stated.drawn(trace["clearance_volume"], trace["swept_volume"])
             engine = solved.machine.engine
             if engine is None or len(engine.layout.places) == 1:
                 # of several cylinders all together deliver
-                found |= stated.passed(inlet_flow(found["induced_volume"], trace["speed"], cycle), power)
-    found["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
-    return found
+                values |= stated.passed(inlet_flow(values["induced_volume"], trace["speed"], cycle), power)
+    values["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
+    return values
 
 
 def _checks(

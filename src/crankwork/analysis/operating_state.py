@@ -31,7 +31,7 @@ def operating_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:
 
 def is_shared(links: Sequence[RedundantLink]) -> bool:
     """Return whether it is stated what every redundant link bears, so that joint forces are known."""
-    return all(one.share is not None for one in links)
+    return all(link.share is not None for link in links)
 
 
 def _without(solved: PreparedLinkage, motion: Motion) -> OperatingState:
@@ -59,9 +59,9 @@ def _left(
     links: Sequence[RedundantLink], forces: Sequence[TracedValue], others: Sequence[TracedValue]
 ) -> Iterator[TracedValue]:
     """Yield by how much forces along redundant links differ from their shares."""
-    for one, force, other in zip(links, forces, others, strict=True):
-        share = given(f"force_share.{one.member.name}", one.share or 0.0, f"links.{one.member.name}.share")
-        yield (force - share * other).named(f"axial_force.{one.member.name}.left")
+    for link, force, other in zip(links, forces, others, strict=True):
+        share = given(f"force_share.{link.member.name}", link.share or 0.0, f"links.{link.member.name}.share")
+        yield (force - share * other).named(f"axial_force.{link.member.name}.left")
 
 
 def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tuple[JointForces, dict[str, TracedValue]]:
@@ -74,12 +74,12 @@ def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tup
     if not links or not is_shared(links):
         return joint_forces(running), {}
     root = Root(_Shares(solved))
-    forces = [TracedValue(Component(root, k), f"axial_force.{one.member.name}") for k, one in enumerate(links)]
+    forces = [TracedValue(Component(root, k), f"axial_force.{link.member.name}") for k, link in enumerate(links)]
     loads = running.loads
-    for one, force in zip(links, forces, strict=True):
-        loads = loads.also(pressing(running.mechanism, running.motion, one, force))
-    whole = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
-    found = joint_forces(whole)
-    others = [force_along_other(running.mechanism, running.motion, found, one) for one in links]
+    for link, force in zip(links, forces, strict=True):
+        loads = loads.also(pressing(running.mechanism, running.motion, link, force))
+    engine = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
+    values = joint_forces(engine)
+    others = [force_along_other(running.mechanism, running.motion, values, link) for link in links]
     root.residuals = tuple(_left(links, forces, others))
-    return found, {one.key: one for one in [*forces, *others]}
+    return values, {item.key: item for item in [*forces, *others]}

@@ -62,11 +62,11 @@ class PathCoordinate:
     @property
     def ends(self) -> tuple[float, ...]:
         """Where pieces meet."""
-        return (self.pieces[0].low, *(one.high for one in self.pieces))
+        return (self.pieces[0].low, *(piece.high for piece in self.pieces))
 
     def each(self, u: Array) -> Iterator[tuple[PathSegment, NDArray[np.intp]]]:
         """Yield the pieces, and which of some coordinates of the first period are on them."""
-        inner = [one.low for one in self.pieces[1:]]
+        inner = [piece.low for piece in self.pieces[1:]]
         which = np.searchsorted(inner, u, side="right")
         for k, piece in enumerate(self.pieces):
             here = np.flatnonzero(which == k)
@@ -100,10 +100,10 @@ class PathCoordinate:
     def crank(self, u: Array) -> Transfer:
         """Return the crank angle and its derivatives by the coordinate, turns counted. [rad]"""
         inside, turned = self.within(u)
-        found = np.empty((3, u.size))
+        result = np.empty((3, u.size))
         for piece, here in self.each(inside):
-            found[:, here] = piece.crank(inside[here])
-        return Transfer(found[0] + turned, found[1], found[2])
+            result[:, here] = piece.crank(inside[here])
+        return Transfer(result[0] + turned, result[1], result[2])
 
     def walls(self, start: float, stops: tuple[float, float]) -> tuple[float, float]:
         """Return the coordinates nearest to that of a start at which the crank is at one of its stops. [rad]"""
@@ -117,7 +117,7 @@ class PathCoordinate:
             if min(piece.first, piece.last) < stop < max(piece.first, piece.last)
             for turn in around
         ]
-        below, above = [one for one in every if one <= here], [one for one in every if one >= here]
+        below, above = [item for item in every if item <= here], [item for item in every if item >= here]
         return max(below, default=-math.inf), min(above, default=math.inf)
 
     def coordinate(self, angle: float) -> float:
@@ -131,15 +131,15 @@ def path_coordinate(machine: Machine, found: CrankRange | None) -> PathCoordinat
         turn = math.radians(machine.cycle)
         return PathCoordinate((PathSegment(machine.mechanism, 0.0, turn, 0.0, turn, turns_back=False),), turn)
     circuit = found.circuit
-    only_dyads = all(isinstance(one, RRR | RRP | RPR) for one in machine.mechanism.dyads)
+    only_dyads = all(isinstance(dyad, RRR | RRP | RPR) for dyad in machine.mechanism.dyads)
     parts = circuit.branches(driver_coordinate(circuit.mechanism))
     if not (only_dyads and circuit.curve.is_closed and not len(circuit.curve.crossings)):
         parts = [found.branch]
-    stated = next((k for k, one in enumerate(parts) if _same(one, found.branch, circuit.curve.length)), 0)
+    stated = next((k for k, part in enumerate(parts) if _same(part, found.branch, circuit.curve.length)), 0)
     parts = [*parts[stated:], *parts[:stated]]
     pieces, low = [], 0.0
     for part in parts:
-        first, last = (float(one) for one in circuit.values(driver_coordinate(circuit.mechanism), np.array(part)))
+        first, last = (float(value) for value in circuit.values(driver_coordinate(circuit.mechanism), np.array(part)))
         mechanism = machine.mechanism
         if len(parts) > 1:
             middle = circuit.stretch(np.array([(part.start + part.end) / 2]))

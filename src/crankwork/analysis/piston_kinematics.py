@@ -54,7 +54,7 @@ def moving_cylinder(
     else:
         articulated_rod = articulated_motion(lengths, rod, angle)
         motion = PistonMotion(articulated_rod.piston, articulated_rod.rod, articulated_rod.swing)
-    trace = {one.key: one for one in (lengths.crank_radius, lengths.rod_length, lengths.offset, speed)}
+    trace = {item.key: item for item in (lengths.crank_radius, lengths.rod_length, lengths.offset, speed)}
     return CylinderKinematics(
         angle, lengths, speed, eps, motion, trace | _motion(motion, speed, eps, angle, lengths), articulated_rod
     )
@@ -64,16 +64,16 @@ def _motion(
     motion: PistonMotion, w: TracedValue, eps: TracedValue, angle: Value, lengths: SliderCrank
 ) -> dict[str, TracedValue]:
     (x, x_1, x_2), (beta, beta_1, beta_2), swing = motion
-    found = [
+    values = [
         angle.angle.named("crank_angle"),
-        *(one.named(key) for one, key in zip(swing, _SWING, strict=True)),
-        *(one.named(key) for one, key in zip((x, x_1, x_2), _PISTON, strict=True)),
+        *(item.named(key) for item, key in zip(swing, _SWING, strict=True)),
+        *(item.named(key) for item, key in zip((x, x_1, x_2), _PISTON, strict=True)),
         beta.named("rod_angle"), beta_1.named("rod_transfer_1"), beta_2.named("rod_transfer_2"),
         piston_velocity(x_1, w), piston_acceleration(x_2, w, x_1, eps),
         rod_angular_velocity(beta_1, w), rod_angular_acceleration(beta_2, w, beta_1, eps),
         pin_distance(lengths.crank_radius, angle.cos, lengths.rod_length, swing.cos),
     ]  # fmt: skip
-    return {one.key: one for one in found}
+    return {item.key: item for item in values}
 
 
 _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
@@ -89,10 +89,10 @@ def inertia_acceleration(solved: PreparedCylinder) -> TracedValue:
     (r, _, e), lam = moving.lengths, given("rod_ratio.inertia", ratio, "method.inertia_rod_ratio")
     own = SliderCrank(r, (r / lam).named("rod_length.inertia"), e)
     if solved.method.kinematics == "textbook":
-        found = textbook_piston(own, moving.angle, lam)
+        result = textbook_piston(own, moving.angle, lam)
     else:
-        found = piston_motion(own, moving.angle, solved.method).piston
-    _, x_1, x_2 = (one.named(f"{key}.inertia") for one, key in zip(found, _PISTON, strict=True))
+        result = piston_motion(own, moving.angle, solved.method).piston
+    _, x_1, x_2 = (item.named(f"{key}.inertia") for item, key in zip(result, _PISTON, strict=True))
     acceleration: TracedValue = piston_acceleration(x_2, moving.speed, x_1, moving.angular_acceleration)
     return acceleration.named("inertia_acceleration")
 
@@ -103,11 +103,11 @@ def harmonic_trace(solved: PreparedCylinder) -> dict[str, TracedValue]:
     Source: kolchin_demidov_2008, ch. 6; taylor_1985, vol. 2, ch. 8.
     """
     moving = solved.moving
-    lengths, found = moving.lengths, dict[str, TracedValue]()
+    lengths, values = moving.lengths, dict[str, TracedValue]()
     for order, word in ((1, "first_order"), (2, "second_order")):
         x, x_1, x_2 = _order(solved, lengths, moving.angle, order)
         x_1, x_2 = x_1.named(f"piston_transfer_1_{word}"), x_2.named(f"piston_transfer_2_{word}")
-        found |= {
+        values |= {
             x_1.key: x_1,
             x_2.key: x_2,
             f"piston_displacement_{word}": x.named(f"piston_displacement_{word}"),
@@ -116,7 +116,7 @@ def harmonic_trace(solved: PreparedCylinder) -> dict[str, TracedValue]:
                 x_2, moving.speed, x_1, moving.angular_acceleration
             ).named(f"piston_acceleration_{word}"),
         }
-    return found
+    return values
 
 
 def _order(solved: PreparedCylinder, lengths: SliderCrank, angle: Value, order: int) -> Transfer:

@@ -32,43 +32,43 @@ def polytropes(results: Results) -> Polytropes | None:
     """Return the polytropes of a diagram, of a calculated cycle before its corners were rounded; None without any."""
     space = results.solved.space
     diagram: IndicatorDiagram = space.theoretical or space.diagram
-    found = _by_stroke(diagram, results.machine.cycle)
-    if not found:
+    result = _by_stroke(diagram, results.machine.cycle)
+    if not result:
         return None
-    spans = {name: _span(results, diagram, one) for name, one in found.items()}
+    spans = {name: _span(results, diagram, value) for name, value in result.items()}
     ratio = 1 + space.swept / space.clearance
     step = max(1.0, math.ceil(ratio / _ROWS))
     multiples = np.array([*np.arange(1.0, ratio - 1e-9, step), ratio])
     ends = [end / space.clearance for span in spans.values() for end in span]
     # an end beside a whole multiple is that multiple
-    ends = [one for one in ends if not np.any(np.isclose(one, multiples, rtol=1e-6))]
+    ends = [end for end in ends if not np.any(np.isclose(end, multiples, rtol=1e-6))]
     volumes = np.unique(np.round([*multiples, *ends], 9)) * space.clearance
     within = {name: _is_within(volumes, *span) for name, span in spans.items()}
     kept = np.logical_or.reduce(list(within.values()))
     pressures = {}
-    for name, segment in found.items():
+    for name, segment in result.items():
         pressure, reference, exponent = segment.state
         values = np.asarray(polytropic_pressure(pressure, reference, volumes[kept], exponent))
         pressures[name] = np.where(within[name][kept], values, np.nan)
-    exponents = {name: one.state[2] for name, one in found.items()}
+    exponents = {name: value.state[2] for name, value in result.items()}
     return Polytropes(exponents, volumes[kept] / space.clearance, volumes[kept], pressures)
 
 
 def _by_stroke(diagram: IndicatorDiagram, cycle: float) -> dict[str, Segment]:
     """Return the polytropes of compression and expansion; the first of each half of the cycle."""
     half = min(cycle / 2, _HALF)
-    found: dict[str, Segment] = {}
-    for one in diagram.segments:
-        if one.law == "polytropic":
-            is_compression = one.start < half if cycle > _HALF else one.start >= half
-            found.setdefault("compression" if is_compression else "expansion", one)
-    return {name: found[name] for name in ("compression", "expansion") if name in found}
+    values: dict[str, Segment] = {}
+    for segment in diagram.segments:
+        if segment.law == "polytropic":
+            is_compression = segment.start < half if cycle > _HALF else segment.start >= half
+            values.setdefault("compression" if is_compression else "expansion", segment)
+    return {name: values[name] for name in ("compression", "expansion") if name in values}
 
 
 def _span(results: Results, diagram: IndicatorDiagram, segment: Segment) -> tuple[float, float]:
     """Return the least and the largest volume of a polytrope, with that of the state it passes through. [m3]"""
     same = [one for one in diagram.segments if one.law == "polytropic" and one.state == segment.state]
-    degrees = [angle for one in same for angle in (one.start, one.end)]
+    degrees = [angle for item in same for angle in (item.start, item.end)]
     volumes = results.columns_at(degrees, ("cylinder_volume",))["cylinder_volume"]
     reference = segment.state[1]
     return min(float(volumes.min()), reference), max(float(volumes.max()), reference)

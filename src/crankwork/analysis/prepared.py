@@ -59,8 +59,8 @@ class WorkingSpace(NamedTuple):
     @property
     def theoretical(self) -> IndicatorDiagram | None:
         """The diagram of a calculated cycle before its corners were rounded."""
-        found = self.calculated.theoretical if self.calculated is not None else None
-        return None if found is None else found()
+        result = self.calculated.theoretical if self.calculated is not None else None
+        return None if result is None else result()
 
     def gauge(self, pressure: Array) -> Array:
         """Return the gauge pressure on the piston where that of the diagram is known. [Pa]"""
@@ -130,8 +130,8 @@ class PreparedCylinder(PreparedMachine):
             return (self.lengths.stroke, *dead_centres(self.lengths))
         from crankwork.cylinders.articulated import articulated_stroke  # noqa: PLC0415 - few engines have such rods
 
-        found = articulated_stroke(self.lengths, self.articulated_rod)
-        return found.stroke, found.top_angle, found.bottom_angle
+        result = articulated_stroke(self.lengths, self.articulated_rod)
+        return result.stroke, result.top_angle, result.bottom_angle
 
 
 def prepare(machine: Machine, method: Method) -> PreparedCylinder:
@@ -192,7 +192,7 @@ def _with_space(solved: PreparedCylinder, notices: list[Notice]) -> PreparedCyli
     if gas.calculated is not None:
         calculated = gas.calculated.pressure(volume_at, volume_rate_at, (top, bottom))
         diagram = calculated.diagram
-        notices += [Notice(*one) for one in calculated.notices]
+        notices += [Notice(*notice) for notice in calculated.notices]
     else:
         if gas.valves is not None:
             StatedValves(gas.valves, "gas.valves").check(clearance, swept)
@@ -219,7 +219,7 @@ def _given_diagram(
         diagram, told = measured_diagram(
             gas.measured, gas.cycle, around, shift=gas.angle_shift, step=gas.resample, path=gas.path
         )
-        notices += [Notice(*one) for one in told]
+        notices += [Notice(*item) for item in told]
         return diagram
     diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
     return diagram if gas.valves is None else StatedValves(gas.valves, "gas.valves").traced(diagram)
@@ -233,7 +233,7 @@ def _clearance(cylinder: Cylinder, swept: float) -> float:
     return float(gas_formulas.clearance_volume(swept, cylinder.compression_ratio))
 
 
-def relative_difference(one: Array, other: Array, size: float = 0.0) -> float:
+def relative_difference(values: Array, other: Array, size: float = 0.0) -> float:
     """Return how far two columns are apart, as a share of the largest value of the first, or of a size above it."""
-    scale = max(float(np.max(np.abs(one))), size)
-    return float(np.max(np.abs(one - other))) / scale if scale else 0.0
+    scale = max(float(np.max(np.abs(values))), size)
+    return float(np.max(np.abs(values - other))) / scale if scale else 0.0

@@ -127,6 +127,14 @@ class Results(Mapping[str, Array | float]):
         return method
 
     @property
+    def memory(self) -> Mapping[str, TracedValue]:
+        """The trace, under its name until the next release."""
+        warnings.warn(
+            RenamedKeyWarning(ErrorMessage("key_renamed", old="Results.memory", new="Results.trace")), stacklevel=2
+        )
+        return self.trace
+
+    @property
     def period(self) -> float:
         """Period of the law that drives; zero where a crank turns at the angle of the tables. [s]"""
         return self.machine.mechanism.driver.law.period if self.machine.mechanism.driver.law else 0.0
@@ -139,7 +147,7 @@ class Results(Mapping[str, Array | float]):
     def unmet(self) -> tuple[str, ...]:
         """The keys of the checks that are not met."""
         met = {key: value <= max(_ROUNDING, self.allowed.get(key, 0.0)) for key, value in self.checks.items()}
-        return tuple(key for key, one in met.items() if not one)
+        return tuple(key for key, value in met.items() if not value)
 
     @property
     def tables(self) -> Mapping[str, tuple[str, ...]]:
@@ -238,8 +246,8 @@ class Results(Mapping[str, Array | float]):
         from crankwork.kinematics.instant_centres import absent_where_still  # noqa: PLC0415
 
         rates = [key for key in self.trace if key.startswith("link_angular_velocity.")]
-        found = absent_where_still(Program({key: self.trace[key] for key in (*wanted, *rates)})(grid))
-        return {key: found[key] for key in wanted}
+        values = absent_where_still(Program({key: self.trace[key] for key in (*wanted, *rates)})(grid))
+        return {key: values[key] for key in wanted}
 
     def moment(self, at: float = 0.0, mark: str = "") -> Snapshot:
         """Return the lines of the trace at a crank angle.
@@ -481,13 +489,13 @@ class Results(Mapping[str, Array | float]):
     def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:
         """Return the refusal of a key, with the nearest that there are."""
         known, kind = list(known), key.partition(".")[0]
-        if kind in QUANTITIES and not any(one.partition(".")[0] == kind for one in known):
+        if kind in QUANTITIES and not any(item.partition(".")[0] == kind for item in known):
             return UnknownKeyError(ErrorMessage("result_absent", key=_printable(key), method=self.method.name))
-        near = difflib.get_close_matches(key, known, n=3, cutoff=0.7) or [one for one in known if key in one][:3]
+        near = difflib.get_close_matches(key, known, n=3, cutoff=0.7) or [item for item in known if key in item][:3]
         if near:
             return UnknownKeyError(ErrorMessage("result_unknown_near", key=_printable(key), nearest=tuple(near)))
         return UnknownKeyError(ErrorMessage("result_unknown", key=_printable(key)))
 
 
 def _printable(key: str) -> str:
-    return "".join(one if one.isprintable() else ascii(one)[1:-1] for one in key[:60])
+    return "".join(item if item.isprintable() else ascii(item)[1:-1] for item in key[:60])

@@ -40,8 +40,8 @@ def without_rounding(columns: Mapping[str, Array], speed: float) -> dict[str, Ar
     """Return columns, those as zero that are nothing beside what their quantity comes to. `speed`: of the crank."""
     sizes = _sizes(columns, speed)
     return {
-        key: np.where(np.isfinite(one), 0.0, one) if _is_rounding(key, _largest(one), sizes) else one
-        for key, one in columns.items()
+        key: np.where(np.isfinite(value), 0.0, value) if _is_rounding(key, _largest(value), sizes) else value
+        for key, value in columns.items()
     }
 
 
@@ -53,21 +53,21 @@ def summary_without_rounding(results: Results) -> dict[str, float]:
 
 def rounding_of_extremes(results: Results) -> dict[str, float]:
     """Return of the extremes of columns by key what of each is rounding."""
-    summary, sizes, found = results.summary, _sizes(results.columns, results.machine.speed), dict[str, float]()
+    summary, sizes, values = results.summary, _sizes(results.columns, results.machine.speed), dict[str, float]()
     for column in results.columns:
         kind, dot, name = column.partition(".")
         ends = [key for end in ("max", "min") if (key := f"{kind}_{end}{dot}{name}") in summary]
         size = max([sizes.get(kind, 0.0), *(abs(summary[key]) for key in ends)])
-        found |= dict.fromkeys(ends, _ROUNDING * size)
-    return found
+        values |= dict.fromkeys(ends, _ROUNDING * size)
+    return values
 
 
 def _sizes(columns: Mapping[str, Array], speed: float) -> dict[str, float]:
     """Return what each kind of quantity comes to. Angles are measured by a radian."""
     largest: dict[str, float] = {}
-    for key, one in columns.items():
+    for key, value in columns.items():
         kind = key.partition(".")[0]
-        largest[kind] = max(largest.get(kind, 0.0), _largest(one))
+        largest[kind] = max(largest.get(kind, 0.0), _largest(value))
 
     def most(kinds: tuple[str, ...]) -> float:
         return max(largest.get(kind, 0.0) for kind in kinds)

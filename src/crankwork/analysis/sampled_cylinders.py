@@ -64,13 +64,13 @@ def engine_moving(machine: Machine, degrees: Array, results: Results | None = No
     if lengths is None or engine is None:
         return None
     layout, columns = engine.layout, _columns(results, degrees)
-    found: list[SampledCylinder] = []
-    for crankpin in sorted({one.crankpin for one in layout.places}):
+    result: list[SampledCylinder] = []
+    for crankpin in sorted({place.crankpin for place in layout.places}):
         mechanism = throw_mechanism(layout, lengths, engine.articulated_rods, engine.offsets, crankpin)
-        points = {name: one.place for name, one in sample_motion(mechanism, degrees).points.items()}
+        points = {name: value.place for name, value in sample_motion(mechanism, degrees).points.items()}
         # dead centres lie between the frames
         every = sample_motion(mechanism, np.arange(_TURN)).points
-        for place in (one for one in layout.places if one.crankpin == crankpin):
+        for place in (place for place in layout.places if place.crankpin == crankpin):
             offset = engine.offsets[place.number - 1] if engine.offsets else lengths.offset
             joint = points[f"C{place.number}" if place.master else "A"]
             one = SampledCylinder(place, offset, points["A"], joint, points[f"B{place.number}"], 0.0, 0.0)
@@ -79,8 +79,8 @@ def engine_moving(machine: Machine, degrees: Array, results: Results | None = No
             own = {key: values[place.number - 1] for key, values in columns.items()}
             if (pressure := own.pop("gas_pressure", None)) is not None:
                 one = one._replace(pressure=pressure, fires=_fires(machine, engine, place))
-            found.append(one._replace(forces=own))
-    return SampledEngine(degrees, layout, tuple(sorted(found, key=lambda one: one.place.number)))
+            result.append(one._replace(forces=own))
+    return SampledEngine(degrees, layout, tuple(sorted(result, key=lambda item: item.place.number)))
 
 
 def _alone(machine: Machine) -> Engine | None:
@@ -104,8 +104,8 @@ def _columns(results: Results | None, degrees: Array) -> dict[str, Array]:
     # machines of one cylinder do not load it
     from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415
 
-    whole = multi_cylinder_engine(results.solved)
-    return {key: whole.each(key, at) for key in keys if len(whole.has(key)) == len(whole.cylinders)}
+    engine = multi_cylinder_engine(results.solved)
+    return {key: engine.each(key, at) for key in keys if len(engine.has(key)) == len(engine.cylinders)}
 
 
 def _fires(machine: Machine, engine: Engine, place: CylinderPlace) -> float | None:

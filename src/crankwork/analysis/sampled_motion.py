@@ -49,27 +49,27 @@ class SampledMotion(NamedTuple):
 
 def sample_motion(mechanism: Mechanism, degrees: ArrayLike) -> SampledMotion:
     """Return a linkage at crank angles."""
-    found = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
-    count = len(found.grid)
+    result = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
+    count = len(result.grid)
 
     def stacked(pair: Iterable[Array]) -> Array:
-        return np.column_stack([np.broadcast_to(one, count) for one in pair])
+        return np.column_stack([np.broadcast_to(item, count) for item in pair])
 
     def track(point: PointMotion) -> Track:
         return Track(*(stacked(pair) for pair in zip(*point, strict=True)))
 
     frames = {
         name: Frame(
-            track(one.origin),
-            stacked((one.cos, one.sin)),
-            np.broadcast_to(one.angle_1, count),
-            np.broadcast_to(one.angle_2, count),
+            track(value.origin),
+            stacked((value.cos, value.sin)),
+            np.broadcast_to(value.angle_1, count),
+            np.broadcast_to(value.angle_2, count),
         )
-        for name, one in found.frames.items()
+        for name, value in result.frames.items()
     }
-    points = {name: track(one) for name, one in found.points.items()}
-    sliders = {name: np.broadcast_to(one.position, count) for name, one in found.sliders.items()}
-    return SampledMotion(found.grid.degrees, points, frames, sliders)
+    points = {name: track(value) for name, value in result.points.items()}
+    sliders = {name: np.broadcast_to(value.position, count) for name, value in result.sliders.items()}
+    return SampledMotion(result.grid.degrees, points, frames, sliders)
 
 
 def transfer_ratios(mechanism: Mechanism, degrees: ArrayLike) -> dict[str, Array]:
@@ -77,12 +77,12 @@ def transfer_ratios(mechanism: Mechanism, degrees: ArrayLike) -> dict[str, Array
 
     `velocity_ratio.NAME` of points, `rotation_ratio.NAME` of links, `velocity_ratio.NAME` of sliders [m], [-].
     """
-    found = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
-    points = {name: np.hypot(x.position_1, y.position_1) for name, (x, y) in found.points.items()}
-    ratios = {f"velocity_ratio.{name}": one for name, one in points.items() if name not in mechanism.ground}
-    links = {name: one.position_1 for name, one in found.links.items() if name != mechanism.crank.link}
-    ratios |= {f"rotation_ratio.{name}": one for name, one in links.items()}
-    return ratios | {f"velocity_ratio.{name}": one.position_1 for name, one in found.sliders.items()}
+    values = linkage_motion(mechanism, CrankGrid.from_degrees(degrees))
+    points = {name: np.hypot(x.position_1, y.position_1) for name, (x, y) in values.points.items()}
+    ratios = {f"velocity_ratio.{name}": value for name, value in points.items() if name not in mechanism.ground}
+    links = {name: value.position_1 for name, value in values.links.items() if name != mechanism.crank.link}
+    ratios |= {f"rotation_ratio.{name}": value for name, value in links.items()}
+    return ratios | {f"velocity_ratio.{name}": value.position_1 for name, value in values.sliders.items()}
 
 
 def reached_angles(machine: Machine, step: float) -> tuple[Array, bool]:
@@ -90,8 +90,8 @@ def reached_angles(machine: Machine, step: float) -> tuple[Array, bool]:
 
     `step`: step [deg].
     """
-    found = find_reachable_motion(machine, step)
-    return found.grid.degrees, found.travel is None
+    result = find_reachable_motion(machine, step)
+    return result.grid.degrees, result.travel is None
 
 
 class AnimationPath(NamedTuple):
@@ -105,10 +105,10 @@ class AnimationPath(NamedTuple):
 
 def animation_path(mechanism: Mechanism, frames: int) -> AnimationPath:
     """Return how the crank of a moving drawing goes: round, or to and fro between its dead positions."""
-    mechanism, found = pass_change_points(mechanism)
-    if found is None or found.is_whole:
+    mechanism, result = pass_change_points(mechanism)
+    if result is None or result.is_whole:
         return AnimationPath(np.arange(frames + 1) * mechanism.period / frames, mechanism, turns=True)
-    low, high = open_range(found)
+    low, high = open_range(result)
     swung = (1 - np.cos(math.tau * np.arange(frames + 1) / frames)) / 2
     return AnimationPath(low + (high - low) * swung, mechanism, turns=False)
 

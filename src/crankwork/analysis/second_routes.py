@@ -45,49 +45,49 @@ def joint_force_residuals(solved: PreparedCylinder, samples: Samples) -> dict[st
     bodies = (body_at(mechanism.crank.link, masses.crank, 0.0, mechanism.crank.pin), *_bodies(rod, masses))
     gas = {rod.slider: own["gas_force"]} if "gas_force" in own else {}
     lean = solved.machine.inclination + math.radians(solved.lean)
-    found = system_joint_forces(_running(solved, replace(mechanism, bodies=bodies), gas, grid, lean))
-    (guide,) = found.guides.values()
-    pressed = _largest(found)
+    values = system_joint_forces(_running(solved, replace(mechanism, bodies=bodies), gas, grid, lean))
+    (guide,) = values.guides.values()
+    pressed = _largest(values)
     return {
         "joint_torque": relative_difference(
-            own["crank_torque"], -found.balancing_torque, solved.lengths.crank_radius * pressed
+            own["crank_torque"], -values.balancing_torque, solved.lengths.crank_radius * pressed
         ),
         "joint_side_force": relative_difference(own["side_force"], -guide.normal, pressed),
     }
 
 
-def throw_residuals(whole: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, float]:
+def throw_residuals(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, float]:
     """Return how far torque and load of a crankpin with articulated rods are from those of the linkage that they are.
 
     Nothing for other engines, and for a method that only comes near the motion.
     """
-    solved, masses = whole.master, whole.each_masses
-    places = whole.on_pin[whole.layout.places[0].crankpin]
-    numbers = [one.number for one in places]
+    solved, masses = engine.master, engine.each_masses
+    places = engine.on_pin[engine.layout.places[0].crankpin]
+    numbers = [place.number for place in places]
     is_rigid = solved.method.rod == "rigid" or not any(masses[at - 1].rod_inertia_excess for at in numbers)
-    if not any(whole.engine.articulated_rods) or not solved.method.is_exact or not is_rigid:
+    if not any(engine.engine.articulated_rods) or not solved.method.is_exact or not is_rigid:
         return {}
-    mechanism = throw_mechanism(whole.layout, solved.lengths, whole.engine.articulated_rods)
-    rods = [one for one in mechanism.dyads if isinstance(one, RRP)]
+    mechanism = throw_mechanism(engine.layout, solved.lengths, engine.engine.articulated_rods)
+    rods = [dyad for dyad in mechanism.dyads if isinstance(dyad, RRP)]
     bodies = [body_at(mechanism.crank.link, masses[numbers[0] - 1].crank, 0.0, mechanism.crank.pin)]
     bodies += [body for rod, at in zip(rods, numbers, strict=True) for body in _bodies(rod, masses[at - 1])]
-    grid = CrankGrid.from_degrees(np.arange(_FIRST, whole.layout.cycle, _STEP))
+    grid = CrankGrid.from_degrees(np.arange(_FIRST, engine.layout.cycle, _STEP))
     pin = f"crankpin_load.{places[0].crankpin + 1}"
-    torques = {f"torque.{at}": whole.of(at, "crank_torque") for at in numbers}
+    torques = {f"torque.{at}": engine.of(at, "crank_torque") for at in numbers}
     gases = {
-        rod.slider: whole.of(at, "gas_force") for rod, at in zip(rods, numbers, strict=True) if whole.has("gas_force")
+        rod.slider: engine.of(at, "gas_force") for rod, at in zip(rods, numbers, strict=True) if engine.has("gas_force")
     }
     own = Program({**torques, **gases, "load": trace[pin]})(grid)
     # the axis of cylinder 1 stands in the mechanism as in the layout
-    lean = solved.machine.inclination - math.radians(whole.layout.places[0].axis)
+    lean = solved.machine.inclination - math.radians(engine.layout.places[0].axis)
     pushing = {name: own[name] for name in gases}
-    found = system_joint_forces(_running(solved, replace(mechanism, bodies=tuple(bodies)), pushing, grid, lean))
-    pressed, torque = _largest(found), np.sum([own[key] for key in torques], axis=0)
+    values = system_joint_forces(_running(solved, replace(mechanism, bodies=tuple(bodies)), pushing, grid, lean))
+    pressed, torque = _largest(values), np.sum([own[key] for key in torques], axis=0)
     (joint,) = (
-        one for one in found.pins.values() if one.joint.link == rods[0].link and one.joint.point == rods[0].joint
+        pin for pin in values.pins.values() if pin.joint.link == rods[0].link and pin.joint.point == rods[0].joint
     )
     return {
-        "throw_torque": relative_difference(torque, -found.balancing_torque, solved.lengths.crank_radius * pressed),
+        "throw_torque": relative_difference(torque, -values.balancing_torque, solved.lengths.crank_radius * pressed),
         "throw_load": relative_difference(own["load"], joint.resultant, pressed),
     }
 
@@ -106,11 +106,14 @@ def _running(
     """
     machine, motion = solved.machine, linkage_motion(mechanism, grid)
     frames = {name: motion.frames[name] for name in gas}
-    loads = [AppliedForce(name, one.origin, -gas[name] * one.cos, -gas[name] * one.sin) for name, one in frames.items()]
+    loads = [
+        AppliedForce(name, value.origin, -gas[name] * value.cos, -gas[name] * value.sin)
+        for name, value in frames.items()
+    ]
     if machine.has_gravity:
         down = solved.method.gravity * math.sin(lean), -solved.method.gravity * math.cos(lean)
         loads += [
-            AppliedForce(body.link, centre, *(np.full(len(grid), body.mass * one) for one in down))
+            AppliedForce(body.link, centre, *(np.full(len(grid), body.mass * item) for item in down))
             for body, centre, *_ in body_motions(mechanism, motion)
         ]
     return OperatingState(mechanism, motion, solved.speed, AppliedLoads(tuple(loads)), machine.angular_acceleration)
@@ -119,8 +122,8 @@ def _running(
 def _bodies(rod: RRP, masses: CrankGearMasses) -> Iterator[Body]:
     """Yield piston and rod; the two masses of the rod with the inertia of a rigid one about their centre."""
     yield body_at(rod.slider, masses.piston, 0.0, rod.slider)
-    whole = masses.rod_small_end + masses.rod_big_end
-    if whole or masses.rod_inertia_excess:
-        share = masses.rod_small_end / whole if whole else 0.0
-        inertia = masses.rod_inertia_excess + whole * share * (1 - share) * rod.length**2
-        yield Body(rod.link, whole, inertia, rod.joint, rod.slider, share)
+    engine = masses.rod_small_end + masses.rod_big_end
+    if engine or masses.rod_inertia_excess:
+        share = masses.rod_small_end / engine if engine else 0.0
+        inertia = masses.rod_inertia_excess + engine * share * (1 - share) * rod.length**2
+        yield Body(rod.link, engine, inertia, rod.joint, rod.slider, share)

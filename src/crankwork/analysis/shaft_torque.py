@@ -55,61 +55,63 @@ class EngineTorque(NamedTuple):
     notices: tuple[Notice, ...]  # Why there is no flywheel, or no steady speed
 
 
-def torque_trace(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+def torque_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     """Return the torques of all cylinders, their sum and those along the shaft."""
-    tangential = [whole.of(place.number, "tangential_force") for place in whole.layout.places]
-    each = [_torque(whole, number, force) for number, force in enumerate(tangential, start=1)]
-    along = torques_along_shaft(each, whole.layout)
-    found = [*tangential, *each] if len(each) > 1 else []
+    tangential = [engine.of(place.number, "tangential_force") for place in engine.layout.places]
+    each = [_torque(engine, number, force) for number, force in enumerate(tangential, start=1)]
+    along = torques_along_shaft(each, engine.layout)
+    values = [*tangential, *each] if len(each) > 1 else []
     if len(along.throws) > 1:
-        found += [*along.throws, *along.journals[1:], *along.crankpins]
-    found.append(total("total_torque", along.throws))
-    return {one.key: one for one in found}
+        values += [*along.throws, *along.journals[1:], *along.crankpins]
+    values.append(total("total_torque", along.throws))
+    return {item.key: item for item in values}
 
 
-def _torque(whole: MultiCylinderEngine, number: int, tangential: TracedValue) -> TracedValue:
+def _torque(engine: MultiCylinderEngine, number: int, tangential: TracedValue) -> TracedValue:
     """Return the torque of a cylinder from its tangential force at the crank angle of cylinder 1."""
-    own, weight = whole.cylinders[number - 1].trace, absent("rotating_torque")
+    own, weight = engine.cylinders[number - 1].trace, absent("rotating_torque")
     if "rotating_torque" in own:
-        weight = whole.of(number, "rotating_torque")
+        weight = engine.of(number, "rotating_torque")
     torque: TracedValue = crank_torque(tangential, own["crank_radius"], weight)
-    return torque.named(whole.of(number, "crank_torque").key)
+    return torque.named(engine.of(number, "crank_torque").key)
 
 
-def engine_reduction(whole: MultiCylinderEngine) -> dict[str, TracedValue]:
+def engine_reduction(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     """Return the reduced moment of inertia of all cylinders, and of what turns with the crank, with its derivative."""
-    if whole.machine.masses is None:
+    if engine.machine.masses is None:
         return {}
-    places, r = whole.layout.places, whole.master.trace["crank_radius"]
-    numbers = [one.number for one in places]
-    parts = [whole.of(at, f"reduced_inertia.{one}") for one in MOVING for at in whole.has(f"reduced_inertia.{one}")]
+    places, r = engine.layout.places, engine.master.trace["crank_radius"]
+    numbers = [place.number for place in places]
+    parts = [
+        engine.of(at, f"reduced_inertia.{item}") for item in MOVING for at in engine.has(f"reduced_inertia.{item}")
+    ]
     parts_1 = [
-        whole.of(at, f"reduced_inertia_1.{one}") for one in MOVING for at in whole.has(f"reduced_inertia_1.{one}")
+        engine.of(at, f"reduced_inertia_1.{item}") for item in MOVING for at in engine.has(f"reduced_inertia_1.{item}")
     ]
     for at, place in zip(numbers, places, strict=True):
-        mass = rotating_mass_of(whole, place)
-        if "knuckle_mass" in whole.cylinders[at - 1].trace:
-            mass = mass - whole.cylinders[at - 1].trace["knuckle_mass"]
+        mass = rotating_mass_of(engine, place)
+        if "knuckle_mass" in engine.cylinders[at - 1].trace:
+            mass = mass - engine.cylinders[at - 1].trace["knuckle_mass"]
         parts.append((mass * r * r).named(f"reduced_inertia.rotating.{at}"))
-    if whole.machine.drive.inertia:
-        parts.append(turning_inertia(whole.machine, "reduced_inertia.drive"))
-    found = total("total_reduced_inertia", parts), total("total_reduced_inertia_1", parts_1)
-    return dict(zip(REDUCTION, found, strict=True))
+    if engine.machine.drive.inertia:
+        parts.append(turning_inertia(engine.machine, "reduced_inertia.drive"))
+    values = total("total_reduced_inertia", parts), total("total_reduced_inertia_1", parts_1)
+    return dict(zip(REDUCTION, values, strict=True))
 
 
 def engine_torque(
-    whole: MultiCylinderEngine,
+    engine: MultiCylinderEngine,
     trace: Mapping[str, TracedValue],
     over: CycleInterpolant,
     extremes: Mapping[str, TracedValue],
 ) -> EngineTorque:
     """Return the torque of the engine with the flywheel it needs, and why there is none."""
-    first = whole.of(1, "crank_torque").key
+    first = engine.of(1, "crank_torque").key
     one, all_ = (curve_of(over, key) for key in (first, "total_torque"))
-    w = whole.master.trace["speed"]
-    balance = _balance(whole, trace, over, all_)
+    w = engine.master.trace["speed"]
+    balance = _balance(engine, trace, over, all_)
     mean = over.mean("total_torque", "mean_total_torque")
-    if whole.machine.angular_acceleration and balance.torque.key == "static_torque":
+    if engine.machine.angular_acceleration and balance.torque.key == "static_torque":
         # what speeds up the parts is none of a cycle that repeats
         mean = (
             -TracedValue(ProcedureValue(-balance.curve.mean, "mean", (balance.torque,)), "mean_driving_torque")
@@ -119,12 +121,12 @@ def engine_torque(
         mean = TracedValue(ProcedureValue(0.0, "mean", (trace["total_torque"],)), mean.key)
     mean = delivered_or_needed(mean)
     summary = {"mean_torque": mean}
-    summary |= {key: one for key, one in extremes.items() if key.startswith("total_torque_")}
+    summary |= {key: value for key, value in extremes.items() if key.startswith("total_torque_")}
     excess = summary["excess_work"] = excess_of(balance)
-    between = work_of(excess, mean, traced_inputs.cycle_angle(whole.machine))
+    between = work_of(excess, mean, traced_inputs.cycle_angle(engine.machine))
     # textbooks draw the extremes as far above the mean as below it
     turn = analyse_speed(
-        whole.machine, balance, w, "extremes" if whole.master.method.kinematics == "textbook" else "time"
+        engine.machine, balance, w, "extremes" if engine.master.method.kinematics == "textbook" else "time"
     )
     summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
     named = {key: known if known is mean else known.named(key) for key, known in summary.items()}
@@ -133,17 +135,17 @@ def engine_torque(
 
 
 def _balance(
-    whole: MultiCylinderEngine, trace: Mapping[str, TracedValue], over: CycleInterpolant, total_torque: Curve
+    engine: MultiCylinderEngine, trace: Mapping[str, TracedValue], over: CycleInterpolant, total_torque: Curve
 ) -> Balance:
     """Return what gas and weights do on the crank, with the reduced inertia of all that moves.
 
     As textbooks do it: the torque of all cylinders at constant speed, with what turns with the crank alone.
     """
-    drive, total_ = turning_inertia(whole.machine, "reduced_inertia.drive"), trace["total_torque"]
-    if "reduced_inertia" not in trace or not has_own_inertia(whole):
+    drive, total_ = turning_inertia(engine.machine, "reduced_inertia.drive"), trace["total_torque"]
+    if "reduced_inertia" not in trace or not has_own_inertia(engine):
         constant = Curve.constant(drive.value, total_torque.cycle)
         return Balance(total_, total_torque, drive, constant, excess_work(total_torque), sign=1.0)
-    w, eps = whole.master.trace["speed"], traced_inputs.acceleration(whole.machine)
+    w, eps = engine.master.trace["speed"], traced_inputs.acceleration(engine.machine)
     inertia, inertia_1 = trace["reduced_inertia"], trace["reduced_inertia_1"]
     own = inertia if drive.is_absent else (inertia - drive).named("reduced_inertia.cylinders")
     dynamic = dynamic_torque(w, inertia_1, own, eps).named("dynamic_torque")
@@ -155,25 +157,25 @@ def _balance(
     return Balance(static, torque, inertia, J, excess_work(torque))
 
 
-def has_own_inertia(whole: MultiCylinderEngine) -> bool:
+def has_own_inertia(engine: MultiCylinderEngine) -> bool:
     """Return whether rods and pistons count in the speed: not as textbooks do it."""
-    return whole.machine.masses is not None and whole.master.method.kinematics != "textbook"
+    return engine.machine.masses is not None and engine.master.method.kinematics != "textbook"
 
 
 def harmonics_trace(
-    whole: MultiCylinderEngine, torque: EngineTorque, trace: Mapping[str, TracedValue]
+    engine: MultiCylinderEngine, torque: EngineTorque, trace: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
     """Return the harmonics of the torque of one cylinder and of all, each under its order: `harmonic_amplitude.2.5`."""
-    layout, of = whole.layout, whole.of(1, "crank_torque")
+    layout, of = engine.layout, engine.of(1, "crank_torque")
     count = order_count(layout.cycle)
     one = curve_harmonics(torque.one, count)
-    all_ = None if whole.is_uniform else curve_harmonics(torque.total, count)
-    found = {known.key: known for known in traced_harmonics(one, of)}
+    all_ = None if engine.is_uniform else curve_harmonics(torque.total, count)
+    values = {known.key: known for known in traced_harmonics(one, of)}
     stars = phase_sums(layout, one.orders.tolist())
     for at, order in enumerate(one.orders.tolist()):
         star = TracedValue(ProcedureValue(abs(stars[at]), "phase_star"), f"phase_sum.{order:g}")
         if all_ is None:
-            of_all = amplitude_of_total(found[f"harmonic_amplitude.{order:g}"], star)
+            of_all = amplitude_of_total(values[f"harmonic_amplitude.{order:g}"], star)
         else:
             total = trace["total_torque"]
             parts = (
@@ -184,29 +186,31 @@ def harmonics_trace(
                 ProcedureValue(float(all_.amplitude[at]), "fourier", (total,), None, amplitude_of_harmonic(*parts))
             )
         of_all = of_all.named(f"total_harmonic_amplitude.{order:g}")
-        found |= {known.key: known for known in (star, of_all)}
-    return found
+        values |= {known.key: known for known in (star, of_all)}
+    return values
 
 
-def torque_checks(whole: MultiCylinderEngine, torque: EngineTorque, samples: Samples, moved: float) -> dict[str, float]:
+def torque_checks(
+    engine: MultiCylinderEngine, torque: EngineTorque, samples: Samples, moved: float
+) -> dict[str, float]:
     """Return the residuals between sums over cylinders, phase stars and the total.
 
     `moved`: the most work that the torque of a cylinder could do [J].
     """
-    works = [one.space.work for one in whole.cylinders if one.space is not None]
+    works = [cylinder.space.work for cylinder in engine.cylinders if cylinder.space is not None]
     result = {}
-    if len(works) == len(whole.cylinders) and not whole.machine.angular_acceleration:
+    if len(works) == len(engine.cylinders) and not engine.machine.angular_acceleration:
         work = torque.total.mean * torque.total.cycle
         result["engine_work"] = abs(work - sum(works)) / (len(works) * moved)
-    count = _common_samples(whole.layout)
-    if whole.is_uniform and len(whole.cylinders) > 1 and count:
-        degrees: Array = np.arange(float(count)) * (whole.layout.cycle / count)
-        each = whole.each_of("crank_torque", samples(CrankGrid.from_degrees(degrees)))
-        count = order_count(whole.layout.cycle)
-        one = torque_harmonics(each[0], whole.layout.cycle, count)
+    count = _common_samples(engine.layout)
+    if engine.is_uniform and len(engine.cylinders) > 1 and count:
+        degrees: Array = np.arange(float(count)) * (engine.layout.cycle / count)
+        each = engine.each_of("crank_torque", samples(CrankGrid.from_degrees(degrees)))
+        count = order_count(engine.layout.cycle)
+        one = torque_harmonics(each[0], engine.layout.cycle, count)
         stars, direct = (
-            total_harmonics(one, whole.layout),
-            torque_harmonics(each.sum(axis=0), whole.layout.cycle, count),
+            total_harmonics(one, engine.layout),
+            torque_harmonics(each.sum(axis=0), engine.layout.cycle, count),
         )
         apart = np.hypot(stars.cosine - direct.cosine, stars.sine - direct.sine)
         result["phase_stars"] = float(np.max(apart)) / (float(np.max(one.amplitude)) or 1.0)
@@ -218,7 +222,7 @@ def _common_samples(layout: Layout) -> int:
 
     Those at whole degrees where they do.
     """
-    firing = np.array([one.firing_angle for one in layout.places]) / layout.cycle
+    firing = np.array([place.firing_angle for place in layout.places]) / layout.cycle
     for count in range(round(layout.cycle), 2 * _SAMPLES):
         if np.max(np.abs(firing * count - np.rint(firing * count))) < 1e-9 * count:
             return count

@@ -54,7 +54,7 @@ class Skeleton(NamedTuple):
     @property
     def driven(self) -> str:
         """The point that shows how the driving link moves: the pin of a crank, the end of a rod."""
-        return self.pin or next((one for one in self.driver.points[::-1] if one not in self.pivots), "")
+        return self.pin or next((point for point in self.driver.points[::-1] if point not in self.pivots), "")
 
     @property
     def traced(self) -> tuple[str, ...]:
@@ -63,7 +63,7 @@ class Skeleton(NamedTuple):
 
     def member(self, name: str) -> Member:
         """Return the moving link of a name."""
-        return next(one for one in self.members if one.name == name)
+        return next(member for member in self.members if member.name == name)
 
 
 def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
@@ -72,56 +72,56 @@ def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
     `links`: the moving links in the order of their numbers, as `Structure.links` gives them; group after group where
     it is left out.
     """
-    found = list(_driven_first(mechanism))
+    result = list(_driven_first(mechanism))
     pin, crank_pivot = "", dict[str, Point]()
     if isinstance(mechanism.driver, Crank):
-        pin, crank_pivot = mechanism.driver.pin, {found[0].points[0]: mechanism.driver.pivot}
-    names = [name for one in found for name in (one.name, *([rod_name(one.name)] if one.rod else []))]
+        pin, crank_pivot = mechanism.driver.pin, {result[0].points[0]: mechanism.driver.pivot}
+    names = [name for item in result for name in (item.name, *([rod_name(item.name)] if item.rod else []))]
     numbers = {name: count for count, name in enumerate(links or names, 1)}
-    further = {one.name: [p.name for p in mechanism.points if p.link == one.name] for one in found}
+    further = {item.name: [p.name for p in mechanism.points if p.link == item.name] for item in result}
     members = tuple(
-        one._replace(
-            number=numbers.get(one.name, 0),
-            points=tuple(dict.fromkeys([*one.points, *further[one.name]])),
-            rod=numbers[rod_name(one.name)] if one.rod else 0,
+        item._replace(
+            number=numbers.get(item.name, 0),
+            points=tuple(dict.fromkeys([*item.points, *further[item.name]])),
+            rod=numbers[rod_name(item.name)] if item.rod else 0,
         )
-        for one in found
+        for item in result
     )
-    owners = {name: sum(name in one.points for one in members) for one in members for name in one.points}
+    owners = {name: sum(name in member.points for member in members) for member in members for name in member.points}
     fixed = {**crank_pivot, **{name: at for name, at in mechanism.ground.items() if name in owners}}
-    massive = {one.start for one in mechanism.bodies if one.start == one.end}
-    slides = {one.points[0] for one in members if one.guide and one.points}
+    massive = {body.start for body in mechanism.bodies if body.start == body.end}
+    slides = {member.points[0] for member in members if member.guide and member.points}
     free = [name for name, count in owners.items() if count == 1 and name not in fixed and name not in slides]
     free = [name for name in free if name != pin]
     centres = tuple(name for name in free if name in massive)
     # one that the file names is a point of its link too
-    unnamed = [one for one in centres if "." in one or one in _CATALOG]
-    members = tuple(one._replace(points=tuple(p for p in one.points if p not in unnamed)) for one in members)
+    unnamed = [centre for centre in centres if "." in centre or centre in _CATALOG]
+    members = tuple(member._replace(points=tuple(p for p in member.points if p not in unnamed)) for member in members)
     couplers = tuple(name for name in free if name not in massive)
     return Skeleton(members, fixed, couplers, centres, point_letters(mechanism, members, centres), pin)
 
 
 def numbered(shape: Skeleton) -> list[tuple[int, str]]:
     """Return numbers and names of the moving links in their order."""
-    rods = [(one.rod, rod_name(one.name)) for one in shape.members if one.rod]
-    return sorted([*((one.number, one.name) for one in shape.members), *rods])
+    rods = [(member.rod, rod_name(member.name)) for member in shape.members if member.rod]
+    return sorted([*((member.number, member.name) for member in shape.members), *rods])
 
 
 def _driven_first(mechanism: Mechanism) -> Iterator[Member]:
     """Yield the links with the points and guides of the driver and the groups, the driving one first."""
-    driver, found = mechanism.driver, [one for group in mechanism.dyads for one in _members_of(group)]
+    driver, result = mechanism.driver, [item for group in mechanism.dyads for item in _members_of(group)]
     match driver:
         case Crank(pivot=at, link=link, pin=pin):
             pivot = next((name for name, place in mechanism.ground.items() if place == at), PIVOT)
             yield Member(link, 1, (pivot, pin))
-            for one in driver.geared:
-                fixed = next((name for name, place in mechanism.ground.items() if place == one.pivot), PIVOT)
-                yield Member(one.link, 0, (fixed,))
+            for item in driver.geared:
+                fixed = next((name for name, place in mechanism.ground.items() if place == item.pivot), PIVOT)
+                yield Member(item.link, 0, (fixed,))
         case DrivingSlider(link=link, guide=guide):
             yield Member(link, 1, (), guide)
         case Cylinder(barrel=barrel, rod=rod, link=link):
             yield Member(link, 1, (barrel, rod), rod=2)
-    yield from (one for one in found if one.name != driver.link)
+    yield from (item for item in result if item.name != driver.link)
 
 
 def _members_of(group: Dyad | Chain) -> Iterator[Member]:
@@ -143,7 +143,7 @@ def _members_of(group: Dyad | Chain) -> Iterator[Member]:
             yield Member(group.link, 0, (), group.guide, has_rod=not group.guide.link)
             yield Member(group.block, 0, (group.joint,), _slot(group.slot, group.link))
         case chain:
-            guides = {one.link: one.guide for one in chain.slides}
+            guides = {slide.link: slide.guide for slide in chain.slides}
             carriers = {guide.link for guide in guides.values()}
             for link in chain.links:
                 guide = guides.get(link.name)
@@ -161,16 +161,16 @@ def point_letters(mechanism: Mechanism, members: Sequence[Member], centres: Sequ
 
     `centres`: points that are centres of mass; S and the number of their link.
     """
-    names = list(dict.fromkeys(name for one in members for name in one.points))
+    names = list(dict.fromkeys(name for member in members for name in member.points))
     own = {name for name in (*names, *centres) if name not in _CATALOG and name != PIVOT}
     free = (letter for letter in _LETTERS if letter not in own)
     letters = {}
     for name in names:
         if name == PIVOT:
-            letters[name] = next(one for one in ("O", "O1", "O2", "O′") if one not in own)
+            letters[name] = next(item for item in ("O", "O1", "O2", "O′") if item not in own)
         else:
             letters[name] = name if name in own else next(free, name)
-    numbers = {p.name: one.number for one in members for p in mechanism.points if p.link == one.name}
+    numbers = {p.name: member.number for member in members for p in mechanism.points if p.link == member.name}
     for name in centres:
         letters[name] = name if name in own and "." not in name else f"S{numbers.get(name, '')}"
     return letters
@@ -179,8 +179,8 @@ def point_letters(mechanism: Mechanism, members: Sequence[Member], centres: Sequ
 def tracks(shape: Skeleton, moving: SampledMotion) -> dict[str, Array]:
     """Return where every point is, arrays of shape (n, 2). [m]"""
     count = len(moving.degrees)
-    found = {name: np.tile(np.array(at, dtype=float), (count, 1)) for name, at in shape.pivots.items()}
-    return found | {name: point.place for name, point in moving.points.items() if name not in found}
+    values = {name: np.tile(np.array(at, dtype=float), (count, 1)) for name, at in shape.pivots.items()}
+    return values | {name: point.place for name, point in moving.points.items() if name not in values}
 
 
 class MovingFrame(NamedTuple):

@@ -148,7 +148,7 @@ def analyse_speed(machine: Machine, balance: Balance, w: TracedValue, mean: Mean
     )
     columns, wanted, excess = {"kinetic_energy_change": change}, target_fluctuation(machine, w), excess_of(balance)
     works = _works(balance, w, wanted) if balance.inertia.varies else {}
-    of_all = {one.key: one for way, one in works.items() if way == "mertsalov"}
+    of_all = {value.key: value for way, value in works.items() if way == "mertsalov"}
     if not (has_flywheel(machine.drive) or machine.drive.inertia):
         return SpeedResults(columns, of_all, {}, (), {})
     try:
@@ -167,14 +167,14 @@ def analyse_speed(machine: Machine, balance: Balance, w: TracedValue, mean: Mean
     energy = TracedValue(ProcedureValue(speed.energy, "energy", (balance.torque,)), "kinetic_energy.start")
     columns["crank_speed"] = speed_of_energy(energy + change, inertia).named("crank_speed")
     of = (balance.torque, inertia, w)
-    found = SpeedOfPolynomials(balance.sign, mean)
+    result = SpeedOfPolynomials(balance.sign, mean)
     if not inertia.varies:
         summary["speed_fluctuation"] = fluctuation_of_inertia(excess, inertia, w)
     elif wanted is not None and wheel.value:
         summary["speed_fluctuation"] = wanted
     else:
-        summary["speed_fluctuation"] = TracedValue(FunctionValue(speed.fluctuation, "fluctuation", of, found, 0))
-    summary |= _extremes(speed, columns["crank_speed"], of, found)
+        summary["speed_fluctuation"] = TracedValue(FunctionValue(speed.fluctuation, "fluctuation", of, result, 0))
+    summary |= _extremes(speed, columns["crank_speed"], of, result)
     summary |= recovery_torque_values(machine, inertia, w, summary)
     checks = {}
     if wanted is not None and balance.inertia.varies:
@@ -196,13 +196,13 @@ def _works(balance: Balance, w: TracedValue, wanted: TracedValue | None) -> dict
     slopes["mertsalov"] = 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),)
     for way, (largest, least) in _SLOPES.items() if wanted is not None else ():
         ends = {"largest": largest(w, wanted), "least": least(w, wanted)}
-        slopes[way] = tuple(one.named(f"wittenbauer_slope.{way}.{end}") for end, one in ends.items())
-    found = works_of_tangents(balance.inertia_curve, balance.excess, [(a.value, b.value) for a, b in slopes.values()])
+        slopes[way] = tuple(value.named(f"wittenbauer_slope.{way}.{end}") for end, value in ends.items())
+    values = works_of_tangents(balance.inertia_curve, balance.excess, [(a.value, b.value) for a, b in slopes.values()])
     return {
         way: TracedValue(
             ProcedureValue(work, "tangents", (balance.torque, balance.inertia, *ends)), f"excess_work.{way}"
         )
-        for (way, ends), work in zip(slopes.items(), found, strict=True)
+        for (way, ends), work in zip(slopes.items(), values, strict=True)
     }
 
 
@@ -214,7 +214,7 @@ def _extremes(
     result = {}
     for part, (word, value, at) in ((1, ("max", high, at_high)), (3, ("min", low, at_low))):
         degrees = math.degrees(at)
-        by, where = (TracedValue(FunctionValue(one, word, of, found, part + k)) for k, one in enumerate((value, at)))
+        by, where = (TracedValue(FunctionValue(item, word, of, found, part + k)) for k, item in enumerate((value, at)))
         result[f"crank_speed_{word}"] = TracedValue(ProcedureValue(value, word, (column,), degrees, by))
         result[f"crank_speed_{word}_angle"] = TracedValue(
             ProcedureValue(at, f"{word}_angle", (column,), degrees, where)
@@ -250,16 +250,16 @@ def wheels_of(
     if own.varies and every_way is not None:
         ways = every_way(wanted)
         wheel = ways["flywheel_inertia.exact"]
-        whole = (own + wheel).named("whole_inertia")
+        engine = (own + wheel).named("whole_inertia")
     else:
-        wheel = whole = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
+        wheel = engine = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
         if not own.is_absent:
-            whole = whole.named("whole_inertia")
-            wheel = flywheel_beside_machine(whole, own)
+            engine = engine.named("whole_inertia")
+            wheel = flywheel_beside_machine(engine, own)
         wheel = _needed(wheel)
-        between = {whole.key: whole} if wheel.value else {}
+        between = {engine.key: engine} if wheel.value else {}
     summary = {"flywheel_inertia": wheel, **ways, **(flywheel_dimensions(machine, wheel, w) if wheel.value else {})}
-    return Wheels(summary, between, wheel, whole if wheel.value else own)
+    return Wheels(summary, between, wheel, engine if wheel.value else own)
 
 
 def _every_way(

@@ -27,7 +27,7 @@ _SAME = 1e-12
 
 def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     """Return crank radius, rod length and offset."""
-    r, l, e = (float(one) for one in sizes)  # noqa: E741
+    r, l, e = (float(size) for size in sizes)  # noqa: E741
     radius = given("crank_radius", r, "crank.radius")
     calculated = of_cycle(machine, "stroke")
     if calculated is not None:
@@ -53,9 +53,9 @@ def of_cycle(machine: Machine, key: str) -> TracedValue | None:
     """Return what the calculation of a cycle found for a size that the description leaves open."""
     cycle = getattr(machine.gas.calculated, "cycle", None) if machine.gas is not None else None
     asked = _stated(machine, "cycle.power")
-    found = None if cycle is None or asked is None else cycle.trace.get(key)
+    result = None if cycle is None or asked is None else cycle.trace.get(key)
     # a size that follows is taken in whole millimetres
-    return None if found is None else TracedValue(ProcedureValue(round(found.value, 3), "rounded", (found,)), key)
+    return None if result is None else TracedValue(ProcedureValue(round(result.value, 3), "rounded", (result,)), key)
 
 
 def bore(machine: Machine, size: float) -> TracedValue:
@@ -70,8 +70,8 @@ def stroke(lengths: SliderCrank) -> TracedValue:
     if not e.is_absent:
         return stroke_offset(l, r, e)  # type: ignore[no-any-return]
     stated = r.node.operands
-    found: TracedValue = stated[0] if stated else stroke_central(r)
-    return found
+    result: TracedValue = stated[0] if stated else stroke_central(r)
+    return result
 
 
 def revolutions(machine: Machine) -> TracedValue:
@@ -90,9 +90,9 @@ def speed_at(machine: Machine, method: Method, path: str, value: float, name: st
     `name`: what tells it from the speed of the crank.
     """
     stated, turns = _stated(machine, path), given(f"rotational_speed{name}", value * 30 / math.pi, path, "rpm")
-    found: TracedValue = angular_speed(method.pi, turns).named(f"speed{name}")
+    result: TracedValue = angular_speed(method.pi, turns).named(f"speed{name}")
     in_radians = stated is not None and UNITS[stated.unit].factor == 1.0
-    return checked(given(f"speed{name}", stated.value, path), found) if stated and in_radians else found
+    return checked(given(f"speed{name}", stated.value, path), result) if stated and in_radians else result
 
 
 def acceleration(machine: Machine) -> TracedValue:
@@ -140,11 +140,11 @@ def masses(
     excess = given("rod_inertia_excess", known.rod_inertia_excess, f"{table}.inertia")
     stated = _stated(machine, f"{table}.mass")
     if stated is not None:
-        whole = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
+        engine = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
         centre = _centre(machine, length, table)
-        small = checked(rod_small_end_mass(whole, centre, length), small)
-        big = checked(rod_big_end_mass(whole, small), big)
-        excess = _excess(machine, (whole, centre, length), excess, table)
+        small = checked(rod_small_end_mass(engine, centre, length), small)
+        big = checked(rod_big_end_mass(engine, small), big)
+        excess = _excess(machine, (engine, centre, length), excess, table)
     yield from (small, big)
     if known.rod_inertia_excess:
         yield excess
@@ -182,6 +182,6 @@ def _is(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=_SAME)
 
 
-def checked(found: TracedValue, plain: TracedValue) -> TracedValue:
+def checked(value: TracedValue, plain: TracedValue) -> TracedValue:
     """Return what follows from the description if it is what the machine has, which may have been changed since."""
-    return found.named(plain.key) if _is(found.value, plain.value) else plain
+    return value.named(plain.key) if _is(value.value, plain.value) else plain

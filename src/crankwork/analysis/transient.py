@@ -104,8 +104,8 @@ def _followed(
     felt, of = loose.felt, loose.traced(motion, flywheel) if wanted.until == "time" else ()
     by = TransientReplay(felt.breaks, felt.stops, felt.restitution)
     nodes = [
-        FunctionValue(one, "followed", of, by, k) if of else ProcedureValue(one, "followed")
-        for k, one in enumerate(keys.values())
+        FunctionValue(key, "followed", of, by, k) if of else ProcedureValue(key, "followed")
+        for k, key in enumerate(keys.values())
     ]
     return TransientResults(
         {key: TracedValue(node, key) for key, node in zip(keys, nodes, strict=True)},
@@ -201,13 +201,15 @@ def _events(chart: PathCoordinate, course: Trajectory) -> dict[str, Listing]:
     """Return the table of what happens; none where nothing does."""
     if not course.events:
         return {}
-    times, u, v = (np.array([getattr(one, name) for one in course.events]) for name in ("time", "coordinate", "rate"))
+    times, u, v = (
+        np.array([getattr(event, name) for event in course.events]) for name in ("time", "coordinate", "rate")
+    )
     crank = chart.crank(u)
     counted: Counter[str] = Counter()
     names = []
-    for one in course.events:
-        counted[one.word] += 1
-        names.append(f"{one.word}.{counted[one.word]}")
+    for event in course.events:
+        counted[event.word] += 1
+        names.append(f"{event.word}.{counted[event.word]}")
     columns = {"time": times, "crank_angle": crank.position, "crank_speed": crank.position_1 * v}
     return {"transient_events": Listing(columns, tuple(names))}
 
@@ -218,7 +220,7 @@ def _missing(loose: TransientModel, course: Trajectory) -> float:
     Energies are those of speed and place, the work that of powers between, on a grid of its own.
     """
     steps = course.steps[:_CHECKED_STEPS]
-    start, length = (np.array([getattr(one, name) for one in steps]) for name in ("time", "length"))
+    start, length = (np.array([getattr(step, name) for step in steps]) for name in ("time", "length"))
     ends = np.append(start, start[-1] + length[-1])
     known = loose.chart.beside(course.at(ends)[0]) > BESIDE
     kinetic, potential = _energies(loose, course, np.asarray(ends[known]))
@@ -226,7 +228,7 @@ def _missing(loose: TransientModel, course: Trajectory) -> float:
     nodes = half[..., None] + length[:, None, None] / 2 * _NODES
     work = (_power(loose, course, nodes.ravel()).reshape(nodes.shape) @ _WEIGHTS).sum(axis=1) * length / 2
     lost = _lost_at_stops(loose, course)
-    struck = np.array([one.time for one in course.events if one.word == "stop"])
+    struck = np.array([event.time for event in course.events if event.word == "stop"])
     passed = np.searchsorted(struck, np.append(start, -math.inf), side="right")
     passed[-1] = np.count_nonzero(struck < ends[-1])
     done = (np.append(0.0, np.cumsum(work)) - np.append(0.0, np.cumsum(lost))[passed])[known]
@@ -237,10 +239,10 @@ def _missing(loose: TransientModel, course: Trajectory) -> float:
 
 def _lost_at_stops(loose: TransientModel, course: Trajectory) -> Array:
     """Return what each stop takes of the kinetic energy. [J]"""
-    met = [one for one in course.events if one.word == "stop"]
+    met = [event for event in course.events if event.word == "stop"]
     if not met:
         return np.empty(0)
-    u, rate = np.array([one.coordinate for one in met]), np.array([one.rate for one in met])
+    u, rate = np.array([item.coordinate for item in met]), np.array([item.rate for item in met])
     inertia = loose.felt.reduced(loose.chart.within(u)[0])[0]
     return np.asarray(kinetic_energy(inertia, rate) * (1 - loose.wanted.restitution**2))
 
@@ -248,13 +250,13 @@ def _lost_at_stops(loose: TransientModel, course: Trajectory) -> Array:
 def _energies(loose: TransientModel, course: Trajectory, times: Array) -> tuple[Array, Array]:
     """Return kinetic and potential energy at some times. [J]"""
     u, v, _ = course.at(times)
-    crank, found = loose.chart.crank(u), np.empty((2, times.size))
+    crank, result = loose.chart.crank(u), np.empty((2, times.size))
     for piece, here, angle in loose.chart.places(u):
         motion = loose.moved(piece, angle)
         speed = crank.position_1[here] * v[here]
-        found[0, here] = kinetic_energy(loose.inertia(piece, motion), speed)
-        found[1, here] = potential_energy(piece.mechanism, motion, loose.machine.loads)
-    return np.asarray(found[0]), np.asarray(found[1])
+        result[0, here] = kinetic_energy(loose.inertia(piece, motion), speed)
+        result[1, here] = potential_energy(piece.mechanism, motion, loose.machine.loads)
+    return np.asarray(result[0]), np.asarray(result[1])
 
 
 def _power(loose: TransientModel, course: Trajectory, times: Array) -> Array:
@@ -265,7 +267,7 @@ def _power(loose: TransientModel, course: Trajectory, times: Array) -> Array:
     power = loose.felt.drive(speed) * speed
     if (
         not loose.machine.friction
-        and all(has_potential(one) for one in loose.machine.loads)
+        and all(has_potential(load) for load in loose.machine.loads)
         and not loose.machine.chambers
     ):
         return np.asarray(power)
@@ -301,9 +303,9 @@ def _told(loose: TransientModel, course: Trajectory) -> Iterator[Notice]:
     if missing > 0:
         values: dict[str, float | str] = {"angle": math.degrees(loose.wanted.start), "torque": missing}
         yield Notice("transient_stays" if stays else "transient_overcome", values)
-    counted: Counter[str] = Counter(one.word for one in course.events)
+    counted: Counter[str] = Counter(event.word for event in course.events)
     for word, count in counted.items():
-        event = next(one for one in course.events if one.word == word)
+        event = next(event for event in course.events if event.word == word)
         crank = loose.chart.crank(np.array([event.coordinate]))
         angle, speed = math.degrees(float(crank.position[0])), float(crank.position_1[0] * event.rate)
         if stays and word == "comes_to_rest":
@@ -316,7 +318,7 @@ def _told(loose: TransientModel, course: Trajectory) -> Iterator[Notice]:
 def _not_yet(loose: TransientModel, course: Trajectory) -> Iterator[Notice]:
     """Yield that the time was up before what was waited for."""
     waited = {"rest": "comes_to_rest", "steady": "steady"}.get(loose.wanted.until)
-    if waited is not None and all(one.word != waited for one in course.events):
+    if waited is not None and all(event.word != waited for event in course.events):
         yield Notice(f"transient_not_{loose.wanted.until}", {"time": course.end})
 
 

@@ -80,7 +80,7 @@ class TransientModel:
         self, piece: PathSegment, motion: Motion, speed: Value = 0.0, *, with_potential: bool = True
     ) -> AppliedLoads:
         """Return what pushes the linkage at some speeds of the crank. [rad/s]"""
-        loads = [one for one in self.machine.loads if with_potential or not has_potential(one)]
+        loads = [load for load in self.machine.loads if with_potential or not has_potential(load)]
         gas = self.solved.filling.loads(piece.mechanism, motion)
         return applied_loads(piece.mechanism, motion, loads, speed).also(gas)
 
@@ -90,27 +90,27 @@ class TransientModel:
         return np.asarray(reduced_inertia(piece.mechanism, motion).inertia + still + self.beside)
 
     def _columns(self, u: Array) -> Array:
-        found = np.zeros((OWN + self._rubbing_rows, u.size))
+        result = np.zeros((OWN + self._rubbing_rows, u.size))
         for piece, here in self.chart.each(u):
             q, q_1, _ = piece.crank(u[here])
             motion = self.moved(piece, q)
-            found[0, here] = self.inertia(piece, motion) * q_1**2
-            found[1, here] = potential_energy(piece.mechanism, motion, self.machine.loads)
-            found[RATE, here] = q_1
-            dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
-            found[4, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, dampers, 1.0)) * q_1**2
+            result[0, here] = self.inertia(piece, motion) * q_1**2
+            result[1, here] = potential_energy(piece.mechanism, motion, self.machine.loads)
+            result[RATE, here] = q_1
+            dampers = [load for load in self.machine.loads if isinstance(load, Damper | SliderDamper)]
+            result[4, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, dampers, 1.0)) * q_1**2
             torques = [
-                reduced_torque(one, self.loads(piece, one, with_potential=False)) * q_1
-                for one in ((motion, _backwards(motion)) if self.is_two_sided else (motion, motion))
+                reduced_torque(item, self.loads(piece, item, with_potential=False)) * q_1
+                for item in ((motion, _backwards(motion)) if self.is_two_sided else (motion, motion))
             ]
             if not piece.turns_back:
-                found[6, here] = reduced_inertia(piece.mechanism, motion).inertia_1
-                held = [one for one in self.machine.loads if has_potential(one)]
-                found[7, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, held))
+                result[6, here] = reduced_inertia(piece.mechanism, motion).inertia_1
+                held = [load for load in self.machine.loads if has_potential(load)]
+                result[7, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, held))
             if self.machine.friction:
-                found[OWN:, here] = self._rubbing(piece, motion, piece.crank(u[here]))
-            found[2:4, here] = torques if piece.last >= piece.first else torques[::-1]
-        return found
+                result[OWN:, here] = self._rubbing(piece, motion, piece.crank(u[here]))
+            result[2:4, here] = torques if piece.last >= piece.first else torques[::-1]
+        return result
 
     @cached_property
     def _joints(self) -> tuple[FrictionJoint, ...]:
@@ -139,39 +139,42 @@ class TransientModel:
         """Return the rows of `TransientFriction`: rates of the joints, unknowns by cause, shape (rows, n)."""
         still = OperatingState(piece.mechanism, motion)
         system, back = full_equilibrium(still), _backwards(motion)
-        dampers = [one for one in self.machine.loads if isinstance(one, Damper | SliderDamper)]
+        dampers = [load for load in self.machine.loads if isinstance(load, Damper | SliderDamper)]
         ways = (motion, back) if piece.last >= piece.first else (back, motion)
         causes = [
-            *(OperatingState(piece.mechanism, motion, 0.0, self.loads(piece, one)) for one in ways),
+            *(OperatingState(piece.mechanism, motion, 0.0, self.loads(piece, way)) for way in ways),
             OperatingState(piece.mechanism, motion, 1.0),
             OperatingState(piece.mechanism, motion, 0.0, applied_loads(piece.mechanism, motion, dampers, 1.0)),
             OperatingState(piece.mechanism, motion, 0.0, angular_acceleration=1.0),
         ]
-        right = [system.right_side(link_wrenches(one)) + np.zeros((len(motion.grid), 1)) for one in causes]
-        right += [-one.unit_effect(motion, system) for one in self._joints]
+        right = [system.right_side(link_wrenches(cause)) + np.zeros((len(motion.grid), 1)) for cause in causes]
+        right += [-joint.unit_effect(motion, system) for joint in self._joints]
         grows, falls, square, rate, acceleration, *own = np.moveaxis(
             np.linalg.solve(system.matrix, np.stack(right, axis=-1)), -1, 0
         )
-        _, q_1, q_2 = (one[:, None] for one in crank)
+        _, q_1, q_2 = (item[:, None] for item in crank)
         by_cause = [grows, falls, square * q_1**2 + acceleration * q_2, rate * q_1, acceleration * q_1, *own]
         rows = []
-        for one in friction_joints(still, self.machine.friction):
-            at = 2 * system.joints.index(one.joint)
-            rows += [one.rate * crank.position_1, *(each[:, at + k] for each in by_cause[:5] for k in range(2))]
+        for friction_joint in friction_joints(still, self.machine.friction):
+            at = 2 * system.joints.index(friction_joint.joint)
+            rows += [
+                friction_joint.rate * crank.position_1,
+                *(each[:, at + k] for each in by_cause[:5] for k in range(2)),
+            ]
             rows += [each[:, at + k] for k in range(2) for each in by_cause[5:]]
         return np.stack(rows)
 
     @cached_property
     def is_two_sided(self) -> bool:
         """Whether loads are others when the crank turns back."""
-        processes = (one for one in self.machine.loads if isinstance(one, ProcessForce))
-        return any(one.acts == "forward" for one in processes)
+        processes = (load for load in self.machine.loads if isinstance(load, ProcessForce))
+        return any(process.acts == "forward" for process in processes)
 
     @cached_property
     def felt(self) -> TransientSystem:
         """What its coordinate feels."""
         wanted, ends = self.wanted, self.chart.ends
-        breaks = np.unique(np.concatenate([ends, *(self._breaks(one) for one in self.chart.pieces)]))
+        breaks = np.unique(np.concatenate([ends, *(self._breaks(piece) for piece in self.chart.pieces)]))
         reduced = fit_piecewise(self._columns, breaks, _WIDTH, self.chart.period, groups=(*_ALIKE, *self._alike))
         # towards dead positions the derivatives by the crank angle are differences of infinite terms
         dead = self.chart.pieces[0].turns_back
@@ -207,8 +210,8 @@ class TransientModel:
             return ()
         mechanism = traced_mechanism(machine.mechanism, machine.linkage)
         beside = [turning_inertia(machine, "reduced_inertia.drive"), *([] if flywheel is None else [flywheel])]
-        dampers = [one for one in machine.loads if isinstance(one, Damper | SliderDamper)]
-        others = [one for one in machine.loads if one not in dampers]
+        dampers = [load for load in machine.loads if isinstance(load, Damper | SliderDamper)]
+        others = [load for load in machine.loads if load not in dampers]
         pushed = applied_loads(mechanism, motion, others).also(self.solved.filling.loads(mechanism, motion))
         rubbed = applied_loads(mechanism, motion, dampers, 1.0)
         stated = (
@@ -233,13 +236,15 @@ class TransientModel:
         if self.chart.pieces[0].turns_back:
             return ()
         passages = self.machine.mechanism.passages.values()
-        every = {math.radians(one % math.degrees(self.chart.period)) for passage in passages for one in passage.changes}
+        every = {
+            math.radians(change % math.degrees(self.chart.period)) for passage in passages for change in passage.changes
+        }
         return tuple(sorted(every))
 
     def _breaks(self, piece: PathSegment) -> Array:
         """Return the coordinates on a branch at which a law of the loads changes."""
         jumping = (ProcessForce, TorqueOnLink)
-        if not (any(isinstance(one, jumping) for one in self.machine.loads) or self.machine.chambers):
+        if not (any(isinstance(load, jumping) for load in self.machine.loads) or self.machine.chambers):
             return np.empty(0)
         start, end = sorted(map(math.degrees, (piece.first, piece.last)))
         inside = np.linspace(start, end, 363)[1:-1]
@@ -266,12 +271,12 @@ def _roots(function: Callable[[Array], Array], breaks: Array) -> Array:
     places = np.unique(np.concatenate([breaks, np.linspace(breaks[0], breaks[-1], _LOOKS)]))
     values = function(places)
     values = np.where(np.abs(values) <= _NOTHING * np.max(np.abs(values), axis=1, keepdims=True), 0.0, values)
-    found = []
+    result = []
     for row, k in zip(*np.nonzero(values[:, 1:] * values[:, :-1] < 0), strict=True):
         low, high, below = places[k], places[k + 1], values[row, k] < 0
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
             low, high = (middle, high) if (function(np.array([middle]))[row, 0] < 0) == below else (low, middle)
-        found.append(high)
+        result.append(high)
     exact = places[np.any((values == 0) & np.any(values != 0, axis=1, keepdims=True), axis=0)]
-    return np.concatenate([np.array(found), exact[np.isin(exact, places[1:-1])]])
+    return np.concatenate([np.array(result), exact[np.isin(exact, places[1:-1])]])

@@ -30,20 +30,20 @@ _LOOK, _STILL = np.linspace(-1.0, 1.0, 17), 1e-9
 
 def transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
     """Yield the transmission angle of every RRR dyad and the pressure angle of every RRP dyad; `motion` is traced."""
-    for kind, name, one, other in _pairs(mechanism, motion):
+    for kind, name, item, other in _pairs(mechanism, motion):
         if kind == "transmission":
-            yield f"transmission_angle.{name}", angles.transmission_angle(one.cos, other.cos, one.sin, other.sin)
+            yield f"transmission_angle.{name}", angles.transmission_angle(item.cos, other.cos, item.sin, other.sin)
         else:
-            yield f"pressure_angle.{name}", angles.pressure_angle(one.sin, other.cos, one.cos, other.sin)
+            yield f"pressure_angle.{name}", angles.pressure_angle(item.sin, other.cos, item.cos, other.sin)
 
 
 def smooth_transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
     """Yield what has extremes where these angles have them, and no corner where links come into line."""
-    for kind, name, one, other in _pairs(mechanism, motion):
+    for kind, name, item, other in _pairs(mechanism, motion):
         if kind == "transmission":
-            yield f"transmission_cosine.{name}", angles.transmission_cosine(one.cos, other.cos, one.sin, other.sin)
+            yield f"transmission_cosine.{name}", angles.transmission_cosine(item.cos, other.cos, item.sin, other.sin)
         else:
-            yield f"pressure_sine.{name}", angles.pressure_sine(one.sin, other.cos, one.cos, other.sin)
+            yield f"pressure_sine.{name}", angles.pressure_sine(item.sin, other.cos, item.cos, other.sin)
 
 
 def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, LinkMotion, LinkMotion]]:
@@ -57,11 +57,11 @@ def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, Lin
                 yield "pressure", dyad.slider, motion.bar(dyad.link), motion.frames[dyad.piece]
 
 
-def _in_line(found: TracedValue, formula: Callable[[TracedValue], TracedValue], limit: float) -> TracedValue:
+def _in_line(value: TracedValue, formula: Callable[[TracedValue], TracedValue], limit: float) -> TracedValue:
     """Return the angle of an extreme cosine or sine, which rounding may leave beside the limits of both."""
-    if abs(found.value) < 1 - _IN_LINE:
-        return formula(found)
-    return TracedValue(ProcedureValue(limit, "in_line", (found,)))
+    if abs(value.value) < 1 - _IN_LINE:
+        return formula(value)
+    return TracedValue(ProcedureValue(limit, "in_line", (value,)))
 
 
 def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[Notice, ...]]:
@@ -74,11 +74,11 @@ def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[No
         kind, _, name = key.partition(".")
         largest, least = extremes[f"{kind}_max.{name}"], extremes[f"{kind}_min.{name}"]
         if kind == "transmission_cosine":
-            found = {
+            values = {
                 "min": _in_line(largest, angles.transmission_of_cosine, 0.0),
                 "max": _in_line(least, angles.transmission_of_cosine, math.pi),
             }
-            result |= {f"transmission_angle_{word}.{name}": one for word, one in found.items()}
+            result |= {f"transmission_angle_{word}.{name}": value for word, value in values.items()}
         else:
             worse = largest if largest.value >= -least.value else -least
             pressure = _in_line(worse, angles.pressure_of_sine, math.pi / 2).named(f"pressure_angle_max.{name}")
@@ -87,13 +87,13 @@ def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[No
                 either = angles.pressure_of_sine(select(largest + least, largest, -least))
                 pressure = TracedValue(FormulaCall(pressure.node.formula, pressure.node.inputs, either), pressure.key)
             result[pressure.key] = pressure
-            found = {"min": angles.transmission_of_pressure(pressure)}
-            result[f"transmission_angle_min.{name}"] = found["min"]
-        worst = [math.degrees(one.value) for one in found.values()]
+            values = {"min": angles.transmission_of_pressure(pressure)}
+            result[f"transmission_angle_min.{name}"] = values["min"]
+        worst = [math.degrees(value.value) for value in values.values()]
         told += [
-            Notice("transmission", {"name": name, "angle": one, "low": USUAL[0], "high": USUAL[1]})
-            for one in worst
-            if not USUAL[0] <= one <= USUAL[1]
+            Notice("transmission", {"name": name, "angle": item, "low": USUAL[0], "high": USUAL[1]})
+            for item in worst
+            if not USUAL[0] <= item <= USUAL[1]
         ]
     return result, tuple(told)
 
@@ -113,7 +113,7 @@ def time_ratios(over: CycleInterpolant, summary: Mapping[str, TracedValue]) -> I
         if kind not in ("slider_displacement", "link_angle") or ends[0] not in summary:
             continue
         if _reversals(over.polynomials(key)) == 2 * turns:
-            high, low = (summary[one] for one in ends)
+            high, low = (summary[end] for end in ends)
             way = math.degrees(abs(high.value - low.value)) % _TURN
             slow, fast = max(way, _TURN - way), min(way, _TURN - way)
             yield f"time_ratio.{name}", TracedValue(ProcedureValue(slow / fast, "time_ratio", (high, low)))

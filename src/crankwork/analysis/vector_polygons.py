@@ -87,10 +87,10 @@ def worked_position(results: Results) -> float:
     if "static_torque" in results.columns and (machine.loads or machine.chambers):
         columns = results.columns_at(angles)
         # in a change point forces may not be determined
-        known = np.all([np.isfinite(one) for key, one in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
-        turning = [np.abs(one) for key, one in columns.items() if key.startswith("link_angular_velocity.")]
+        known = np.all([np.isfinite(value) for key, value in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
+        turning = [np.abs(value) for key, value in columns.items() if key.startswith("link_angular_velocity.")]
         # half of the lines of a link that stands are of noughts
-        stands = np.any([one < 1e-3 * np.max(one) for one in turning], axis=0)
+        stands = np.any([item < 1e-3 * np.max(item) for item in turning], axis=0)
         worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
         return float(angles[np.argmax(np.where(stands, worth - worth.max(), worth))])
     return float(angles[np.argmin(np.abs(angles - POSITION_STEP))])
@@ -195,7 +195,7 @@ class _States:
         return self.shape.letters[name]
 
     def _state(self, track: Track) -> _State:
-        at, first, second = (one[self._index] for one in track)
+        at, first, second = (item[self._index] for item in track)
         return _State(at, first * self._speed, second * self._speed**2 + first * self._second)
 
     def point(self, name: str) -> _State:
@@ -210,14 +210,14 @@ class _States:
 
     def pairs(self, *, with_fixed: bool = False) -> Iterator[tuple[str, str, float]]:
         """Yield pairs of points of one link, its first and each further one that moves, and how fast it turns."""
-        for one in self.shape.members:
-            if one.rod:
+        for member in self.shape.members:
+            if member.rod:
                 continue
-            points = [name for name in one.points if with_fixed or name not in self.shape.pivots]
+            points = [name for name in member.points if with_fixed or name not in self.shape.pivots]
             points.sort(key=lambda name: name not in self.shape.pivots)
             for end in points[1:]:
                 if end not in self.shape.pivots:
-                    yield points[0], end, self.turning(one.name)[0]
+                    yield points[0], end, self.turning(member.name)[0]
 
     def turning(self, link: str) -> tuple[float, float]:
         """Return how fast a link turns, and how fast that grows. [rad/s], [rad/s2]"""
@@ -227,22 +227,26 @@ class _States:
 
     def turnings(self, order: int) -> dict[int, float]:
         """Return how fast links turn, or how fast that grows, by number; a rod turns with its barrel."""
-        found = {one.number: self.turning(one.name)[order] for one in self.shape.members}
-        return found | {one.rod: found[one.number] for one in self.shape.members if one.rod}
+        values = {member.number: self.turning(member.name)[order] for member in self.shape.members}
+        return values | {member.rod: values[member.number] for member in self.shape.members if member.rod}
 
     def slides(self) -> Iterator[_Sliding]:
         """Yield what slides on a moving guide; the rod of a cylinder slides on its barrel."""
-        for one in self.shape.members:
-            if one.rod:
-                barrel, end = one.points[0], self.point(one.points[1])
-                rod = self.letter(one.points[1])
-                beneath = self._carried(one.name, self.point(barrel), end.at)
-                yield _Sliding(rod, f"{rod}{one.number}", end, beneath, one.name)
-            if one.guide and one.guide.link:
-                piece = self.point(one.points[0]) if one.points else self._state(self._moving.frames[one.name].origin)
-                letter = self.letter(one.points[0]) if one.points else one.name
-                under = f"{letter}{self.shape.member(one.guide.link).number}"
-                yield _Sliding(letter, under, piece, self._beneath(one.guide.link, piece.at), one.guide.link)
+        for member in self.shape.members:
+            if member.rod:
+                barrel, end = member.points[0], self.point(member.points[1])
+                rod = self.letter(member.points[1])
+                beneath = self._carried(member.name, self.point(barrel), end.at)
+                yield _Sliding(rod, f"{rod}{member.number}", end, beneath, member.name)
+            if member.guide and member.guide.link:
+                piece = (
+                    self.point(member.points[0])
+                    if member.points
+                    else self._state(self._moving.frames[member.name].origin)
+                )
+                letter = self.letter(member.points[0]) if member.points else member.name
+                under = f"{letter}{self.shape.member(member.guide.link).number}"
+                yield _Sliding(letter, under, piece, self._beneath(member.guide.link, piece.at), member.guide.link)
 
     def _beneath(self, link: str, at: Array) -> _State:
         """Return the state of the point of a link that is at a place."""

@@ -93,13 +93,13 @@ def zhukovsky_lever(results: Results, degrees: float, links: tuple[str, ...] = (
         return None
     running = operating_state(results.solved, linkage_motion(mechanism, CrankGrid.from_degrees([degrees])))
     parts: tuple[tuple[Kind, AppliedLoads], ...] = (("load", running.loads), ("inertia", inertia_loads(running)))
-    forces = [one for kind, loads in parts for one in _forces(kind, loads, speed)]
-    torques = [one for kind, loads in parts for one in _torques(kind, loads, speed)]
+    forces = [force for kind, loads in parts for force in _forces(kind, loads, speed)]
+    torques = [torque for kind, loads in parts for torque in _torques(kind, loads, speed)]
     # what is square to its velocity has no moment but that of rounding
-    sizes = [one.size * float(np.hypot(*one.end)) for one in forces] + [abs(one.moment) for one in torques]
+    sizes = [force.size * float(np.hypot(*force.end)) for force in forces] + [abs(torque.moment) for torque in torques]
     most = max(sizes, default=0.0)
-    forces = [one for one in forces if abs(one.moment) > _NOTHING * most]
-    torques = [one for one in torques if abs(one.moment) > _NOTHING * most]
+    forces = [force for force in forces if abs(force.moment) > _NOTHING * most]
+    torques = [torque for torque in torques if abs(torque.moment) > _NOTHING * most]
     if not forces and not torques:
         return None
     plan = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, speed, links)
@@ -107,10 +107,10 @@ def zhukovsky_lever(results: Results, degrees: float, links: tuple[str, ...] = (
     end = _turned(pin, speed)
     # forwards where the pin moves, which on the turned plan is square to the crank
     forwards = np.array([-end[1], end[0]]) / np.hypot(*end)
-    total = sum(one.moment for one in forces) + sum(one.moment for one in torques)
+    total = sum(force.moment for force in forces) + sum(torque.moment for torque in torques)
     return Lever(
         VectorPolygon({name: _clockwise(at) for name, at in plan.nodes.items()}, [
-            one._replace(start=_clockwise(one.start), end=_clockwise(one.end)) for one in plan.vectors
+            vector._replace(start=_clockwise(vector.start), end=_clockwise(vector.end)) for vector in plan.vectors
         ], plan.turning, plan.beneath),
         tuple(forces), tuple(torques),
         LeverForce("load", mechanism.driver.link, end, -total / np.hypot(*end) * forwards),
@@ -124,26 +124,26 @@ def _clockwise(way: Array) -> Array:
 
 def _turned(at: PointMotion, speed: float) -> Array:
     """Return the velocity of a point, turned clockwise. [m/s]"""
-    return _clockwise(np.array([float(np.ravel(one.position_1)[0]) for one in at]) * speed)
+    return _clockwise(np.array([float(np.ravel(item.position_1)[0]) for item in at]) * speed)
 
 
 def _forces(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverForce]:
     """Yield forces, those at one point of a link as one."""
-    found: dict[tuple[str, tuple[float, ...]], LeverForce] = {}
+    result: dict[tuple[str, tuple[float, ...]], LeverForce] = {}
     for one in loads.forces:
         end = _turned(one.point, speed)
         place = tuple(round(float(np.ravel(side.position)[0]), 9) for side in one.point)
         force = np.array([float(np.ravel(part)[0]) for part in (one.x, one.y)])
-        same = found.get((one.link, place))
-        found[one.link, place] = LeverForce(kind, one.link, end, force if same is None else same.force + force)
-    yield from (one for one in found.values() if one.size)
+        same = result.get((one.link, place))
+        result[one.link, place] = LeverForce(kind, one.link, end, force if same is None else same.force + force)
+    yield from (value for value in result.values() if value.size)
 
 
 def _torques(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverTorque]:
     """Yield torques, those on one link as one."""
-    found: dict[str, LeverTorque] = {}
+    result: dict[str, LeverTorque] = {}
     for one in loads.torques:
         torque, turning = (float(np.ravel(part)[0]) for part in (one.torque, one.angle_1))
-        same = found.get(one.link)
-        found[one.link] = LeverTorque(kind, one.link, torque + (same.torque if same else 0.0), turning * speed)
-    yield from found.values()
+        same = result.get(one.link)
+        result[one.link] = LeverTorque(kind, one.link, torque + (same.torque if same else 0.0), turning * speed)
+    yield from result.values()

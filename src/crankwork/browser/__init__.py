@@ -20,7 +20,9 @@ def script(entry: str) -> str:
 
     A page opened from a file loads no modules; names at the top of modules are told apart by a test.
     """
-    return "".join(_INDENT.sub("", _COMMENT.sub("", _EXPORT.sub("", _IMPORT.sub("", one)))) for one in _in_order(entry))
+    return "".join(
+        _INDENT.sub("", _COMMENT.sub("", _EXPORT.sub("", _IMPORT.sub("", item)))) for item in _in_order(entry)
+    )
 
 
 def _in_order(entry: str) -> Iterator[str]:

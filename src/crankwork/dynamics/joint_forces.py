@@ -98,12 +98,12 @@ def joint_forces(running: OperatingState) -> JointForces:
 
 
 def _of_equal_part(
-    part: EqualPart, held: Sequence[Joint], found: Mapping[Joint, Reaction]
+    part: EqualPart, held: Sequence[Joint], values: Mapping[Joint, Reaction]
 ) -> Iterator[tuple[Joint, Reaction]]:
     """Yield the reactions in joints of a part by those of the earlier part that it is equal to."""
     follower = Follower(part)
     for joint in held:
-        first = found[part.joint_of_first(joint, found)]
+        first = values[part.joint_of_first(joint, values)]
         name = joint.name
         if isinstance(first, PinForce) and isinstance(joint, Pin):
             x, y = follower.vector(first.x, first.y)

@@ -85,11 +85,11 @@ def owned_name(name: str, owner: str) -> str:
     """
     if not owner:
         return name
-    found = OWNED.search(name)
-    if not found:
+    result = OWNED.search(name)
+    if not result:
         return f"{name}, {owner}"
     return (
-        f"{name[: found.start('article')]}{name[found.end('article') :]} {owner}"
-        if found["article"]
+        f"{name[: result.start('article')]}{name[result.end('article') :]} {owner}"
+        if result["article"]
         else f"{name} {owner}"
     )
