@@ -28,6 +28,7 @@ from crankwork.formula.traced_value import (
     breakpoints_of,
     unique_sorted,
 )
+from crankwork.quantities.key import key_of
 
 _NODES, _WEIGHTS = legendre.leggauss(16)
 _DEGREES = np.arange(_NODES.size)
@@ -183,7 +184,7 @@ class CycleInterpolant:
 
     def _of_rounding(self, size: Array) -> Array:
         """Return for each column the magnitude above rounding relative to the largest of its quantity."""
-        kinds = [key.partition(".")[0] for key in self._row]
+        kinds = [key_of(key).quantity for key in self._row]
         pairs = list(zip(kinds, size, strict=True))
         largest = {kind: max(value for other, value in pairs if other == kind) for kind in kinds}
         of_kind = np.array([largest[kind] for kind in kinds])
@@ -283,10 +284,9 @@ class CycleInterpolant:
         """Return the extremes of columns and their crank angles as `KEY_max`, `KEY_max_angle` and so on."""
         result = {}
         for key in keys:
-            kind, dot, name = key.partition(".")
             operands = (self.columns[key],)
             for word, (value, degrees) in zip(("max", "min"), self.extreme_points[key], strict=True):
-                extreme, angle = f"{kind}_{word}{dot}{name}", f"{kind}_{word}_angle{dot}{name}"
+                extreme, angle = (key_of(key).derived(ending) for ending in (f"_{word}", f"_{word}_angle"))
                 result[extreme] = TracedValue(ProcedureValue(value, word, operands, degrees), extreme)
                 result[angle] = TracedValue(
                     ProcedureValue(float(np.radians(degrees)), f"{word}_angle", operands, degrees), angle

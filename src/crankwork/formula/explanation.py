@@ -25,6 +25,7 @@ from crankwork.formula.traced_value import (
     TracedValue,
 )
 from crankwork.notation import ARGUMENTS
+from crankwork.quantities.key import key_of
 
 
 class ExplainedValue(NamedTuple):
@@ -101,7 +102,7 @@ class Explanation:
             return
         # operands that the printed line leaves out, as those of a zero factor, are not followed
         line = self.moment(degrees).step(known)
-        shown = {name.partition(".")[0] for name in line.values} if isinstance(line, FormulaLine) else set()
+        shown = {key_of(name).quantity for name in line.values} if isinstance(line, FormulaLine) else set()
         for name, operand in zip(known.node.formula.arguments, known.node.inputs, strict=True):
             if name in shown and name != "pi":
                 # a plain number is a constant of the analysis; its value is listed too

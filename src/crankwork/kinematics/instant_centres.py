@@ -14,6 +14,7 @@ from crankwork.mechanism.driver import LinkMotor
 from crankwork.mechanism.joints import Pin, joints
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.quantities.key import key_of
 
 _REST_TOLERANCE = 1e-12
 
@@ -53,7 +54,7 @@ def absent_where_still(columns: Mapping[str, Array]) -> dict[str, Array]:
     largest = max((float(np.max(rate, initial=0.0)) for rate in rates.values()), default=0.0)
     result = dict(columns)
     for key, values in columns.items():
-        kind, _, name = key.partition(".")
+        kind, name = key_of(key)
         if kind in {"instant_centre_x", "instant_centre_y"}:
             result[key] = np.where(rates[f"link_angular_velocity.{name}"] > _REST_TOLERANCE * largest, values, np.nan)
     return result

@@ -41,6 +41,7 @@ from crankwork.loads.valves import Flow, StatedValves
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.quantities.key import key_of
 
 _TURN = 360.0
 # share of the swept volume by which a volume at rest may change
@@ -211,7 +212,7 @@ def _rates(space: _Space) -> tuple[TracedValue, TracedValue]:
     """Return the derivatives of a volume by the driver's coordinate."""
     first = [gas.face_volume_1(wall.sense, wall.area, wall.position_1) for wall in space.walls]
     second = [gas.face_volume_2(wall.sense, wall.area, wall.position_2) for wall in space.walls]
-    owner = space.volume.key.partition(".")[2]
+    owner = key_of(space.volume.key).owner
     return total(f"cylinder_volume_1.{owner}", first), total(f"cylinder_volume_2.{owner}", second)
 
 

@@ -8,6 +8,7 @@ from crankwork.formula.traced_value import TracedValue, delayed
 from crankwork.loads.chamber import Chamber, face_names
 from crankwork.loads.chamber_gas import ChamberGas, GasForce
 from crankwork.mechanism.equal_parts import EqualPart
+from crankwork.quantities.key import key_of
 
 
 def with_equal_chambers(filling: ChamberGas, chambers: Mapping[str, Chamber], parts: Sequence[EqualPart]) -> ChamberGas:
@@ -21,7 +22,7 @@ def with_equal_chambers(filling: ChamberGas, chambers: Mapping[str, Chamber], pa
             owners |= {first: own} | {face.slider: part.names[face.slider] for face in chambers[first].faces}
             for values in (columns, singles):
                 for key, known in [*values.items()]:
-                    kind, _, owner = key.partition(".")
+                    kind, owner = key_of(key)
                     if owner in owners:
                         name = f"{kind}.{owners[owner]}"
                         values[name] = (
@@ -46,7 +47,7 @@ def _in_order(values: Mapping[str, TracedValue], chambers: Mapping[str, Chamber]
     last = ("gas_force", "rod_load")
 
     def rank(key: str) -> tuple[int, int]:
-        kind, _, owner = key.partition(".")
+        kind, owner = key_of(key)
         return last.index(kind) + 1 if kind in last else 0, order.get(owner, -1)
 
     return {key: values[key] for key in sorted(values, key=rank)}

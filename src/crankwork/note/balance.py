@@ -8,6 +8,7 @@ from crankwork.note.document import Block, Citation, Reference, Runs
 from crankwork.note.material import Material
 from crankwork.note.parts import At, Head, Lines, Places, Rows, Section, Shown, Text, When, every, has, turning
 from crankwork.note.wording import in_display_unit, named
+from crankwork.quantities.key import key_of
 
 _BALANCE = "den_hartog_1956, ch. 5"
 _SHAKING = ("shaking_force_x", "shaking_force_y", "shaking_force", "shaking_moment")
@@ -28,7 +29,7 @@ def _orders(material: Material) -> Iterator[Block]:
         words.column_texts(in_display_unit(kind, [summary[key] for key in named(summary, kind)]), digits=6)
         for kind in kinds
     ]
-    rows = list(zip((key.partition(".")[2] for key in orders), *sizes, strict=True))
+    rows = list(zip((key_of(key).owner for key in orders), *sizes, strict=True))
     titles: list[str | Runs] = ["order_of_turn", *(words.titled(kind) for kind in kinds)]
     yield words.table("linkage_orders", titles, rows, "c" + "r" * len(kinds), "t:orders")
 

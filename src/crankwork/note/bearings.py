@@ -26,6 +26,7 @@ from crankwork.note.parts import (
     turning,
 )
 from crankwork.note.wording import named
+from crankwork.quantities.key import key_of
 
 _SOURCE = "kolchin_demidov_2008, ch. 9"
 _ON_CRANKPIN = (
@@ -86,7 +87,7 @@ def _oil_holes(material: Material) -> Iterator[Block]:
     words = material.words
     for key in named(material.summary, "oil_hole_angle"):
         angle = words.amount(material.summary[key], "deg", digits=4)
-        yield words.paragraph("joint_wear", name=key.partition(".")[2], value=angle)
+        yield words.paragraph("joint_wear", name=key_of(key).owner, value=angle)
 
 
 _PIN: tuple[Part, ...] = (Text("crankpin"), _articulated, At("bearings"), Lines("bearings", _ON_CRANKPIN))

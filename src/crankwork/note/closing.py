@@ -20,6 +20,7 @@ from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
 from crankwork.note.wording import Words, named
+from crankwork.quantities.key import key_of
 from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.look import kind_of
@@ -76,7 +77,7 @@ _SINKING = [
 
 
 def _is_place(key: str) -> bool:
-    return key.partition(".")[0].endswith(_PLACES)
+    return key_of(key).quantity.endswith(_PLACES)
 
 
 def _compared(material: Material) -> Iterator[Block]:
@@ -222,8 +223,8 @@ def _row(material: Material, key: str) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value, and the crank angle or time where it is reached."""
     words, summary = material.words, material.summary
     area = summary["piston_area"] if material.per_area else None
-    kind, dot, name = key.partition(".")
-    places = {unit: summary.get(f"{kind}_{over}{dot}{name}") for over, unit in (("angle", "deg"), ("time", "s"))}
+    kind = key_of(key).quantity
+    places = {unit: summary.get(key_of(key).derived(f"_{over}")) for over, unit in (("angle", "deg"), ("time", "s"))}
     reached = [(place, unit) for unit, place in places.items() if place is not None and kind.endswith(("_max", "_min"))]
     row = value_row(display_key(key, material.results), summary[key], words, area=area)
     return (*row, words.amount(*reached[0], digits=4) if reached else "–")
@@ -240,7 +241,7 @@ def _further(material: Material) -> Iterator[Block]:
         if key not in main
         and not material.is_shown(key)
         and not _is_place(key)
-        and not key.partition(".")[0].endswith("_error")
+        and not key_of(key).quantity.endswith("_error")
     ]
     if left:
         yield words.paragraph("more", table=Reference("t:more"))

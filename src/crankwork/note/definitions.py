@@ -8,6 +8,7 @@ from types import MappingProxyType
 from crankwork.note.layout import SPACE, Box, Fraction, Row, Sign, Upright, row
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import QUANTITIES, Language
+from crankwork.quantities.key import key_of
 
 # mean over the cycle: of which quantity
 _MEANS: Mapping[str, str] = MappingProxyType(
@@ -23,7 +24,7 @@ _MEANS: Mapping[str, str] = MappingProxyType(
 
 def definition_box(key: str, language: Language) -> Box | None:
     """Return the definition of a value, None where there is none to print."""
-    kind = key.partition(".")[0]
+    kind = key_of(key).quantity
     if kind == "indicated_work":
         return row(Upright("∮"), _over("diagram_pressure", "cylinder_volume", language))
     if key == "excess_work":
@@ -37,7 +38,7 @@ def definition_box(key: str, language: Language) -> Box | None:
 
 def definition_text(key: str, language: Language) -> str:
     """Return the definition as one line of text, empty where there is none."""
-    kind = key.partition(".")[0]
+    kind = key_of(key).quantity
     named = (*_MEANS, *_MEANS.values(), "crank_angle", "cycle_angle", "kinetic_energy_change")
     names = {name: QUANTITIES[name].symbol(language) for name in named}
     if kind == "indicated_work":

@@ -39,6 +39,7 @@ from crankwork.note.math import enough_digits, formula_box, is_exact_pi, whole_d
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
+from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit
 from crankwork.report.display import symbol as key_symbol
 from crankwork.units import UNITS, coherent_unit, from_si, to_si
@@ -107,7 +108,7 @@ def equation_symbol(step: Line | Formula, language: Language) -> str:
         return QUANTITIES[step.quantity].symbol(language)
     if base_key(step.key) not in QUANTITIES:
         return QUANTITIES[step.formula.quantity].symbol(language) if isinstance(step, FormulaLine) else step.key
-    kind, _, name = step.key.partition(".")
+    kind, name = key_of(step.key)
     shown = key_symbol(kind, language)
     # a point or a number tells parts of a quantity apart; a whole word would make no symbol
     return f"{shown}{',' if '_' in shown else '_'}{name}" if name and len(name) <= _SHORT_NAME else shown

@@ -34,6 +34,7 @@ from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
+from crankwork.quantities.key import key_of
 from crankwork.report.display import display_key, in_own_units, label
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
@@ -345,7 +346,7 @@ class _Printed:
             return value_symbol("crank_angle", language), label("crank_angle", language)
         if not known.key or has_argument_symbol(known, entry.argument):
             return meaning_of_argument(entry.argument, language)
-        kind, _, part = known.key.partition(".")
+        kind, part = key_of(known.key)
         if kind not in QUANTITIES:
             return "", ""
         is_part = has_text(f"marks.{part}") and has_text(f"report.{part}")
@@ -355,7 +356,7 @@ class _Printed:
 
 def symbol_of_kind(key: str, language: Language) -> str:
     """Return the symbol that a quantity has of any cylinder, and of any point or link with the subscript i."""
-    kind, _, part = key.partition(".")
+    kind, part = key_of(key)
     if has_text(f"marks.{part}"):
         return value_symbol(key if has_text(f"report.{part}") else kind, language)
     return value_symbol(f"{kind}.i" if part and kind in OF_LINKS and kind != "efficiency" else kind, language)
@@ -376,7 +377,7 @@ def distinct_symbols(keys: Iterable[str], language: Language) -> dict[str, str]:
     kinds: dict[str, set[str]] = {}
     for key in {"crank_angle", *keys} - {""}:
         for shown in (value_symbol(key, language), symbol_of_kind(key, language)):
-            kinds.setdefault(_OF_ANGLE.sub("", shown), set()).add(base_key(key.partition(".")[0]))
+            kinds.setdefault(_OF_ANGLE.sub("", shown), set()).add(base_key(key_of(key).quantity))
     marks, symbols = texts("marks", language), {}
     for key in keys:
         shown, owner = value_symbol(key, language), "cycle" if key in _OF_CYCLE else _OWNERS.get(key)

@@ -34,6 +34,7 @@ from crankwork.note.parts import (
 )
 from crankwork.note.tables import position_tables, quantity_column
 from crankwork.note.torque import HARMONICS
+from crankwork.quantities.key import key_of
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
 # rows of a table over the angle of a shaft
@@ -48,7 +49,7 @@ _COLUMNS = (
 def _by_methods(material: Material) -> Iterator[Block]:
     """Yield the lines of every method under its name, and the table of what they find."""
     words, summary, lines, last = material.words, material.results.summary, material.lines("flywheel"), ""
-    methods = [key.partition(".")[2] for key in summary if key.startswith("flywheel_inertia.")]
+    methods = [key_of(key).owner for key in summary if key.startswith("flywheel_inertia.")]
     marks = _marks(methods, material)
     for line in lines:
         method = next((name for name in methods if name in line.key.split(".")), last or methods[0])

@@ -34,6 +34,7 @@ from crankwork.note.printed_units import printed_unit
 from crankwork.note.tables import Column, column_table, folded, quantity_column, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import QUANTITIES, base_key
+from crankwork.quantities.key import key_of
 from crankwork.report.display import FILE_KEYS, displayed
 from crankwork.units import UNITS
 
@@ -134,8 +135,8 @@ def _staged(steps: Sequence[Line]) -> dict[str, list[Line]]:
     lines_of: dict[str, list[Line]] = {stage: [] for stage in _STAGES}
     current = "fuel"
     for step in steps:
-        kind, dot, _ = step.key.partition(".")
-        if not dot or kind == "heat_share" or step.key.endswith((".cycle", ".peak")):
+        kind, owner = key_of(step.key)
+        if not owner or kind == "heat_share" or step.key.endswith((".cycle", ".peak")):
             current = stages.get(kind, current)
         lines_of[current].append(step)
     return lines_of

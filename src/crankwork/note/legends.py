@@ -13,6 +13,7 @@ from crankwork.note.document import Block, Equation, Explanation
 from crankwork.note.equations import equation_symbol, own_key, value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities.key import key_of
 from crankwork.report.display import label
 
 # parts of a quantity that are no cylinder or point, and arguments made of a quantity
@@ -66,7 +67,7 @@ def explained(blocks: Iterable[Block], language: Language, *, with_results: bool
             yield block
             continue
         step = block.step
-        left = "" if isinstance(step, Formula) or not with_results else step.key.partition(".")[0]
+        left = "" if isinstance(step, Formula) or not with_results else key_of(step.key).quantity
         own: tuple[Explanation, ...] = ()
         if left in QUANTITIES and left not in known:
             own = (Explanation(block.symbol or equation_symbol(step, language), label(left, language)),)
@@ -79,7 +80,7 @@ def explained(blocks: Iterable[Block], language: Language, *, with_results: bool
 
 def _unit(name: str, key: str) -> str:
     """Return the unit of an argument; of one that stands for another quantity, the SI unit of that."""
-    kind = base_key(key.partition(".")[0])
+    kind = base_key(key_of(key).quantity)
     return QUANTITIES[kind].si_unit if kind in QUANTITIES and kind != ARGUMENTS[name].quantity else argument_unit(name)
 
 
@@ -93,7 +94,7 @@ def words_of(name: str, language: Language) -> str:
 
 def _meaning(key: str, language: Language) -> str:
     """Return the name of a quantity, and of a part of it that is no cylinder or point what it is for."""
-    kind, _, part = key.partition(".")
+    kind, part = key_of(key)
     return label(kind, language) + (f" {translate(_PARTS[part], language)}" if part in _PARTS else "")
 
 
@@ -113,7 +114,7 @@ def _explaining(name: str, named: Mapping[str, str]) -> tuple[str, ...]:
     entry = ARGUMENTS.get(name, _NAMED_ONLY)
     if name in named:
         key = own_key(named[name])
-        kind, _, part = key.partition(".")
+        kind, part = key_of(key)
         return (key if part in _PARTS else kind,)
     if has_text(f"arguments.{name}") or entry.pattern in _DERIVED:
         return (f"argument:{name}",)

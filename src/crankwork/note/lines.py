@@ -14,6 +14,7 @@ from crankwork.formula.calculation_lines import FormulaLine, Line, Snapshot, Val
 from crankwork.formula.traced_value import Delayed, FormulaCall, Input, ProcedureValue, TracedValue, in_order
 from crankwork.machine import Engine, Machine
 from crankwork.notation import ARGUMENTS
+from crankwork.quantities.key import key_of
 
 _DEGREES, _TURN = 30.0, 360.0
 
@@ -334,7 +335,7 @@ def _orders(results: Results, engine: Engine) -> Iterator[str]:
     """Yield the keys of each order of the inertia forces; of articulated rods those of two cylinders."""
     names = results.listings["balance"].names if "balance" in results.listings else ()
     for name in names:
-        row, _, order = name.partition(".")
+        row, order = key_of(name)
         if row == "reciprocating":
             for suffix in (order, f"{order}.1", f"{order}.{first_articulated(engine)}"):
                 yield from (f"{kind}.{suffix}" for kind in _OF_ORDER)
@@ -429,7 +430,7 @@ class _LineFilter:
     def lines(self, kinds: Iterable[str]) -> tuple[Line, ...]:
         """Return the lines of what the trace has of some kinds."""
         kinds = tuple(kinds)
-        return self.of(known for key, known in self._trace.items() if key.partition(".")[0] in kinds)
+        return self.of(known for key, known in self._trace.items() if key_of(key).quantity in kinds)
 
     def group(self, name: str, kinds: Iterable[str]) -> Group:
         """Return these lines as a group."""
@@ -438,7 +439,7 @@ class _LineFilter:
 
 def _centres(results: Results, new: _LineFilter) -> Group:
     """Return the instant centres of links; where one of them does not turn, at the nearest position where all do."""
-    keys = [key for key in results.columns if key.partition(".")[0] in _CENTRES]
+    keys = [key for key in results.columns if key_of(key).quantity in _CENTRES]
     degrees = results.grid.degrees
     turning = np.all([np.isfinite(results.columns[key]) for key in keys], axis=0)
     shown = degrees[turning & ((degrees == new.degrees) | (degrees % _DEGREES == 0))] if keys else degrees[:0]
@@ -468,7 +469,7 @@ def extreme_of(results: Results, key: str) -> Extreme | None:
 def worst_angles(results: Results) -> Iterator[str]:
     """Yield the extreme transmission angles between links, and pressure angles at guides."""
     for key in results.summary:
-        kind, _, name = key.partition(".")
+        kind, name = key_of(key)
         # beside a guide the transmission angle is what the pressure angle leaves of a right angle
         if kind in WORST_ANGLES and (kind == WORST_ANGLES[-1] or f"{WORST_ANGLES[-1]}.{name}" not in results.summary):
             yield key
@@ -493,8 +494,8 @@ def _first_harmonic(results: Results) -> Iterator[TracedValue]:
 
 def _inertia(results: Results) -> Iterator[TracedValue]:
     """Yield inertia forces and torques, which the forces in the joints are made of."""
-    forces = [known for key, known in results.trace.items() if key.partition(".")[0] in _JOINTS]
-    yield from (known for known in in_order(forces) if known.key.partition(".")[0] in _INERTIA)
+    forces = [known for key, known in results.trace.items() if key_of(key).quantity in _JOINTS]
+    yield from (known for known in in_order(forces) if key_of(known.key).quantity in _INERTIA)
 
 
 def _efficiency(results: Results) -> Iterator[Line]:
@@ -513,7 +514,7 @@ def _efficiency(results: Results) -> Iterator[Line]:
 def _friction(results: Results, new: _LineFilter) -> Group:
     """Return the lines of the friction in each joint, and of the efficiency where the forces are known."""
     moment = results.moment(new.degrees)
-    keys = [key for key in results.columns if key.partition(".")[0] in _FRICTION]
+    keys = [key for key in results.columns if key_of(key).quantity in _FRICTION]
     if not all(math.isfinite(moment.value(results.trace[key])) for key in keys):
         return Group("friction", ())
     ratio = results.trace.get("instantaneous_efficiency")
@@ -539,6 +540,6 @@ def values_by_method(trace: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
     """Yield the excess work, slopes and inertias of each method of finding the flywheel."""
     for key in trace:
         for known in in_order([trace[key]]) if key.startswith("flywheel_inertia.") else ():
-            kind = known.key.partition(".")[0]
+            kind = key_of(known.key).quantity
             if kind == "excess_work" or (kind in _WHEEL and isinstance(known.node, FormulaCall) and known.value > 0):
                 yield known

@@ -23,6 +23,7 @@ from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Run
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.wording import Words, named
+from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area, key_unit, label
 from crankwork.report.figures import drawings
 from crankwork.report.look import figure_title, kind_of
@@ -162,7 +163,7 @@ class Material:
     def lines(self, group: str, *kinds: str) -> list[Line]:
         """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
         lines = self.groups[group].lines if group in self.groups else ()
-        return [line for line in lines if not kinds or line.key.partition(".")[0] in kinds]
+        return [line for line in lines if not kinds or key_of(line.key).quantity in kinds]
 
     def equations(self, group: str, *kinds: str, first: bool = False) -> list[Block]:
         """Return equations of the lines of a group that the note has not shown yet.
@@ -208,7 +209,7 @@ class Material:
         return line._replace(key=self._kind(line.key, line.value))
 
     def _kind(self, key: str, value: float) -> str:
-        kind, _, name = key.partition(".")
+        kind, name = key_of(key)
         same = name == "cycle" and math.isclose(value, self.summary.get(kind, math.nan))
         return kind if same else key
 
@@ -235,7 +236,7 @@ class Material:
 
     def of_axes(self, kind: str) -> list[str]:
         """Return the columns of a place, x and y of one point after the other."""
-        names = (key.partition(".")[2] for key in named(self.columns, f"{kind}_x"))
+        names = (key_of(key).owner for key in named(self.columns, f"{kind}_x"))
         return [f"{kind}_{axis}.{name}" for name in names for axis in "xy"]
 
     def presented(self, tables: Iterable[Table | None] = (), names: Iterable[str] = ()) -> Iterator[Block]:
@@ -299,21 +300,21 @@ class Material:
 
 
 def _kind(line: Line) -> str:
-    return line.key.partition(".")[0]
+    return key_of(line.key).quantity
 
 
 def _identity(line: Line) -> tuple[object, ...]:
     """Return the mark that equal lines share."""
     if not isinstance(line, FormulaLine):
         return (line.key, line.value)
-    mark = line.key.partition(".")[2]
+    mark = key_of(line.key).owner
     return (line.formula.name, *line.values.values(), "" if mark == "cycle" else mark)
 
 
 def _formula_name(line: Line) -> str:
     """Return the name of the formula of a line; of a sum what it sums, of arithmetic in place what it gives."""
     if not isinstance(line, FormulaLine):
-        return line.key.partition(".")[0]
+        return key_of(line.key).quantity
     return line.formula.name if line.formula.source else "".join(letter for letter in line.key if not letter.isdigit())
 
 
@@ -321,7 +322,7 @@ def _first(lines: list[Line]) -> Iterator[Line]:
     """Yield the first line of each formula, and for each quantity the first value without one."""
     seen: set[tuple[str, str]] = set()
     for line in lines:
-        mark = (_formula_name(line), line.key.partition(".")[0])
+        mark = (_formula_name(line), key_of(line.key).quantity)
         if mark not in seen:
             seen.add(mark)
             yield line
@@ -367,7 +368,7 @@ def seen(name: str, shown: Material) -> str:
 def crankpins(name: str, columns: Iterable[str]) -> tuple[str, ...]:
     """Return the numbers of the crankpins that a figure shows: of a polar diagram one, none of other figures."""
     kind = kind_of(name)
-    pins = tuple(key.partition(".")[2] for key in columns if key.startswith("crankpin_load."))
+    pins = tuple(key_of(key).owner for key in columns if key.startswith("crankpin_load."))
     if kind not in _OF_CRANKPINS or not pins:
         return ()
     if kind != "crankpin_polar":

@@ -12,6 +12,7 @@ from crankwork.note.parts import Section, drawn
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.tables import tabulated
 from crankwork.note.wording import Words, named
+from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit
 
 _SOURCE = "norton_2012, ch. 4"
@@ -38,7 +39,7 @@ def _range(material: Material) -> Iterator[Block]:
     rows = []
     for kind in _TRAVEL.values():
         for key in named(summary, kind, f"{kind}_circuit"):
-            name = key.partition(".")[2]
+            name = key_of(key).owner
             reached = (_value(material, f"{reach}.{name}") for reach in (kind, f"{kind}_circuit"))
             row = (name, _unit(material, key), *reached)
             if row not in rows:
@@ -54,7 +55,7 @@ def _ends(material: Material) -> Iterator[Block]:
     rows = []
     for kind, travel in _TRAVEL.items():
         for key in named(summary, f"{kind}_min"):
-            name = key.partition(".")[2]
+            name = key_of(key).owner
             ends = [f"{kind}_{word}.{name}" for word in ("min", "max")]
             shown = [text for end in ends for text in (_value(material, end), _place(material, end))]
             ways = [_value(material, f"{quantity}.{name}") for quantity in (travel, "time_ratio")]
@@ -100,7 +101,7 @@ def _worst(material: Material) -> Iterator[Block]:
     for key, extreme in extremes:
         if extreme is not None:
             symbol, place, unit = words.place(extreme.at)
-            name, value = key.partition(".")[2], _with_unit(place, unit, words)
+            name, value = key_of(key).owner, _with_unit(place, unit, words)
             yield words.paragraph("worst_angle", name=name, place=symbol, value=value)
             lines = [line for line in material.lines("transmission") if line.key in (extreme.key, key)]
             yield from material.worked(lines)
@@ -111,7 +112,7 @@ def _limits(material: Material) -> Table:
     """Return the extreme angles of every pin and slider, each with where it is reached."""
     words, summary = material.words, material.summary
     kinds = [angle_kind for angle_kind in WORST_ANGLES if named(summary, angle_kind)]
-    names = dict.fromkeys(key.partition(".")[2] for key in named(summary, *kinds))
+    names = dict.fromkeys(key_of(key).owner for key in named(summary, *kinds))
     rows = [
         (
             name,

@@ -16,6 +16,7 @@ from crankwork.note.equations import value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.symbols import owned_symbol
 from crankwork.quantities import QUANTITIES, base_key
+from crankwork.quantities.key import key_of
 from crankwork.report.display import FILE_KEYS, displayed, displayed_column, key_unit
 from crankwork.report.display import symbol as key_symbol
 from crankwork.units import from_si, shown_unit
@@ -115,7 +116,7 @@ class Words:
             return value_symbol(key, self.language)
         if base_key(key) not in QUANTITIES:
             return key
-        kind, _, name = key.partition(".")
+        kind, name = key_of(key)
         shown = QUANTITIES[kind].symbol(self.language) if kind in QUANTITIES else key_symbol(kind, self.language)
         return owned_symbol(kind, shown, name, self.language) if name else shown
 
@@ -184,10 +185,10 @@ class Words:
 
 def named(columns: Mapping[str, object], *kinds: str) -> list[str]:
     """Return the keys of columns that are of some kinds, in their order within each kind."""
-    return [key for kind in kinds for key in columns if key.partition(".")[0] == kind]
+    return [key for kind in kinds for key in columns if key_of(key).quantity == kind]
 
 
 def in_display_unit(key: str, values: Sequence[float]) -> list[float]:
     """Return values in SI in the unit in which tables show their key."""
-    shown: list[float] = displayed_column(key.partition(".")[0], np.asarray(values, dtype=float)).tolist()
+    shown: list[float] = displayed_column(key_of(key).quantity, np.asarray(values, dtype=float)).tolist()
     return shown

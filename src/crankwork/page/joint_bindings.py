@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis import Array, Results
+from crankwork.quantities.key import key_of
 from crankwork.show.animation import Animation, Part
 from crankwork.show.canvas import GREY
 from crankwork.show.scene import Circle, Drawing, Item, Plot, Polyline, Text, pen_of, use_layout
@@ -37,7 +38,7 @@ def joints_of(films: Sequence[Animation], results: Sequence[Results]) -> dict[st
     tracks = {part.name: _track(part, film) for part in film.parts if part.name.startswith("joint.")}
     links, labels = dict[str, list[str]](), dict[str, list[Any]]()
     for part in film.parts:
-        kind = part.name.partition(".")[0]
+        kind = key_of(part.name).quantity
         if kind == "link":
             corners = _corner_joints(part, film, tracks)
             if corners is None:

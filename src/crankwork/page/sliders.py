@@ -23,6 +23,7 @@ from crankwork.locale import ErrorMessage, Language
 from crankwork.locale.numbers import number
 from crankwork.page.joint_bindings import bind_to_joints, is_label, joints_of
 from crankwork.quantities import QUANTITIES, base_key
+from crankwork.quantities.key import Key, key_of
 from crankwork.report.display import displayed
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
@@ -206,8 +207,8 @@ class LivePage:
 
     def _is_nowhere(self, key: str) -> bool:
         """Return whether a key is the position of an extreme that is rounding noise."""
-        kind, dot, name = key.partition(".")
-        extreme = f"{kind.removesuffix('_angle').removesuffix('_time')}{dot}{name}"
+        kind, name = key_of(key)
+        extreme = str(Key(kind.removesuffix("_angle").removesuffix("_time"), name))
         return extreme != key and any(
             abs(result.summary.get(extreme, np.inf)) <= self._rounding.get(extreme, 0.0) for result in self._compared
         )

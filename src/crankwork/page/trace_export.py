@@ -37,6 +37,7 @@ from crankwork.note.mathml import mathml_box
 from crankwork.note.printed_units import printed_unit
 from crankwork.page.sliders import LivePage
 from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities.key import key_of
 from crankwork.report.display import label
 from crankwork.sources import cite
 from crankwork.units import UNITS, to_si
@@ -103,8 +104,7 @@ class TraceExport:
             if name:
                 (origin, unit), (end, _) = (self._shown(known, argument, level) for level in (0.0, 1.0))
                 node["m"] = [name, end - origin, origin, printed_unit(unit, self._language)]
-            base, dot, own = known.key.partition(".")
-            if "a" in node and live.follows(place := f"{base}_{ending}{dot}{own}"):
+            if "a" in node and live.follows(place := key_of(known.key).derived(f"_{ending}")):
                 node["z"] = place
 
     def _of_table(self, key: str, values: Array, unit: str) -> dict[str, Any]:
@@ -228,7 +228,7 @@ class TraceExport:
         return value_symbol(name, self._language) if name else "?"
 
     def _name(self, name: str) -> str:
-        if base_key(name.partition(".")[0]) in QUANTITIES:
+        if base_key(key_of(name).quantity) in QUANTITIES:
             return label(name, self._language)
         return meaning_of_argument(name, self._language)[1]
 

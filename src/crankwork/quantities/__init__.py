@@ -19,6 +19,7 @@ from crankwork.quantities import (
     machine,
     shaft,
 )
+from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import Quantity
 
 __all__ = ["LANGUAGES", "Language", "QUANTITIES", "Quantity", "SUBJECTS", "base_key", "subject"]
@@ -37,7 +38,7 @@ def base_key(key: str) -> str:
 
     `piston_velocity_max_angle` is derived from `piston_velocity`, and `joint_force_max.A` from `joint_force`.
     """
-    key = key.partition(".")[0]
+    key = key_of(key).quantity
     for suffix in ("_angle", "_time", "_max", "_min", "_error", "_difference"):
         if key not in QUANTITIES:
             key = key.removesuffix(suffix)
@@ -46,5 +47,5 @@ def base_key(key: str) -> str:
 
 def subject(key: str) -> str:
     """Return the subject, of `SUBJECTS`, that a key of results belongs to: `piston_area.cycle` to the cycle."""
-    owner = key.partition(".")[2]
+    owner = key_of(key).owner
     return owner if owner in SUBJECTS else _SUBJECT[base_key(key)]

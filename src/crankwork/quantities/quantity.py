@@ -6,6 +6,7 @@ import re
 from typing import NamedTuple
 
 from crankwork.locale import Language, translate
+from crankwork.quantities.key import key_of
 from crankwork.units import coherent_unit, shown_unit
 
 # how the name of what a point, link, slider or joint has ends
@@ -58,7 +59,7 @@ class Quantity(NamedTuple):
         return owned_name(name, part.replace(".", ", "))
 
     def _split(self) -> tuple[str, str]:
-        kind, _, part = self.key.partition(".")
+        kind, part = key_of(self.key)
         return kind, own_name(kind, part)
 
 

@@ -12,6 +12,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Language, Quantity
+from crankwork.quantities.key import key_of
 from crankwork.report.comparison import shown_names
 from crankwork.report.display import displayed, in_own_units, key_unit, symbol
 from crankwork.report.look import PLAIN, Style, axis_title, displayed_values, drive_graph, math_symbol, quantity_of
@@ -94,7 +95,7 @@ def curves(
     for quantities, values, rows, height in zip(sets, shown, legends, above, strict=True):
         legend(paper, rows, top - 4)
         box = ChartBox(current_layout().left, top + height, current_layout().inner, high)
-        is_place = quantities[0].key.partition(".")[0] in _PLACES
+        is_place = key_of(quantities[0].key).quantity in _PLACES
         ends = limits(*values, is_place=is_place)
         graph = drive_graph(paper, box, abscissas, ends, style, is_last=quantities is sets[-1])
         _draw(graph, abscissas, quantities, values)
@@ -203,7 +204,7 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
     top = box.top
     for key in keys:
         scale, unit = displayed(key, 1.0, per_area=area), unit_name(key_unit(key, per_area=per_area), language)
-        sign = QUANTITIES[key.partition(".")[0]]._replace(key=key).symbol(language)
+        sign = QUANTITIES[key_of(key).quantity]._replace(key=key).symbol(language)
         for names, place, tall, mark in (
             ([(comparison_key(key, name), name) for name in compared.names], top, upper, f"${sign}$"),
             (
@@ -232,7 +233,7 @@ def drawn_keys(compared: Comparison) -> list[str]:
     """Return the columns that a figure shows; of several links or sliders the last, which others move."""
     selected = []
     for kinds in _DRAWN:
-        keys = {key.partition(".")[0]: key for key in compared.keys if np.any(compared.columns[_own(compared, key)])}
+        keys = {key_of(key).quantity: key for key in compared.keys if np.any(compared.columns[_own(compared, key)])}
         selected += [keys[kind] for kind in kinds if kind in keys][:1]
     return selected
 

@@ -13,6 +13,7 @@ from crankwork.analysis import Array, Results
 from crankwork.errors import CrankworkError, MissingExtraError, missing_extras
 from crankwork.locale import ErrorMessage
 from crankwork.quantities import QUANTITIES, base_key
+from crankwork.quantities.key import Key, key_of
 from crankwork.report.display import displayed_column, in_own_units, key_unit, label, symbol
 from crankwork.report.summary import provenance_data
 from crankwork.report.tables import table_column
@@ -70,10 +71,10 @@ class _Variables:
 
     def put(self, name: str, key: str, along: tuple[str, ...], values: Array) -> None:
         """Add a column, a single value or a listing of the quantity of a key."""
-        kind, _, owner = name.partition(".")
+        kind, owner = key_of(name)
         name, owner = (kind, owner) if owner and _owner(kind) else (name, "")
         self.owned.setdefault(name, {})[owner] = along, _in_unit(key, values, shown=self._shown)
-        self._attributes[name] = _attributes(key.partition(".")[0] if owner else key, shown=self._shown)
+        self._attributes[name] = _attributes(key_of(key).quantity if owner else key, shown=self._shown)
 
     def made(self) -> xr.Dataset:
         """Return all of them."""
@@ -114,10 +115,10 @@ def _listing(results: Results, name: str, taken: Mapping[str, object], *, shown:
     variables = _Variables(shown=shown)
     for key, values in listing.columns.items():
         if listing.names or key != first:
-            kind, dot, owner = key.partition(".")
+            kind, owner = key_of(key)
             # wear of pins and of journals are two variables
             called = name if kind == "wear_sum" else f"{name}_{kind}" if kind in taken or along == name else kind
-            variables.put(f"{called}{dot}{owner}", key, (along,), values)
+            variables.put(str(Key(called, owner)), key, (along,), values)
     if listing.names:
         return variables.made().assign_coords({along: list(listing.names)})
     joined = variables.made().assign_coords({along: _in_unit(first, listing.columns[first], shown=shown)})

@@ -12,6 +12,7 @@ import numpy as np
 
 from crankwork.locale import decimal, has_text, translate
 from crankwork.quantities import QUANTITIES, Language, base_key
+from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
 from crankwork.quantities.renamed import MOVED
 from crankwork.units import DisplayUnits, from_si, use_units
@@ -42,13 +43,13 @@ FILE_KEYS = {
 
 def _is_angle(key: str) -> bool:
     """Return whether a derived key is the crank angle of something."""
-    kind = key.partition(".")[0]
+    kind = key_of(key).quantity
     return kind.endswith("_angle") and kind not in QUANTITIES
 
 
 def _is_time(key: str) -> bool:
     """Return whether a derived key is the time of something."""
-    kind = key.partition(".")[0]
+    kind = key_of(key).quantity
     return kind.endswith("_time") and kind not in QUANTITIES
 
 
@@ -148,15 +149,15 @@ def display_key(key: str, results: Results) -> str:
 
 def label(key: str, language: Language) -> str:
     """Return the name of a key: `largest piston velocity`, and with its own name `joint force, A`."""
-    kind, dot, name = key.partition(".")
-    if kind in _OF_ORDERS and dot:
+    kind, name = key_of(key)
+    if kind in _OF_ORDERS and name:
         # half orders where a cycle has two turns
         is_order = name.replace(".", "", 1).isdecimal()
         what = (
             translate("report.order", language, order=decimal(name, language)) if is_order else row_name(name, language)
         )
         return f"{translate(_OF_ORDERS[kind], language)}, {what}"
-    return _label(kind, language, _part(kind, name, language) if dot else "")
+    return _label(kind, language, _part(kind, name, language) if name else "")
 
 
 def _part(kind: str, name: str, language: Language) -> str:
@@ -176,7 +177,7 @@ def link_label(link: str, language: Language) -> str:
 
 def row_name(name: str, language: Language) -> str:
     """Return the name of a row of a listing: `crankpin.1` is crankpin 1, and joints have their own names."""
-    kind, _, number = name.partition(".")
+    kind, number = key_of(name)
     if not has_text(f"report.{kind}"):
         return name
     what = translate(f"report.{kind}", language)
@@ -209,7 +210,7 @@ def symbol(key: str, language: Language) -> str:
         return QUANTITIES["crank_angle"].symbol(language)
     if _is_time(key):
         return QUANTITIES["time"].symbol(language)
-    kind = key.partition(".")[0]
+    kind = key_of(key).quantity
     if kind in QUANTITIES:
         return QUANTITIES[kind].symbol(language)
     base = QUANTITIES[base_key(kind.removesuffix("_error"))].symbol(language)

@@ -22,6 +22,7 @@ from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import Language
+from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, for_readers, key_unit, label, link_label, symbol
 from crankwork.report.drawn_cylinders import engine_sketch
 from crankwork.report.drawn_links import linkage_sketch
@@ -206,7 +207,7 @@ def _film(  # noqa: PLR0913 - a sketch, how it moves, and what is said of it
 
 def _named_forces(columns: Mapping[str, Array], language: Language) -> dict[str, str]:
     """Return the symbols of forces in joints, by the joint."""
-    names = [key.partition(".")[2] for key in columns if key.startswith("joint_force_x.")]
+    names = [key_of(key).owner for key in columns if key.startswith("joint_force_x.")]
     sign = symbol("joint_force", language)
     subscripts = {name: name.replace("_", ",") for name in names}
     return {

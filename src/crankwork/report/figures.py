@@ -14,6 +14,7 @@ from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.vector_polygons import driver_rates
 from crankwork.locale import translate
 from crankwork.quantities import Language
+from crankwork.quantities.key import key_of
 from crankwork.report.balance import balance_ellipses, balance_orders
 from crankwork.report.bearings import (
     big_end_polar,
@@ -170,7 +171,7 @@ def _by_fours(keys: Sequence[str]) -> list[Sequence[str]]:
 
 
 def _named(columns: Iterable[str], kind: str) -> list[str]:
-    return [key for key in columns if key.partition(".")[0] == kind]
+    return [key for key in columns if key_of(key).quantity == kind]
 
 
 def _as_they_are(panels: Sequence[Sequence[str]], _: Drawn) -> Sequence[Sequence[str]]:
@@ -182,7 +183,7 @@ def _each(figure: str, *kinds: str, owners: int = 0) -> Several:
 
     def figures_(machine: Drawn) -> Iterable[Curves]:
         columns = machine.reached.columns
-        names = [key.partition(".")[2] for key in _named(columns, kinds[owners])]
+        names = [key_of(key).owner for key in _named(columns, kinds[owners])]
         # points of a link that have no name of their own are not told
         names = [name for name in names if all(f"{kind}.{name}" in columns for kind in kinds)
                  and not (figure == "points" and "." in name)]  # fmt: skip

@@ -23,6 +23,7 @@ from crankwork.locale import has_text, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
+from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, row_name, symbol
 from crankwork.report.summary import results_method
 from crankwork.show.canvas import GREY, Canvas, plain
@@ -104,7 +105,7 @@ def position_sign(style: Style, mark: str = "") -> str:
 
 def quantity_of(key: str) -> Quantity:
     """Return the quantity of a key; that of `joint_force.A` is `joint_force`, with A added to name and symbol."""
-    base = key.partition(".")[0]
+    base = key_of(key).quantity
     if base not in QUANTITIES:
         raise CrankworkError(f"{base} is not a quantity that figures know")
     return QUANTITIES[base]._replace(key=key)

@@ -14,6 +14,7 @@ from crankwork.analysis.skeleton import Member, skeleton
 from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.quantities import QUANTITIES
+from crankwork.quantities.key import key_of
 from crankwork.report.display import symbol
 from crankwork.report.forces import Line
 from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text
@@ -209,7 +210,7 @@ def _numbered(graph: Graph, tangents: Array) -> list[tuple[str, float, float]]:
 def _coupler(machine: Drawn) -> tuple[str, SampledMotion]:
     """Return the coupler whose instant centre is near most of the time, none where all are far away."""
     reached = machine.reached
-    names = [key.partition(".")[2] for key in reached.columns if key.startswith("instant_centre_x.")]
+    names = [key_of(key).owner for key in reached.columns if key.startswith("instant_centre_x.")]
     moved = sample_motion(machine.results.machine.mechanism, reached.degrees)
     reach = _reach(np.vstack([point.place for point in moved.points.values()]))
     seen = {name: _seen(instant_centres(moved.frames[name], reached.row)[0], reach)

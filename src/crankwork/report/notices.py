@@ -11,6 +11,7 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
+from crankwork.quantities.key import key_of
 from crankwork.report.display import FILE_KEYS, label
 from crankwork.report.tables import any_nonzero
 
@@ -65,7 +66,7 @@ def skipped_figure_notes(results: Results, language: Language) -> Iterator[str]:
 def _zero(results: Results) -> Iterator[str]:
     """Yield the quantities that figures are of and that are zero throughout."""
     for kind in _DRAWN:
-        keys: Iterable[str] = [key for key in results.columns if key.partition(".")[0] == kind and kind in QUANTITIES]
+        keys: Iterable[str] = [key for key in results.columns if key_of(key).quantity == kind and kind in QUANTITIES]
         if keys and not any_nonzero(keys, results.columns):
             yield kind
 

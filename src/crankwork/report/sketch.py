@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from crankwork.analysis import Array
 from crankwork.analysis.sampled_cylinders import SampledCylinder
+from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed
 from crankwork.show.animation import Part, part
 from crankwork.show.chart_layout import round_scale
@@ -186,7 +187,7 @@ def forces_in_joints(
     """Return the forces in the joints of a linkage; where links share a pin, each of them has its own. [mm]"""
     arrows = []
     for key, x in columns.items():
-        kind, _, name = key.partition(".")
+        kind, name = key_of(key)
         joint = name if name in points else name.rpartition("_")[0]
         if kind == "joint_force_x" and joint in points:
             force = np.nan_to_num(np.column_stack([x, columns[f"joint_force_y.{name}"]]))

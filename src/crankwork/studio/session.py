@@ -34,6 +34,7 @@ from crankwork.note.options import NoteOptions
 from crankwork.page.document import follow, page, tables, values
 from crankwork.page.sliders import FAINT, LivePage, Slider, scale
 from crankwork.page.trace_export import TraceExport
+from crankwork.quantities.key import key_of
 from crankwork.report.display import in_own_units, key_unit
 from crankwork.report.drawing import drawn, film_of
 from crankwork.report.figures import drawings, figure_names
@@ -322,7 +323,7 @@ def _places(results: Results) -> dict[str, tuple[float, float]]:
     if not results.machine.linkage:
         return {}
     ground = {name: tuple(position) for name, position in results.machine.drawn.ground.items()}
-    keys = {key.partition(".")[2] for key in results.columns if key.startswith("point_x.")}
+    keys = {key_of(key).owner for key in results.columns if key.startswith("point_x.")}
     moving = {name: tuple(float(results.columns[f"point_{axis}.{name}"][0]) for axis in "xy") for name in keys}
     return {name: (round(1e3 * x, 6), round(1e3 * y, 6)) for name, (x, y) in (ground | moving).items()}
 

@@ -8,6 +8,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language, capital, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import QUANTITIES, Quantity
+from crankwork.quantities.key import key_of
 from crankwork.report.display import FILE_KEYS, displayed_column, key_unit, label
 from crankwork.show.canvas import plain
 from crankwork.show.chart import CIRCLE, Graph, Row, limits, round_ticks, sheet
@@ -29,7 +30,7 @@ def map_drawings(parameter_map: Map, language: Language) -> dict[str, Drawing]:
             f"map.{key}": _drawing(parameter_map, key, language)
             for key in parameter_map.varying
             # the angle of the largest of two peaks is not a surface, nor is a stepped value
-            if not key.partition(".")[0].endswith("_angle") and not _is_stepped(_dependent(parameter_map, key)[0])
+            if not key_of(key).quantity.endswith("_angle") and not _is_stepped(_dependent(parameter_map, key)[0])
         }
 
 

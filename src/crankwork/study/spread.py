@@ -18,6 +18,7 @@ from crankwork.description.machine_file import Setting
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
+from crankwork.quantities.key import key_of
 from crankwork.study.chunks import by_kind
 from crankwork.study.numeric_field import NumericField, numeric_field
 from crankwork.study.roots import reason_of
@@ -212,7 +213,7 @@ class _Near(NamedTuple):
 
     def brought(self, values: Array) -> Array:
         """Return values, shape (n, names), with angles shifted by periods to the nearest of the stated ones."""
-        is_angle = np.array([key.partition(".")[0].endswith(_ANGLES) for key in self.names])
+        is_angle = np.array([key_of(key).quantity.endswith(_ANGLES) for key in self.names])
         return np.where(is_angle, values - self.cycle * np.round((values - self.middle) / self.cycle), values)
 
 

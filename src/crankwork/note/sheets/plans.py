@@ -20,6 +20,7 @@ from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.table import Column, numbers, table, text_block
 from crankwork.quantities import Language
+from crankwork.quantities.key import key_of
 from crankwork.report.display import link_label, symbol
 from crankwork.report.look import Style, displayed_values, math_symbol, position_text, quantity_of
 from crankwork.report.plans import acceleration_plan, node_name, size_of, velocity_plan
@@ -194,7 +195,7 @@ def _named(columns: Iterable[str], kind: str) -> list[str]:
 def reactions_table(data: Positions) -> dict[str, Draw]:
     """Return the function that draws the table of forces in joints and guides and of the balancing torque or force."""
     kinds = ("joint_force", "normal_force", "balancing_torque", "driver_force")
-    keys = [key for key in data.columns if key.partition(".")[0] in kinds]
+    keys = [key for key in data.columns if key_of(key).quantity in kinds]
     keys = any_nonzero(keys, data.columns)
     if not any("." in key for key in keys):
         return {}
