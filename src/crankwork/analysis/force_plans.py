@@ -18,8 +18,8 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.joints import group_links, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 
-# forces smaller than this share of the largest of a plan are nothing
-_NOTHING = 1e-9
+# forces smaller than this share of the largest of a plan are left out
+_NEGLIGIBLE = 1e-9
 
 
 class PolygonForce(NamedTuple):
@@ -46,7 +46,7 @@ class ForcePolygon(NamedTuple):
 def force_plans(results: Results, degrees: float) -> list[ForcePolygon]:
     """Return the plans of all groups, from the last to the driver, at a crank angle [deg].
 
-    None of a linkage that a cylinder or a motor between links drives: its groups are not apart from its driver.
+    None of a linkage that a cylinder or a motor between links drives: its groups include the driver.
     """
     solved, mechanism = results.solved, results.machine.mechanism
     if isinstance(mechanism.driver, Cylinder | LinkMotor) or mechanism.passages or results.machine.redundant:
@@ -80,7 +80,7 @@ def force_plans(results: Results, degrees: float) -> list[ForcePolygon]:
         forces = tuple(on_group(links))
         most = max((force.size for force in forces), default=0.0)
         if most > 0:
-            plans.append(ForcePolygon(links, tuple(force for force in forces if force.size > _NOTHING * most)))
+            plans.append(ForcePolygon(links, tuple(force for force in forces if force.size > _NEGLIGIBLE * most)))
     return plans
 
 

@@ -43,8 +43,8 @@ def full_turn_bounds(mechanism: Mechanism) -> Iterator[LengthBound]:
 def _of_dyad(dyad: Dyad | Chain, points: Mapping[str, Array]) -> Iterator[LengthBound]:
     match dyad:
         case RRR():
-            apart = np.hypot(*(points[dyad.joint_a] - points[dyad.joint_b]))
-            near, far = float(apart.min()), float(apart.max())
+            distance = np.hypot(*(points[dyad.joint_a] - points[dyad.joint_b]))
+            near, far = float(distance.min()), float(distance.max())
             links = (dyad.link_a, dyad.length_a), (dyad.link_b, dyad.length_b)
             for (link, own), (_, other) in (links, links[::-1]):
                 least, most = max(far - other, other - near), other + near
@@ -54,8 +54,8 @@ def _of_dyad(dyad: Dyad | Chain, points: Mapping[str, Array]) -> Iterator[Length
                     )
         case RRP(guide_link=""):
             x, y = (points[dyad.joint].T - dyad.guide_point).T
-            aside = np.abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
-            yield LengthBound(f"links.{dyad.link}.length", "≥", float(aside.max()))
+            offset = np.abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
+            yield LengthBound(f"links.{dyad.link}.length", "≥", float(offset.max()))
 
 
 def _of_crank(mechanism: Mechanism, dyad: Dyad | Chain) -> Iterator[LengthBound]:
@@ -70,9 +70,9 @@ def _of_crank(mechanism: Mechanism, dyad: Dyad | Chain) -> Iterator[LengthBound]
                 yield LengthBound("crank.radius", "≤", min(dyad.length_a + dyad.length_b - frame, frame - short))
         case RRP(guide_link="") if dyad.joint == crank.pin:
             x, y = (item - other for item, other in zip(crank.pivot, dyad.guide_point, strict=True))
-            aside = abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
-            yield LengthBound("crank.radius", "≤", dyad.length - aside)
+            offset = abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
+            yield LengthBound("crank.radius", "≤", dyad.length - offset)
         case RPR() if dyad.joint == crank.pin and dyad.pivot in mechanism.ground:
             (x, y), angle = dyad.slot.point, dyad.slot.angle
-            aside = abs(y * math.cos(angle) - x * math.sin(angle))
-            yield LengthBound("crank.radius", "≤", math.dist(crank.pivot, mechanism.ground[dyad.pivot]) - aside)
+            offset = abs(y * math.cos(angle) - x * math.sin(angle))
+            yield LengthBound("crank.radius", "≤", math.dist(crank.pivot, mechanism.ground[dyad.pivot]) - offset)

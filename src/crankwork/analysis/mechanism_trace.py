@@ -158,8 +158,8 @@ def _at_work(solved: PreparedLinkage, running: OperatingState) -> dict[str, Trac
     """Return reduction, torques and forces in joints."""
     machine, mechanism, motion, loads = solved.machine, running.mechanism, running.motion, running.loads
     w, eps = running.speed, running.angular_acceleration
-    beside = turning_inertia(machine, "reduced_inertia.drive")
-    inertia = reduced_inertia(mechanism, motion, beside)
+    added = turning_inertia(machine, "reduced_inertia.drive")
+    inertia = reduced_inertia(mechanism, motion, added)
     reduced: TracedValue = reduced_torque(motion, loads)
     static: TracedValue = absent("static_torque") if reduced.is_absent else static_torque(reduced)
     dynamic: TracedValue = dynamic_torque(w, inertia.inertia_1, inertia.inertia, eps)
@@ -210,8 +210,8 @@ def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedVal
             f"joint_force_y.{name}": pin.y,
             f"joint_force.{name}": pin.resultant,
         }
-    for name, (across, apart) in values.teeth.items():
-        columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": apart}
+    for name, (across, separating) in values.teeth.items():
+        columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": separating}
     for name, guide in values.guides.items():
         columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
     return values.balancing_torque, columns | along
