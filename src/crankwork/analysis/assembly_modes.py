@@ -27,7 +27,7 @@ MOST_SIGNED = 7
 
 @dataclass(frozen=True)
 class AssemblyMode:
-    """A branch of a circuit, between dead positions of the driver; the whole where it has none."""
+    """A branch of a circuit, between dead positions of the driver; the whole circuit if it has none."""
 
     circuit: int  # Number of the circuit, and of the branch on it, from 1
     branch: int
@@ -42,7 +42,7 @@ class AssemblyMode:
 
 
 class AssemblyModes(NamedTuple):
-    """The branches of all circuits, in their order, and whether there may be others."""
+    """The branches of all circuits, in their order, and whether these are all."""
 
     branches: tuple[AssemblyMode, ...]
     is_all: bool
@@ -66,7 +66,7 @@ def assembly_modes(machine: Machine) -> AssemblyModes:
     circuits = all_circuits(mechanism) if is_all else [stated]
     configurations, _ = stated.curve.at(np.array([stated.curve.stated]))
     result: list[AssemblyMode] = []
-    # that of the stated position first
+    # the circuit of the stated position first
     order = sorted(circuits, key=lambda item: item.curve.nearest(configurations[0])[1] > _SAME)
     for number, circuit in enumerate(order, start=1):
         result += _branches(circuit, number, configurations[0] if number == 1 else None)

@@ -1,4 +1,4 @@
-"""Force plans: what acts on each group of a linkage at one crank angle, end to end, and closed."""
+"""Force plans: the forces on each group of a linkage at one crank angle, end to end, and closed."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NEGLIGIBLE = 1e-9
 
 
 class PolygonForce(NamedTuple):
-    """A force of a plan: of what joint, guide, link or driver, and its parts along the fixed axes. [N]"""
+    """A force of a plan: its joint, guide, link or driver, and its parts along the fixed axes. [N]"""
 
     kind: Literal["load", "pin", "guide", "driver"]
     name: str
@@ -37,7 +37,7 @@ class PolygonForce(NamedTuple):
 
 
 class ForcePolygon(NamedTuple):
-    """What acts on the links of a group: loads with inertia first, then what its outer joints put on it."""
+    """The forces on the links of a group: loads with inertia first, then those of its outer joints."""
 
     links: tuple[str, ...]
     forces: tuple[PolygonForce, ...]

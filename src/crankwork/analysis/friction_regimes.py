@@ -73,7 +73,7 @@ class FrictionEquilibrium:
         )
 
     def __call__(self, grid: CrankGrid) -> Array:
-        """Return the forces that make the friction, shape (joints, n). [N]"""
+        """Return the pressing forces of the joints, shape (joints, n). [N]"""
         return np.stack([*self.at(grid.degrees).pressing.values()])
 
 
@@ -85,7 +85,7 @@ class FrictionRegimes:
         start, end = span
         edges = [end for steps in balance.senses.values() for end in steps.ends]
         count = max(int(np.ceil((end - start) / _STEP)), 1)
-        # what jumps does so right after an edge
+        # values jump right after an edge
         after_edges = [edge + _PLACED / 2 for edge in edges if edge < end]
         self.degrees = np.unique([*np.linspace(start, end, count + 1), *edges, *after_edges])
         self.forces = balance.at(self.degrees, thorough=True)
@@ -187,7 +187,7 @@ class FrictionRegimes:
         return edges, (edges[1:] + edges[:-1]) / 2
 
     def notices(self, solved: PreparedLinkage, codes: Sequence[str]) -> Iterator[Notice]:
-        """Yield where friction locks the driver or holds the load, and where forces are not found or not the only ones.
+        """Yield notices where friction locks the driver or holds the load, or forces are not found or not unique.
 
         `codes`: of the notices to yield.
         """
@@ -202,7 +202,7 @@ class FrictionRegimes:
             "two_balances": result.has_another,
             "friction_holds": (result.status == CONVERGED) & result.held,
         }
-        # what only grows with the speed holds nothing
+        # viscous friction alone holds no load
         is_dry = any(_is_dry(item) for item in solved.machine.friction)
         for code, is_so in conditions.items():
             if code in codes and (is_dry or code != "friction_holds"):

@@ -1,4 +1,4 @@
-"""Which lengths would let a crank that turns back turn fully, taken one at a time."""
+"""Lengths with which a crank that turns back would turn fully, changed one at a time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PASSED = 1e-9
 
 
 class LengthBound(NamedTuple):
-    """A length by its key, and what it must be at least or at most. [m]"""
+    """The key of a length, and its least or greatest value. [m]"""
 
     key: str
     sign: str
@@ -27,7 +27,7 @@ class LengthBound(NamedTuple):
 
 
 def full_turn_bounds(mechanism: Mechanism) -> Iterator[LengthBound]:
-    """Yield what the first dyad that does not close all round needs of its links, or of the crank."""
+    """Yield the bounds of lengths with which the first dyad that does not close all round would close."""
     placed = place(mechanism, _DENSE)
     still = np.zeros(len(_DENSE))
     points = {name: np.array([axis.position + still for axis in value]) for name, value in placed.points.items()}
@@ -59,7 +59,7 @@ def _of_dyad(dyad: Dyad | Chain, points: Mapping[str, Array]) -> Iterator[Length
 
 
 def _of_crank(mechanism: Mechanism, dyad: Dyad | Chain) -> Iterator[LengthBound]:
-    """Yield how long the crank may be, of a dyad that hangs on it and on the ground."""
+    """Yield the greatest length of the crank for a dyad between crank and ground."""
     crank = mechanism.crank
     match dyad:
         case RRR() if crank.pin in (dyad.joint_a, dyad.joint_b):

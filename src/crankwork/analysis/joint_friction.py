@@ -1,4 +1,4 @@
-"""A linkage whose joints rub: torque, forces, losses and efficiency with friction, and where it locks or holds."""
+"""A linkage with friction in its joints: torque, forces, losses, efficiency, and where it locks or holds."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class _Place(NamedTuple):
 
 
 def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mapping[str, TracedValue]) -> FrictionColumns:
-    """Return what friction adds to a linkage at work (artobolevsky_1988, ch. 11 and 14).
+    """Return the results that friction adds to a linkage at work (artobolevsky_1988, ch. 11 and 14).
 
     `running`: the linkage at work, traced; `trace`: its columns without friction.
     """
@@ -138,13 +138,13 @@ def _places(solved: PreparedLinkage) -> Iterator[_Place]:
 
 
 def _span(motion: Motion) -> tuple[float, float]:
-    """Return the first and the last crank angle that is reached. [deg]"""
+    """Return the first and the last crank angle of a motion. [deg]"""
     over = interpolant_of(motion.grid)({})
     return float(over.edges[0]), float(over.edges[-1])
 
 
 def _velocity(motion: Motion, place: _Place, w: TracedValue) -> TracedValue:
-    """Return how fast one link of a joint turns or slides in the other."""
+    """Return the relative angular or sliding velocity of the links of a joint."""
     rate = broadcast(relative_rate(motion, place.joint), motion.grid)
     if isinstance(place.joint, Pin):
         velocity: TracedValue = rates.link_angular_velocity(rate, w).named(f"relative_speed.{place.name}")

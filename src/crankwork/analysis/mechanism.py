@@ -101,7 +101,7 @@ def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
 def analyse_linkage(
     machine: Machine, grid: CrankGrid | None = None, progress: Callable[[float], None] | None = None
 ) -> Results:
-    """Return everything a linkage does over one cycle: a revolution, or two of some gas.
+    """Return all results of a linkage over one cycle: a revolution, or two of some gas.
 
     Columns, summary, checks and notices; of a crank that does not turn fully between its dead positions. `grid`:
     ascending crank angles within one cycle; the machine's own table otherwise [rad]; `progress`: as `analyse` takes it.
@@ -151,13 +151,13 @@ def analyse_linkage(
 
 
 def _harmonics(moved: _Moved, over: CycleInterpolant) -> dict[str, TracedValue]:
-    """Return the harmonics of the torque that a crank at a steady speed is given."""
+    """Return the harmonics of the driving torque of a crank at a steady speed."""
     machine = moved.machine
     return delivered_harmonics(over, machine.cycle, machine.mechanism.crank.radius) if moved.has_steady_crank else {}
 
 
 def _turns(machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedValue]) -> Iterator[SpeedResults]:
-    """Yield how evenly a linkage runs, where a flywheel is given or wanted, and what its motor does."""
+    """Yield the speed fluctuation if a flywheel is given or wanted, and the results of a motor if there is one."""
     drive, w, mean = machine.drive, speed_of(machine), trace.get("mean_torque")
     if not has_flywheel(drive) and drive.motor is None:
         return
@@ -191,7 +191,7 @@ def _power_of_valves(machine: Machine, values: Mapping[str, TracedValue]) -> dic
 
 
 def _is_needed(mean: TracedValue | None) -> bool:
-    """Return whether a mean torque is what the driver must give."""
+    """Return whether a mean torque is one that the driver must give."""
     return mean is not None and mean.key == "mean_driving_torque" and mean.value > 0
 
 
@@ -215,7 +215,7 @@ class _Singles(NamedTuple):
 
 
 def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None = None) -> _Singles:
-    """Return the single values that follow from traced columns; `name`: of one thing only."""
+    """Return the single values that follow from traced columns; `name`: of one link, joint or point only."""
     machine, result = moved.machine, moved.reached.travel
     quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
     quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
@@ -392,7 +392,7 @@ def _summary(
 
 
 def _given_values(machine: Machine) -> dict[str, TracedValue]:
-    """Return the speed of a crank and what it is driven with, or the period of a law."""
+    """Return speed, acceleration and efficiency of a crank, or the period of a law."""
     law = machine.mechanism.driver.law
     if law is not None:
         return {"period": given("period", law.period, "driver.period")}
@@ -426,7 +426,7 @@ def _checks(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
     reference = values.balancing_torque
     rows = _stride(grid, len(solved.machine.drawn.members))
     part = operating_state(solved, linkage_motion(solved.machine.mechanism, grid[rows]))
-    # forces that do no work balance each other to their own rounding, so a torque of zero is measured by them
+    # forces without work cancel only up to their own rounding, so a torque of zero is measured by them
     sizes = [float(np.max(pin.resultant)) for pin in values.pins.values()]
     turning = _lever(solved.machine.mechanism.driver) * max(sizes, default=0.0)
     scale = max(float(np.max(np.abs(reference))), turning) or 1.0
@@ -438,7 +438,7 @@ def _checks(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
 
 
 def _lever(driver: Driver) -> float:
-    """Return the length with which the force in a joint is a torque of the driver, or 1 where that is a force."""
+    """Return the lever arm from a joint force to the torque of the driver, or 1 for a driver with a force."""
     match driver:
         case Crank(radius=radius):
             return radius

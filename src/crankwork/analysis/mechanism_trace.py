@@ -1,4 +1,4 @@
-"""Every column of a linkage as a known: motion, reduction to the crank, torques, forces in joints."""
+"""Every column of a linkage as a traced value: motion, reduction to the crank, torques, forces in joints."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from crankwork.mechanism.joints import SlidingJoint, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
 
-# what a driver gives, by whether it turns
+# result of a driver, by whether it turns
 DRIVEN = {False: "driver_force", True: "driver_torque"}
 
 
@@ -76,7 +76,7 @@ def linkage_trace(solved: PreparedLinkage, running: OperatingState) -> dict[str,
 
 
 def _by_law(solved: PreparedLinkage, running: OperatingState, law: Law) -> dict[str, TracedValue]:
-    """Return the columns of a linkage whose driver follows a law over time, with what the driver has to give."""
+    """Return the columns of a linkage whose driver follows a law over time, with the torque or force of the driver."""
     machine, motion = solved.machine, running.motion
     q, rate, second = motion.driver or Transfer(None, None, None)
     columns = {"time": clock(law), **{item.key: item for item in (q, rate, second)}}
@@ -96,7 +96,7 @@ def speed_of(machine: Machine) -> TracedValue:
 
 
 def efficiency_of(drive: Drive) -> TracedValue:
-    """Return the efficiency of the joints between motor and process, made up of those of a chain where it is given."""
+    """Return the efficiency of the joints between motor and process, the product over a chain if one is given."""
     if drive.efficiency == 1:
         return absent("efficiency", 1.0)
     if drive.chain is None:
@@ -194,7 +194,7 @@ def _driving(
 
 
 def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedValue, dict[str, TracedValue]]:
-    """Return what the driver needs, and the forces in joints and guides.
+    """Return the balancing torque, and the forces in joints and guides.
 
     The joint of crank and ground has the name of its fixed point.
     """

@@ -1,4 +1,4 @@
-"""How far a linkage gets, and what is told of it: dead positions, swing and stroke, change points."""
+"""Range of motion of a linkage, with its notices: dead positions, swing and stroke, change points."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
         moved = linkage_motion(mechanism, engine)
     except GeometryError as error:
         message = _branch_first(mechanism, engine, error.args[0])
-        # a law either passes what its linkage reaches, or has to be changed
+        # a law beyond the range of its linkage has to be changed
         if not has_steady_crank(mechanism):
             raise GeometryError(message) from None
         try:
@@ -154,7 +154,7 @@ def open_range(travel: CrankRange) -> tuple[float, float]:
 class SingularColumns(NamedTuple):
     """Columns that have no value somewhere, and at which crank angles. [deg]"""
 
-    unbounded: Mapping[str, tuple[float, ...]]  # They grow beyond all bounds towards it
+    unbounded: Mapping[str, tuple[float, ...]]  # They grow beyond all bounds towards the angle
     undetermined: Mapping[str, tuple[float, ...]]  # They stay finite, with no limit that both sides have in common
 
 
@@ -183,7 +183,7 @@ def find_singular_columns(
 
 
 def limits_of(travel: CrankRange, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the range of a crank that turns back, and swing and stroke between its dead positions and all round."""
+    """Return the range of a crank that turns back, and swing and stroke on its branch and on the whole circuit."""
     circuit, values = travel.circuit, {}
     for key, degrees in (
         ("crank_range", travel.end - travel.start),
@@ -212,7 +212,7 @@ def _is_full(extent: Extent) -> bool:
 
 
 def clear_of_changes(mechanism: Mechanism, moved: Motion) -> Motion:
-    """Return the motion beside change points, where forces are computed and compared."""
+    """Return the motion without the surroundings of change points, in which nothing is compared."""
     clear = np.ones(len(moved.grid), dtype=bool)
     for passage in mechanism.passages.values():
         clear &= ~passage.is_bridged(moved.grid.degrees)

@@ -117,13 +117,13 @@ def _followed(
 
 
 class _Cycles:
-    """Where a motion passes the coordinate that it started from, and whether it is steady there."""
+    """Passages of the coordinate that a motion started from, and whether it is steady there."""
 
     def __init__(self, model: TransientModel, progress: Callable[[float], None] | None) -> None:
         self._time, self._progress = model.wanted.time, progress
         self._place, self._period = model.chart.coordinate(model.wanted.start), model.chart.period
         self._until = model.wanted.until
-        # the steady speed is that without friction
+        # the steady-state solution has no friction
         self._has_friction = bool(model.machine.friction)
         self.times, self.rates = [0.0], [model.wanted.speed]
 

@@ -48,7 +48,7 @@ class TransientModel:
 
     solved: PreparedLinkage
     chart: PathCoordinate
-    flywheel: float = 0.0  # Moment of inertia on the crank besides what the machine has [kg m2]
+    flywheel: float = 0.0  # Moment of inertia on the crank, added to that of the machine [kg m2]
     # Solved paths of the chains of each branch
     paths: dict[float, dict[int, ChainPath]] = field(default_factory=dict, compare=False, repr=False)
 
@@ -267,7 +267,7 @@ def _backwards(motion: Motion) -> Motion:
 
 
 def _roots(function: Callable[[Array], Array], breaks: Array) -> Array:
-    """Return where one of some functions changes its sign between the first and the last of the breaks."""
+    """Return the zeros at which functions change their signs between the first and the last of the breaks."""
     places = np.unique(np.concatenate([breaks, np.linspace(breaks[0], breaks[-1], _LOOKS)]))
     values = function(places)
     values = np.where(np.abs(values) <= _NEGLIGIBLE * np.max(np.abs(values), axis=1, keepdims=True), 0.0, values)

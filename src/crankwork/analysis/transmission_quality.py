@@ -1,4 +1,4 @@
-"""How good a linkage is: transmission and pressure angles, and how much faster one stroke is than the other."""
+"""Transmission quality of a linkage: transmission and pressure angles, and time ratios of strokes."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, Lin
     """Yield the two links of RRR dyads, link and guide of RRP dyads, with the point between them."""
     for dyad in mechanism.dyads:
         match dyad:
-            # the third side of a triangle whose shape a motor drives is no link
+            # the third side of a triangle that a motor deforms is no link
             case RRR() if mechanism.driver.link not in (dyad.link_a, dyad.link_b):
                 yield "transmission", dyad.point, motion.bar(dyad.link_a), motion.bar(dyad.link_b)
             case RRP():

@@ -73,10 +73,10 @@ def positions(machine: Machine) -> Array:
 
 
 def worked_position(results: Results) -> float:
-    """Return the position at which a linkage is worked and its plans are drawn. [deg]
+    """Return the position of the worked example, at which plans are drawn. [deg]
 
-    Where loads act, that of the largest torque in which all links turn that turn at all; where a law drives, one where
-    the driver moves, and gets faster or slower if it ever does; else the first after the start.
+    With loads, that of the largest torque at which no turning link stands still; with a law, one at which the driver
+    moves, and if possible accelerates; else the first after the start.
     """
     machine = results.machine
     angles = positions(machine)
@@ -231,7 +231,7 @@ class _States:
         return values | {member.rod: values[member.number] for member in self.shape.members if member.rod}
 
     def slides(self) -> Iterator[_Sliding]:
-        """Yield what slides on a moving guide; the rod of a cylinder slides on its barrel."""
+        """Yield the points that slide on a moving guide; the rod of a cylinder slides on its barrel."""
         for member in self.shape.members:
             if member.rod:
                 barrel, end = member.points[0], self.point(member.points[1])
@@ -249,11 +249,11 @@ class _States:
                 yield _Sliding(letter, under, piece, self._on_link(member.guide.link, piece.place), member.guide.link)
 
     def _on_link(self, link: str, place: Array) -> _State:
-        """Return the state of the point of a link that is at a place."""
+        """Return the state of the point of a link at a place."""
         return self._carried(link, self._state(self._moving.frames[link].origin), place)
 
     def _carried(self, link: str, origin: _State, place: Array) -> _State:
-        """Return the state of the point of a link that is at a place, of one of its points."""
+        """Return the state of the point of a link at a place, from the state of another point."""
         rate, rate_1 = self.turning(link)
         x, y = place - origin.place
         across, along = np.array([-y, x]), np.array([x, y])

@@ -43,12 +43,12 @@ class LeverForce(NamedTuple):
 
     @property
     def arm(self) -> float:
-        """How far the pole is from its line. [m/s]"""
+        """Distance of the pole from its line of action. [m/s]"""
         return abs(self.moment) / self.size
 
     @property
     def foot(self) -> Array:
-        """Where the arm meets its line. [m/s]"""
+        """Foot of the arm on its line of action. [m/s]"""
         along = self.force / self.size
         return np.asarray(self.end - (self.end @ along) * along)
 
