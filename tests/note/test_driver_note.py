@@ -74,11 +74,11 @@ def test_the_rod_of_a_cylinder_slides_on_its_barrel_in_the_plans():
     for i in range(2):
         rate, second = float(rates.first[i]), float(rates.second[i])
         turning = known["link_angular_velocity.cylinder"][i]
-        speed = {v.of: v for v in velocities(mechanism, moved, i, rate).vectors if v.kind == "sliding"}
+        speed = {v.name: v for v in velocities(mechanism, moved, i, rate).vectors if v.kind == "sliding"}
         assert speed["BB1"].length == pytest.approx(abs(rate), rel=1e-12)
         plan = accelerations(mechanism, moved, i, rate, second).vectors
-        parts = {v.kind: v for v in plan if v.of == "BB1"}
+        parts = {v.kind: v for v in plan if v.name == "BB1"}
         assert parts["coriolis"].length == pytest.approx(2 * abs(turning * rate), rel=1e-12)
         assert parts["sliding"].length == pytest.approx(abs(second), rel=1e-9, abs=1e-12)
-        (end,) = (v.end for v in plan if v.of == "B")
+        (end,) = (v.end for v in plan if v.name == "B")
         assert end == pytest.approx([known["point_acceleration_x.B"][i], known["point_acceleration_y.B"][i]])

@@ -39,9 +39,9 @@ def test_plans_close(name, degrees):
         ends = {}
         for vector in plan.vectors:
             if vector.kind in {"normal", "coriolis"}:
-                ends[vector.of] = vector.end
-            elif vector.of in ends:
-                np.testing.assert_allclose(vector.start, ends[vector.of], atol=1e-9 * size)
+                ends[vector.name] = vector.end
+            elif vector.name in ends:
+                np.testing.assert_allclose(vector.start, ends[vector.name], atol=1e-9 * size)
             if vector.kind not in {"normal", "coriolis"}:
                 assert min(np.hypot(*(vector.end - one)) for one in nodes) < 1e-9 * size
     _check_directions(linkage, moved, *plans)
@@ -53,7 +53,7 @@ def _check_directions(linkage, moved, velocity, acceleration):
     at = {letter: _place(moved, shape, name) for name, letter in shape.letters.items()}
     for plan in (velocity, acceleration):
         for one in plan.vectors:
-            pair = next(((b, a) for a in at for b in at if a != b and one.of == b + a), None)
+            pair = next(((b, a) for a in at for b in at if a != b and one.name == b + a), None)
             if pair is None or one.kind not in {"relative", "normal", "tangential"}:
                 continue
             bar, vector = at[pair[0]] - at[pair[1]], one.end - one.start
@@ -78,10 +78,10 @@ def test_sliding_goes_along_the_slot_and_coriolis_across():
     lever = moved.frames["lever"]
     along = lever.along[0]
     plan = accelerations(linkage, moved, 0, 10.0, 5.0)
-    by_kind = {one.kind: one.end - one.start for one in plan.vectors if one.of == "AA2"}
+    by_kind = {one.kind: one.end - one.start for one in plan.vectors if one.name == "AA2"}
     assert by_kind["coriolis"] @ along == pytest.approx(0, abs=1e-12)
     assert by_kind["sliding"] @ [-along[1], along[0]] == pytest.approx(0, abs=1e-12)
-    (slip,) = (one for one in velocities(linkage, moved, 0, 10.0).vectors if one.of == "AA2")
+    (slip,) = (one for one in velocities(linkage, moved, 0, 10.0).vectors if one.name == "AA2")
     turning = float(lever.angle_1[0]) * 10
     assert np.hypot(*by_kind["coriolis"]) == pytest.approx(2 * abs(turning) * slip.length)
 

@@ -1,4 +1,4 @@
-"""Every way in which a linkage can be assembled: its circuits, their branches, and how far everything moves on each."""
+"""Assembly modes of a linkage: its circuits, their branches, and how far everything moves on each."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
 
 _SAME, _FULL = 1e-6, 1e-9
-# dyads whose ways to be put together are all looked at: twice as many for each
+# most dyads with two signs whose combinations are all tried: each doubles them
 MOST_SIGNED = 7
 
 
 @dataclass(frozen=True)
 class AssemblyMode:
-    """A branch of a circuit, between dead positions of the driver; the whole where it has none."""
+    """A branch of a circuit, between dead positions of the driver; the whole circuit if it has none."""
 
     circuit: int  # Number of the circuit, and of the branch on it, from 1
     branch: int
@@ -42,9 +42,9 @@ class AssemblyMode:
 
 
 class AssemblyModes(NamedTuple):
-    """The branches of all circuits, in their order, and whether there may be others."""
+    """The branches of all circuits, in their order, and whether these are all."""
 
-    found: tuple[AssemblyMode, ...]
+    branches: tuple[AssemblyMode, ...]
     is_all: bool
 
 
@@ -54,8 +54,8 @@ def assembly_modes(machine: Machine) -> AssemblyModes:
     Examples
     --------
     >>> import crankwork
-    >>> found = ways(crankwork.read_machine(crankwork.template("four-bar")))
-    >>> [(one.circuit, one.branch, one.is_stated, one.turns) for one in found.found]
+    >>> modes = assembly_modes(crankwork.read_machine(crankwork.template("four-bar")))
+    >>> [(mode.circuit, mode.branch, mode.is_stated, mode.turns) for mode in modes.branches]
     [(1, 1, True, 1), (2, 1, False, 1)]
     """
     if machine.linkage is None:
@@ -64,12 +64,12 @@ def assembly_modes(machine: Machine) -> AssemblyModes:
     stated = _stated(mechanism)
     is_all = _is_countable(mechanism)
     circuits = all_circuits(mechanism) if is_all else [stated]
-    here, _ = stated.curve.at(np.array([stated.curve.stated]))
+    configurations, _ = stated.curve.at(np.array([stated.curve.stated]))
     result: list[AssemblyMode] = []
-    # that of the stated position first
-    order = sorted(circuits, key=lambda item: item.curve.nearest(here[0])[1] > _SAME)
+    # the circuit of the stated position first
+    order = sorted(circuits, key=lambda item: item.curve.nearest(configurations[0])[1] > _SAME)
     for number, circuit in enumerate(order, start=1):
-        result += _branches(circuit, number, here[0] if number == 1 else None)
+        result += _branches(circuit, number, configurations[0] if number == 1 else None)
     return AssemblyModes(tuple(result), is_all)
 
 
@@ -90,14 +90,14 @@ def _branches(circuit: Circuit, number: int, stated: Array | None) -> Iterator[A
     """Yield the branches of a circuit, that of a stated position first."""
     driver = driver_coordinate(circuit.mechanism)
     parts = circuit.branches(driver)
-    at = circuit.curve.nearest(stated)[0] if stated is not None else None
-    if at is not None:
-        parts = sorted(parts, key=lambda item: not _holds(circuit, item, at))
+    position = circuit.curve.nearest(stated)[0] if stated is not None else None
+    if position is not None:
+        parts = sorted(parts, key=lambda item: not _holds(circuit, item, position))
     link = circuit.mechanism.driver.link
     names = [item for item in circuit.curve.system.equations.index if item not in (link, rod_of(link))]
     is_turning = circuit.mechanism.driver.turns
     for count, part in enumerate(parts, start=1):
-        is_stated = at is not None and _holds(circuit, part, at)
+        is_stated = position is not None and _holds(circuit, part, position)
         start, end = sorted(map(float, circuit.values(driver, np.array(part))))
         if not math.isfinite(start + end):
             raise GeometryError(ErrorMessage("circuit_lost", links=circuit.curve.system.equations.names))
@@ -114,6 +114,6 @@ def _branches(circuit: Circuit, number: int, stated: Array | None) -> Iterator[A
         yield AssemblyMode(number, count, is_stated, start, end, turns, swings, strokes)
 
 
-def _holds(circuit: Circuit, part: CircuitPart, at: float) -> bool:
+def _holds(circuit: Circuit, part: CircuitPart, position: float) -> bool:
     length = circuit.curve.length
-    return any(part.start <= at + shift <= part.end for shift in (-length, 0.0, length))
+    return any(part.start <= position + shift <= part.end for shift in (-length, 0.0, length))

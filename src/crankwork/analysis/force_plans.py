@@ -1,4 +1,4 @@
-"""Force plans: what acts on each group of a linkage at one crank angle, end to end, and closed."""
+"""Force plans: the forces on each group of a linkage at one crank angle, end to end, and closed."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.joints import group_links, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 
-# forces smaller than this share of the largest of a plan are nothing
-_NOTHING = 1e-9
+# forces smaller than this share of the largest of a plan are left out
+_NEGLIGIBLE = 1e-9
 
 
 class PolygonForce(NamedTuple):
-    """A force of a plan: of what joint, guide, link or driver, and its parts along the fixed axes. [N]"""
+    """A force of a plan: its joint, guide, link or driver, and its parts along the fixed axes. [N]"""
 
     kind: Literal["load", "pin", "guide", "driver"]
     name: str
@@ -37,7 +37,7 @@ class PolygonForce(NamedTuple):
 
 
 class ForcePolygon(NamedTuple):
-    """What acts on the links of a group: loads with inertia first, then what its outer joints put on it."""
+    """The forces on the links of a group: loads with inertia first, then those of its outer joints."""
 
     links: tuple[str, ...]
     forces: tuple[PolygonForce, ...]
@@ -46,7 +46,7 @@ class ForcePolygon(NamedTuple):
 def force_plans(results: Results, degrees: float) -> list[ForcePolygon]:
     """Return the plans of all groups, from the last to the driver, at a crank angle [deg].
 
-    None of a linkage that a cylinder or a motor between links drives: its groups are not apart from its driver.
+    None of a linkage that a cylinder or a motor between links drives: its groups include the driver.
     """
     solved, mechanism = results.solved, results.machine.mechanism
     if isinstance(mechanism.driver, Cylinder | LinkMotor) or mechanism.passages or results.machine.redundant:
@@ -80,7 +80,7 @@ def force_plans(results: Results, degrees: float) -> list[ForcePolygon]:
         forces = tuple(on_group(links))
         most = max((force.size for force in forces), default=0.0)
         if most > 0:
-            plans.append(ForcePolygon(links, tuple(force for force in forces if force.size > _NOTHING * most)))
+            plans.append(ForcePolygon(links, tuple(force for force in forces if force.size > _NEGLIGIBLE * most)))
     return plans
 
 

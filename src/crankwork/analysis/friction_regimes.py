@@ -23,10 +23,10 @@ from crankwork.kinematics.chain_solver import ChainPath
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 
-# rows whose signs part the cycle
+# rows whose changes of sign divide the cycle
 _CHANGES = ("margin", "ideal", "torque", "another")
 _STEP = 1.0
-# where something changes its sign is found to this [deg]
+# tolerance of the angle of a change of sign [deg]
 _PLACED = 1e-10
 _HALVINGS = 60
 
@@ -40,8 +40,8 @@ class StepFunction:
 
     def __call__(self, degrees: Array) -> Array:
         """Return the value at crank angles."""
-        at = np.minimum(np.searchsorted(self.ends, degrees, side="left"), len(self.values) - 1)
-        return np.asarray(self.values)[at]
+        index = np.minimum(np.searchsorted(self.ends, degrees, side="left"), len(self.values) - 1)
+        return np.asarray(self.values)[index]
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class FrictionEquilibrium:
     solved: PreparedLinkage
     senses: Mapping[Friction, StepFunction]
     is_static: bool = False
-    # of its chains, as far as they have been followed
+    # solved paths of its chains
     paths: dict[int, ChainPath] = field(default_factory=dict, compare=False, repr=False)
 
     @property
@@ -73,29 +73,29 @@ class FrictionEquilibrium:
         )
 
     def __call__(self, grid: CrankGrid) -> Array:
-        """Return the forces that make the friction, shape (joints, n). [N]"""
+        """Return the pressing forces of the joints, shape (joints, n). [N]"""
         return np.stack([*self.at(grid.degrees).pressing.values()])
 
 
 class FrictionRegimes:
-    """What the forces with friction do over all crank angles: where they have corners, lock, or hold the load."""
+    """Forces with friction over all crank angles: where they have corners, lock, or hold the load."""
 
     def __init__(self, balance: FrictionEquilibrium, span: tuple[float, float]) -> None:
         self._balance, self._span = balance, span
         start, end = span
         edges = [end for steps in balance.senses.values() for end in steps.ends]
         count = max(int(np.ceil((end - start) / _STEP)), 1)
-        # what jumps does so right after an edge
-        beside = [edge + _PLACED / 2 for edge in edges if edge < end]
-        self.degrees = np.unique([*np.linspace(start, end, count + 1), *edges, *beside])
-        self.found = balance.at(self.degrees, thorough=True)
-        self._is_double = bool(self.found.has_another.any())
-        degrees, rows = self._with_vertices(self.degrees, self._rows_of(self.found))
+        # values jump right after an edge
+        after_edges = [edge + _PLACED / 2 for edge in edges if edge < end]
+        self.degrees = np.unique([*np.linspace(start, end, count + 1), *edges, *after_edges])
+        self.forces = balance.at(self.degrees, thorough=True)
+        self._is_double = bool(self.forces.has_another.any())
+        degrees, rows = self._with_vertices(self.degrees, self._rows_of(self.forces))
         if self._is_double:
-            at = np.searchsorted(self.degrees, degrees, side="right") - 1
-            rows["another"] = self._single(self.found)[at]
+            index = np.searchsorted(self.degrees, degrees, side="right") - 1
+            rows["another"] = self._single(self.forces)[index]
         places = self._crossings(degrees, rows)
-        is_known = bool(np.all(np.isin(self.found.status, (CONVERGED, NO_POSITION))))
+        is_known = bool(np.all(np.isin(self.forces.status, (CONVERGED, NO_POSITION))))
         self.is_free = is_known and not np.any(rows["margin"] < 0)
         self._changes = sorted({item for key in _CHANGES for item in places.get(key, ())})
         self.knots = tuple(sorted({item for place in places.values() for item in place} | set(edges)))
@@ -104,18 +104,18 @@ class FrictionRegimes:
         return self._rows_of(self._balance.at(degrees))
 
     @staticmethod
-    def _single(found: FrictionForces) -> Array:
-        """Return -1 where forces balance in another way as well."""
-        return np.where(found.has_another, -1.0, 1.0)
+    def _single(forces: FrictionForces) -> Array:
+        """Return -1 where another equilibrium exists, else 1."""
+        return np.where(forces.has_another, -1.0, 1.0)
 
-    def _rows_of(self, found: FrictionForces) -> dict[str, Array]:
-        """Return what has corners, or tells of locking and holding, where it changes its sign."""
-        locked = found.status == SELF_LOCKING
-        rows = {"margin": np.where(locked, -1.0, found.margin), "ideal": found.ideal_torque,
-                "torque": np.asarray(found.joint_forces.balancing_torque)}  # fmt: skip
+    def _rows_of(self, forces: FrictionForces) -> dict[str, Array]:
+        """Return the quantities whose changes of sign are corners, or begin and end locking and holding."""
+        locked = forces.status == SELF_LOCKING
+        rows = {"margin": np.where(locked, -1.0, forces.margin), "ideal": forces.ideal_torque,
+                "torque": np.asarray(forces.joint_forces.balancing_torque)}  # fmt: skip
         for law in self._balance.senses:
             if isinstance(law, GuideFriction):
-                guide = found.joint_forces.guides[law.slider]
+                guide = forces.joint_forces.guides[law.slider]
                 rows[f"{law.slider}.normal"] = np.asarray(guide.normal)
                 if law.length:
                     tilting = law.tilting(np.asarray(guide.normal), np.asarray(guide.moment))
@@ -123,10 +123,10 @@ class FrictionRegimes:
         return rows
 
     def _with_vertices(self, degrees: Array, rows: dict[str, Array]) -> tuple[Array, dict[str, Array]]:
-        """Return crank angles with those between which something turns back shortly before zero, and the rows there."""
+        """Return crank angles with vertices of margin and torque close to zero added, and the rows at all of them."""
         for _ in range(2):
             values = np.array([rows["margin"], rows["torque"]])
-            low, middle, high = (np.abs(values[:, at : values.shape[1] - 2 + at]) for at in range(3))
+            low, middle, high = (np.abs(values[:, offset : values.shape[1] - 2 + offset]) for offset in range(3))
             curved = (middle < low) & (middle < high)
             bend = low - 2 * middle + high
             shift = np.divide(low - high, 2 * bend, out=np.zeros_like(bend), where=curved & (bend > 0))
@@ -140,43 +140,43 @@ class FrictionRegimes:
         return degrees, rows
 
     def _crossings(self, degrees: Array, rows: Mapping[str, Array]) -> dict[str, list[float]]:
-        """Return where rows change their signs, or begin and end to be known."""
-        found: dict[str, list[float]] = {}
+        """Return where rows change their signs, or begin or end to be NaN."""
+        crossings: dict[str, list[float]] = {}
         brackets: list[tuple[int, int]] = []
         for number, (key, row) in enumerate(rows.items()):
-            nothing = 1e-13 * np.nanmax(np.abs(row), initial=0.0)
-            signs = np.where(np.isnan(row), 2.0, np.sign(np.where(np.abs(row) <= nothing, 0.0, row)))
-            at = np.flatnonzero(signs[1:] != signs[:-1])
-            ends = np.concatenate([at[signs[at] == 0], at[signs[at + 1] == 0] + 1])
-            found[key] = degrees[ends].tolist()
-            brackets += [(number, item) for item in at[(signs[at] != 0) & (signs[at + 1] != 0)].tolist()]
+            tolerance = 1e-13 * np.nanmax(np.abs(row), initial=0.0)
+            signs = np.where(np.isnan(row), 2.0, np.sign(np.where(np.abs(row) <= tolerance, 0.0, row)))
+            index = np.flatnonzero(signs[1:] != signs[:-1])
+            ends = np.concatenate([index[signs[index] == 0], index[signs[index + 1] == 0] + 1])
+            crossings[key] = degrees[ends].tolist()
+            brackets += [(number, item) for item in index[(signs[index] != 0) & (signs[index + 1] != 0)].tolist()]
         if brackets:
-            number, at = np.array(brackets).T
+            number, index = np.array(brackets).T
             values = np.array([*rows.values()])
 
-            def value_at(places: Array, some: Truth) -> Array:
-                here, row = self._rows(places), number[some]
+            def value_at(places: Array, active: Truth) -> Array:
+                by_key, row = self._rows(places), number[active]
                 if self._is_double:
-                    asked = row == keys.index("another")
-                    here["another"] = np.ones(places.size)
-                    if asked.any():
-                        here["another"][asked] = self._single(self._balance.at(places[asked], thorough=True))
-                return np.asarray(np.array([here[key] for key in keys])[row, np.arange(places.size)])
+                    mask = row == keys.index("another")
+                    by_key["another"] = np.ones(places.size)
+                    if mask.any():
+                        by_key["another"][mask] = self._single(self._balance.at(places[mask], thorough=True))
+                return np.asarray(np.array([by_key[key] for key in keys])[row, np.arange(places.size)])
 
             keys = [*rows]
-            ends_of = values[number, at], values[number, at + 1]
-            placed = _between(value_at, degrees[at], degrees[at + 1], ends_of)
+            ends_of = values[number, index], values[number, index + 1]
+            placed = _between(value_at, degrees[index], degrees[index + 1], ends_of)
             for item, place in zip(number.tolist(), placed.tolist(), strict=True):
-                found[keys[item]].append(place)
-        return found
+                crossings[keys[item]].append(place)
+        return crossings
 
     @property
     def drives(self) -> StepFunction:
-        """Who drives: 1 the crank, -1 the load, 0 where neither moves the other."""
+        """Driving side: 1 the crank, -1 the load, 0 where neither moves the other."""
         edges, middles = self._stretches()
-        result = self._balance.at(middles)
+        result, torques = self._balance.at(middles), self.forces.ideal_torque
         ideal, actual = result.ideal_torque, np.asarray(result.joint_forces.balancing_torque)
-        least = 1e-12 * np.max(np.abs(self.found.ideal_torque), initial=0.0, where=np.isfinite(self.found.ideal_torque))
+        least = 1e-12 * np.max(np.abs(torques), initial=0.0, where=np.isfinite(torques))
         both = np.where(np.minimum(ideal, actual) > least, 1.0, np.where(np.maximum(ideal, actual) < -least, -1.0, 0.0))
         return StepFunction(tuple(edges[1:].tolist()), tuple(both.tolist()))
 
@@ -187,24 +187,24 @@ class FrictionRegimes:
         return edges, (edges[1:] + edges[:-1]) / 2
 
     def notices(self, solved: PreparedLinkage, codes: Sequence[str]) -> Iterator[Notice]:
-        """Yield where friction locks the driver or holds the load, and where forces are not found or not the only ones.
+        """Yield notices where friction locks the driver or holds the load, or forces are not found or not unique.
 
-        `codes`: which of that.
+        `codes`: of the notices to yield.
         """
         edges, middles = self._stretches()
         result = self._balance.at(middles, thorough=self._is_double)
         period = 0.0
         if solved.machine.mechanism.driver.law is not None:
             period = solved.machine.mechanism.driver.law.period / 360.0
-        told = {
+        conditions = {
             "self_locking": result.status == SELF_LOCKING,
             "not_balanced": ~np.isin(result.status, (CONVERGED, SELF_LOCKING, NO_POSITION)),
             "two_balances": result.has_another,
             "friction_holds": (result.status == CONVERGED) & result.held,
         }
-        # what only grows with the speed holds nothing
+        # viscous friction alone holds no load
         is_dry = any(_is_dry(item) for item in solved.machine.friction)
-        for code, is_so in told.items():
+        for code, is_so in conditions.items():
             if code in codes and (is_dry or code != "friction_holds"):
                 yield from self._runs(code, edges, is_so, period)
 
@@ -225,31 +225,31 @@ class FrictionRegimes:
 def _between(value_at: Callable[[Array, Truth], Array], low: Array, high: Array, ends: tuple[Array, Array]) -> Array:
     """Return where functions change their sign between two places each: Ridders' method, halving where they jump.
 
-    `value_at` gives the functions of some of the places. What is not known counts as another sign. `ends`: their values
-    at both places.
+    `value_at` gives the functions in a mask at places. NaN counts as a sign of its own. `ends`: their values at both
+    places.
     """
     (low, high), (first, last) = (low.copy(), high.copy()), (end.copy() for end in ends)
     for _ in range(_HALVINGS):
-        some = high - low > _PLACED
-        if not some.any():
+        active = high - low > _PLACED
+        if not active.any():
             break
-        a, b, at_a, at_b = low[some], high[some], first[some], last[some]
+        a, b, at_a, at_b = low[active], high[active], first[active], last[active]
         middle = (a + b) / 2
-        value = value_at(middle, some)
+        value = value_at(middle, active)
         with np.errstate(all="ignore"):
             root = np.sqrt(value**2 - at_a * at_b)
             nearer = middle + (middle - a) * np.sign(at_a - at_b) * value / root
-        # a step beyond the root closes the other side of it, too
+        # a step beyond the root narrows the bracket from the other side, too
         beyond = np.clip(nearer + np.sign(nearer - middle) * _PLACED / 4, a, b)
-        for asked in (middle, nearer, beyond):
-            place = np.where(np.isfinite(asked), np.clip(asked, a, b), middle)
-            here = value if asked is middle else value_at(place, some)
+        for candidate in (middle, nearer, beyond):
+            place = np.where(np.isfinite(candidate), np.clip(candidate, a, b), middle)
+            new_value = value if candidate is middle else value_at(place, active)
             is_inside = (place >= a) & (place <= b)
-            same = is_inside & (_sign(here) == _sign(at_a))
+            same = is_inside & (_sign(new_value) == _sign(at_a))
             other = is_inside & ~same
-            a, at_a = np.where(same, place, a), np.where(same, here, at_a)
-            b, at_b = np.where(other, place, b), np.where(other, here, at_b)
-        low[some], high[some], first[some], last[some] = a, b, at_a, at_b
+            a, at_a = np.where(same, place, a), np.where(same, new_value, at_a)
+            b, at_b = np.where(other, place, b), np.where(other, new_value, at_b)
+        low[active], high[active], first[active], last[active] = a, b, at_a, at_b
     return np.asarray((low + high) / 2)
 
 

@@ -1,4 +1,4 @@
-"""Which lengths would let a crank that turns back turn fully, taken one at a time."""
+"""Lengths with which a crank that turns back would turn fully, changed one at a time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PASSED = 1e-9
 
 
 class LengthBound(NamedTuple):
-    """A length by its key, and what it must be at least or at most. [m]"""
+    """The key of a length, and its least or greatest value. [m]"""
 
     key: str
     sign: str
@@ -27,7 +27,7 @@ class LengthBound(NamedTuple):
 
 
 def full_turn_bounds(mechanism: Mechanism) -> Iterator[LengthBound]:
-    """Yield what the first dyad that does not close all round needs of its links, or of the crank."""
+    """Yield the bounds of lengths with which the first dyad that does not close all round would close."""
     placed = place(mechanism, _DENSE)
     still = np.zeros(len(_DENSE))
     points = {name: np.array([axis.position + still for axis in value]) for name, value in placed.points.items()}
@@ -43,8 +43,8 @@ def full_turn_bounds(mechanism: Mechanism) -> Iterator[LengthBound]:
 def _of_dyad(dyad: Dyad | Chain, points: Mapping[str, Array]) -> Iterator[LengthBound]:
     match dyad:
         case RRR():
-            apart = np.hypot(*(points[dyad.joint_a] - points[dyad.joint_b]))
-            near, far = float(apart.min()), float(apart.max())
+            distance = np.hypot(*(points[dyad.joint_a] - points[dyad.joint_b]))
+            near, far = float(distance.min()), float(distance.max())
             links = (dyad.link_a, dyad.length_a), (dyad.link_b, dyad.length_b)
             for (link, own), (_, other) in (links, links[::-1]):
                 least, most = max(far - other, other - near), other + near
@@ -54,12 +54,12 @@ def _of_dyad(dyad: Dyad | Chain, points: Mapping[str, Array]) -> Iterator[Length
                     )
         case RRP(guide_link=""):
             x, y = (points[dyad.joint].T - dyad.guide_point).T
-            aside = np.abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
-            yield LengthBound(f"links.{dyad.link}.length", "≥", float(aside.max()))
+            offset = np.abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
+            yield LengthBound(f"links.{dyad.link}.length", "≥", float(offset.max()))
 
 
 def _of_crank(mechanism: Mechanism, dyad: Dyad | Chain) -> Iterator[LengthBound]:
-    """Yield how long the crank may be, of a dyad that hangs on it and on the ground."""
+    """Yield the greatest length of the crank for a dyad between crank and ground."""
     crank = mechanism.crank
     match dyad:
         case RRR() if crank.pin in (dyad.joint_a, dyad.joint_b):
@@ -70,9 +70,9 @@ def _of_crank(mechanism: Mechanism, dyad: Dyad | Chain) -> Iterator[LengthBound]
                 yield LengthBound("crank.radius", "≤", min(dyad.length_a + dyad.length_b - frame, frame - short))
         case RRP(guide_link="") if dyad.joint == crank.pin:
             x, y = (item - other for item, other in zip(crank.pivot, dyad.guide_point, strict=True))
-            aside = abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
-            yield LengthBound("crank.radius", "≤", dyad.length - aside)
+            offset = abs(y * math.cos(dyad.guide_angle) - x * math.sin(dyad.guide_angle))
+            yield LengthBound("crank.radius", "≤", dyad.length - offset)
         case RPR() if dyad.joint == crank.pin and dyad.pivot in mechanism.ground:
             (x, y), angle = dyad.slot.point, dyad.slot.angle
-            aside = abs(y * math.cos(angle) - x * math.sin(angle))
-            yield LengthBound("crank.radius", "≤", math.dist(crank.pivot, mechanism.ground[dyad.pivot]) - aside)
+            offset = abs(y * math.cos(angle) - x * math.sin(angle))
+            yield LengthBound("crank.radius", "≤", math.dist(crank.pivot, mechanism.ground[dyad.pivot]) - offset)

@@ -1,4 +1,4 @@
-"""A linkage whose joints rub: torque, forces, losses and efficiency with friction, and where it locks or holds."""
+"""A linkage with friction in its joints: torque, forces, losses, efficiency, and where it locks or holds."""
 
 from __future__ import annotations
 
@@ -50,18 +50,18 @@ COLUMNS = (
     "joint_force_with_friction_y", "joint_force_with_friction", "normal_force_with_friction",
     "normal_moment_with_friction",
 )  # fmt: skip
-# what extremes are taken of, where the forces balance everywhere
+# columns whose extremes are taken if the forces balance everywhere
 FOLLOWED = (
     "torque_with_friction", "driver_force_with_friction", "driver_torque_with_friction", "friction_power",
     "joint_force_with_friction", "static_torque_with_friction",
 )  # fmt: skip
 _OF_MOTION = ("self_locking", "not_balanced", "two_balances")
 _REST = 1e-12
-_BESIDE = 1e-6
+_CLOSE = 1e-6
 
 
 class FrictionColumns(NamedTuple):
-    """What a linkage with friction has besides that without: columns, checks, notices, and whether it never locks."""
+    """Results that friction adds to those of a linkage: columns, checks, notices, and whether it never locks."""
 
     columns: dict[str, TracedValue]
     checks: dict[str, float]
@@ -70,7 +70,7 @@ class FrictionColumns(NamedTuple):
 
 
 class _Place(NamedTuple):
-    """A joint that rubs, its law, its name in columns, and where the description states the law."""
+    """A joint with friction, its law, its name in columns, and where the description states the law."""
 
     joint: Joint
     law: Friction
@@ -79,7 +79,7 @@ class _Place(NamedTuple):
 
 
 def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mapping[str, TracedValue]) -> FrictionColumns:
-    """Return what friction adds to a linkage at work (artobolevsky_1988, ch. 11 and 14).
+    """Return the results that friction adds to a linkage at work (artobolevsky_1988, ch. 11 and 14).
 
     `running`: the linkage at work, traced; `trace`: its columns without friction.
     """
@@ -90,13 +90,13 @@ def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mappin
     velocities = {place.law: _velocity(motion, place, running.speed) for place in places}
     senses = _senses(motion, velocities)
     balance = FrictionEquilibrium(solved, senses)
-    course = FrictionRegimes(balance, span)
-    root, friction, forces = _with_friction(places, velocities, balance, course.knots, running)
+    regimes = FrictionRegimes(balance, span)
+    root, friction, forces = _with_friction(places, velocities, balance, regimes.knots, running)
     columns = {value.key: value for value in friction.values()}
     powers = [_power(place, friction[place.law], velocities[place.law]) for place in places]
     columns |= {power.key: power for power in powers} | {"friction_power": total("friction_power", powers)}
     columns |= _forces(solved, forces)
-    notices, standing, is_free = [*course.notices(solved, _OF_MOTION)], course, course.is_free
+    notices, standing, is_free = [*regimes.notices(solved, _OF_MOTION)], regimes, regimes.is_free
     if solved.machine.mechanism.driver.law is not None:
         kind = "driver_torque" if solved.machine.mechanism.driver.turns else "driver_force"
         columns[f"{kind}_with_friction"] = forces.balancing_torque
@@ -112,7 +112,7 @@ def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mappin
         static = static.named("static_torque_with_friction")
         columns |= {static.key: static} | _efficiency(trace["static_torque"], static, standing)
     notices += standing.notices(solved, ("friction_holds",))
-    checks = _checks(balance, course, columns, root)
+    checks = _checks(balance, regimes, columns, root)
     return FrictionColumns({key: value.named(key) for key, value in columns.items()}, checks, tuple(notices), is_free)
 
 
@@ -128,7 +128,7 @@ def mean_values(over: CycleInterpolant) -> Iterator[TracedValue]:
 
 
 def _places(solved: PreparedLinkage) -> Iterator[_Place]:
-    """Yield the joints that rub."""
+    """Yield the joints with friction."""
     machine, held = solved.machine, all_links_and_joints(solved.machine.mechanism)[1]
     for law in machine.friction:
         kind, name = (SlidingJoint, law.slider) if isinstance(law, GuideFriction) else (Pin, law.joint)
@@ -138,13 +138,13 @@ def _places(solved: PreparedLinkage) -> Iterator[_Place]:
 
 
 def _span(motion: Motion) -> tuple[float, float]:
-    """Return the first and the last crank angle that is reached. [deg]"""
+    """Return the first and the last crank angle of a motion. [deg]"""
     over = interpolant_of(motion.grid)({})
     return float(over.edges[0]), float(over.edges[-1])
 
 
 def _velocity(motion: Motion, place: _Place, w: TracedValue) -> TracedValue:
-    """Return how fast one link of a joint turns or slides in the other."""
+    """Return the relative angular or sliding velocity of the links of a joint."""
     rate = broadcast(relative_rate(motion, place.joint), motion.grid)
     if isinstance(place.joint, Pin):
         velocity: TracedValue = rates.link_angular_velocity(rate, w).named(f"relative_speed.{place.name}")
@@ -155,26 +155,26 @@ def _velocity(motion: Motion, place: _Place, w: TracedValue) -> TracedValue:
 
 def _senses(motion: Motion, velocities: Mapping[Friction, TracedValue]) -> dict[Friction, StepFunction]:
     """Return the direction of the friction of each joint: against the velocity, none where a law dwells."""
-    varying = {str(at): velocity for at, velocity in enumerate(velocities.values()) if velocity.varies}
+    varying = {str(index): velocity for index, velocity in enumerate(velocities.values()) if velocity.varies}
     over = interpolant_of(motion.grid)(varying)
-    end, found = float(over.edges[-1]), []
+    end, steps = float(over.edges[-1]), []
     middles = (over.edges[1:] + over.edges[:-1]) / 2
     size = {
-        at: max(float(np.max(np.abs(over.at(str(at), middles)))) if velocity.varies else abs(velocity.value), 0.0)
-        for at, velocity in enumerate(velocities.values())
+        index: max(float(np.max(np.abs(over.at(str(index), middles)))) if velocity.varies else abs(velocity.value), 0.0)
+        for index, velocity in enumerate(velocities.values())
     }
     kinds = [isinstance(law, GuideFriction) for law in velocities]
-    for at, velocity in enumerate(velocities.values()):
+    for index, velocity in enumerate(velocities.values()):
         ends, values = [end], [-float(np.sign(velocity.node.value or 0.0))]
         if velocity.varies:
-            edges = np.unique([float(over.edges[0]), *over.breaks, *over.crossings(str(at)), end])
-            inside = over.at(str(at), (edges[1:] + edges[:-1]) / 2)
-            largest = max(size[other] for other, kind in enumerate(kinds) if kind == kinds[at])
+            edges = np.unique([float(over.edges[0]), *over.breaks, *over.crossings(str(index)), end])
+            inside = over.at(str(index), (edges[1:] + edges[:-1]) / 2)
+            largest = max(size[other] for other, kind in enumerate(kinds) if kind == kinds[index])
             signs = np.where(np.abs(inside) > _REST * largest, -np.sign(inside), 0.0)
             kept = np.append(np.diff(signs) != 0, True)
             ends, values = edges[1:][kept].tolist(), signs[kept].tolist()
-        found.append(StepFunction(tuple(ends), tuple(values)))
-    return dict(zip(velocities, found, strict=True))
+        steps.append(StepFunction(tuple(ends), tuple(values)))
+    return dict(zip(velocities, steps, strict=True))
 
 
 def _with_friction(
@@ -184,18 +184,18 @@ def _with_friction(
     knots: tuple[float, ...],
     running: OperatingState,
 ) -> tuple[Root, dict[Friction, TracedValue], JointForces]:
-    """Return what presses in the joints, the friction of each, and the joint forces with it.
+    """Return the pressing forces of the joints, the friction of each, and the joint forces with it.
 
-    What presses in each joint is found with all others; what that misses of the force in the joint is noted as an
-    equation.
+    The pressing forces of all joints are found together; the difference of each from the force in its joint is the
+    residual of an equation.
     """
     root = Root(balance)
     root.knots = knots
     friction, loads, pressing = dict[Friction, TracedValue](), AppliedLoads(), dict[Friction, TracedValue]()
-    for at, place in enumerate(places):
+    for index, place in enumerate(places):
         sense = _sense(balance.senses[place.law], velocities[place.law], place.name)
         kind = "joint_force_with_friction" if isinstance(place.joint, Pin) else "pressing_force"
-        pressing[place.law] = TracedValue(Component(root, at), f"{kind}.{place.name}")
+        pressing[place.law] = TracedValue(Component(root, index), f"{kind}.{place.name}")
         value = friction[place.law] = _law(place, sense, pressing[place.law], velocities[place.law])
         loads = loads.also(_on_links(running, place, value))
     forces = joint_forces(replace(running, loads=running.loads.also(loads)))
@@ -263,7 +263,7 @@ def _middle(place: _Place, axis: int) -> TracedValue:
 
 
 def _missing(place: _Place, pressing: TracedValue, forces: JointForces) -> TracedValue:
-    """Return by how much what presses in a joint differs from the force in it."""
+    """Return the difference of the pressing force of a joint from the force in it."""
     law, name = place.law, place.joint.name
     if isinstance(place.joint, Pin):
         force: TracedValue = forces.pins[name].resultant
@@ -303,14 +303,14 @@ def _forces(solved: PreparedLinkage, forces: JointForces) -> dict[str, TracedVal
     return columns
 
 
-def _efficiency(ideal: TracedValue, actual: TracedValue, course: FrictionRegimes) -> dict[str, TracedValue]:
+def _efficiency(ideal: TracedValue, actual: TracedValue, regimes: FrictionRegimes) -> dict[str, TracedValue]:
     """Return the efficiency, of the crank as driver or of the load; none where neither moves the other."""
     laws = {
         1: instantaneous_efficiency(ideal, actual),
         -1: instantaneous_efficiency(actual, ideal),
         0: absent("instantaneous_efficiency", np.nan),
     }
-    steps = course.drives
+    steps = regimes.drives
     if not any(steps.values):
         return {}
     return {
@@ -321,21 +321,21 @@ def _efficiency(ideal: TracedValue, actual: TracedValue, course: FrictionRegimes
 
 
 def _checks(
-    balance: FrictionEquilibrium, course: FrictionRegimes, columns: Mapping[str, TracedValue], root: Root
+    balance: FrictionEquilibrium, regimes: FrictionRegimes, columns: Mapping[str, TracedValue], root: Root
 ) -> dict[str, float]:
-    """Return by how much the power is missed, and by how much forces found joint by joint differ from all at once."""
-    # where loads jump with the friction or at an end, rounding decides what is before and what after that
-    apart_of = np.diff(course.degrees, prepend=course.degrees[0], append=course.degrees[-1]) > _BESIDE
-    degrees = course.degrees[(course.found.status == CONVERGED) & apart_of[1:] & apart_of[:-1]]
+    """Return the error of the power balance, and the difference of forces found joint by joint from all at once."""
+    # where loads jump with the friction or at an end, rounding decides which side an angle is on
+    is_clear = np.diff(regimes.degrees, prepend=regimes.degrees[0], append=regimes.degrees[-1]) > _CLOSE
+    degrees = regimes.degrees[(regimes.forces.status == CONVERGED) & is_clear[1:] & is_clear[:-1]]
     if not degrees.size:
         return {}
     grid = CrankGrid.from_degrees(degrees)
     values, running = balance.at(degrees), balance.running(grid)
     power = running.speed * np.asarray(values.joint_forces.balancing_torque)
     key = next(item for item in FOLLOWED if item in columns)
-    missing = {str(at): residual for at, residual in enumerate(root.residuals)}
+    missing = {str(index): residual for index, residual in enumerate(root.residuals)}
     torque, loss, *missed = Program({"": columns[key], "loss": columns["friction_power"], **missing})(grid).values()
-    # what presses nowhere is rounded to the size of the other forces
+    # a pressing force of zero has the rounding error of the other forces
     sizes = [*values.pressing.values(), *(np.asarray(pin.resultant) for pin in values.joint_forces.pins.values())]
     largest = max(float(np.max(size)) for size in sizes)
     return {

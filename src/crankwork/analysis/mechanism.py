@@ -70,18 +70,18 @@ from crankwork.mechanism.structure import mobility
 from crankwork.shaft.motor_selection import needed_power
 
 _DENSE_STEP = 1.0
-_STANDS = 1e-12
+_NO_TRAVEL = 1e-12
 _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
 _TURNING = ("link_angular_velocity", "link_angular_acceleration")
-# what has no sign, so that its least value says nothing
+# quantities without a sign, whose least value is of no use
 _SIZES = ("joint_force", "joint_force_with_friction", "friction_power", "gas_pressure", "shaking_force")
 _MOST_COEFFICIENTS = 10_000_000
 _OF_DRIVER = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
     "driver_angular_acceleration", "driver_force", "driver_torque", "driver_power",
 )  # fmt: skip
-# how far from a change point the routes are compared that lose their digits in it [deg]
-_BESIDE = 0.05
+# how far from a change point the routes are compared, which lose their digits in it [deg]
+_SIDE_STEP = 0.05
 
 
 def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
@@ -101,21 +101,21 @@ def four_bar_type(machine: Machine) -> FourBarType | Literal[""]:
 def analyse_linkage(
     machine: Machine, grid: CrankGrid | None = None, progress: Callable[[float], None] | None = None
 ) -> Results:
-    """Return everything a linkage does over one cycle: a revolution, or two of some gas.
+    """Return all results of a linkage over one cycle: a revolution, or two of some gas.
 
     Columns, summary, checks and notices; of a crank that does not turn fully between its dead positions. `grid`:
     ascending crank angles within one cycle; the machine's own table otherwise [rad]; `progress`: as `analyse` takes it.
     """
     moved = _moved(machine, grid)
     machine, reached, motion, solved = moved.machine, moved.reached, moved.motion, moved.solved
-    trace, rubbing, table, result = moved.trace, moved.rubbing, moved.table, reached.travel
-    over, summary, told, unusual, program = _singles(moved, trace)
+    trace, friction, table, result = moved.trace, moved.friction, moved.table, reached.travel
+    over, summary, cycle_notices, unusual, program = _singles(moved, trace)
     notices = reached.notices + tuple(Notice(*notice) for notice in solved.filling.notices)
-    notices += rubbing.notices + told
+    notices += friction.notices + cycle_notices
     checks = (
         _checks(solved, clear_of_changes(machine.mechanism, reached.motion))
         | gas_check(solved, motion)
-        | rubbing.checks
+        | friction.checks
     )
     between = {"mobility": mobility(machine.whole)}
     if result is None and "reduced_inertia" in trace:
@@ -135,10 +135,10 @@ def analyse_linkage(
     ran = simulate_transient(solved, motion, result, summary, progress)
     summary, checks = summary | ran.summary, checks | ran.checks
     notices += ran.notices + tuple(_of_machine(machine))
-    # where links pass through a line, that is told already
+    # change points have a notice of their own
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(trace)(table))
-    # of a link that never turns
+    # instant centres of links that never turn
     none = {key for key, value in columns.items() if key.startswith("instant_centre_") and np.isnan(value).all()}
     columns = {key: value for key, value in columns.items() if key not in none}
     trace = {key: value for key, value in trace.items() if key not in none}
@@ -151,13 +151,13 @@ def analyse_linkage(
 
 
 def _harmonics(moved: _Moved, over: CycleInterpolant) -> dict[str, TracedValue]:
-    """Return the harmonics of the torque that a crank at a steady speed is given."""
+    """Return the harmonics of the driving torque of a crank at a steady speed."""
     machine = moved.machine
     return delivered_harmonics(over, machine.cycle, machine.mechanism.crank.radius) if moved.has_steady_crank else {}
 
 
 def _turns(machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedValue]) -> Iterator[SpeedResults]:
-    """Yield how evenly a linkage runs, where a flywheel is given or wanted, and what its motor does."""
+    """Yield the speed fluctuation if a flywheel is given or wanted, and the results of a motor if there is one."""
     drive, w, mean = machine.drive, speed_of(machine), trace.get("mean_torque")
     if not has_flywheel(drive) and drive.motor is None:
         return
@@ -176,7 +176,7 @@ def _turns(machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedV
 
 
 def linkage_columns(machine: Machine) -> Results:
-    """Return what is traced over the crank angle of a linkage, without what is found over its whole cycle."""
+    """Return the columns of a linkage over the crank angle, without the values of its whole cycle."""
     moved = _moved(machine, None)
     return Results(moved.solved, moved.table, {}, {}, {}, (), {}, trace=moved.trace)
 
@@ -186,17 +186,17 @@ def _power_of_valves(machine: Machine, values: Mapping[str, TracedValue]) -> dic
     has_valves = any(chamber.valves is not None for chamber in machine.chambers.values())
     if not has_valves or "motor_power" in values or not _is_needed(values.get("mean_torque")):
         return {}
-    of = absent("power_reserve", 1.0), values["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
-    return {"motor_power": needed_power(*of)}
+    operands = absent("power_reserve", 1.0), values["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
+    return {"motor_power": needed_power(*operands)}
 
 
 def _is_needed(mean: TracedValue | None) -> bool:
-    """Return whether a mean torque is what the driver must give."""
+    """Return whether a mean torque is one that the driver must give."""
     return mean is not None and mean.key == "mean_driving_torque" and mean.value > 0
 
 
 def linkage_value(machine: Machine, key: str) -> Results:
-    """Return what is found over the cycle of a linkage of one thing, which a key names; no checks, and no table."""
+    """Return the values over the cycle of the one link, joint or point that a key names; no checks, and no table."""
     moved, (_, _, name) = _moved(machine, None), key.partition(".")
     of_one = {key: known for key, known in moved.trace.items() if key.partition(".")[2] == name}
     summary = _singles(moved, of_one, name).summary
@@ -205,32 +205,32 @@ def linkage_value(machine: Machine, key: str) -> Results:
 
 
 class _Singles(NamedTuple):
-    """What is found over the whole cycle of a linkage, and what is to be told of it, last what is unusual."""
+    """Single values over the whole cycle of a linkage, and notices: of the values, and of what is unusual."""
 
     over: CycleInterpolant
     summary: dict[str, TracedValue]
-    told: tuple[Notice, ...]
+    notices: tuple[Notice, ...]
     unusual: tuple[Notice, ...]
     program: Program  # Of the columns over the cycle, and of the loads of crankpins and main journals
 
 
 def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None = None) -> _Singles:
-    """Return the single values that follow from traced columns; `name`: of one thing only."""
+    """Return the single values that follow from traced columns; `name`: of one link, joint or point only."""
     machine, result = moved.machine, moved.reached.travel
     quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
     quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
     quality = {key: value for key, value in quality.items() if name is None or key.partition(".")[2] == name}
     pivoted = pivoted_links(machine.mechanism)
-    followed = _followed(trace, pivoted, has_friction=moved.rubbing.is_free) | quality
-    told = list[Notice]()
+    followed = _followed(trace, pivoted, has_friction=moved.friction.is_free) | quality
+    notices = list[Notice]()
     start, end = (0.0, machine.cycle) if result is None else machine.working_range or open_range(result)
     ends = _where_unbounded(machine, result)
     without = find_singular_columns(followed, *ends, machine.cycle if result is None else result.end - result.start)
-    told += _told_boundless(without)
+    notices += _singular_notices(without)
     if machine.working_range is None or result is None:
-        followed = {key: value for key, value in followed.items() if not any(key in some for some in without)}
+        followed = {key: value for key, value in followed.items() if not any(key in part for part in without)}
     else:
-        told.append(Notice("working_range", {"from": start, "to": end}))
+        notices.append(Notice("working_range", {"from": start, "to": end}))
     if name is None:
         followed |= moved.bearings.followed(followed)
     program = Program({**followed, **moved.bearings.of_journals})
@@ -239,18 +239,18 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
     summary = _summary(moved.solved, over, extremes, is_whole=result is None)
     if result is not None:
         summary |= limits_of(result, trace)
-    return _Singles(over, summary, tuple(told), unusual, program)
+    return _Singles(over, summary, tuple(notices), unusual, program)
 
 
 class _Moved(NamedTuple):
-    """A linkage in motion: how far it reaches, and what is traced of it over the crank angle."""
+    """A linkage in motion: how far it reaches, and its traced columns over the crank angle."""
 
     machine: Machine
     reached: ReachableMotion
     motion: Motion
     solved: PreparedLinkage
     trace: dict[str, TracedValue]
-    rubbing: FrictionColumns
+    friction: FrictionColumns
     table: CrankGrid
     bearings: JointBearings
 
@@ -262,21 +262,21 @@ class _Moved(NamedTuple):
 
 
 def _moved(machine: Machine, grid: CrankGrid | None) -> _Moved:
-    mechanism, way = pass_change_points(machine.mechanism, machine.way)
-    machine = replace(machine, mechanism=mechanism, way=way or machine.way)
+    mechanism, travel = pass_change_points(machine.mechanism, machine.way)
+    machine = replace(machine, mechanism=mechanism, way=travel or machine.way)
     reached = find_reachable_motion(machine, _DENSE_STEP)
     table = _table(machine, reached, grid)
     motion, solved = traced_linkage(machine, reached.motion)
     running = traced_state(solved, motion)
     trace = with_equal_columns(linkage_trace(solved, running), machine.mechanism, motion.equal_parts)
-    rubbing = add_friction(solved, running, trace)
+    friction = add_friction(solved, running, trace)
     bearings = bearings_of(machine, running.motion, trace) if reached.travel is None else JointBearings()
-    trace |= {**rubbing.columns, **bearings.columns}
-    return _Moved(machine, reached, motion, solved, trace, rubbing, table, bearings)
+    trace |= {**friction.columns, **bearings.columns}
+    return _Moved(machine, reached, motion, solved, trace, friction, table, bearings)
 
 
 def _of_machine(machine: Machine) -> Iterator[Notice]:
-    """Yield notices of links too many, and of what is not known of them, of gears without teeth, and of a law."""
+    """Yield notices of redundant links, with unknown shares or not, of gears without teeth, and of a law."""
     for item in machine.redundant:
         freedom = float(mobility(machine.whole).value)
         if item.share is None:
@@ -295,10 +295,10 @@ def _of_machine(machine: Machine) -> Iterator[Notice]:
 
 def _table(machine: Machine, reached: ReachableMotion, grid: CrankGrid | None) -> CrankGrid:
     """Return the crank angles of the table, of a crank that turns back those between its dead positions."""
-    asked = grid or CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
+    requested = grid or CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
     if reached.travel is None:
-        return asked
-    inside = rows_inside(reached.travel, asked.degrees)
+        return requested
+    inside = rows_inside(reached.travel, requested.degrees)
     if grid is None and len(inside) == 0:
         return reached.grid
     if len(inside) == 0:
@@ -306,27 +306,27 @@ def _table(machine: Machine, reached: ReachableMotion, grid: CrankGrid | None) -
     return inside
 
 
-def _where_unbounded(machine: Machine, found: CrankRange | None) -> tuple[list[float], list[float]]:
+def _where_unbounded(machine: Machine, travel: CrankRange | None) -> tuple[list[float], list[float]]:
     """Return the crank angles at which columns may grow beyond all bounds, and on which side of them the motion is."""
-    if found is not None:
-        return [found.start, found.end], [1.0, -1.0]
+    if travel is not None:
+        return [travel.start, travel.end], [1.0, -1.0]
     passages = machine.mechanism.passages.values()
     changes = sorted({change for passage in passages for change in passage.changes if 0.0 <= change <= machine.cycle})
     return changes, [-1.0 if change == machine.cycle else 1.0 for change in changes]
 
 
-def _told_boundless(found: SingularColumns) -> Iterator[Notice]:
-    """Yield notices of what grows beyond all bounds, and of what has no value."""
-    if found.unbounded:
-        yield Notice("unbounded", _where(found.unbounded))
-    if found.undetermined:
-        yield Notice("undetermined", _where(found.undetermined))
+def _singular_notices(columns: SingularColumns) -> Iterator[Notice]:
+    """Yield notices of columns that grow beyond all bounds, and of columns without a value."""
+    if columns.unbounded:
+        yield Notice("unbounded", _where(columns.unbounded))
+    if columns.undetermined:
+        yield Notice("undetermined", _where(columns.undetermined))
 
 
 def _where(columns: Mapping[str, tuple[float, ...]]) -> dict[str, float | str]:
-    """Return the kinds of some columns, and the crank angles that they are told of."""
+    """Return the kinds of singular columns, and the crank angles of the singularities."""
     kinds = dict.fromkeys(key.partition(".")[0] for key in columns)
-    angles = sorted({at for column in columns.values() for at in column})
+    angles = sorted({angle for column in columns.values() for angle in column})
     return {"angles": "°, ".join(f"{angle:.6g}" for angle in angles), "quantities": ", ".join(kinds)}
 
 
@@ -335,7 +335,7 @@ def _followed(
 ) -> dict[str, TracedValue]:
     """Return the columns that single values are taken from; those with friction where it locks nowhere.
 
-    `pivoted`: links that turn about fixed pivots, of which it is told how fast.
+    `pivoted`: links that turn about fixed pivots, whose rates are included.
     """
     kinds = (
         "slider_displacement", "slider_velocity", "slider_acceleration", "link_angle", "joint_force", "tooth_force",
@@ -363,10 +363,10 @@ def _summary(
         largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
         travel, is_place = largest - least, kind in _TRAVEL
         size = 1.0 if kind == "link_angle" else max(abs(largest.value), abs(least.value))
-        if is_place and travel.value <= _STANDS * size:
-            # what only rounding moves stands
+        if is_place and travel.value <= _NO_TRAVEL * size:
+            # a travel of rounding errors is zero
             travel = TracedValue(ProcedureValue(0.0, "range", (largest, least)))
-        # of a crank that turns back its limits say so
+        # a crank that turns back has limits instead
         if is_place and not is_whole:
             continue
         if is_place and (kind == "slider_displacement" or travel.value < math.pi):
@@ -383,7 +383,7 @@ def _summary(
         # inertia does no work in a cycle, friction does
         torque = "torque_with_friction" if has_friction(machine.drive, over) else "static_torque"
         needed = over.mean(torque, "mean_driving_torque")
-        # an engine gives torque, and what it gives is told
+        # an engine gives torque, which is stated as positive
         result["mean_torque"] = needed if needed.value >= 0 else (-needed).named("mean_torque")
     if is_whole:
         result |= {mean_value.key: mean_value for mean_value in mean_values(over)}
@@ -392,7 +392,7 @@ def _summary(
 
 
 def _given_values(machine: Machine) -> dict[str, TracedValue]:
-    """Return the speed of a crank and what it is driven with, or the period of a law."""
+    """Return speed, acceleration and efficiency of a crank, or the period of a law."""
     law = machine.mechanism.driver.law
     if law is not None:
         return {"period": given("period", law.period, "driver.period")}
@@ -405,7 +405,7 @@ def _given_values(machine: Machine) -> dict[str, TracedValue]:
 
 
 def _at_time(extreme: str, angle: TracedValue, law: Law) -> dict[str, TracedValue]:
-    """Return when an extreme stands, of which the angle of the period is known. [s]"""
+    """Return the time of an extreme from its angle in the period. [s]"""
     kind, dot, name = extreme.partition(".")
     key, node = f"{kind}_time{dot}{name}", angle.node
     if not isinstance(node, ProcedureValue) or node.at is None:
@@ -424,21 +424,21 @@ def _checks(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
     running, grid = operating_state(solved, motion), motion.grid
     values = joint_forces(running)
     reference = values.balancing_torque
-    some = _every(grid, len(solved.machine.drawn.members))
-    part = operating_state(solved, linkage_motion(solved.machine.mechanism, grid[some]))
-    # forces that do no work balance each other to their own rounding, so a torque of zero is measured by them
+    rows = _stride(grid, len(solved.machine.drawn.members))
+    part = operating_state(solved, linkage_motion(solved.machine.mechanism, grid[rows]))
+    # forces without work cancel only up to their own rounding, so a torque of zero is measured by them
     sizes = [float(np.max(pin.resultant)) for pin in values.pins.values()]
     turning = _lever(solved.machine.mechanism.driver) * max(sizes, default=0.0)
     scale = max(float(np.max(np.abs(reference))), turning) or 1.0
-    apart = {
-        name: route(part) - reference[some] if name == "whole_system" else route(running) - reference
+    residuals = {
+        name: route(part) - reference[rows] if name == "whole_system" else route(running) - reference
         for name, route in TORQUE_METHODS.items()
     }
-    return {name: float(np.max(np.abs(value))) / scale for name, value in apart.items()}
+    return {name: float(np.max(np.abs(value))) / scale for name, value in residuals.items()}
 
 
 def _lever(driver: Driver) -> float:
-    """Return the length with which the force in a joint is a torque of the driver, or 1 where that is a force."""
+    """Return the lever arm from a joint force to the torque of the driver, or 1 for a driver with a force."""
     match driver:
         case Crank(radius=radius):
             return radius
@@ -457,14 +457,14 @@ class TorqueByRoutes(NamedTuple):
 def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
     """Return the balancing torque by five routes; at a change point the mean of both sides of it."""
     solved: PreparedLinkage = results.solved
-    asked, mechanism = np.atleast_1d(np.asarray(degrees, dtype=float)), solved.machine.mechanism
+    angles, mechanism = np.atleast_1d(np.asarray(degrees, dtype=float)), solved.machine.mechanism
     changes = np.array([change for passage in mechanism.passages.values() for change in passage.changes])
-    aside = np.zeros_like(asked)
+    offset = np.zeros_like(angles)
     if changes.size:
-        aside[np.abs(asked[:, None] - changes).min(axis=1) < _BESIDE] = _BESIDE
+        offset[np.abs(angles[:, None] - changes).min(axis=1) < _SIDE_STEP] = _SIDE_STEP
     sides = []
-    for side in (1.0, -1.0) if aside.any() else (0.0,):
-        running = operating_state(solved, linkage_motion(mechanism, CrankGrid.from_degrees(asked + side * aside)))
+    for side in (1.0, -1.0) if offset.any() else (0.0,):
+        running = operating_state(solved, linkage_motion(mechanism, CrankGrid.from_degrees(angles + side * offset)))
         sides.append(
             {"by_groups": torque_by_groups(running), **{name: route(running) for name, route in TORQUE_METHODS.items()}}
         )
@@ -474,12 +474,12 @@ def torque_by_routes(results: Results, degrees: ArrayLike) -> TorqueByRoutes:
 
 def differences(routes: list[Array]) -> Array:
     """Return how far routes are apart at each position, relative to the largest torque of the turn. [-]"""
-    every = np.array(routes)
-    return np.asarray(np.ptp(every, axis=0) / (float(np.max(np.abs(every))) or 1.0))
+    torques = np.array(routes)
+    return np.asarray(np.ptp(torques, axis=0) / (float(np.max(np.abs(torques))) or 1.0))
 
 
-def _every(grid: CrankGrid, links: int) -> slice:
-    """Return which angles the system of all links is solved at: all, or of many links as many as memory is good for."""
+def _stride(grid: CrankGrid, links: int) -> slice:
+    """Return the rows at which the system of all links is solved: all, or as many as the memory allows."""
     return slice(None, None, math.ceil(len(grid) * (3 * max(links, 1)) ** 2 / _MOST_COEFFICIENTS))
 
 

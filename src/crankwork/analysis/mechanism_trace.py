@@ -1,4 +1,4 @@
-"""Every column of a linkage as a known: motion, reduction to the crank, torques, forces in joints."""
+"""Every column of a linkage as a traced value: motion, reduction to the crank, torques, forces in joints."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from crankwork.mechanism.joints import SlidingJoint, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
 
-# what a driver gives, by whether it turns
+# result of a driver, by whether it turns
 DRIVEN = {False: "driver_force", True: "driver_torque"}
 
 
@@ -76,7 +76,7 @@ def linkage_trace(solved: PreparedLinkage, running: OperatingState) -> dict[str,
 
 
 def _by_law(solved: PreparedLinkage, running: OperatingState, law: Law) -> dict[str, TracedValue]:
-    """Return the columns of a linkage whose driver follows a law over time, with what the driver has to give."""
+    """Return the columns of a linkage whose driver follows a law over time, with the torque or force of the driver."""
     machine, motion = solved.machine, running.motion
     q, rate, second = motion.driver or Transfer(None, None, None)
     columns = {"time": clock(law), **{item.key: item for item in (q, rate, second)}}
@@ -96,7 +96,7 @@ def speed_of(machine: Machine) -> TracedValue:
 
 
 def efficiency_of(drive: Drive) -> TracedValue:
-    """Return the efficiency of the joints between motor and process, made up of those of a chain where it is given."""
+    """Return the efficiency of the joints between motor and process, the product over a chain if one is given."""
     if drive.efficiency == 1:
         return absent("efficiency", 1.0)
     if drive.chain is None:
@@ -158,8 +158,8 @@ def _at_work(solved: PreparedLinkage, running: OperatingState) -> dict[str, Trac
     """Return reduction, torques and forces in joints."""
     machine, mechanism, motion, loads = solved.machine, running.mechanism, running.motion, running.loads
     w, eps = running.speed, running.angular_acceleration
-    beside = turning_inertia(machine, "reduced_inertia.drive")
-    inertia = reduced_inertia(mechanism, motion, beside)
+    added = turning_inertia(machine, "reduced_inertia.drive")
+    inertia = reduced_inertia(mechanism, motion, added)
     reduced: TracedValue = reduced_torque(motion, loads)
     static: TracedValue = absent("static_torque") if reduced.is_absent else static_torque(reduced)
     dynamic: TracedValue = dynamic_torque(w, inertia.inertia_1, inertia.inertia, eps)
@@ -194,7 +194,7 @@ def _driving(
 
 
 def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedValue, dict[str, TracedValue]]:
-    """Return what the driver needs, and the forces in joints and guides.
+    """Return the balancing torque, and the forces in joints and guides.
 
     The joint of crank and ground has the name of its fixed point.
     """
@@ -210,8 +210,8 @@ def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedVal
             f"joint_force_y.{name}": pin.y,
             f"joint_force.{name}": pin.resultant,
         }
-    for name, (across, apart) in values.teeth.items():
-        columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": apart}
+    for name, (across, separating) in values.teeth.items():
+        columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": separating}
     for name, guide in values.guides.items():
         columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
     return values.balancing_torque, columns | along

@@ -1,4 +1,4 @@
-"""How far a linkage gets, and what is told of it: dead positions, swing and stroke, change points."""
+"""Range of motion of a linkage, with its notices: dead positions, swing and stroke, change points."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
 # how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
 _NEAREST, _AT_MOST = 0.005, 0.25
 _FEWEST = 33
-# how near extremes are looked for, and how much what has no bound grows on the way there
+# how near extremes are looked for, and how much an unbounded column grows on the way there
 _EDGE = 1e-6
-_ASIDE = (1e-4, 1e-7)
-# as good as the angle itself [deg]
+_OFFSETS = (1e-4, 1e-7)
+# distance that counts as the angle itself [deg]
 _ITSELF = 1e-7
 _GROWS = 10.0
 _NEARLY_SINGULAR = 1e-3
 _TURN = 360.0
-# dyads whose branches are all tried: twice as many ways for each
+# most dyads whose branches are all tried: each doubles the combinations
 _MOST_SIGNED = 4
 
 
 class ReachableMotion(NamedTuple):
-    """The motion of a linkage as far as it reaches; the way of its crank, where that does not turn fully."""
+    """The motion of a linkage in its range; the range of its crank if that does not turn fully."""
 
     motion: Motion
     travel: CrankRange | None
@@ -52,54 +52,54 @@ class ReachableMotion(NamedTuple):
 
     @property
     def grid(self) -> CrankGrid:
-        """The crank angles that it reaches."""
+        """The crank angles of the motion."""
         return self.motion.grid
 
 
 def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
-    """Return the motion of a linkage in steps, and notices of what keeps it from turning simply."""
+    """Return the motion of a linkage in steps, and notices of dead positions, change points and cycles."""
     engine, mechanism = CrankGrid.steps(step, machine.cycle), machine.mechanism
     try:
         moved = linkage_motion(mechanism, engine)
     except GeometryError as error:
-        told = _branch_first(mechanism, engine, error.args[0])
-        # a law either passes what its linkage reaches, or has to be changed
+        message = _branch_first(mechanism, engine, error.args[0])
+        # a law beyond the range of its linkage has to be changed
         if not has_steady_crank(mechanism):
-            raise GeometryError(told) from None
+            raise GeometryError(message) from None
         try:
             result = find_crank_range(mechanism, machine.way)
         except GeometryError:
-            if told is error.args[0]:
+            if message is error.args[0]:
                 raise
-            raise GeometryError(told) from None
+            raise GeometryError(message) from None
         if result.is_whole:
             raise
-        notices = [Notice("partial", {"message": told, "from": result.start, "to": result.end})]
+        notices = [Notice("partial", {"message": message, "from": result.start, "to": result.end})]
         if any(isinstance(group, Chain) for group in mechanism.dyads):
             notices.append(Notice("circuit_of_chain", {}))
         moved = linkage_motion(mechanism, _inside(result, step))
-        return ReachableMotion(moved, result, (*notices, *_told(mechanism, result)))
+        return ReachableMotion(moved, result, (*notices, *_change_notices(mechanism, result)))
     margins = [np.min(closure.value) / closure.scale for closure in place(mechanism, engine).closures]
     is_near = has_steady_crank(mechanism) and min(margins, default=1.0) < _NEARLY_SINGULAR
     return ReachableMotion(
-        moved, None, tuple(_told(mechanism, find_crank_range(mechanism, machine.way) if is_near else None))
+        moved, None, tuple(_change_notices(mechanism, find_crank_range(mechanism, machine.way) if is_near else None))
     )
 
 
-def _branch_first(mechanism: Mechanism, grid: CrankGrid, told: str) -> str:
-    """Return why a linkage does not move as is asked, the fewest other branches with which it does before all else."""
-    # the branch of the last dyad moves nothing that has to close
+def _branch_first(mechanism: Mechanism, grid: CrankGrid, message: str) -> str:
+    """Return why a linkage does not move over a grid, headed by the fewest other branches with which it does."""
+    # no later dyad depends on the branch of the last one
     before = enumerate(mechanism.dyads[:-1])
     other = {index: replace(item, branch=-item.branch) for index, item in before if isinstance(item, RRR | RRP | RPR)}
     if mechanism.passages or len(other) > _MOST_SIGNED or any(isinstance(dyad, Chain) for dyad in mechanism.dyads):
-        return told
-    for some in (combination for count in range(1, len(other) + 1) for combination in combinations(other, count)):
-        dyads = tuple(other[index] if index in some else dyad for index, dyad in enumerate(mechanism.dyads))
+        return message
+    for flipped in (combination for count in range(1, len(other) + 1) for combination in combinations(other, count)):
+        dyads = tuple(other[index] if index in flipped else dyad for index, dyad in enumerate(mechanism.dyads))
         with suppress(GeometryError):
             assembled(replace(mechanism, dyads=dyads), grid)
-            written = ", ".join(f"{_branch_key(other[index])} = {other[index].branch}" for index in some)
-            return ErrorMessage("branch_first", written=written, mistake=told)
-    return told
+            written = ", ".join(f"{_branch_key(other[index])} = {other[index].branch}" for index in flipped)
+            return ErrorMessage("branch_first", written=written, mistake=message)
+    return message
 
 
 def _branch_key(group: RRR | RRP | RPR) -> str:
@@ -112,49 +112,49 @@ def _branch_key(group: RRR | RRP | RPR) -> str:
             return group.link
 
 
-def _inside(found: CrankRange, step: float) -> CrankGrid:
-    """Return angles from dead position to dead position, of the steps asked for where there are enough."""
-    width = found.end - found.start
-    spare = min(_AT_MOST, _NEAREST * width)
+def _inside(travel: CrankRange, step: float) -> CrankGrid:
+    """Return angles from dead position to dead position in given steps, or in smaller ones if these are too few."""
+    width = travel.end - travel.start
+    margin = min(_AT_MOST, _NEAREST * width)
     count = max(_FEWEST, math.ceil(width / step) + 1)
-    return CrankGrid.from_degrees(np.linspace(found.start + spare, found.end - spare, count))
+    return CrankGrid.from_degrees(np.linspace(travel.start + margin, travel.end - margin, count))
 
 
-def _told(mechanism: Mechanism, found: CrankRange | None) -> Iterator[Notice]:
+def _change_notices(mechanism: Mechanism, travel: CrankRange | None) -> Iterator[Notice]:
     """Yield notices of change points that are passed, or nearly."""
     changes = sorted({change for passage in mechanism.passages.values() for change in passage.changes})
     if changes:
         shown = sorted({round(change % mechanism.period, 6) for change in changes})
         yield Notice("change_points", {"angles": "°, ".join(f"{item:g}" for item in shown)})
-    if mechanism.period > _TURN and (found is None or found.is_whole):
+    if mechanism.period > _TURN and (travel is None or travel.is_whole):
         yield Notice("two_turns", {"turns": round(mechanism.period / _TURN)})
-    geared = mechanism.driver.geared if isinstance(mechanism.driver, Crank) and found is None else ()
+    geared = mechanism.driver.geared if isinstance(mechanism.driver, Crank) and travel is None else ()
     for item in geared:
         if not period_in_turns(item.ratio):
             yield Notice("no_cycle", {"name": item.link, "ratio": item.ratio})
-    for degrees, miss in near_changes(found.circuit) if found else ():
+    for degrees, miss in near_changes(travel.circuit) if travel else ():
         yield Notice("nearly_change_point", {"angle": degrees, "miss": miss})
 
 
-def rows_inside(found: CrankRange, degrees: ArrayLike) -> CrankGrid:
-    """Return the angles of a table that lie between dead positions, whole turns aside. [deg]"""
-    asked = np.asarray(degrees, dtype=float)
-    first, last = math.floor((found.start - asked.max()) / 360.0), math.ceil((found.end - asked.min()) / 360.0)
-    every = np.unique(np.round(np.concatenate([asked + 360.0 * turn for turn in range(first, last + 1)]), 9))
-    edge = _EDGE * (found.end - found.start)
-    return CrankGrid.from_degrees(every[(every > found.start + edge) & (every < found.end - edge)])
+def rows_inside(travel: CrankRange, degrees: ArrayLike) -> CrankGrid:
+    """Return the angles of a table that lie between dead positions, up to whole turns. [deg]"""
+    angles = np.asarray(degrees, dtype=float)
+    first, last = math.floor((travel.start - angles.max()) / 360.0), math.ceil((travel.end - angles.min()) / 360.0)
+    shifted = np.unique(np.round(np.concatenate([angles + 360.0 * turn for turn in range(first, last + 1)]), 9))
+    edge = _EDGE * (travel.end - travel.start)
+    return CrankGrid.from_degrees(shifted[(shifted > travel.start + edge) & (shifted < travel.end - edge)])
 
 
-def open_range(found: CrankRange) -> tuple[float, float]:
+def open_range(travel: CrankRange) -> tuple[float, float]:
     """Return the range between dead positions without these. [deg]"""
-    edge = _EDGE * (found.end - found.start)
-    return found.start + edge, found.end - edge
+    edge = _EDGE * (travel.end - travel.start)
+    return travel.start + edge, travel.end - edge
 
 
 class SingularColumns(NamedTuple):
     """Columns that have no value somewhere, and at which crank angles. [deg]"""
 
-    unbounded: Mapping[str, tuple[float, ...]]  # They grow beyond all bounds towards it
+    unbounded: Mapping[str, tuple[float, ...]]  # They grow beyond all bounds towards the angle
     undetermined: Mapping[str, tuple[float, ...]]  # They stay finite, with no limit that both sides have in common
 
 
@@ -163,33 +163,32 @@ def find_singular_columns(
 ) -> SingularColumns:
     """Return the columns that grow beyond all bounds towards some crank angles, and those that have no value there.
 
-    `ends`: the angles; `towards`: on which side of each the motion is, 1 or -1; `width`: what is small against it
-    [deg].
+    `ends`: the angles; `towards`: on which side of each the motion is, 1 or -1; `width`: scale of the offsets [deg].
     """
-    aside = np.array([*(width * np.array(_ASIDE)), _ITSELF])
+    offsets = np.array([*(width * np.array(_OFFSETS)), _ITSELF])
     angles = np.array([*ends])
-    degrees = np.array([end + side * aside for end, side in zip(angles, towards, strict=True)])
+    degrees = np.array([end + side * offsets for end, side in zip(angles, towards, strict=True)])
     if not degrees.size or not columns:
         return SingularColumns({}, {})
     values = Program(columns)(CrankGrid.from_degrees(degrees.ravel()))
     grown, without = dict[str, tuple[float, ...]](), dict[str, tuple[float, ...]]()
     for key, column in values.items():
-        far, near, there = np.abs(column.reshape(degrees.shape)).T
+        far, near, exact = np.abs(column.reshape(degrees.shape)).T
         grows = ~(near <= _GROWS * far + 1e-9 * np.max(far))
         # at a change point without a common limit a column has no value
-        missing = ~np.isfinite(there) & ~grows
+        missing = ~np.isfinite(exact) & ~grows
         grown |= {key: tuple(angles[grows].tolist())} if grows.any() else {}
         without |= {key: tuple(angles[missing].tolist())} if missing.any() else {}
     return SingularColumns(grown, without)
 
 
-def limits_of(found: CrankRange, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the range of a crank that turns back, and swing and stroke between its dead positions and all round."""
-    circuit, values = found.circuit, {}
+def limits_of(travel: CrankRange, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
+    """Return the range of a crank that turns back, and swing and stroke on its branch and on the whole circuit."""
+    circuit, values = travel.circuit, {}
     for key, degrees in (
-        ("crank_range", found.end - found.start),
-        ("crank_range_start", found.start),
-        ("crank_range_end", found.end),
+        ("crank_range", travel.end - travel.start),
+        ("crank_range_start", travel.start),
+        ("crank_range_end", travel.end),
     ):
         values[key] = TracedValue(ProcedureValue(math.radians(degrees), "circuit"), key)
     angles = {name: (f"link_angle.{name}", link_angle(name)) for name in circuit.curve.system.equations.index}
@@ -198,7 +197,7 @@ def limits_of(found: CrankRange, trace: Mapping[str, TracedValue]) -> dict[str, 
         for name, (column, coordinate) in each.items():
             if column not in trace or (kind == "link_swing" and name in sliders):
                 continue
-            on_branch, engine = circuit.extents(coordinate, found.branch, circuit.full_part)
+            on_branch, engine = circuit.extents(coordinate, travel.branch, circuit.full_part)
             turns = kind == "link_swing" and circuit.turns(name) != 0
             for key, extent, word in ((kind, on_branch, "branch"), (f"{kind}_circuit", engine, "circuit")):
                 if not (kind == "link_swing" and _is_full(extent)) and not (turns and extent is engine):
@@ -213,7 +212,7 @@ def _is_full(extent: Extent) -> bool:
 
 
 def clear_of_changes(mechanism: Mechanism, moved: Motion) -> Motion:
-    """Return the motion beside change points, where forces are computed and compared."""
+    """Return the motion without the surroundings of change points, in which nothing is compared."""
     clear = np.ones(len(moved.grid), dtype=bool)
     for passage in mechanism.passages.values():
         clear &= ~passage.is_bridged(moved.grid.degrees)

@@ -1,4 +1,4 @@
-"""A coordinate that grows all along the way of a linkage, through the dead positions of its crank."""
+"""A coordinate that grows along the whole path of a linkage, through the dead positions of its crank."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from crankwork.machine import Machine
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
 
-# of the way between dead positions, how near one of them rates by the crank are lost
-BESIDE = 1e-6
+# share of the path between dead positions within which rates by the crank lose their digits
+CLOSE = 1e-6
 
 
 class PathSegment(NamedTuple):
@@ -54,10 +54,10 @@ class PathSegment(NamedTuple):
 
 @dataclass(frozen=True)
 class PathCoordinate:
-    """A coordinate that grows all along the way of a linkage, through the dead positions of its crank."""
+    """A coordinate that grows along the whole path of a linkage, through the dead positions of its crank."""
 
     pieces: tuple[PathSegment, ...]
-    period: float  # Infinite where the way has ends
+    period: float  # Infinite where the path has ends
 
     @property
     def ends(self) -> tuple[float, ...]:
@@ -69,9 +69,9 @@ class PathCoordinate:
         inner = [piece.low for piece in self.pieces[1:]]
         which = np.searchsorted(inner, u, side="right")
         for k, piece in enumerate(self.pieces):
-            here = np.flatnonzero(which == k)
-            if here.size:
-                yield piece, here
+            index = np.flatnonzero(which == k)
+            if index.size:
+                yield piece, index
 
     def within(self, u: Array) -> tuple[Array, Array]:
         """Return coordinates in the first period, and the crank angle of whole turns before it. [rad]"""
@@ -81,43 +81,43 @@ class PathCoordinate:
         return u - turns * self.period, (0.0 if self.pieces[0].turns_back else self.period) * turns
 
     def places(self, u: Array) -> Iterator[tuple[PathSegment, NDArray[np.intp], Array]]:
-        """Yield the pieces, which of some coordinates are on them, and the crank angles there, whole turns aside."""
+        """Yield the pieces, which of some coordinates are on them, and the crank angles there, up to whole turns."""
         inside = self.within(u)[0]
-        for piece, here in self.each(inside):
-            yield piece, here, piece.crank(inside[here]).position
+        for piece, index in self.each(inside):
+            yield piece, index, piece.crank(inside[index]).position
 
-    def beside(self, u: Array) -> Array:
-        """Return how far coordinates are from the dead positions, over the way between these. [-]"""
+    def margin(self, u: Array) -> Array:
+        """Return the distance of coordinates from the dead positions, over the path between these. [-]"""
         if not self.pieces[0].turns_back:
             return np.full_like(u, np.inf)
-        apart = np.abs(self.within(u)[0][:, None] - np.array(self.ends)).min(axis=1)
-        return np.asarray(apart / (self.ends[-1] - self.ends[0]))
+        distance = np.abs(self.within(u)[0][:, None] - np.array(self.ends)).min(axis=1)
+        return np.asarray(distance / (self.ends[-1] - self.ends[0]))
 
-    def aside(self, u: Array) -> Array:
-        """Return coordinates, those in dead positions put beside these, where a motion has rates by the crank."""
-        return np.where(self.beside(u) < BESIDE, u + 2 * BESIDE * (self.ends[-1] - self.ends[0]) * _inward(self, u), u)
+    def off_dead_positions(self, u: Array) -> Array:
+        """Return coordinates, moved off the dead positions to where a motion has rates by the crank."""
+        return np.where(self.margin(u) < CLOSE, u + 2 * CLOSE * (self.ends[-1] - self.ends[0]) * _inward(self, u), u)
 
     def crank(self, u: Array) -> Transfer:
         """Return the crank angle and its derivatives by the coordinate, turns counted. [rad]"""
         inside, turned = self.within(u)
         result = np.empty((3, u.size))
-        for piece, here in self.each(inside):
-            result[:, here] = piece.crank(inside[here])
+        for piece, index in self.each(inside):
+            result[:, index] = piece.crank(inside[index])
         return Transfer(result[0] + turned, result[1], result[2])
 
     def walls(self, start: float, stops: tuple[float, float]) -> tuple[float, float]:
         """Return the coordinates nearest to that of a start at which the crank is at one of its stops. [rad]"""
         if not self.pieces[0].turns_back:
             return stops
-        here, around = self.coordinate(start), (0.0,) if math.isinf(self.period) else (-self.period, 0.0, self.period)
-        every = [
+        u, around = self.coordinate(start), (0.0,) if math.isinf(self.period) else (-self.period, 0.0, self.period)
+        coordinates = [
             piece.at(stop) + turn
             for piece in self.pieces
             for stop in stops
             if min(piece.first, piece.last) < stop < max(piece.first, piece.last)
             for turn in around
         ]
-        below, above = [item for item in every if item <= here], [item for item in every if item >= here]
+        below, above = [item for item in coordinates if item <= u], [item for item in coordinates if item >= u]
         return max(below, default=-math.inf), min(above, default=math.inf)
 
     def coordinate(self, angle: float) -> float:
@@ -125,17 +125,17 @@ class PathCoordinate:
         return self.pieces[0].at(angle)
 
 
-def path_coordinate(machine: Machine, found: CrankRange | None) -> PathCoordinate:
-    """Return the coordinate along the way of a linkage: its crank angle, or what goes on where that turns back."""
-    if found is None or found.is_whole:
+def path_coordinate(machine: Machine, travel: CrankRange | None) -> PathCoordinate:
+    """Return the coordinate along the path of a linkage: its crank angle, or one that grows where that turns back."""
+    if travel is None or travel.is_whole:
         turn = math.radians(machine.cycle)
         return PathCoordinate((PathSegment(machine.mechanism, 0.0, turn, 0.0, turn, turns_back=False),), turn)
-    circuit = found.circuit
+    circuit = travel.circuit
     only_dyads = all(isinstance(dyad, RRR | RRP | RPR) for dyad in machine.mechanism.dyads)
     parts = circuit.branches(driver_coordinate(circuit.mechanism))
     if not (only_dyads and circuit.curve.is_closed and not len(circuit.curve.crossings)):
-        parts = [found.branch]
-    stated = next((k for k, part in enumerate(parts) if _same(part, found.branch, circuit.curve.length)), 0)
+        parts = [travel.branch]
+    stated = next((k for k, part in enumerate(parts) if _same(part, travel.branch, circuit.curve.length)), 0)
     parts = [*parts[stated:], *parts[:stated]]
     pieces, low = [], 0.0
     for part in parts:
@@ -144,7 +144,7 @@ def path_coordinate(machine: Machine, found: CrankRange | None) -> PathCoordinat
         if len(parts) > 1:
             middle = circuit.stretch(np.array([(part.start + part.end) / 2]))
             mechanism = with_branches(replace(mechanism, passages={}), branches_of(mechanism, middle))
-        # alike at the dead position for the pieces on both sides of it
+        # the same rate at the dead position for the pieces on both sides of it
         high = low + math.pi * math.sqrt(abs(last - first) / 2)
         pieces.append(PathSegment(mechanism, low, high, first, last, turns_back=True))
         low = high
@@ -152,10 +152,10 @@ def path_coordinate(machine: Machine, found: CrankRange | None) -> PathCoordinat
 
 
 def _inward(chart: PathCoordinate, u: Array) -> Array:
-    """Return which way leads on along a chart: back from its end, where it has one."""
+    """Return the direction into a chart: backwards from its second half, if it has ends."""
     return np.where(np.isinf(chart.period) & (u > (chart.ends[0] + chart.ends[-1]) / 2), -1.0, 1.0)
 
 
-def _same(one: tuple[float, float], other: tuple[float, float], length: float) -> bool:
-    apart = (sum(one) - sum(other)) / 2
-    return abs(apart - length * round(apart / length)) < 1e-6 * length
+def _same(first: tuple[float, float], second: tuple[float, float], length: float) -> bool:
+    shift = (sum(first) - sum(second)) / 2
+    return abs(shift - length * round(shift / length)) < 1e-6 * length

@@ -1,4 +1,4 @@
-"""What a drawing needs to know of a mechanism: its links with their points, what slides where, letters, numbers."""
+"""A mechanism as a drawing needs it: links with their points, sliding pieces with their guides, letters, numbers."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Skeleton(NamedTuple):
     # Points that are no joints: those that draw a path, and centres of mass
     coupler_points: tuple[str, ...]
     centres: tuple[str, ...]
-    letters: Mapping[str, str]  # What is written at a point
+    letters: Mapping[str, str]  # Labels of points
     pin: str = ""  # The pin of a crank, whose path is drawn too
 
     @property
@@ -88,13 +88,13 @@ def skeleton(mechanism: Mechanism, links: Sequence[str] = ()) -> Skeleton:
         for item in result
     )
     owners = {name: sum(name in member.points for member in members) for member in members for name in member.points}
-    fixed = {**crank_pivot, **{name: at for name, at in mechanism.ground.items() if name in owners}}
+    fixed = {**crank_pivot, **{name: point for name, point in mechanism.ground.items() if name in owners}}
     massive = {body.start for body in mechanism.bodies if body.start == body.end}
     slides = {member.points[0] for member in members if member.guide and member.points}
     free = [name for name, count in owners.items() if count == 1 and name not in fixed and name not in slides]
     free = [name for name in free if name != pin]
     centres = tuple(name for name in free if name in massive)
-    # one that the file names is a point of its link too
+    # a centre that the file names is a point of its link too
     unnamed = [centre for centre in centres if "." in centre or centre in _CATALOG]
     members = tuple(member._replace(points=tuple(p for p in member.points if p not in unnamed)) for member in members)
     couplers = tuple(name for name in free if name not in massive)
@@ -111,8 +111,8 @@ def _driven_first(mechanism: Mechanism) -> Iterator[Member]:
     """Yield the links with the points and guides of the driver and the groups, the driving one first."""
     driver, result = mechanism.driver, [item for group in mechanism.dyads for item in _members_of(group)]
     match driver:
-        case Crank(pivot=at, link=link, pin=pin):
-            pivot = next((name for name, place in mechanism.ground.items() if place == at), PIVOT)
+        case Crank(pivot=centre, link=link, pin=pin):
+            pivot = next((name for name, place in mechanism.ground.items() if place == centre), PIVOT)
             yield Member(link, 1, (pivot, pin))
             for item in driver.geared:
                 fixed = next((name for name, place in mechanism.ground.items() if place == item.pivot), PIVOT)
@@ -157,7 +157,7 @@ def _slot(slot: Guide, link: str) -> Guide:
 
 
 def point_letters(mechanism: Mechanism, members: Sequence[Member], centres: Sequence[str]) -> dict[str, str]:
-    """Return what is written at each point: the owner's name, a letter where the catalog has named the point.
+    """Return the label of each point: the user's name, or a letter if the catalog has named the point.
 
     `centres`: points that are centres of mass; S and the number of their link.
     """
@@ -179,7 +179,7 @@ def point_letters(mechanism: Mechanism, members: Sequence[Member], centres: Sequ
 def tracks(shape: Skeleton, moving: SampledMotion) -> dict[str, Array]:
     """Return where every point is, arrays of shape (n, 2). [m]"""
     count = len(moving.degrees)
-    values = {name: np.tile(np.array(at, dtype=float), (count, 1)) for name, at in shape.pivots.items()}
+    values = {name: np.tile(np.array(point, dtype=float), (count, 1)) for name, point in shape.pivots.items()}
     return values | {name: point.place for name, point in moving.points.items() if name not in values}
 
 
@@ -201,8 +201,8 @@ class MovingFrame(NamedTuple):
 
     def seen(self, places: Array) -> Array:
         """Return the coordinates of places in the frame, shape (n, 2). [m]"""
-        apart = places - self.origin
-        return np.column_stack([np.sum(apart * self.along, axis=1), np.sum(apart * self.left, axis=1)])
+        offset = places - self.origin
+        return np.column_stack([np.sum(offset * self.along, axis=1), np.sum(offset * self.left, axis=1)])
 
 
 def pose(link: Frame | None, count: int) -> MovingFrame:

@@ -1,4 +1,4 @@
-"""A linkage at liberty: its masses, loads and friction along one coordinate, as polynomials."""
+"""Model of the transient simulation: masses, loads and friction along one coordinate, as polynomials."""
 
 from __future__ import annotations
 
@@ -37,19 +37,19 @@ from crankwork.shaft.transient import LIGHT, OWN, RATE, Direction, TransientSyst
 from crankwork.shaft.transient_friction import TransientFriction
 
 _WIDTH = math.pi / 8
-_LOOKS, _HALVINGS, _NOTHING = 2001, 60, 1e-12
+_LOOKS, _HALVINGS, _NEGLIGIBLE = 2001, 60, 1e-12
 # inertia and its derivative; energy and torques; damping; rate of the crank
-_ALIKE = (0, 1, 1, 1, 2, 3, 0, 1)
+_GROUPS = (0, 1, 1, 1, 2, 3, 0, 1)
 
 
 @dataclass(frozen=True)
 class TransientModel:
-    """A linkage at liberty: its masses and loads along the coordinate of a chart."""
+    """A linkage in transient motion: its masses and loads along the coordinate of a chart."""
 
     solved: PreparedLinkage
     chart: PathCoordinate
-    flywheel: float = 0.0  # Moment of inertia on the crank besides what the machine has [kg m2]
-    # Of the chains of each branch, as far as they have been followed
+    flywheel: float = 0.0  # Moment of inertia on the crank, added to that of the machine [kg m2]
+    # Solved paths of the chains of each branch
     paths: dict[float, dict[int, ChainPath]] = field(default_factory=dict, compare=False, repr=False)
 
     @property
@@ -59,27 +59,27 @@ class TransientModel:
 
     @property
     def wanted(self) -> Transient:
-        """What is asked for."""
+        """The transient simulation that is asked for."""
         if self.machine.transient is None:
             raise TypeError("no transient is asked for")
         return self.machine.transient
 
     @property
-    def beside(self) -> float:
+    def crank_inertia(self) -> float:
         """Moment of inertia that turns with the crank. [kg m2]"""
         motor = self.machine.drive.motor
         return self.machine.drive.inertia + self.flywheel + (motor.reduced_inertia if motor else 0.0)
 
-    def moved(self, piece: PathSegment, angle: Array, way: Direction = 1) -> Motion:
+    def moved(self, piece: PathSegment, angle: Array, direction: Direction = 1) -> Motion:
         """Return the motion of a branch at crank angles, forwards or backwards. [rad]"""
         paths = self.paths.setdefault(piece.low, {})
         motion = linkage_motion(piece.mechanism, CrankGrid.from_radians(angle), paths=paths)
-        return motion if way > 0 else _backwards(motion)
+        return motion if direction > 0 else _backwards(motion)
 
     def loads(
         self, piece: PathSegment, motion: Motion, speed: Value = 0.0, *, with_potential: bool = True
     ) -> AppliedLoads:
-        """Return what pushes the linkage at some speeds of the crank. [rad/s]"""
+        """Return the applied loads at some speeds of the crank. [rad/s]"""
         loads = [load for load in self.machine.loads if with_potential or not has_potential(load)]
         gas = self.solved.filling.loads(piece.mechanism, motion)
         return applied_loads(piece.mechanism, motion, loads, speed).also(gas)
@@ -87,34 +87,34 @@ class TransientModel:
     def inertia(self, piece: PathSegment, motion: Motion) -> Array:
         """Return the reduced moment of inertia with all that turns with the crank. [kg m2]"""
         still = np.zeros_like(motion.grid.angle)
-        return np.asarray(reduced_inertia(piece.mechanism, motion).inertia + still + self.beside)
+        return np.asarray(reduced_inertia(piece.mechanism, motion).inertia + still + self.crank_inertia)
 
     def _columns(self, u: Array) -> Array:
-        result = np.zeros((OWN + self._rubbing_rows, u.size))
-        for piece, here in self.chart.each(u):
-            q, q_1, _ = piece.crank(u[here])
+        result = np.zeros((OWN + self._slip_row_count, u.size))
+        for piece, index in self.chart.each(u):
+            q, q_1, _ = piece.crank(u[index])
             motion = self.moved(piece, q)
-            result[0, here] = self.inertia(piece, motion) * q_1**2
-            result[1, here] = potential_energy(piece.mechanism, motion, self.machine.loads)
-            result[RATE, here] = q_1
+            result[0, index] = self.inertia(piece, motion) * q_1**2
+            result[1, index] = potential_energy(piece.mechanism, motion, self.machine.loads)
+            result[RATE, index] = q_1
             dampers = [load for load in self.machine.loads if isinstance(load, Damper | SliderDamper)]
-            result[4, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, dampers, 1.0)) * q_1**2
+            result[4, index] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, dampers, 1.0)) * q_1**2
             torques = [
                 reduced_torque(item, self.loads(piece, item, with_potential=False)) * q_1
                 for item in ((motion, _backwards(motion)) if self.is_two_sided else (motion, motion))
             ]
             if not piece.turns_back:
-                result[6, here] = reduced_inertia(piece.mechanism, motion).inertia_1
+                result[6, index] = reduced_inertia(piece.mechanism, motion).inertia_1
                 held = [load for load in self.machine.loads if has_potential(load)]
-                result[7, here] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, held))
+                result[7, index] = -reduced_torque(motion, applied_loads(piece.mechanism, motion, held))
             if self.machine.friction:
-                result[OWN:, here] = self._rubbing(piece, motion, piece.crank(u[here]))
-            result[2:4, here] = torques if piece.last >= piece.first else torques[::-1]
+                result[OWN:, index] = self._slip_rows(piece, motion, piece.crank(u[index]))
+            result[2:4, index] = torques if piece.last >= piece.first else torques[::-1]
         return result
 
     @cached_property
     def _joints(self) -> tuple[FrictionJoint, ...]:
-        """The joints that rub."""
+        """The joints with friction."""
         piece = self.chart.pieces[0]
         middle = np.array([(piece.first + piece.last) / 2])
         return friction_joints(OperatingState(piece.mechanism, self.moved(piece, middle)), self.machine.friction)
@@ -124,25 +124,25 @@ class TransientModel:
         return TransientFriction(self._joints, OWN) if self.machine.friction else None
 
     @property
-    def _rubbing_rows(self) -> int:
+    def _slip_row_count(self) -> int:
         return self._slipping.count * len(self._joints) if self._slipping else 0
 
     @property
-    def _alike(self) -> tuple[int, ...]:
-        """Which rows of the rubbing joints are of like size."""
+    def _slip_groups(self) -> tuple[int, ...]:
+        """Groups of the rows of friction by order of magnitude."""
         if self._slipping is None:
             return ()
         kinds = (3, *(kind for kind in (5, 5, 6, 7, 8) for _ in range(2)), *(9 for _ in range(2 * len(self._joints))))
         return kinds * len(self._joints)
 
-    def _rubbing(self, piece: PathSegment, motion: Motion, crank: Transfer) -> Array:
+    def _slip_rows(self, piece: PathSegment, motion: Motion, crank: Transfer) -> Array:
         """Return the rows of `TransientFriction`: rates of the joints, unknowns by cause, shape (rows, n)."""
         still = OperatingState(piece.mechanism, motion)
         system, back = full_equilibrium(still), _backwards(motion)
         dampers = [load for load in self.machine.loads if isinstance(load, Damper | SliderDamper)]
-        ways = (motion, back) if piece.last >= piece.first else (back, motion)
+        motions = (motion, back) if piece.last >= piece.first else (back, motion)
         causes = [
-            *(OperatingState(piece.mechanism, motion, 0.0, self.loads(piece, way)) for way in ways),
+            *(OperatingState(piece.mechanism, motion, 0.0, self.loads(piece, item)) for item in motions),
             OperatingState(piece.mechanism, motion, 1.0),
             OperatingState(piece.mechanism, motion, 0.0, applied_loads(piece.mechanism, motion, dampers, 1.0)),
             OperatingState(piece.mechanism, motion, 0.0, angular_acceleration=1.0),
@@ -156,26 +156,26 @@ class TransientModel:
         by_cause = [grows, falls, square * q_1**2 + acceleration * q_2, rate * q_1, acceleration * q_1, *own]
         rows = []
         for friction_joint in friction_joints(still, self.machine.friction):
-            at = 2 * system.joints.index(friction_joint.joint)
+            first = 2 * system.joints.index(friction_joint.joint)
             rows += [
                 friction_joint.rate * crank.position_1,
-                *(each[:, at + k] for each in by_cause[:5] for k in range(2)),
+                *(each[:, first + k] for each in by_cause[:5] for k in range(2)),
             ]
-            rows += [each[:, at + k] for k in range(2) for each in by_cause[5:]]
+            rows += [each[:, first + k] for k in range(2) for each in by_cause[5:]]
         return np.stack(rows)
 
     @cached_property
     def is_two_sided(self) -> bool:
-        """Whether loads are others when the crank turns back."""
+        """Whether loads differ when the crank turns back."""
         processes = (load for load in self.machine.loads if isinstance(load, ProcessForce))
         return any(process.acts == "forward" for process in processes)
 
     @cached_property
-    def felt(self) -> TransientSystem:
-        """What its coordinate feels."""
+    def system(self) -> TransientSystem:
+        """The equation of motion along the coordinate."""
         wanted, ends = self.wanted, self.chart.ends
         breaks = np.unique(np.concatenate([ends, *(self._breaks(piece) for piece in self.chart.pieces)]))
-        reduced = fit_piecewise(self._columns, breaks, _WIDTH, self.chart.period, groups=(*_ALIKE, *self._alike))
+        reduced = fit_piecewise(self._columns, breaks, _WIDTH, self.chart.period, groups=(*_GROUPS, *self._slip_groups))
         # towards dead positions the derivatives by the crank angle are differences of infinite terms
         dead = self.chart.pieces[0].turns_back
         reduced = reduced.with_slopes((0, 6), (1, 7)) if dead else reduced
@@ -200,20 +200,20 @@ class TransientModel:
         )
 
     def traced(self, motion: Motion, flywheel: TracedValue | None) -> tuple[TracedValue, ...]:
-        """Return what a motion in time follows from, traced, as `Followed` takes it.
+        """Return the traced operands of a motion in time, as `TransientReplay` takes them.
 
-        Nothing where its columns are not those of the crank angle alone. `motion`: over the crank angle, traced;
-        `flywheel`: beside what the machine has.
+        Empty where they depend on more than the crank angle. `motion`: over the crank angle, traced; `flywheel`: added
+        to that of the machine.
         """
         machine, wanted = self.machine, self.wanted
         if self.chart.pieces[0].turns_back or machine.friction or machine.drive.motor or self.is_two_sided:
             return ()
         mechanism = traced_mechanism(machine.mechanism, machine.linkage)
-        beside = [turning_inertia(machine, "reduced_inertia.drive"), *([] if flywheel is None else [flywheel])]
+        added = [turning_inertia(machine, "reduced_inertia.drive"), *([] if flywheel is None else [flywheel])]
         dampers = [load for load in machine.loads if isinstance(load, Damper | SliderDamper)]
-        others = [load for load in machine.loads if load not in dampers]
-        pushed = applied_loads(mechanism, motion, others).also(self.solved.filling.loads(mechanism, motion))
-        rubbed = applied_loads(mechanism, motion, dampers, 1.0)
+        undamped = [load for load in machine.loads if load not in dampers]
+        pushed = applied_loads(mechanism, motion, undamped).also(self.solved.filling.loads(mechanism, motion))
+        damped = applied_loads(mechanism, motion, dampers, 1.0)
         stated = (
             ("transient_time", wanted.time, "time"),
             ("driving_torque", wanted.torque, "torque"),
@@ -221,12 +221,12 @@ class TransientModel:
             ("speed", wanted.speed, "speed"),
         )
         inertia: TracedValue
-        inertia, inertia_1 = reduced_inertia(mechanism, motion, total("reduced_inertia", beside))
+        inertia, inertia_1 = reduced_inertia(mechanism, motion, total("reduced_inertia", added))
         return (
             inertia,
             inertia_1,
             reduced_torque(motion, pushed),
-            -reduced_torque(motion, rubbed) if dampers else absent("damping"),
+            -reduced_torque(motion, damped) if dampers else absent("damping"),
             *(given(key, value, f"transient.{name}") if value else absent(key) for key, value, name in stated),
         )
 
@@ -236,10 +236,10 @@ class TransientModel:
         if self.chart.pieces[0].turns_back:
             return ()
         passages = self.machine.mechanism.passages.values()
-        every = {
+        coordinates = {
             math.radians(change % math.degrees(self.chart.period)) for passage in passages for change in passage.changes
         }
-        return tuple(sorted(every))
+        return tuple(sorted(coordinates))
 
     def _breaks(self, piece: PathSegment) -> Array:
         """Return the coordinates on a branch at which a law of the loads changes."""
@@ -267,10 +267,10 @@ def _backwards(motion: Motion) -> Motion:
 
 
 def _roots(function: Callable[[Array], Array], breaks: Array) -> Array:
-    """Return where one of some functions changes its sign between the first and the last of the breaks."""
+    """Return the zeros at which functions change their signs between the first and the last of the breaks."""
     places = np.unique(np.concatenate([breaks, np.linspace(breaks[0], breaks[-1], _LOOKS)]))
     values = function(places)
-    values = np.where(np.abs(values) <= _NOTHING * np.max(np.abs(values), axis=1, keepdims=True), 0.0, values)
+    values = np.where(np.abs(values) <= _NEGLIGIBLE * np.max(np.abs(values), axis=1, keepdims=True), 0.0, values)
     result = []
     for row, k in zip(*np.nonzero(values[:, 1:] * values[:, :-1] < 0), strict=True):
         low, high, below = places[k], places[k + 1], values[row, k] < 0

@@ -1,4 +1,4 @@
-"""How good a linkage is: transmission and pressure angles, and how much faster one stroke is than the other."""
+"""Transmission quality of a linkage: transmission and pressure angles, and time ratios of strokes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FOLLOWED = ("transmission_cosine", "pressure_sine")
 USUAL = (40.0, 140.0)
 USUAL_PRESSURE = 90.0 - USUAL[0]
 _TURN = 360.0
-# what rounding leaves a cosine of links in line short of one
+# how far rounding leaves the cosine of links in line from one
 _IN_LINE = 1e-13
 _LOOK, _STILL = np.linspace(-1.0, 1.0, 17), 1e-9
 
@@ -38,7 +38,7 @@ def transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, T
 
 
 def smooth_transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
-    """Yield what has extremes where these angles have them, and no corner where links come into line."""
+    """Yield functions with the extremes of these angles, and without corners where links come into line."""
     for kind, name, item, other in _pairs(mechanism, motion):
         if kind == "transmission":
             yield f"transmission_cosine.{name}", angles.transmission_cosine(item.cos, other.cos, item.sin, other.sin)
@@ -50,7 +50,7 @@ def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, Lin
     """Yield the two links of RRR dyads, link and guide of RRP dyads, with the point between them."""
     for dyad in mechanism.dyads:
         match dyad:
-            # the third side of a triangle whose shape a motor drives is no link
+            # the third side of a triangle that a motor deforms is no link
             case RRR() if mechanism.driver.link not in (dyad.link_a, dyad.link_b):
                 yield "transmission", dyad.point, motion.bar(dyad.link_a), motion.bar(dyad.link_b)
             case RRP():
@@ -58,7 +58,7 @@ def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, Lin
 
 
 def _in_line(value: TracedValue, formula: Callable[[TracedValue], TracedValue], limit: float) -> TracedValue:
-    """Return the angle of an extreme cosine or sine, which rounding may leave beside the limits of both."""
+    """Return the angle of an extreme cosine or sine, which rounding may leave off its limits."""
     if abs(value.value) < 1 - _IN_LINE:
         return formula(value)
     return TracedValue(ProcedureValue(limit, "in_line", (value,)))
@@ -67,7 +67,7 @@ def _in_line(value: TracedValue, formula: Callable[[TracedValue], TracedValue], 
 def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[Notice, ...]]:
     """Return the extreme transmission and pressure angles, and notices of those that are unusual."""
     result: dict[str, TracedValue] = {}
-    told: list[Notice] = []
+    notices: list[Notice] = []
     keys = [key for key in over.columns if key.partition(".")[0] in ("transmission_cosine", "pressure_sine")]
     extremes = over.extremes(*keys)
     for key in keys:
@@ -83,19 +83,19 @@ def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[No
             worse = largest if largest.value >= -least.value else -least
             pressure = _in_line(worse, angles.pressure_of_sine, math.pi / 2).named(f"pressure_angle_max.{name}")
             if isinstance(pressure.node, FormulaCall):
-                # with other numbers it is the other one
+                # for other inputs the other extreme may be the worse
                 either = angles.pressure_of_sine(select(largest + least, largest, -least))
                 pressure = TracedValue(FormulaCall(pressure.node.formula, pressure.node.inputs, either), pressure.key)
             result[pressure.key] = pressure
             values = {"min": angles.transmission_of_pressure(pressure)}
             result[f"transmission_angle_min.{name}"] = values["min"]
         worst = [math.degrees(value.value) for value in values.values()]
-        told += [
+        notices += [
             Notice("transmission", {"name": name, "angle": item, "low": USUAL[0], "high": USUAL[1]})
             for item in worst
             if not USUAL[0] <= item <= USUAL[1]
         ]
-    return result, tuple(told)
+    return result, tuple(notices)
 
 
 def rocks(pivoted: Collection[str], key: str, travel: float) -> bool:
@@ -105,7 +105,7 @@ def rocks(pivoted: Collection[str], key: str, travel: float) -> bool:
 
 
 def time_ratios(over: CycleInterpolant, summary: Mapping[str, TracedValue]) -> Iterator[tuple[str, TracedValue]]:
-    """Yield the time of the slower stroke over that of the faster one, of what turns back twice in a turn."""
+    """Yield the time of the slower stroke over that of the faster one, of columns that turn back twice in a turn."""
     turns = (over.edges[-1] - over.edges[0]) / _TURN
     for key in over.columns:
         kind, _, name = key.partition(".")
@@ -114,8 +114,8 @@ def time_ratios(over: CycleInterpolant, summary: Mapping[str, TracedValue]) -> I
             continue
         if _reversals(over.polynomials(key)) == 2 * turns:
             high, low = (summary[end] for end in ends)
-            way = math.degrees(abs(high.value - low.value)) % _TURN
-            slow, fast = max(way, _TURN - way), min(way, _TURN - way)
+            stroke = math.degrees(abs(high.value - low.value)) % _TURN
+            slow, fast = max(stroke, _TURN - stroke), min(stroke, _TURN - stroke)
             yield f"time_ratio.{name}", TracedValue(ProcedureValue(slow / fast, "time_ratio", (high, low)))
 
 
@@ -123,5 +123,5 @@ def _reversals(coefficients: Array) -> int:
     """Return how often a column turns back in a closed cycle, from its Legendre coefficients between edges."""
     values = legendre.legval(_LOOK, coefficients.T).ravel()
     steps = np.diff(values)
-    ways = np.sign(steps[np.abs(steps) > _STILL * np.ptp(values)])
-    return int(np.count_nonzero(ways != np.roll(ways, 1)))
+    signs = np.sign(steps[np.abs(steps) > _STILL * np.ptp(values)])
+    return int(np.count_nonzero(signs != np.roll(signs, 1)))

@@ -22,9 +22,9 @@ Kind = Literal["absolute", "relative", "normal", "tangential", "coriolis", "slid
 
 
 class Vector(NamedTuple):
-    """A vector of a plan: what it is of, its kind, where it starts and ends in the plan."""
+    """A vector of a plan: name of its points, its kind, where it starts and ends in the plan."""
 
-    of: str
+    name: str
     kind: Kind
     start: Array
     end: Array
@@ -38,20 +38,20 @@ class Vector(NamedTuple):
 class VectorPolygon(NamedTuple):
     """A vector polygon: ends of the vectors from the pole by name of the point, the vectors, turning of the links.
 
-    Vectors in m/s or m/s2, turning in rad/s or rad/s2 by number of the link, positive anticlockwise; `beneath` holds
-    the link and the sliding point of each point that lies under another one.
+    Vectors in m/s or m/s2, turning in rad/s or rad/s2 by number of the link, positive anticlockwise; `coincident`
+    holds the link and the sliding point of each point of a link that coincides with a sliding one.
     """
 
     nodes: dict[str, Array]
     vectors: list[Vector]
     turning: dict[int, float]
-    beneath: dict[str, tuple[int, str]]
+    coincident: dict[str, tuple[int, str]]
 
 
 class _State(NamedTuple):
     """Position, velocity and acceleration, shape (2,)."""
 
-    at: Array
+    place: Array
     velocity: Array
     acceleration: Array
 
@@ -66,17 +66,17 @@ class DriverRates(NamedTuple):
 def positions(machine: Machine) -> Array:
     """Return the positions of a linkage, every 30 degrees, as far as it reaches them. [deg]"""
     reached, _ = reached_angles(machine, 1.0)
-    every = np.arange(0.0, machine.cycle + POSITION_STEP, POSITION_STEP)
-    inside = every[(every >= reached[0]) & (every <= reached[-1])]
-    # a linkage that reaches none of them is shown where it does move
+    angles = np.arange(0.0, machine.cycle + POSITION_STEP, POSITION_STEP)
+    inside = angles[(angles >= reached[0]) & (angles <= reached[-1])]
+    # a linkage that reaches none of these angles is shown at angles of its range
     return inside if inside.size else reached[::5]
 
 
 def worked_position(results: Results) -> float:
-    """Return the position at which a linkage is worked and its plans are drawn. [deg]
+    """Return the position of the worked example, at which plans are drawn. [deg]
 
-    Where loads act, that of the largest torque in which all links turn that turn at all; where a law drives, one where
-    the driver moves, and gets faster or slower if it ever does; else the first after the start.
+    With loads, that of the largest torque at which no turning link stands still; with a law, one at which the driver
+    moves, and if possible accelerates; else the first after the start.
     """
     machine = results.machine
     angles = positions(machine)
@@ -89,10 +89,10 @@ def worked_position(results: Results) -> float:
         # in a change point forces may not be determined
         known = np.all([np.isfinite(value) for key, value in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
         turning = [np.abs(value) for key, value in columns.items() if key.startswith("link_angular_velocity.")]
-        # half of the lines of a link that stands are of noughts
-        stands = np.any([item < 1e-3 * np.max(item) for item in turning], axis=0)
+        # half of the lines of a link that stands still are zeros
+        is_still = np.any([item < 1e-3 * np.max(item) for item in turning], axis=0)
         worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
-        return float(angles[np.argmax(np.where(stands, worth - worth.max(), worth))])
+        return float(angles[np.argmax(np.where(is_still, worth - worth.max(), worth))])
     return float(angles[np.argmin(np.abs(angles - POSITION_STEP))])
 
 
@@ -128,12 +128,12 @@ def velocities(
     for base, end, _ in states.pairs():
         start, stop = states.point(base).velocity, states.point(end).velocity
         plan.vectors.append(Vector(states.letter(end) + states.letter(base), "relative", start, stop))
-    for letter, under, piece, beneath, link in states.slides():
+    for letter, under, piece, coincident, link in states.slides():
         plan.nodes.setdefault(letter, piece.velocity)
-        plan.beneath[under] = (states.shape.member(link).number, letter)
-        plan.nodes[under] = beneath.velocity
-        plan.vectors.append(Vector(under, "absolute", zero, beneath.velocity))
-        plan.vectors.append(Vector(letter + under, "sliding", beneath.velocity, piece.velocity))
+        plan.coincident[under] = (states.shape.member(link).number, letter)
+        plan.nodes[under] = coincident.velocity
+        plan.vectors.append(Vector(under, "absolute", zero, coincident.velocity))
+        plan.vectors.append(Vector(letter + under, "sliding", coincident.velocity, piece.velocity))
     return plan
 
 
@@ -158,18 +158,18 @@ def accelerations(
         plan.vectors.append(Vector(states.letter(name), "absolute", zero, state.acceleration))
     for base, end, rate in states.pairs(with_fixed=True):
         start, stop = states.point(base), states.point(end)
-        middle = start.acceleration - rate**2 * (stop.at - start.at)
-        of = states.letter(end) + states.letter(base)
-        plan.vectors.append(Vector(of, "normal", start.acceleration, middle))
-        plan.vectors.append(Vector(of, "tangential", middle, stop.acceleration))
-    for letter, under, piece, beneath, link in states.slides():
+        middle = start.acceleration - rate**2 * (stop.place - start.place)
+        name = states.letter(end) + states.letter(base)
+        plan.vectors.append(Vector(name, "normal", start.acceleration, middle))
+        plan.vectors.append(Vector(name, "tangential", middle, stop.acceleration))
+    for letter, under, piece, coincident, link in states.slides():
         plan.nodes.setdefault(letter, piece.acceleration)
-        plan.beneath[under] = (states.shape.member(link).number, letter)
-        plan.nodes[under] = beneath.acceleration
-        plan.vectors.append(Vector(under, "absolute", zero, beneath.acceleration))
-        x, y = piece.velocity - beneath.velocity
-        middle = beneath.acceleration + 2 * states.turning(link)[0] * np.array([-y, x])
-        plan.vectors.append(Vector(letter + under, "coriolis", beneath.acceleration, middle))
+        plan.coincident[under] = (states.shape.member(link).number, letter)
+        plan.nodes[under] = coincident.acceleration
+        plan.vectors.append(Vector(under, "absolute", zero, coincident.acceleration))
+        x, y = piece.velocity - coincident.velocity
+        middle = coincident.acceleration + 2 * states.turning(link)[0] * np.array([-y, x])
+        plan.vectors.append(Vector(letter + under, "coriolis", coincident.acceleration, middle))
         plan.vectors.append(Vector(letter + under, "sliding", middle, piece.acceleration))
     return plan
 
@@ -180,7 +180,7 @@ class _Sliding(NamedTuple):
     letter: str
     under: str
     piece: _State
-    beneath: _State
+    coincident: _State
     link: str
 
 
@@ -195,8 +195,8 @@ class _States:
         return self.shape.letters[name]
 
     def _state(self, track: Track) -> _State:
-        at, first, second = (item[self._index] for item in track)
-        return _State(at, first * self._speed, second * self._speed**2 + first * self._second)
+        place, first, second = (item[self._index] for item in track)
+        return _State(place, first * self._speed, second * self._speed**2 + first * self._second)
 
     def point(self, name: str) -> _State:
         if name in self.shape.pivots:
@@ -231,13 +231,13 @@ class _States:
         return values | {member.rod: values[member.number] for member in self.shape.members if member.rod}
 
     def slides(self) -> Iterator[_Sliding]:
-        """Yield what slides on a moving guide; the rod of a cylinder slides on its barrel."""
+        """Yield the points that slide on a moving guide; the rod of a cylinder slides on its barrel."""
         for member in self.shape.members:
             if member.rod:
                 barrel, end = member.points[0], self.point(member.points[1])
                 rod = self.letter(member.points[1])
-                beneath = self._carried(member.name, self.point(barrel), end.at)
-                yield _Sliding(rod, f"{rod}{member.number}", end, beneath, member.name)
+                coincident = self._carried(member.name, self.point(barrel), end.place)
+                yield _Sliding(rod, f"{rod}{member.number}", end, coincident, member.name)
             if member.guide and member.guide.link:
                 piece = (
                     self.point(member.points[0])
@@ -246,15 +246,15 @@ class _States:
                 )
                 letter = self.letter(member.points[0]) if member.points else member.name
                 under = f"{letter}{self.shape.member(member.guide.link).number}"
-                yield _Sliding(letter, under, piece, self._beneath(member.guide.link, piece.at), member.guide.link)
+                yield _Sliding(letter, under, piece, self._on_link(member.guide.link, piece.place), member.guide.link)
 
-    def _beneath(self, link: str, at: Array) -> _State:
-        """Return the state of the point of a link that is at a place."""
-        return self._carried(link, self._state(self._moving.frames[link].origin), at)
+    def _on_link(self, link: str, place: Array) -> _State:
+        """Return the state of the point of a link at a place."""
+        return self._carried(link, self._state(self._moving.frames[link].origin), place)
 
-    def _carried(self, link: str, origin: _State, at: Array) -> _State:
-        """Return the state of the point of a link that is at a place, of one of its points."""
+    def _carried(self, link: str, origin: _State, place: Array) -> _State:
+        """Return the state of the point of a link at a place, from the state of another point."""
         rate, rate_1 = self.turning(link)
-        x, y = at - origin.at
+        x, y = place - origin.place
         across, along = np.array([-y, x]), np.array([x, y])
-        return _State(at, origin.velocity + rate * across, origin.acceleration + rate_1 * across - rate**2 * along)
+        return _State(place, origin.velocity + rate * across, origin.acceleration + rate_1 * across - rate**2 * along)

@@ -19,8 +19,8 @@ from crankwork.loads.applied_loads import AppliedLoads
 from crankwork.mechanism.mechanism import Crank
 
 Kind = Literal["load", "inertia"]
-# moments smaller than this share of the largest are nothing
-_NOTHING = 1e-9
+# moments smaller than this share of the largest are left out
+_NEGLIGIBLE = 1e-9
 
 
 class LeverForce(NamedTuple):
@@ -43,12 +43,12 @@ class LeverForce(NamedTuple):
 
     @property
     def arm(self) -> float:
-        """How far the pole is from its line. [m/s]"""
+        """Distance of the pole from its line of action. [m/s]"""
         return abs(self.moment) / self.size
 
     @property
     def foot(self) -> Array:
-        """Where the arm meets its line. [m/s]"""
+        """Foot of the arm on its line of action. [m/s]"""
         along = self.force / self.size
         return np.asarray(self.end - (self.end @ along) * along)
 
@@ -63,7 +63,7 @@ class LeverTorque(NamedTuple):
 
     @property
     def moment(self) -> float:
-        """What it adds to the moment about the pole. [W]"""
+        """Its part of the moment about the pole. [W]"""
         return self.torque * self.turning
 
 
@@ -95,11 +95,11 @@ def zhukovsky_lever(results: Results, degrees: float, links: tuple[str, ...] = (
     parts: tuple[tuple[Kind, AppliedLoads], ...] = (("load", running.loads), ("inertia", inertia_loads(running)))
     forces = [force for kind, loads in parts for force in _forces(kind, loads, speed)]
     torques = [torque for kind, loads in parts for torque in _torques(kind, loads, speed)]
-    # what is square to its velocity has no moment but that of rounding
+    # a force square to its velocity has only the moment of rounding errors
     sizes = [force.size * float(np.hypot(*force.end)) for force in forces] + [abs(torque.moment) for torque in torques]
     most = max(sizes, default=0.0)
-    forces = [force for force in forces if abs(force.moment) > _NOTHING * most]
-    torques = [torque for torque in torques if abs(torque.moment) > _NOTHING * most]
+    forces = [force for force in forces if abs(force.moment) > _NEGLIGIBLE * most]
+    torques = [torque for torque in torques if abs(torque.moment) > _NEGLIGIBLE * most]
     if not forces and not torques:
         return None
     plan = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, speed, links)
@@ -109,41 +109,41 @@ def zhukovsky_lever(results: Results, degrees: float, links: tuple[str, ...] = (
     forwards = np.array([-end[1], end[0]]) / np.hypot(*end)
     total = sum(force.moment for force in forces) + sum(torque.moment for torque in torques)
     return Lever(
-        VectorPolygon({name: _clockwise(at) for name, at in plan.nodes.items()}, [
+        VectorPolygon({name: _clockwise(node) for name, node in plan.nodes.items()}, [
             vector._replace(start=_clockwise(vector.start), end=_clockwise(vector.end)) for vector in plan.vectors
-        ], plan.turning, plan.beneath),
+        ], plan.turning, plan.coincident),
         tuple(forces), tuple(torques),
         LeverForce("load", mechanism.driver.link, end, -total / np.hypot(*end) * forwards),
         mechanism.driver.radius,
     )  # fmt: skip
 
 
-def _clockwise(way: Array) -> Array:
-    return np.array([way[1], -way[0]])
+def _clockwise(vector: Array) -> Array:
+    return np.array([vector[1], -vector[0]])
 
 
-def _turned(at: PointMotion, speed: float) -> Array:
+def _turned(point: PointMotion, speed: float) -> Array:
     """Return the velocity of a point, turned clockwise. [m/s]"""
-    return _clockwise(np.array([float(np.ravel(item.position_1)[0]) for item in at]) * speed)
+    return _clockwise(np.array([float(np.ravel(item.position_1)[0]) for item in point]) * speed)
 
 
 def _forces(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverForce]:
     """Yield forces, those at one point of a link as one."""
     result: dict[tuple[str, tuple[float, ...]], LeverForce] = {}
-    for one in loads.forces:
-        end = _turned(one.point, speed)
-        place = tuple(round(float(np.ravel(side.position)[0]), 9) for side in one.point)
-        force = np.array([float(np.ravel(part)[0]) for part in (one.x, one.y)])
-        same = result.get((one.link, place))
-        result[one.link, place] = LeverForce(kind, one.link, end, force if same is None else same.force + force)
+    for load in loads.forces:
+        end = _turned(load.point, speed)
+        place = tuple(round(float(np.ravel(side.position)[0]), 9) for side in load.point)
+        force = np.array([float(np.ravel(part)[0]) for part in (load.x, load.y)])
+        same = result.get((load.link, place))
+        result[load.link, place] = LeverForce(kind, load.link, end, force if same is None else same.force + force)
     yield from (value for value in result.values() if value.size)
 
 
 def _torques(kind: Kind, loads: AppliedLoads, speed: float) -> Iterator[LeverTorque]:
     """Yield torques, those on one link as one."""
     result: dict[str, LeverTorque] = {}
-    for one in loads.torques:
-        torque, turning = (float(np.ravel(part)[0]) for part in (one.torque, one.angle_1))
-        same = result.get(one.link)
-        result[one.link] = LeverTorque(kind, one.link, torque + (same.torque if same else 0.0), turning * speed)
+    for load in loads.torques:
+        torque, turning = (float(np.ravel(part)[0]) for part in (load.torque, load.angle_1))
+        same = result.get(load.link)
+        result[load.link] = LeverTorque(kind, load.link, torque + (same.torque if same else 0.0), turning * speed)
     yield from result.values()

@@ -16,7 +16,7 @@ from crankwork.quantities import Language
 def assembly_modes_text(machine: Machine, modes: AssemblyModes, language: Language = "en") -> str:
     """Return the circuits and branches of a linkage, one in a line."""
     lines = [translate("check.circuits", language)]
-    lines += [f"  {_line(machine, mode, language)}" for mode in modes.found]
+    lines += [f"  {_line(machine, mode, language)}" for mode in modes.branches]
     if not modes.is_all:
         lines.append("  " + translate("check.circuits_stated", language, most=MOST_SIGNED))
     return "\n".join(lines)
@@ -61,6 +61,6 @@ def assembly_modes_data(machine: Machine, modes: AssemblyModes) -> dict[str, Any
                 "swings": {name: {"value": math.degrees(swing), "unit": "deg"} for name, swing in mode.swings.items()},
                 "strokes": {name: {"value": stroke * 1e3, "unit": "mm"} for name, stroke in mode.strokes.items()},
             }
-            for mode in modes.found
+            for mode in modes.branches
         ],
     }

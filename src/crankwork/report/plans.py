@@ -176,8 +176,8 @@ def _figure(
 def _remark(plan: VectorPolygon, kind: _Kind, language: Language) -> str:
     """Return the meaning of the sign of turning, and of points with the number of a link."""
     remarks = [translate("drawing.anticlockwise", language, symbol=kind.turning)]
-    if plan.beneath:
-        named_points = list(plan.beneath.items())[:_UNDER]
+    if plan.coincident:
+        named_points = list(plan.coincident.items())[:_UNDER]
         points, links = (plain(name) for name, _ in named_points), (str(link) for _, (link, _) in named_points)
         link_points = (plain(point) for _, (_, point) in named_points)
         joined = {"points": ", ".join(points), "links": ", ".join(links), "others": ", ".join(link_points)}
@@ -217,7 +217,7 @@ def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Lan
     rows, unit = [], unit_name(kind.unit, language)
     for vector in vectors:
         mark = _MARKS[vector.kind].format(translate("marks.tangential", language)) if kind.sign == "a" else ""
-        name = math_symbol(f"{kind.sign}_{vector.of}", mark)
+        name = math_symbol(f"{kind.sign}_{vector.name}", mark)
         rows.append(f"{name} = {_four_digits(vector.length, language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
     for link, value in plan.turning.items():
