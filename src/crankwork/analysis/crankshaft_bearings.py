@@ -226,23 +226,20 @@ def shaft_unbalances(engine: MultiCylinderEngine, layout: Layout) -> tuple[Unbal
     return (*(item for item in result if item.mass_moment.value), *counterweights(engine, layout))
 
 
-def _held(engine: MultiCylinderEngine, unbalance: Unbalance) -> Unbalance:
+def _held(engine: MultiCylinderEngine, mass: Unbalance) -> Unbalance:
     """Return a mass on the shaft with its weight and its inertia across, where the machine has them."""
     machine, moving = engine.machine, engine.master.moving
     if not (machine.has_gravity or machine.angular_acceleration):
-        return unbalance
+        return mass
     g = given("gravity", engine.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
     cos, sin = traced_inputs.inclination(machine, engine.master.lean)
-    angle, r = moving.angle.shifted(unbalance.angle), moving.lengths.crank_radius
-    along = unbalance_weight(unbalance.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
+    angle, r = moving.angle.shifted(mass.angle), moving.lengths.crank_radius
+    along = unbalance_weight(mass.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
     across = unbalance_tangential_force(
-        unbalance.mass_moment, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration
+        mass.mass_moment, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration
     )
-    named = (
-        along.named(f"unbalance_weight.{unbalance.name}"),
-        across.named(f"unbalance_tangential_force.{unbalance.name}"),
-    )
-    return unbalance._replace(held=BearingLoad(*named))
+    named = along.named(f"unbalance_weight.{mass.name}"), across.named(f"unbalance_tangential_force.{mass.name}")
+    return mass._replace(held=BearingLoad(*named))
 
 
 def counterweights(engine: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
@@ -339,7 +336,7 @@ def bearing_values(
     return values | reversal_values("bearing_force_x.small_end", over, extremes)
 
 
-# prefix of its sizes in a description; other bearings have those of the crankpin
+# prefix of the sizes of a bearing in a description; `crankpin` of the others
 _SIZES = {"small_end": "pin", "main_journal": "main"}
 
 

@@ -117,7 +117,7 @@ def _harmonics(engine: MultiCylinderEngine) -> InertiaHarmonics:
 
 def _all_harmonics(engine: MultiCylinderEngine) -> InertiaHarmonics:
     lengths, method = engine.master.lengths, engine.master.method
-    if engine.moves_alike:
+    if engine.has_equal_motion:
         ratio = method.inertia_rod_ratio
         if ratio is not None and not method.is_exact:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)
@@ -175,14 +175,12 @@ def balance_trace(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[s
     for name, row in balance.rows.items():
         keys = [f"free_force.{label}" for label, other in balance.rows.items() if other.order == row.order]
         parts = [values[key] for key in keys if key in values] if name.startswith("residual") else _parts(name, values)
-        formulas = _residual_formulas(engine, balance, values, row.order) if name.startswith("residual") else {}
-        sums = ProcedureValue(row.force.largest, "vector_sum", parts, argument=formulas.get("force"))
+        exact = _residual_formulas(engine, balance, values, row.order) if name.startswith("residual") else {}
+        sums = ProcedureValue(row.force.largest, "vector_sum", parts, argument=exact.get("force"))
         force = values.setdefault(f"free_force.{name}", TracedValue(sums, f"free_force.{name}"))
         rest = {"free_force_min": row.force.least, "free_force_direction": math.radians(row.force.direction)}
         if has_moments:
-            moment = TracedValue(
-                ProcedureValue(row.moment.largest, "vector_sum", parts, argument=formulas.get("moment"))
-            )
+            moment = TracedValue(ProcedureValue(row.moment.largest, "vector_sum", parts, argument=exact.get("moment")))
             values.setdefault(f"free_moment.{name}", moment)
             rest["free_moment_min"] = row.moment.least
         values |= {

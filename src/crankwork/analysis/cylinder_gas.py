@@ -56,7 +56,7 @@ def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKin
     trace = moving.trace
     area = trace["piston_area"]
     volume = gas.cylinder_volume(trace["clearance_volume"], area, trace["piston_displacement"])
-    of_cycle = traced_pressure(space.diagram, volume, _path(solved), _retold(solved, space, trace, volume))
+    of_cycle = traced_pressure(space.diagram, volume, _path(solved), _general_form(solved, space, trace, volume))
     read, stated_gas = of_cycle, solved.machine.gas
     if stated_gas is not None and stated_gas.calculated is not None:
         # a calculated cycle begins at 0, whole turns earlier than its chamber
@@ -88,10 +88,10 @@ def _filling(
     return {} if filling is None else {key: filling(space.calculated.trace[key].value, columns, solved.stroke[1:])}
 
 
-def _retold(
+def _general_form(
     solved: PreparedCylinder, space: WorkingSpace, trace: Mapping[str, TracedValue], volume: TracedValue
 ) -> Callable[[], TracedValue] | None:
-    """Return what tells the pressure in knowns alone, where there are formulas for it."""
+    """Return the general form of the pressure in traced inputs, if there are formulas for it."""
     given_gas = solved.machine.gas
     if given_gas is None or given_gas.measured is not None:
         return None
@@ -100,8 +100,8 @@ def _retold(
         return None if traced is None else partial(traced, volume, solved.stroke[1:])
     size = trace["clearance_volume"], trace["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
-    told = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
-    return partial(told.general_form, space.diagram)
+    data = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
+    return partial(data.general_form, space.diagram)
 
 
 def _begins(solved: PreparedCylinder) -> Value:

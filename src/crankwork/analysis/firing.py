@@ -20,7 +20,7 @@ from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.working_cycle.engine_size import displacement
 
 _LISTED = ("bank_axis", "crankpin_angle", "firing_angle", "firing_interval")
-_OF_SLAVES = ("top_dead_centre_angle", "stroke", "swept_volume")
+_OF_ARTICULATED = ("top_dead_centre_angle", "stroke", "swept_volume")
 
 
 def firing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
@@ -59,7 +59,7 @@ def _intervals(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -
 def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the volume of all cylinders, and stroke and dead centre of each where pistons move differently."""
     result, numbered = dict[str, TracedValue](), list(enumerate(engine.cylinders, start=1))
-    if not engine.moves_alike:
+    if not engine.has_equal_motion:
         for number, item in numbered:
             top = (engine.layout.places[number - 1].firing_angle + item.stroke[1]) % engine.layout.cycle
             lengths = SliderCrank(*(item.trace[key] for key in ("crank_radius", "rod_length", "offset")))
@@ -69,7 +69,7 @@ def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> di
             result[f"stroke.{number}"] = item.traced_stroke(lengths)
     if all(cylinder.space is not None for cylinder in engine.cylinders):
         volumes = [cylinder.trace["swept_volume"] for cylinder in engine.cylinders]
-        if engine.moves_alike:
+        if engine.has_equal_motion:
             result["displacement"] = displacement(volumes[0], values["cylinder_count"])
         else:
             each = {f"swept_volume.{number}": volume for number, volume in enumerate(volumes, start=1)}
@@ -126,8 +126,8 @@ def delivery_trace(
         flows[number] = inlet_flow(volume, speed, cycle).named(f"inlet_flow.{number}")
     stated = StatedValves(next(iter(valved.values())), "gas.valves")
     if engine.is_uniform:
-        one = flows[1].named("inlet_flow.of_cylinder")
-        values, flow = {one.key: one}, firing["cylinder_count"] * one
+        single = flows[1].named("inlet_flow.of_cylinder")
+        values, flow = {single.key: single}, firing["cylinder_count"] * single
     else:
         values = {flow.key: flow for flow in flows.values()}
         flow = total("inlet_flow", values.values())
@@ -141,7 +141,7 @@ def firing_listing(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue
     """
     numbers = [place.number for place in engine.layout.places]
     columns = {"cylinder_number": np.array(numbers, dtype=float)}
-    unlike = _OF_SLAVES if "stroke.1" in firing else ()
+    unlike = _OF_ARTICULATED if "stroke.1" in firing else ()
     if unlike or engine.engine.gases:
         unlike = (*unlike, "indicated_work")
     for kind in (*_LISTED, *unlike):

@@ -178,13 +178,13 @@ def gas_check(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
 
 def _work_of_valves(solved: PreparedLinkage) -> dict[str, float]:
     """Return how far the work of chambers with valves is from that which follows from pressures alone."""
-    apart, singles = list[float](), solved.filling.singles
+    residuals, singles = list[float](), solved.filling.singles
     for name, value in solved.machine.chambers.items():
         stated = stated_valves(f"chambers.{name}", value)
-        # pipes take what no pressures of valves tell
+        # the pressures of valves do not include the work of pipes
         if stated is not None and not stated.valves.has_pipes:
             sizes = [singles[key].value if key in singles else 0.0
                      for key in (f"clearance_volume.{name}", f"swept_volume.{name}")]  # fmt: skip
             work = stated.work(*sizes)
-            apart.append(abs(singles[f"indicated_work.{name}"].value - value.factor * work) / abs(work))
-    return {"valves": max(apart)} if apart else {}
+            residuals.append(abs(singles[f"indicated_work.{name}"].value - value.factor * work) / abs(work))
+    return {"valves": max(residuals)} if residuals else {}

@@ -56,10 +56,10 @@ class _Shares:
 
 
 def _left(
-    links: Sequence[RedundantLink], forces: Sequence[TracedValue], others: Sequence[TracedValue]
+    links: Sequence[RedundantLink], forces: Sequence[TracedValue], other_forces: Sequence[TracedValue]
 ) -> Iterator[TracedValue]:
     """Yield by how much forces along redundant links differ from their shares."""
-    for link, force, other in zip(links, forces, others, strict=True):
+    for link, force, other in zip(links, forces, other_forces, strict=True):
         share = given(f"force_share.{link.member.name}", link.share or 0.0, f"links.{link.member.name}.share")
         yield (force - share * other).named(f"axial_force.{link.member.name}.left")
 
@@ -80,6 +80,6 @@ def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tup
         loads = loads.also(pressing(running.mechanism, running.motion, link, force))
     engine = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
     values = joint_forces(engine)
-    others = [force_along_other(running.mechanism, running.motion, values, link) for link in links]
-    root.residuals = tuple(_left(links, forces, others))
-    return values, {item.key: item for item in [*forces, *others]}
+    other_forces = [force_along_other(running.mechanism, running.motion, values, link) for link in links]
+    root.residuals = tuple(_left(links, forces, other_forces))
+    return values, {item.key: item for item in [*forces, *other_forces]}

@@ -67,7 +67,7 @@ def _by_stroke(diagram: IndicatorDiagram, cycle: float) -> dict[str, Segment]:
 
 def _span(results: Results, diagram: IndicatorDiagram, segment: Segment) -> tuple[float, float]:
     """Return the least and the largest volume of a polytrope, with that of the state it passes through. [m3]"""
-    same = [one for one in diagram.segments if one.law == "polytropic" and one.state == segment.state]
+    same = [piece for piece in diagram.segments if piece.law == "polytropic" and piece.state == segment.state]
     degrees = [angle for item in same for angle in (item.start, item.end)]
     volumes = results.columns_at(degrees, ("cylinder_volume",))["cylinder_volume"]
     reference = segment.state[1]

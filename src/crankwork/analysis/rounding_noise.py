@@ -23,7 +23,7 @@ _TORQUES = (
     "static_torque", "balancing_torque", "driving_torque", "driver_torque", "normal_moment", "kinetic_energy_change",
 )  # fmt: skip
 # quantities that are sized together
-_ALIKE = (
+_SIZED_TOGETHER = (
     _PLACES,
     ("point_velocity_x", "point_velocity_y", "point_velocity", "slider_velocity", "driver_velocity"),
     ("point_acceleration_x", "point_acceleration_y", "point_acceleration", "slider_acceleration",
@@ -72,7 +72,7 @@ def _sizes(columns: Mapping[str, Array], speed: float) -> dict[str, float]:
     def most(kinds: tuple[str, ...]) -> float:
         return max(largest.get(kind, 0.0) for kind in kinds)
 
-    sizes = {kind: most(some) for some in _ALIKE for kind in some}
+    sizes = {kind: most(group) for group in _SIZED_TOGETHER for kind in group}
     fastest = max(speed, most(_SPEEDS))
     sizes |= dict.fromkeys(("link_angle", "driver_angle", "rotation_ratio"), 1.0)
     sizes |= dict.fromkeys(_SPEEDS, fastest)

@@ -82,16 +82,10 @@ def engine_reduction(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
         return {}
     places, r = engine.layout.places, engine.master.trace["crank_radius"]
     numbers = [place.number for place in places]
-    parts = [
-        engine.of(number, f"reduced_inertia.{item}")
-        for item in MOVING
-        for number in engine.has(f"reduced_inertia.{item}")
-    ]
-    parts_1 = [
-        engine.of(number, f"reduced_inertia_1.{item}")
-        for item in MOVING
-        for number in engine.has(f"reduced_inertia_1.{item}")
-    ]
+    parts, parts_1 = (
+        [engine.of(number, f"{key}.{item}") for item in MOVING for number in engine.has(f"{key}.{item}")]
+        for key in ("reduced_inertia", "reduced_inertia_1")
+    )
     for number, place in zip(numbers, places, strict=True):
         mass = rotating_mass_of(engine, place)
         if "knuckle_mass" in engine.cylinders[number - 1].trace:

@@ -270,11 +270,8 @@ def _by_all_methods(
 ) -> dict[str, TracedValue]:
     """Return the flywheel for a wanted fluctuation by each method, from its excess work."""
     energy = TracedValue(ProcedureValue(balance.excess.work, "range", (balance.torque, balance.inertia)), "excess_work")
-    works_of_methods = {"energy": energy, **works}
-    return {
-        f"flywheel_inertia.{method}": _wheel(method, work, balance, w, wanted)
-        for method, work in works_of_methods.items()
-    }
+    works = {"energy": energy, **works}
+    return {f"flywheel_inertia.{method}": _wheel(method, work, balance, w, wanted) for method, work in works.items()}
 
 
 def _wheel(method: str, work: TracedValue, balance: Balance, w: TracedValue, wanted: TracedValue) -> TracedValue:
