@@ -1,4 +1,4 @@
-"""Results beside others: of the same machine by other methods, or of another machine."""
+"""Comparison of results: with those of the same machine by other methods, or of another machine."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Comparison(NamedTuple):
         return _played(self.trace, CrankGrid.from_degrees(degrees))
 
     def values(self, results: Results) -> dict[str, tuple[float, ...]]:
-        """Return single values by key, of all results in the order of the names, none for those that lack one. [SI]
+        """Return single values by key, of all results in the order of the names, NaN for a missing one. [SI]
 
         Of methods, those in which they differ.
         """

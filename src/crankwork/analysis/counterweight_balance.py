@@ -77,7 +77,7 @@ def counterweight_balance(
 
 
 def _coefficients(samples: NDArray[Any], size: float | None = None) -> NDArray[np.complex128]:
-    """Return the Fourier coefficients of evenly spaced samples of a cycle, without those that are rounding.
+    """Return the Fourier coefficients of evenly spaced samples of a cycle; zero if they are rounding.
 
     `size`: largest sum of the terms of the samples by magnitude; by default the largest sample.
     """

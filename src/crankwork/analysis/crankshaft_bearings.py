@@ -42,8 +42,8 @@ _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 class BearingLoads(NamedTuple):
     """Loads of the bearings over the crank angle."""
 
-    # Force of the rods on each crankpin in the frame of its crank, by its number; of alike ones
-    # the first, shape (n,) [N]
+    # Force of the rods on each distinct crankpin, by its number, in the frame of
+    # its crank, shape (n,) [N]
     crankpins: Mapping[int, BearingLoad]
     # Of the rod of cylinder 1, in the frame of the rod, shape (n,) [N]
     big_end: BearingLoad
@@ -92,7 +92,7 @@ def _of_rod(engine: MultiCylinderEngine, place: CylinderPlace, inertia: TracedVa
     """Return the load of a rod on its crankpin along and across the crank arm, of its forces and its mass there."""
     name = f"{place.crankpin + 1}.{place.number}" if len(engine.on_pin[place.crankpin]) > 1 else f"{place.crankpin + 1}"
     trace = engine.cylinders[place.number - 1].trace
-    # what of an articulated rod is at its knuckle pin has come through the master rod
+    # the master rod transmits the inertia of an articulated rod's mass at its knuckle pin
     own = absent(inertia.key) if "knuckle_side_force" in trace else inertia
     weight, tangential = (
         engine.of(place.number, key) if key in trace else absent(key)
@@ -108,7 +108,7 @@ def _of_rod(engine: MultiCylinderEngine, place: CylinderPlace, inertia: TracedVa
 def _crankpins(
     engine: MultiCylinderEngine, rods: Mapping[int, tuple[TracedValue, TracedValue]], inertia: TracedValue
 ) -> Iterator[TracedValue]:
-    """Yield radial and tangential force on every unlike crankpin and their resultant; of several rods, the sums."""
+    """Yield radial and tangential force on every distinct crankpin and their resultant; of several rods, the sums."""
     for pin in distinct_crankpins(engine):
         numbers = [item.number for item in engine.on_pin[pin - 1]]
         along = total(f"crankpin_radial_force.{pin}", [rods[number][0] for number in numbers])
@@ -128,7 +128,7 @@ def _of_one_rod(engine: MultiCylinderEngine, number: int, rod: BearingLoad, iner
 
 
 def _small_end(engine: MultiCylinderEngine) -> Iterator[TracedValue]:
-    """Yield the force of piston 1 on its pin, its side force with what articulated rods add, and the load."""
+    """Yield the force of piston 1 on its pin, its side force with that of articulated rods, and the load."""
     trace, machine = engine.master.trace, engine.machine
     # that of the inertia force, where a document has its own
     acceleration = trace.get("inertia_acceleration", trace["piston_acceleration"])
@@ -175,7 +175,7 @@ def bearing_loads(engine: MultiCylinderEngine, columns: Mapping[str, Array]) -> 
 
 
 def distinct_crankpins(engine: MultiCylinderEngine) -> tuple[int, ...]:
-    """Return the numbers of the crankpins whose loads are not those of an earlier one, only later."""
+    """Return the numbers of the crankpins whose loads are not the delayed loads of an earlier one."""
     cycle, seen, kept = engine.layout.cycle, set(), []
     for pin, places in engine.on_pin.items():
         forms = [
@@ -259,7 +259,7 @@ def counterweights(engine: MultiCylinderEngine, layout: Layout) -> tuple[Unbalan
 
 
 def _counterweight(engine: MultiCylinderEngine, pin: int) -> TracedValue:
-    """Return the mass moment of a counterweight: of the masses of each cylinder on its pin, and what is given."""
+    """Return the mass moment of a counterweight: of the masses of each cylinder on its pin, and the given one."""
     description, trace, terms = engine.engine, engine.master.trace, []
     key = f"counterweight_moment.{pin + 1}"
     if engine.machine.masses is not None and (description.rotating_share or description.reciprocating_share):

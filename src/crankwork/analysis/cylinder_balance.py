@@ -162,7 +162,7 @@ def _knuckles(engine: MultiCylinderEngine, orders: Sequence[int]) -> tuple[Order
 
 
 def _planes(engine: MultiCylinderEngine, part: OrderBalance) -> tuple[float] | tuple[float, float]:
-    """Return where the weights of a pair of shafts stand: in the middle, or at the outermost cylinders for a moment."""
+    """Return the positions of the weights of a pair of shafts: the middle, or the outermost cylinders for a moment."""
     positions = [place.position for place in engine.layout.places]
     first, last = min(positions), max(positions)
     return (0.0,) if first == last or not part.moment.largest else (first, last)
@@ -385,7 +385,7 @@ def _best_weights(
 
 
 def balance_listing(engine: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]) -> Listing:
-    """Return forces and moments by order: of each kind of mass, and what is left."""
+    """Return forces and moments by order: of each kind of mass, and the residual."""
     kinds = ["free_force", "free_force_min", "free_force_direction"]
     if balance_pitch(engine.layout):
         kinds += ["free_moment", "free_moment_min"]

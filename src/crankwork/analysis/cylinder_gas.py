@@ -20,7 +20,7 @@ from crankwork.loads.traced_diagram import DiagramInput
 from crankwork.loads.valves import StatedValves
 
 _Value = TypeVar("_Value")
-# what a cycle is calculated with or checked by, and the rest of a summary says in its own way
+# inputs and checks of a cycle, which other keys of a summary also show
 _NOT_SHOWN = ("first_law_residual", "rotational_speed")
 
 
@@ -156,7 +156,7 @@ def _ends_of_polytropes(solved: PreparedCylinder, space: WorkingSpace, volume: T
 
 
 def cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
-    """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
+    """Return the single values of a calculated cycle that the rest of a summary does not show."""
     own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
     shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
     return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}

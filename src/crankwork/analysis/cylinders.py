@@ -23,7 +23,7 @@ from crankwork.mechanism.mechanism import slider_crank
 
 @dataclass(frozen=True, eq=False)
 class MultiCylinderEngine:
-    """An engine made ready: the solved crank gear of every cylinder by number; alike ones are the same object."""
+    """A prepared engine: the crank gear of every cylinder by number; equal ones are the same object."""
 
     machine: Machine
     engine: Engine
@@ -67,7 +67,7 @@ class MultiCylinderEngine:
 
     @property
     def layout(self) -> Layout:
-        """Where the cylinders stand and when they fire."""
+        """Positions and firing angles of the cylinders."""
         return self.engine.layout
 
     @property

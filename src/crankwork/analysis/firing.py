@@ -1,4 +1,4 @@
-"""When the cylinders of an engine fire, where they stand, how large they are, and what the gas does in them."""
+"""Firing angles, positions and sizes of the cylinders of an engine, and the work of the gas in them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _OF_ARTICULATED = ("top_dead_centre_angle", "stroke", "swept_volume")
 
 
 def firing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
-    """Return number and volume of the cylinders, where each stands and when it fires."""
+    """Return number and volume of the cylinders, and position and firing angle of each."""
     count, layout = given("cylinder_count", float(len(engine.cylinders)), "engine.cylinders"), engine.layout
     values = {count.key: count}
     for place in layout.places:
@@ -79,7 +79,7 @@ def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> di
 
 
 def work_trace(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the works of all cylinders, and the power and the mean torque that follow; nothing without gas in each."""
+    """Return the works of all cylinders, and their power and mean torque; empty if a cylinder has no gas."""
     works = [work_of_gas(cylinder, cylinder.space) for cylinder in engine.cylinders if cylinder.space is not None]
     if len(works) < len(engine.cylinders):
         return {}
@@ -106,9 +106,9 @@ def work_trace(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -
 def delivery_trace(
     engine: MultiCylinderEngine, firing: Mapping[str, TracedValue], works: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
-    """Return what all cylinders with valves deliver per unit of time, after the flow of one of them or of each.
+    """Return the delivery of all cylinders with valves per unit of time, and the flow of one of them or of each.
 
-    `firing` and `works`: number and work of the cylinders. Nothing of one cylinder alone, whose delivery is its own.
+    `firing` and `works`: number and work of the cylinders. Empty for a single cylinder, which has its own delivery.
     """
     gases = {number: cylinder.machine.gas for number, cylinder in enumerate(engine.cylinders, start=1)}
     valved = {number: gas.valves for number, gas in gases.items() if gas is not None and gas.valves is not None}
@@ -135,7 +135,7 @@ def delivery_trace(
 
 
 def firing_listing(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> Listing:
-    """Return where each cylinder stands and fires; where they differ, also stroke, dead centre and work.
+    """Return position and firing angle of each cylinder; if they differ, also stroke, dead centre and work.
 
     `firing`: number, volume, firing and work of the cylinders.
     """

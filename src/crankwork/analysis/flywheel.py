@@ -40,7 +40,7 @@ def target_fluctuation(machine: Machine, w: TracedValue) -> TracedValue | None:
 
 
 def extreme_speeds(machine: Machine) -> tuple[TracedValue, TracedValue]:
-    """Return the extreme speeds that a flywheel shall keep to, as they are stated."""
+    """Return the stated extreme speeds that a flywheel is sized for."""
     paths = {".largest": "flywheel.speeds[1]", ".least": "flywheel.speeds[2]"}
     high, low = (
         traced_inputs.speed_at(machine, machine.method, path, machine.stated[path].value, name)
@@ -104,7 +104,7 @@ def given_flywheel_dimensions(machine: Machine, w: TracedValue) -> dict[str, Tra
 
 
 def flywheel_dimensions(machine: Machine, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
-    """Return the mass of a flywheel of a moment of inertia, and what follows for its rim."""
+    """Return the mass of a flywheel of a moment of inertia, and the dimensions of its rim."""
     wheel = machine.drive.wheel
     if wheel is None:
         return {}

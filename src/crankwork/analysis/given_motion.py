@@ -54,7 +54,7 @@ def analyse_tabulated(machine: Machine, table: TransferTable) -> Results:
 
 @dataclass(frozen=True)
 class Rows:
-    """Numbers that stand at the positions of a table only. [deg]"""
+    """Numbers that are given at the positions of a table only. [deg]"""
 
     degrees: tuple[float, ...]
     values: tuple[float, ...]

@@ -139,7 +139,7 @@ def _of_torque_curves(machine: Machine, turning: ShaftTorques, w: TracedValue) -
     over = CycleInterpolant(traced, CrankGrid.from_degrees, machine.cycle)
     means = {key: _mean(over, machine, turning, table, w) for table, key in _keys(turning)}
     mean = next(iter(means.values()))
-    # what is not given is constant
+    # a torque that is not given is constant
     drive, load = (traced.get(key, mean).named(key) for key in ("turning_moment", "load_torque"))
     columns = {"turning_moment": drive, "load_torque": load, "excess_torque": (drive - load).named("excess_torque")}
     net = columns["excess_torque"]

@@ -12,7 +12,7 @@ from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue
 from crankwork.shaft.curve import Curve
 
-# orders per revolution, and what rounding leaves of the highest degrees of polynomials
+# orders per revolution, and relative size of coefficients of polynomials that are rounding
 _ORDERS = 12
 _ROUNDING = 1e-16
 # share of the torque of the largest joint force below which a torque is rounding
@@ -25,7 +25,7 @@ def order_count(cycle: float) -> int:
 
 
 def curve_of(over: CycleInterpolant, key: str) -> Curve:
-    """Return a column as polynomials, without degrees that are nothing but rounding."""
+    """Return a column as polynomials, without degrees that are only rounding."""
     series = over.polynomials(key)
     sizes = np.max(np.abs(series), axis=0)
     last = int(np.max(np.flatnonzero(sizes > _ROUNDING * sizes.max()), initial=0))

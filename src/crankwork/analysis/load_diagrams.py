@@ -83,7 +83,7 @@ class EngineDiagrams:
 
     @property
     def is_spread(self) -> bool:
-        """Whether cylinders stand side by side along the shaft."""
+        """Whether cylinders are at different positions along the shaft."""
         return len({place.position for place in self.engine.layout.places}) > 1
 
     @cached_property
@@ -137,7 +137,7 @@ class EngineDiagrams:
 
     @property
     def pin_sizes(self) -> tuple[Array, Mapping[str, Array]]:
-        """Crank angles over the cycle without its end [deg], and the size of the load on every unlike crankpin. [N]"""
+        """Crank angles over the cycle without its end [deg], and the load on every distinct crankpin. [N]"""
         degrees, loads = self.loads
         return degrees, {str(pin): load.resultant for pin, load in loads.crankpins.items()}
 
@@ -173,7 +173,7 @@ class EngineDiagrams:
 
     @cached_property
     def loci(self) -> dict[int, tuple[Locus, Locus]]:
-        """The forces of each order of cylinders and cranks, and of all, where either is not nothing."""
+        """The forces of each order of cylinders and cranks, and the residual, unless both are negligible."""
         balance = self.balance
         before = {item.order: item.force for item in balance_sum((*balance.reciprocating, balance.rotating))}
         after = {item.order: item.force for item in balance.residual}

@@ -1,4 +1,4 @@
-"""A solved linkage at work, in numbers, with what its redundant links bear."""
+"""The operating state of a linkage in numbers, with the forces along its redundant links."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def operating_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:
 
 
 def is_shared(links: Sequence[RedundantLink]) -> bool:
-    """Return whether it is stated what every redundant link bears, so that joint forces are known."""
+    """Return whether the force share of every redundant link is stated, so that joint forces are known."""
     return all(link.share is not None for link in links)
 
 
@@ -67,8 +67,8 @@ def _left(
 def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tuple[JointForces, dict[str, TracedValue]]:
     """Return the joint forces of a mechanism at work with its redundant links, and the forces along links by key.
 
-    Those without redundant links where it is not stated what these bear; then only the driver's is one of the whole.
-    What a redundant link bears is found with all others; what is left of its share is noted as an equation.
+    Without redundant links if their shares are not stated; then only the driver's force is one of the full mechanism.
+    The forces of redundant links are solved together; the residuals of their shares are traced as equations.
     """
     links = solved.machine.redundant
     if not links or not is_shared(links):

@@ -40,7 +40,7 @@ def polytropes(results: Results) -> Polytropes | None:
     step = max(1.0, math.ceil(ratio / _ROWS))
     multiples = np.array([*np.arange(1.0, ratio - 1e-9, step), ratio])
     ends = [end / space.clearance for span in spans.values() for end in span]
-    # an end beside a whole multiple is that multiple
+    # an end near an integer multiple is that multiple
     ends = [end for end in ends if not np.any(np.isclose(end, multiples, rtol=1e-6))]
     volumes = np.unique(np.round([*multiples, *ends], 9)) * space.clearance
     within = {name: _is_within(volumes, *span) for name, span in spans.items()}

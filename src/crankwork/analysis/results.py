@@ -45,13 +45,13 @@ _SAME_ANGLE = 1e-9
 class Listing(NamedTuple):
     """A table that does not run over the crank angle: orders, rays, cylinders, bearings."""
 
-    # Columns by key of `quantities.QUANTITIES`, the first of which says what each row is, shape (n,) [SI]
+    # Columns by key of `quantities.QUANTITIES`, the first of which identifies each row, shape (n,) [SI]
     columns: Mapping[str, Array]
     # Names of the rows, such as `crankpin.1`; empty if the first column identifies the rows
     names: tuple[str, ...] = ()
 
     def with_rows_of(self, other: Listing) -> Listing:
-        """Return this table with the rows of another one below it; of rows that both have, with its further columns."""
+        """Return this table with further rows and columns of another; rows of the same name are joined."""
         if not self.names:
             return Listing({**other.columns, **self.columns})
         names = (*self.names, *(name for name in other.names if name not in self.names))
@@ -203,7 +203,7 @@ class Results(Mapping[str, Array | float]):
         return self.other if self.other._has(key) else self  # noqa: SLF001 - of its own class
 
     def current(self, key: str) -> str:
-        """Return the key that a result has today; warn where it had another one, or was the value of something else."""
+        """Return the current key of a result; warn if the key was renamed, or was the key of another value."""
         renamed, engine = RENAMED.get(key, key), self.machine.engine
         notice, is_renamed = None, renamed != key and renamed in self
         if is_renamed:
@@ -307,7 +307,7 @@ class Results(Mapping[str, Array | float]):
         return list(self)
 
     def unit(self, key: str) -> str:
-        """Return the SI unit of what a key gives, empty for a pure number."""
+        """Return the SI unit of the value of a key, empty for a pure number."""
         # texts belong to packages above the analysis; these methods only call them
         from crankwork.report.display import key_unit  # noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""Where crank, rods and pistons of every cylinder of an engine are, what its gas presses, and when it fires."""
+"""Positions of crank, rods and pistons of every cylinder of an engine, its gas pressure, and when it fires."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def throw_residuals(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue
     torques = {f"torque.{number}": engine.of(number, "crank_torque") for number in numbers}
     gases = {rod.slider: engine.of(number, "gas_force") for rod, number in pairs if engine.has("gas_force")}
     own = Program({**torques, **gases, "load": trace[pin]})(grid)
-    # the axis of cylinder 1 stands in the mechanism as in the layout
+    # the axis of cylinder 1 has the same direction in the mechanism as in the layout
     lean = solved.machine.inclination - math.radians(engine.layout.places[0].axis)
     pushing = {name: own[name] for name in gases}
     values = system_joint_forces(_running(solved, replace(mechanism, bodies=tuple(bodies)), pushing, grid, lean))

@@ -47,7 +47,7 @@ class EngineTorque(NamedTuple):
     cylinder: Curve
     total: Curve
     speed: TrueSpeed | None  # With the flywheel, where anything has an inertia
-    # Energy and speed over the crank angle; single values; what lies between them
+    # Energy and speed over the crank angle; single values; intermediate values
     columns: Mapping[str, TracedValue]
     summary: Mapping[str, TracedValue]
     between: Mapping[str, TracedValue]

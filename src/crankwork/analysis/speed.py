@@ -101,12 +101,12 @@ def balance_of(
 
 
 def delivered_or_needed(delivered: TracedValue) -> TracedValue:
-    """Return the mean torque of a machine: what it delivers or, under the name of that, what its driver must give."""
+    """Return the mean torque of a machine: delivered or, under the key of a driving torque, that of its driver."""
     return delivered if delivered.value >= 0 else (-delivered).named("mean_driving_torque")
 
 
 class SpeedResults(NamedTuple):
-    """How evenly a machine runs: columns, single values, residuals, what the reader should know, what lies between."""
+    """Results for the speed of a machine: columns, single values, residuals, notices, intermediate values."""
 
     columns: dict[str, TracedValue]
     summary: dict[str, TracedValue]
@@ -118,7 +118,7 @@ class SpeedResults(NamedTuple):
 
 
 def has_flywheel(drive: Drive) -> bool:
-    """Return whether a flywheel is given or to be found."""
+    """Return whether a flywheel is given or to be sized."""
     return drive.fluctuation is not None or drive.wheel is not None
 
 

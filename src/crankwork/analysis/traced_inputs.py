@@ -85,7 +85,7 @@ def speed(machine: Machine, method: Method) -> TracedValue:
 
 
 def speed_at(machine: Machine, method: Method, path: str, value: float, name: str = "") -> TracedValue:
-    """Return an angular speed that stands at a path: stated, or of its revolutions with the method's own pi. [rad/s]
+    """Return an angular speed with an input path: stated, or of its revolutions with the method's own pi. [rad/s]
 
     `name`: suffix that distinguishes it from the speed of the crank.
     """
@@ -183,5 +183,5 @@ def _is_close(first: float, second: float) -> bool:
 
 
 def checked(value: TracedValue, plain: TracedValue) -> TracedValue:
-    """Return what follows from the description if it is what the machine has, which may have been changed since."""
+    """Return a calculated value if it equals that of the machine, else the latter, which was changed since."""
     return value.named(plain.key) if _is_close(value.value, plain.value) else plain
