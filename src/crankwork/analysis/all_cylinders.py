@@ -75,7 +75,7 @@ class EngineTrace(NamedTuple):
         size_of: Mapping[str, str] = MappingProxyType({}),
         own: Mapping[str, TracedValue] = MappingProxyType({}),
     ) -> EngineTrace:
-        """Return those of the engine of a cylinder; `followed_too`, `own`: further columns to interpolate and sample."""
+        """Return those of the engine of a cylinder; `followed_too` and `own`: columns to interpolate and sample too."""
         engine = multi_cylinder_engine(solved)
         trace = torque_trace(engine) | bearing_trace(engine) | engine_reduction(engine)
         first = engine.of(1, "crank_torque")

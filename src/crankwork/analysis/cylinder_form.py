@@ -59,7 +59,7 @@ def engine_form_or_reason(machine: Machine, *, has_all: bool = False) -> Machine
 
 
 def _check_expressible(machine: Machine, *, has_all: bool) -> None:
-    """Raise MethodError for inputs that an engine has no tables for."""
+    """Raise NoCellsError for inputs that an engine has no tables for."""
     if machine.linkage is None or machine.transfer is not None or machine.turning is not None:
         raise NoCellsError(ErrorMessage("cells_driver"))
     partial = machine.working_range is not None or (machine.way is not None and not machine.way.is_whole)

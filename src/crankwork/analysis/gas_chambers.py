@@ -92,7 +92,7 @@ def _per_time(solved: PreparedLinkage, name: str) -> Callable[[TracedValue], Tra
 
 
 def _delivery(solved: PreparedLinkage, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the flow through the valves of each chamber; of several also the intake of the first stage and the sums."""
+    """Return the flow through the valves of each chamber; of several also the intake of the first stage and sums."""
     chambers, none = solved.machine.chambers, absent("clearance_volume")
     result = dict[str, TracedValue]()
     valved = {name: value.valves for name, value in chambers.items() if value.valves is not None}

@@ -78,8 +78,8 @@ def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tup
     loads = running.loads
     for link, force in zip(links, forces, strict=True):
         loads = loads.also(pressing(running.mechanism, running.motion, link, force))
-    engine = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
-    values = joint_forces(engine)
+    state = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
+    values = joint_forces(state)
     other_forces = [force_along_other(running.mechanism, running.motion, values, link) for link in links]
     root.residuals = tuple(_left(links, forces, other_forces))
     return values, {item.key: item for item in [*forces, *other_forces]}
