@@ -90,7 +90,7 @@ def test_the_torque_curve_is_the_torque_and_loads_of_a_shaft_are_in_equilibrium(
     degrees = np.arange(3.7, 720.0, 11.31)
     found = whole.each("crank_torque", degrees)
     scale = float(np.max(np.abs(found)))
-    assert torque.one(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
+    assert torque.cylinder(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
     assert torque.total(np.radians(degrees)) == pytest.approx(found.sum(axis=0), abs=1e-8 * scale)
     degrees = np.arange(0.0, 720.0, 15.0)
     loads = bearing_loads(whole, Program(bearing_components(whole, results.trace))(CrankGrid.from_degrees(degrees)))

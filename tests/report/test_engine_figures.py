@@ -244,7 +244,7 @@ def test_bars_are_as_high_as_the_listings(layout):
 @for_each("layout", LAYOUTS)
 def test_phase_stars_stack_equal_directions_and_add_up(layout):
     drawn = of_layout(layout).drawn
-    layout = drawn.diagrams.whole.layout
+    layout = drawn.diagrams.engine.layout
     for order, graph in _graphs(drawn, "phase_stars").items():
         x, y = graph.curves["ends"]
         total = graph.curves["sum"]

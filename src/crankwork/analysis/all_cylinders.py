@@ -59,9 +59,9 @@ _TABLES = {
 
 
 class EngineTrace(NamedTuple):
-    """Torques and bearing loads of an engine by key, what they are over the cycle, their extremes, and samples."""
+    """Torques and bearing loads of an engine by key, their interpolants over the cycle, extremes and samples."""
 
-    whole: MultiCylinderEngine
+    engine: MultiCylinderEngine
     trace: dict[str, TracedValue]
     over: CycleInterpolant
     extremes: Mapping[str, TracedValue]
@@ -71,11 +71,11 @@ class EngineTrace(NamedTuple):
     def of(
         cls,
         solved: PreparedCylinder,
-        beside: Mapping[str, TracedValue] = MappingProxyType({}),
+        followed_too: Mapping[str, TracedValue] = MappingProxyType({}),
         size_of: Mapping[str, str] = MappingProxyType({}),
         own: Mapping[str, TracedValue] = MappingProxyType({}),
     ) -> EngineTrace:
-        """Return those of the engine that a cylinder belongs to; other columns are followed and sampled beside them."""
+        """Return those of the engine of a cylinder; `followed_too` and `own`: columns to interpolate and sample too."""
         engine = multi_cylinder_engine(solved)
         trace = torque_trace(engine) | bearing_trace(engine) | engine_reduction(engine)
         first = engine.of(1, "crank_torque")
@@ -85,7 +85,7 @@ class EngineTrace(NamedTuple):
             first.key: first,
             **{key: trace[key] for key in inertias},
             **{key: trace[key] for key in keys},
-            **beside,
+            **followed_too,
         }
         inertia = [engine.of(number, "inertia_force") for number in engine.has("inertia_force")]
         sampled = {key: trace[key] for key in (*_table_keys(trace), *bearing_components(engine, trace))}
@@ -96,17 +96,17 @@ class EngineTrace(NamedTuple):
 
 
 def _table_keys(trace: Mapping[str, TracedValue]) -> tuple[str, ...]:
-    """Return which torques, loads and inertias of an engine stand in its tables."""
+    """Return the keys of the torques, loads and inertias in the tables of an engine."""
     torques = [key for key in trace if key.startswith(_TORQUES)]
     return (*torques, *bearing_columns(trace), *(key for key in REDUCTION if key in trace))
 
 
-def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
+def with_whole_engine(results: Results, traced: EngineTrace | None) -> Results:
     """Return the results of cylinder 1 with those of the engine it belongs to, of which only the motion may be known.
 
     Every column and single value of cylinder 1 as it was, and those of the engine.
     """
-    engine = multi_cylinder_engine(results.solved) if found is None else found.whole
+    engine = multi_cylinder_engine(results.solved) if traced is None else traced.engine
     notices = [Notice(*notice) for notice in engine.engine.notices]
     machine = engine.machine
     stated = machine.cylinder.inclination if machine.cylinder is not None else None
@@ -125,10 +125,10 @@ def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
     ):
         notices.append(Notice("no_spacing", {}))
     firing = firing_trace(engine)
-    if found is None:
+    if traced is None:
         notices.append(Notice("motion_only", {}))
         return replace(results, notices=(*results.notices, *notices), trace={**results.trace, **firing})
-    _, trace, over, extremes, samples = found
+    _, trace, over, extremes, samples = traced
     torque = engine_torque(engine, trace, over, extremes)
     loads = bearing_values(engine, trace, over, extremes) | wear_trace(engine, trace, samples)
     works, harmonics = work_trace(engine, firing), harmonics_trace(engine, torque, trace)
@@ -161,7 +161,7 @@ def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
 
         thrown = throw_residuals(engine, trace)
         joints = {master_joint.key: master_joint for master_joint in master_joints(engine, trace)}
-    told = [*torque.notices, *_against_cycle(engine, results.summary, summary), *_of_gases(engine, results.notices)]
+    further = [*torque.notices, *_against_cycle(engine, results.summary, summary), *_of_gases(engine, results.notices)]
     return replace(
         results,
         columns={**results.columns, **columns},
@@ -174,7 +174,7 @@ def with_whole_engine(results: Results, found: EngineTrace | None) -> Results:
             **thrown,
         },
         allowed=_allowed(results),
-        notices=(*results.notices, *notices, *told),
+        notices=(*results.notices, *notices, *further),
         groups={**results.groups, **groups},
         listings={**results.listings, **listings},
         trace={
@@ -205,11 +205,11 @@ def _of_unlike(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     return {item.key: item for item in values}
 
 
-def _of_gases(engine: MultiCylinderEngine, told: Sequence[Notice]) -> Iterator[Notice]:
-    """Yield which cylinders misfire, and what is to be known of the diagrams of those that have their own."""
+def _of_gases(engine: MultiCylinderEngine, earlier: Sequence[Notice]) -> Iterator[Notice]:
+    """Yield which cylinders misfire, and new notices of the diagrams of cylinders with their own gas."""
     if engine.engine.misfires:
         yield Notice("misfire", {"numbers": ", ".join(map(str, engine.engine.misfires))})
-    seen = list(told)
+    seen = list(earlier)
     for item in engine.cylinders if engine.engine.gases else ():
         for notice in item.notices:
             if notice not in seen:
@@ -218,7 +218,7 @@ def _of_gases(engine: MultiCylinderEngine, told: Sequence[Notice]) -> Iterator[N
 
 
 def _allowed(results: Results) -> dict[str, float]:
-    """Return what an approximate method allows: of the work of every cylinder the same share, of forces its error."""
+    """Return the residuals that an approximate method allows: its share of the work, its error of forces."""
     allowed = dict(results.allowed)
     if "work" in allowed:
         allowed["engine_work"] = allowed["work"]
@@ -236,14 +236,14 @@ def _belongs(table: str, key: str) -> bool:
 def _against_cycle(
     engine: MultiCylinderEngine, values: Mapping[str, float], summary: Mapping[str, float]
 ) -> Iterator[Notice]:
-    """Yield how far the mean torque is from that of the calculated cycle, or that this is of other cylinders."""
+    """Yield the deviation of the mean torque from that of the calculated cycle, or that they do not compare."""
     if not {"effective_torque", "mechanical_efficiency"} <= set(values):
         return
     gases = engine.engine.gases
     if engine.engine.misfires or any(gas is not gases[0] or gas.factor != 1 for gas in gases):
         yield Notice("cycle_in_every", {})
     elif not engine.machine.angular_acceleration:
-        # a mean torque less what the parts take up is not that of the gas
+        # a mean torque less that of accelerating the parts is not that of the gas
         cycle, mean = values["effective_torque"] / values["mechanical_efficiency"], summary["mean_torque"]
         yield Notice("torque_of_cycle", {"torque": mean, "cycle": cycle, "percent": 100 * (mean / cycle - 1)})
 

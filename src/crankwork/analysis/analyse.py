@@ -147,7 +147,7 @@ def _grid(angles: ArrayLike, cycle: float) -> CrankGrid:
 def _analysed(
     machine: Machine, grid: CrankGrid | None, method: Method | None, progress: Callable[[float], None] | None
 ) -> Results:
-    # what gives the motion decides; lengths would wait longer for the rooms of the others than for their results
+    # imported by kind of machine, since loading the other packages would take longer than the analysis
     if machine.turning is not None:
         from crankwork.analysis.given_torques import analyse_turning  # noqa: PLC0415 - loaded where it is needed
 
@@ -164,9 +164,9 @@ def _analysed(
 
 
 def columns_only(machine: Machine) -> Results:
-    """Return results that give values at a crank angle, and none that has to be found over a whole cycle.
+    """Return results that give values at a crank angle, and none that needs a calculation over a whole cycle.
 
-    They take a part of the time of `analyse`.
+    Faster than `analyse`.
     """
     if machine.transfer is not None or machine.turning is not None:
         return analyse(machine)

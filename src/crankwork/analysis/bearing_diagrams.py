@@ -47,7 +47,7 @@ class BearingDiagrams(Protocol):
 
     @property
     def pin_sizes(self) -> tuple[Array, Mapping[str, Array]]:
-        """Crank angles over the cycle without its end [deg], and the size of the load on every unlike crankpin. [N]"""
+        """Crank angles over the cycle without its end [deg], and the load on every distinct crankpin. [N]"""
         ...
 
     def crankpin(self, pin: str) -> CrankpinLoad:

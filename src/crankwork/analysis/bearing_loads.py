@@ -1,4 +1,4 @@
-"""What the load of a bearing comes to over the cycle: mean, extremes, pressure, reversal, wear and its oil hole."""
+"""Summary of the load of a bearing over the cycle: mean, extremes, pressure, reversal, wear and its oil hole."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def hole_of(key: str, table: TracedValue, forces: Iterable[TracedValue], rays: i
 
 
 def loads_listing(values: Mapping[str, TracedValue], *, with_reversal: bool = False) -> Listing:
-    """Return what the loads of all bearings come to over the cycle, a row for each."""
+    """Return the summary of the loads of all bearings over the cycle, a row for each."""
     names = tuple(key.partition(".")[2] for key in values if key.startswith("mean_bearing_load."))
     columns = {
         key: np.array([values[f"{key}.{name}"].value if f"{key}.{name}" in values else np.nan for name in names])

@@ -84,12 +84,12 @@ def gas_of(name: str, chamber: Chamber, cycle: float, crank_end: Chamber | None)
 
 
 def is_close(value: float, other: float) -> bool:
-    """Return whether two numbers are the same but for rounding."""
+    """Return whether two numbers are equal within rounding."""
     return math.isclose(value, other, rel_tol=_SAME)
 
 
 def nearly_equal(value: Any, other: Any) -> bool:  # noqa: ANN401 - numbers, and records of them
-    """Return whether two values are the same but for rounding, and for where each is stated."""
+    """Return whether two values are equal within rounding, wherever each is stated."""
     if value is other:
         return True
     match value:

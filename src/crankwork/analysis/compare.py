@@ -1,4 +1,4 @@
-"""Results beside others: of the same machine by other methods, or of another machine."""
+"""Comparison of results: with those of the same machine by other methods, or of another machine."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import ErrorMessage
 
-# what is put side by side, of each kind that two results have in common
+# kinds of columns that are compared if two results have both
 _MOTION = (
     "piston_displacement", "piston_velocity", "piston_acceleration", "slider_displacement", "slider_velocity",
     "slider_acceleration", "link_angle", "link_angular_velocity", "link_angular_acceleration",
@@ -26,12 +26,12 @@ _FORCES = (
     "balancing_torque", "driving_torque", "driver_force", "driver_torque", "turning_moment", "load_torque",
     "excess_torque", "kinetic_energy_change",
 )  # fmt: skip
-# of a value, what rounding alone tells apart
-_ALIKE = 1e-12
+# relative difference of values that is rounding
+_TOLERANCE = 1e-12
 
 
 class Comparison(NamedTuple):
-    """What stands beside results: names, the results' own first, and other results in the same order."""
+    """Results to compare with: names, that of the results first, and other results in the same order."""
 
     names: tuple[str, ...]
     others: tuple[Results, ...]
@@ -41,11 +41,11 @@ class Comparison(NamedTuple):
     is_of_methods: bool  # Whether one machine is compared by its methods, which are the names
 
     def columns_at(self, degrees: Array) -> dict[str, Array]:
-        """Return what is compared at crank angles [deg]; nothing is a number where a machine does not get."""
+        """Return the compared columns at crank angles [deg]; NaN at angles that a machine does not reach."""
         return _played(self.trace, CrankGrid.from_degrees(degrees))
 
     def values(self, results: Results) -> dict[str, tuple[float, ...]]:
-        """Return single values by key, of all results in the order of the names, none for those that lack one. [SI]
+        """Return single values by key, of all results in the order of the names, NaN for a missing one. [SI]
 
         Of methods, those in which they differ.
         """
@@ -61,7 +61,7 @@ def comparison_key(key: str, name: str) -> str:
 
 
 def difference_key(key: str, name: str) -> str:
-    """Return the key of what the column of a name is above that of the results."""
+    """Return the key of the difference of the column of a name from that of the results."""
     kind, dot, owner = key.partition(".")
     return f"{kind}_difference{dot}{owner}.{name}"
 
@@ -100,8 +100,8 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     own = name or results.method.name
     if own in others:
         raise CrankworkError(ErrorMessage("compare_own", method=own))
-    every = (results, *others.values())
-    keys = tuple(_common(every)) if _go_alike(every) else ()
+    all_results = (results, *others.values())
+    keys = tuple(_common(all_results)) if _share_abscissa(all_results) else ()
     trace: dict[str, TracedValue] = {}
     for key in keys:
         mine = results.trace[key].named(comparison_key(key, own))
@@ -117,19 +117,19 @@ def compare(results: Results, others: Mapping[str, Results], name: str = "") -> 
     return replace(results, compared=compared)
 
 
-def _common(every: tuple[Results, ...]) -> Iterator[str]:
+def _common(all_results: tuple[Results, ...]) -> Iterator[str]:
     """Yield the keys of columns that all results have."""
     # a cycle of one turn has no forces of a second one
-    kinds = (*_MOTION, *_FORCES) if len({item.machine.cycle for item in every}) == 1 else _MOTION
+    kinds = (*_MOTION, *_FORCES) if len({item.machine.cycle for item in all_results}) == 1 else _MOTION
     for kind in kinds:
-        for key in every[0].columns:
-            if key.partition(".")[0] == kind and all(key in item.columns and key in item.trace for item in every):
+        for key in all_results[0].columns:
+            if key.partition(".")[0] == kind and all(key in item.columns and key in item.trace for item in all_results):
                 yield key
 
 
-def _go_alike(every: tuple[Results, ...]) -> bool:
-    """Return whether columns of all results stand at angles, or times, that mean the same."""
-    return len({item.period for item in every}) == 1 and not any(item.has_positions for item in every)
+def _share_abscissa(all_results: tuple[Results, ...]) -> bool:
+    """Return whether columns of all results are given at angles, or times, with the same meaning."""
+    return len({item.period for item in all_results}) == 1 and not any(item.has_positions for item in all_results)
 
 
 def _played(trace: Mapping[str, TracedValue], grid: CrankGrid) -> dict[str, Array]:
@@ -141,4 +141,4 @@ def _played(trace: Mapping[str, TracedValue], grid: CrankGrid) -> dict[str, Arra
 
 def _differ(values: tuple[float, ...]) -> bool:
     size = max(abs(value) for value in values)
-    return not max(values) - min(values) <= _ALIKE * size
+    return not max(values) - min(values) <= _TOLERANCE * size

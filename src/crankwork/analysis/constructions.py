@@ -1,4 +1,4 @@
-"""Constructions on the results of a machine that figures, sheets and notes draw alike."""
+"""Constructions on the results of a machine that figures, sheets and notes share."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class TollePoints(NamedTuple):
     """Points of Tolle's construction: displacement over the crank radius, acceleration over r w^2."""
 
     # A and B at the dead centres on the axis, C and D at the accelerations there, E where CD cuts the axis, F at the
-    # acceleration -3 r/l beside E [-]
+    # acceleration -3 r/l next to E [-]
     a: tuple[float, float]
     b: tuple[float, float]
     c: tuple[float, float]

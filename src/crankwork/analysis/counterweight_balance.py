@@ -1,4 +1,4 @@
-"""What the moving masses of a linkage do to its foundation, its orders, and the best counterweight on the crank."""
+"""Shaking force and moment of the moving masses of a linkage, its orders, and the best counterweight on the crank."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.mechanism.mechanism import Crank
 
 _ORDERS = (1, 2, 3, 4)
-# share of the forces that are added which rounding leaves of nothing
+# share of the added forces below which their sum is rounding
 _ROUNDING = 1e-13
 _SAMPLES = 1440
 
@@ -50,15 +50,15 @@ def counterweight_balance(
     It takes the part of the force that turns with the crank, which makes the mean square of the rest least.
     `period`: crank angle of a cycle [deg].
     """
-    of = trace["shaking_force_x"], trace["shaking_force_y"]
+    forces = trace["shaking_force_x"], trace["shaking_force_y"]
     moment_of_all = trace.get("shaking_moment", absent("shaking_moment"))
     grid, turns = CrankGrid.from_degrees(np.arange(_SAMPLES) * period / _SAMPLES), round(period / 360.0)
-    terms = [term for force in of for term in (force.node.operands if isinstance(force.node, Sum) else (force,))]
+    terms = [term for force in forces for term in (force.node.operands if isinstance(force.node, Sum) else (force,))]
     columns = Program(
-        {**dict(zip("xyz", (*of, moment_of_all), strict=True)), **{str(n): term for n, term in enumerate(terms)}}
+        {**dict(zip("xyz", (*forces, moment_of_all), strict=True)), **{str(n): term for n, term in enumerate(terms)}}
     )(grid)
     x, y, moments = (columns[axis] + np.zeros(_SAMPLES) for axis in "xyz")
-    # what cancels leaves rounding of the size of its terms
+    # terms that cancel leave rounding of their own size
     size = np.max(np.sum([np.abs(columns[str(n)] + np.zeros(_SAMPLES)) for n in range(len(terms))], axis=0))
     coefficients = _coefficients(x + 1j * y, size)
     # of a cycle of two turns there are half orders too
@@ -67,17 +67,17 @@ def counterweight_balance(
         yield from _moment_orders(moment_of_all, _coefficients(moments), counts, turns)
     for count in counts:
         both = abs(coefficients[count]) + abs(coefficients[-count])
-        yield f"free_force.{count / turns:g}", TracedValue(ProcedureValue(float(both), "harmonic", of))
+        yield f"free_force.{count / turns:g}", TracedValue(ProcedureValue(float(both), "harmonic", forces))
     forward = complex(coefficients[driver.direction * turns])
-    moment = TracedValue(ProcedureValue(abs(forward) / trace["speed"].value ** 2, "fourier", of))
+    moment = TracedValue(ProcedureValue(abs(forward) / trace["speed"].value ** 2, "fourier", forces))
     yield "counterweight_moment", moment
     if forward:
         angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
-        yield "counterweight_angle", TracedValue(ProcedureValue(angle, "fourier", of))
+        yield "counterweight_angle", TracedValue(ProcedureValue(angle, "fourier", forces))
 
 
 def _coefficients(samples: NDArray[Any], size: float | None = None) -> NDArray[np.complex128]:
-    """Return the Fourier coefficients of evenly spaced samples of a cycle, without those that are rounding.
+    """Return the Fourier coefficients of evenly spaced samples of a cycle; zero if they are rounding.
 
     `size`: largest sum of the terms of the samples by magnitude; by default the largest sample.
     """

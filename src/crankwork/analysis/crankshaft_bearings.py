@@ -42,8 +42,8 @@ _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
 class BearingLoads(NamedTuple):
     """Loads of the bearings over the crank angle."""
 
-    # Force of the rods on each crankpin in the frame of its crank, by its number; of alike ones
-    # the first, shape (n,) [N]
+    # Force of the rods on each distinct crankpin, by its number, in the frame of
+    # its crank, shape (n,) [N]
     crankpins: Mapping[int, BearingLoad]
     # Of the rod of cylinder 1, in the frame of the rod, shape (n,) [N]
     big_end: BearingLoad
@@ -76,14 +76,14 @@ def bearing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     layout = _spaced(engine.layout)
     masses = [_held(engine, shaft_unbalance) for shaft_unbalance in shaft_unbalances(engine, layout)]
     mains = main_journal_loads(layout, rods, masses, master["speed"])
-    for at, load in enumerate(mains, start=1):
-        values |= {item.key: item for item in (*load, load.resultant.named(f"main_journal_load.{at}"))}
+    for number, load in enumerate(mains, start=1):
+        values |= {item.key: item for item in (*load, load.resultant.named(f"main_journal_load.{number}"))}
     ends = [part for load in mains for part in load]
     return {item.key: item for item in in_order(ends, into=_of_shaft) if item.key.startswith(_ON_SHAFT)} | values
 
 
 def _of_shaft(node: Node) -> tuple[TracedValue, ...]:
-    """Return what loads of main journals are made of, up to those of the rods."""
+    """Return the operands of loads of main journals, down to the loads of the rods."""
     is_of_rod = isinstance(node, FormulaCall) and node.formula.quantity in _OF_ROD
     return () if is_of_rod or isinstance(node, Delayed) else node.operands
 
@@ -92,7 +92,7 @@ def _of_rod(engine: MultiCylinderEngine, place: CylinderPlace, inertia: TracedVa
     """Return the load of a rod on its crankpin along and across the crank arm, of its forces and its mass there."""
     name = f"{place.crankpin + 1}.{place.number}" if len(engine.on_pin[place.crankpin]) > 1 else f"{place.crankpin + 1}"
     trace = engine.cylinders[place.number - 1].trace
-    # what of an articulated rod is at its knuckle pin has come through the master rod
+    # the master rod transmits the inertia of an articulated rod's mass at its knuckle pin
     own = absent(inertia.key) if "knuckle_side_force" in trace else inertia
     weight, tangential = (
         engine.of(place.number, key) if key in trace else absent(key)
@@ -108,13 +108,13 @@ def _of_rod(engine: MultiCylinderEngine, place: CylinderPlace, inertia: TracedVa
 def _crankpins(
     engine: MultiCylinderEngine, rods: Mapping[int, tuple[TracedValue, TracedValue]], inertia: TracedValue
 ) -> Iterator[TracedValue]:
-    """Yield radial and tangential force on every unlike crankpin and their resultant; of several rods, the sums."""
+    """Yield radial and tangential force on every distinct crankpin and their resultant; of several rods, the sums."""
     for pin in distinct_crankpins(engine):
-        some = [item.number for item in engine.on_pin[pin - 1]]
-        along = total(f"crankpin_radial_force.{pin}", [rods[at][0] for at in some])
-        across = total(f"crankpin_tangential_force.{pin}", [rods[at][1] for at in some])
+        numbers = [item.number for item in engine.on_pin[pin - 1]]
+        along = total(f"crankpin_radial_force.{pin}", [rods[number][0] for number in numbers])
+        across = total(f"crankpin_tangential_force.{pin}", [rods[number][1] for number in numbers])
         load = BearingLoad(-along, across)
-        size = load.resultant if len(some) > 1 else _of_one_rod(engine, some[0], load, inertia)
+        size = load.resultant if len(numbers) > 1 else _of_one_rod(engine, numbers[0], load, inertia)
         yield from (along, across, size.named(f"crankpin_load.{pin}"))
 
 
@@ -128,7 +128,7 @@ def _of_one_rod(engine: MultiCylinderEngine, number: int, rod: BearingLoad, iner
 
 
 def _small_end(engine: MultiCylinderEngine) -> Iterator[TracedValue]:
-    """Yield the force of piston 1 on its pin, its side force with what articulated rods add, and the load."""
+    """Yield the force of piston 1 on its pin, its side force with that of articulated rods, and the load."""
     trace, machine = engine.master.trace, engine.machine
     # that of the inertia force, where a document has its own
     acceleration = trace.get("inertia_acceleration", trace["piston_acceleration"])
@@ -140,8 +140,8 @@ def _small_end(engine: MultiCylinderEngine) -> Iterator[TracedValue]:
             g = given("gravity", engine.master.method.gravity, "method.gravity")
             cos, sin = traced_inputs.inclination(machine, engine.master.lean)
             along = weight_force(mass, g, cos).named("weight_force.piston")
-            beside = transverse_weight(mass, g, sin).named("transverse_weight.piston")
-            across += [beside] if beside.value else []
+            transverse = transverse_weight(mass, g, sin).named("transverse_weight.piston")
+            across += [transverse] if transverse.value else []
     force = formulas.piston_pin_force(trace.get("gas_force", absent("gas_force")), mass, acceleration, along)
     yield force
     side = total("side_force.small_end", across) if len(across) > 1 else across[0]
@@ -153,7 +153,7 @@ def _small_end(engine: MultiCylinderEngine) -> Iterator[TracedValue]:
 
 def bearing_components(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the components of the loads of all bearings."""
-    keys = [f"crankpin_{way}_force.{pin}" for pin in distinct_crankpins(engine) for way in ("radial", "tangential")]
+    keys = [f"crankpin_{axis}_force.{pin}" for pin in distinct_crankpins(engine) for axis in ("radial", "tangential")]
     keys += [f"{kind}.{name}" for name in _framed(engine) for kind in (_X, _Y)]
     return {key: trace[key] for key in keys}
 
@@ -161,7 +161,7 @@ def bearing_components(engine: MultiCylinderEngine, trace: Mapping[str, TracedVa
 def _framed(engine: MultiCylinderEngine) -> list[str]:
     """Return the bearings whose loads have components in a frame of their own."""
     journals = max(place.throw for place in engine.layout.places) + 2
-    return ["big_end", "small_end", *(f"main_journal.{at}" for at in range(1, journals + 1))]
+    return ["big_end", "small_end", *(f"main_journal.{number}" for number in range(1, journals + 1))]
 
 
 def bearing_loads(engine: MultiCylinderEngine, columns: Mapping[str, Array]) -> BearingLoads:
@@ -170,12 +170,12 @@ def bearing_loads(engine: MultiCylinderEngine, columns: Mapping[str, Array]) -> 
         pin: BearingLoad(-columns[f"crankpin_radial_force.{pin}"], columns[f"crankpin_tangential_force.{pin}"])
         for pin in distinct_crankpins(engine)
     }
-    big, small, *others = (BearingLoad(columns[f"{_X}.{name}"], columns[f"{_Y}.{name}"]) for name in _framed(engine))
-    return BearingLoads(crankpins, big, small, tuple(others))
+    big, small, *mains = (BearingLoad(columns[f"{_X}.{name}"], columns[f"{_Y}.{name}"]) for name in _framed(engine))
+    return BearingLoads(crankpins, big, small, tuple(mains))
 
 
 def distinct_crankpins(engine: MultiCylinderEngine) -> tuple[int, ...]:
-    """Return the numbers of the crankpins whose loads are not those of an earlier one, only later."""
+    """Return the numbers of the crankpins whose loads are not the delayed loads of an earlier one."""
     cycle, seen, kept = engine.layout.cycle, set(), []
     for pin, places in engine.on_pin.items():
         forms = [
@@ -203,7 +203,7 @@ def _spaced(layout: Layout) -> Layout:
         return layout
     throws = max(place.throw for place in layout.places) + 1
     places = tuple(replace(place, position=float(place.throw)) for place in layout.places)
-    return replace(layout, places=places, journal_positions=tuple(at - 0.5 for at in range(throws + 1)))
+    return replace(layout, places=places, journal_positions=tuple(throw - 0.5 for throw in range(throws + 1)))
 
 
 def shaft_unbalances(engine: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
@@ -226,54 +226,53 @@ def shaft_unbalances(engine: MultiCylinderEngine, layout: Layout) -> tuple[Unbal
     return (*(item for item in result if item.mass_moment.value), *counterweights(engine, layout))
 
 
-def _held(engine: MultiCylinderEngine, one: Unbalance) -> Unbalance:
+def _held(engine: MultiCylinderEngine, mass: Unbalance) -> Unbalance:
     """Return a mass on the shaft with its weight and its inertia across, where the machine has them."""
     machine, moving = engine.machine, engine.master.moving
     if not (machine.has_gravity or machine.angular_acceleration):
-        return one
+        return mass
     g = given("gravity", engine.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
     cos, sin = traced_inputs.inclination(machine, engine.master.lean)
-    angle, r = moving.angle.shifted(one.angle), moving.lengths.crank_radius
-    along = unbalance_weight(one.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
+    angle, r = moving.angle.shifted(mass.angle), moving.lengths.crank_radius
+    along = unbalance_weight(mass.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
     across = unbalance_tangential_force(
-        one.mass_moment, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration
+        mass.mass_moment, r, g, angle.sin, cos, angle.cos, sin, moving.angular_acceleration
     )
-    named = along.named(f"unbalance_weight.{one.name}"), across.named(f"unbalance_tangential_force.{one.name}")
-    return one._replace(held=BearingLoad(*named))
+    named = along.named(f"unbalance_weight.{mass.name}"), across.named(f"unbalance_tangential_force.{mass.name}")
+    return mass._replace(held=BearingLoad(*named))
 
 
-def counterweights(whole: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
+def counterweights(engine: MultiCylinderEngine, layout: Layout) -> tuple[Unbalance, ...]:
     """Return the counterweights of the engine, one opposite each crankpin; none where there are none.
 
     `layout`: its cylinders, along the shaft as they are to be taken [m].
     """
-    engine, r = whole.engine, whole.master.lengths.crank_radius
-    rotating = rotating_masses(whole) * engine.rotating_share
-    share = engine.reciprocating_share
-    weights = throw_counterweights(layout, reciprocating_masses(whole), rotating, r, share)
+    r, share = engine.master.lengths.crank_radius, engine.engine.reciprocating_share
+    rotating = rotating_masses(engine) * engine.engine.rotating_share
+    weights = throw_counterweights(layout, reciprocating_masses(engine), rotating, r, share)
     result = [
-        weight._replace(mass_moment=_counterweight(whole, pin), name=f"counterweights.{pin + 1}")
-        for weight, pin in zip(weights, whole.on_pin, strict=True)
-        if weight.mass_moment + engine.counterweight
+        weight._replace(mass_moment=_counterweight(engine, pin), name=f"counterweights.{pin + 1}")
+        for weight, pin in zip(weights, engine.on_pin, strict=True)
+        if weight.mass_moment + engine.engine.counterweight
     ]
     return tuple(result)
 
 
-def _counterweight(whole: MultiCylinderEngine, pin: int) -> TracedValue:
-    """Return the mass moment of a counterweight: of the masses of each cylinder on its pin, and what is given."""
-    engine, trace, terms = whole.engine, whole.master.trace, []
+def _counterweight(engine: MultiCylinderEngine, pin: int) -> TracedValue:
+    """Return the mass moment of a counterweight: of the masses of each cylinder on its pin, and the given one."""
+    description, trace, terms = engine.engine, engine.master.trace, []
     key = f"counterweight_moment.{pin + 1}"
-    if whole.machine.masses is not None and (engine.rotating_share or engine.reciprocating_share):
-        for place in whole.on_pin[pin]:
+    if engine.machine.masses is not None and (description.rotating_share or description.reciprocating_share):
+        for place in engine.on_pin[pin]:
             moment = counterweight_moment(
-                engine.rotating_share * rotating_mass_of(whole, place),
-                given("balanced_share", engine.reciprocating_share, "balance.reciprocating_share"),
-                whole.cylinders[place.number - 1].trace["reciprocating_mass"],
+                description.rotating_share * rotating_mass_of(engine, place),
+                given("balanced_share", description.reciprocating_share, "balance.reciprocating_share"),
+                engine.cylinders[place.number - 1].trace["reciprocating_mass"],
                 trace["crank_radius"],
             )
             terms.append(moment.named(f"{key}.{place.number}"))
-    if engine.counterweight:
-        terms.append(given(f"{key}.given", engine.counterweight, "bearings.counterweight"))
+    if description.counterweight:
+        terms.append(given(f"{key}.given", description.counterweight, "bearings.counterweight"))
     return total(key, terms)
 
 
@@ -299,7 +298,7 @@ def reciprocating_masses(engine: MultiCylinderEngine) -> Array:
 
 
 def bearing_columns(trace: Mapping[str, TracedValue]) -> tuple[str, ...]:
-    """Return which loads stand in the tables: sizes, and those of the crankpins by component."""
+    """Return the keys of the loads in the tables: sizes, and those of the crankpins by component."""
     return tuple(key for key in trace if key.startswith(_COLUMNS) and key.count(".") < 2)
 
 
@@ -321,23 +320,23 @@ def bearing_values(
     over: CycleInterpolant,
     extremes: Mapping[str, TracedValue],
 ) -> dict[str, TracedValue]:
-    """Return what the loads come to over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
+    """Return the summary of the loads over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
     values = dict[str, TracedValue]()
     for name, key in load_columns(trace).items():
-        of = name.partition(".")[0]
-        part = _SIZES.get(of, "crankpin")
+        kind = name.partition(".")[0]
+        part = _SIZES.get(kind, "crankpin")
         diameter, length = (getattr(engine.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
         size = None
         if diameter is not None and length is not None:
             size = (
-                given(f"bearing_diameter.{of}", diameter, f"bearings.{part}_diameter"),
-                given(f"bearing_length.{of}", length, f"bearings.{part}_length"),
+                given(f"bearing_diameter.{kind}", diameter, f"bearings.{part}_diameter"),
+                given(f"bearing_length.{kind}", length, f"bearings.{part}_length"),
             )
         values |= load_values(name, key, over, extremes, size)
     return values | reversal_values("bearing_force_x.small_end", over, extremes)
 
 
-# what its sizes are called in a description; of the others those of the crankpin
+# prefix of the sizes of a bearing in a description; `crankpin` of the others
 _SIZES = {"small_end": "pin", "main_journal": "main"}
 
 
@@ -351,19 +350,19 @@ def wear_trace(
     rays, values = engine.engine.bearings.rays, dict[str, TracedValue]()
     loads = bearing_loads(engine, samples(CrankGrid.from_degrees(np.arange(0.0, engine.layout.cycle, WEAR_STEP))))
     for pin, load in loads.crankpins.items():
-        of = trace[f"crankpin_radial_force.{pin}"], trace[f"crankpin_tangential_force.{pin}"]
-        table = wear_table(f"wear_sum.crankpin.{pin}", load, of, rays)
+        components = trace[f"crankpin_radial_force.{pin}"], trace[f"crankpin_tangential_force.{pin}"]
+        table = wear_table(f"wear_sum.crankpin.{pin}", load, components, rays)
         name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
-        values |= {table.key: table, name: hole_of(name, table, of, rays)}
-    for at, load in enumerate(loads.mains, start=1):
-        of = trace[f"{_X}.main_journal.{at}"], trace[f"{_Y}.main_journal.{at}"]
-        key = f"wear_sum.main_journal.{at}"
-        values[key] = wear_table(key, load, of, rays)
+        values |= {table.key: table, name: hole_of(name, table, components, rays)}
+    for number, load in enumerate(loads.mains, start=1):
+        components = trace[f"{_X}.main_journal.{number}"], trace[f"{_Y}.main_journal.{number}"]
+        key = f"wear_sum.main_journal.{number}"
+        values[key] = wear_table(key, load, components, rays)
     return values
 
 
 def bearing_listings(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, Listing]:
-    """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
+    """Return the summary of the loads over the cycle, and the wear of crankpins and main journals."""
     result = {"bearing_loads": loads_listing(values)}
     for listing, owner in (("crankpin_wear", "crankpin"), ("main_wear", "main_journal")):
         tables = {
@@ -378,11 +377,11 @@ def bearing_summary(engine: MultiCylinderEngine, values: Mapping[str, TracedValu
     pins, result = distinct_crankpins(engine), dict[str, TracedValue]()
     for pin in pins:
         name = f".{pin}" if len(pins) > 1 else ""
-        for key, of in (
+        for key, source in (
             ("mean_crankpin_load", "mean_bearing_load"),
             ("crankpin_load_max", "bearing_load_max"),
             ("crankpin_load_max_angle", "bearing_load_max_angle"),
         ):
-            result[f"{key}{name}"] = values[f"{of}.crankpin.{pin}"].named(f"{key}{name}")
+            result[f"{key}{name}"] = values[f"{source}.crankpin.{pin}"].named(f"{key}{name}")
         result[f"oil_hole_angle{name}"] = values[f"oil_hole_angle{name}"]
     return result | {key: values[key] for key in ("reversal_duration", "reversal_ratio")}

@@ -66,7 +66,7 @@ class EngineBalance(NamedTuple):
 
     @property
     def rows(self) -> dict[str, OrderBalance]:
-        """What is free by name: of each kind of mass, and what is left."""
+        """Free forces by name: of each kind of mass, and the residual."""
         values = {f"reciprocating.{item.order}": item for item in self.reciprocating} | {"rotating": self.rotating}
         if self.weights:
             values["counterweights"] = self.counterweights
@@ -78,7 +78,7 @@ class EngineBalance(NamedTuple):
 
 
 def engine_balance(engine: MultiCylinderEngine) -> EngineBalance:
-    """Return what the masses of an engine leave free.
+    """Return the free forces and moments of the masses of an engine.
 
     Source: den_hartog_1956, ch. 5; taylor_1985, vol. 2, ch. 8.
     """
@@ -111,13 +111,13 @@ def _harmonics(engine: MultiCylinderEngine) -> InertiaHarmonics:
     """
     result = _all_harmonics(engine)
     size = np.abs(result.coefficients).reshape(-1, len(ALL_ORDERS)).max(axis=0)
-    kept = [at for at, order in enumerate(ALL_ORDERS) if order in ORDERS or size[at] > _ROUNDING * size.max()]
-    return InertiaHarmonics(tuple(ALL_ORDERS[at] for at in kept), result.coefficients[..., kept])
+    kept = [index for index, order in enumerate(ALL_ORDERS) if order in ORDERS or size[index] > _ROUNDING * size.max()]
+    return InertiaHarmonics(tuple(ALL_ORDERS[index] for index in kept), result.coefficients[..., kept])
 
 
 def _all_harmonics(engine: MultiCylinderEngine) -> InertiaHarmonics:
     lengths, method = engine.master.lengths, engine.master.method
-    if engine.moves_alike:
+    if engine.has_equal_motion:
         ratio = method.inertia_rod_ratio
         if ratio is not None and not method.is_exact:
             lengths = lengths._replace(rod_length=lengths.crank_radius / ratio)
@@ -133,7 +133,7 @@ def _all_harmonics(engine: MultiCylinderEngine) -> InertiaHarmonics:
 
 
 def _turn(engine: MultiCylinderEngine) -> CrankGrid:
-    """Return samples of one turn, so many that orders which they cannot tell apart are nothing.
+    """Return samples of one turn, so many that the orders which they alias are negligible.
 
     The orders of a slider-crank fall by a factor that comes near one where crank and offset come near the rod.
     """
@@ -145,7 +145,7 @@ def _turn(engine: MultiCylinderEngine) -> CrankGrid:
 
 
 def _knuckles(engine: MultiCylinderEngine, orders: Sequence[int]) -> tuple[OrderBalance, ...]:
-    """Return what masses at knuckle pins leave free beyond the same masses at the crankpin, by order."""
+    """Return the free forces of masses at knuckle pins less those of the same masses at the crankpin, by order."""
     w, r, parts = engine.master.speed, engine.master.lengths.crank_radius, list[OrderBalance]()
     for place, cylinder in zip(engine.layout.places, engine.cylinders, strict=True):
         if cylinder.moving.articulated_rod is None or "knuckle_mass" not in cylinder.trace:
@@ -162,27 +162,27 @@ def _knuckles(engine: MultiCylinderEngine, orders: Sequence[int]) -> tuple[Order
 
 
 def _planes(engine: MultiCylinderEngine, part: OrderBalance) -> tuple[float] | tuple[float, float]:
-    """Return where the weights of a pair of shafts stand: in the middle, or at the outermost cylinders for a moment."""
+    """Return the positions of the weights of a pair of shafts: the middle, or the outermost cylinders for a moment."""
     positions = [place.position for place in engine.layout.places]
     first, last = min(positions), max(positions)
     return (0.0,) if first == last or not part.moment.largest else (first, last)
 
 
 def balance_trace(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
-    """Return what is free by row, and what it is made of: formulas where all cylinders are alike, else vector sums."""
+    """Return the free forces and moments by row: formulas if all cylinders are equal, else vector sums."""
     values = dict(_order_forces(engine, balance) | _rotating_forces(engine) | _weights(engine, balance))
     has_moments = bool(balance_pitch(engine.layout))
-    for name, one in balance.rows.items():
-        keys = [f"free_force.{row}" for row, other in balance.rows.items() if other.order == one.order]
+    for name, row in balance.rows.items():
+        keys = [f"free_force.{label}" for label, other in balance.rows.items() if other.order == row.order]
         parts = [values[key] for key in keys if key in values] if name.startswith("residual") else _parts(name, values)
-        told = _told(engine, balance, values, one.order) if name.startswith("residual") else {}
-        sums = ProcedureValue(one.force.largest, "vector_sum", parts, argument=told.get("force"))
+        exact = _residual_formulas(engine, balance, values, row.order) if name.startswith("residual") else {}
+        sums = ProcedureValue(row.force.largest, "vector_sum", parts, argument=exact.get("force"))
         force = values.setdefault(f"free_force.{name}", TracedValue(sums, f"free_force.{name}"))
-        rest = {"free_force_min": one.force.least, "free_force_direction": math.radians(one.force.direction)}
+        rest = {"free_force_min": row.force.least, "free_force_direction": math.radians(row.force.direction)}
         if has_moments:
-            moment = TracedValue(ProcedureValue(one.moment.largest, "vector_sum", parts, argument=told.get("moment")))
+            moment = TracedValue(ProcedureValue(row.moment.largest, "vector_sum", parts, argument=exact.get("moment")))
             values.setdefault(f"free_moment.{name}", moment)
-            rest["free_moment_min"] = one.moment.least
+            rest["free_moment_min"] = row.moment.least
         values |= {
             f"{key}.{name}": TracedValue(ProcedureValue(value, "vector_sum", (force,))) for key, value in rest.items()
         }
@@ -196,12 +196,12 @@ def _parts(name: str, values: Mapping[str, TracedValue]) -> list[TracedValue]:
     return [known for key, known in values.items() if key.startswith(start)]
 
 
-def _told(
+def _residual_formulas(
     engine: MultiCylinderEngine, balance: EngineBalance, values: Mapping[str, TracedValue], order: int
 ) -> dict[str, TracedValue]:
-    """Return force and moment that are left of an order, made of the forces of one cylinder and of each counterweight.
+    """Return the residual force and moment of an order as sums of forces of one cylinder and of the counterweights.
 
-    Nothing where what turns does not follow from these: with balance shafts, and with articulated rods.
+    Empty with balance shafts and with articulated rods, of which no such sum is known.
     """
     rows = {
         name: value for name, value in balance.rows.items() if value.order == order and not name.startswith("residual")
@@ -222,47 +222,47 @@ def _told(
             if key not in values:
                 return {}
             terms.append((values[key], value))
-    made = {}
+    result = {}
     for kind in ("force", "moment"):
-        ways = [
-            [(force, getattr(getattr(item, kind), way) / force.value) for force, item in terms]
-            for way in Ellipse._fields
+        sums = [
+            [(force, getattr(getattr(item, kind), field) / force.value) for force, item in terms]
+            for field in Ellipse._fields
         ]  # fmt: skip
-        sizes = [_size_of(way) for way in ways if any(factor for _, factor in way)]
+        sizes = [_size_of(products) for products in sums if any(factor for _, factor in products)]
         if sizes:
-            made[kind] = total("", sizes)
-    return made
+            result[kind] = total("", sizes)
+    return result
 
 
-def _size_of(way: Sequence[tuple[TracedValue, complex]]) -> TracedValue:
-    """Return the size of a sum of forces times vectors, which are those of the layout but for rounding."""
+def _size_of(products: Sequence[tuple[TracedValue, complex]]) -> TracedValue:
+    """Return the magnitude of a sum of forces times vectors of the layout, which are rounded."""
     x, y = (
-        total("", [force * round(part, _DIGITS) for (force, _), part in zip(way, parts, strict=True)])
-        for parts in ([item.real for _, item in way], [item.imag for _, item in way])
+        total("", [force * round(part, _DIGITS) for (force, _), part in zip(products, parts, strict=True)])
+        for parts in ([item.real for _, item in products], [item.imag for _, item in products])
     )
     size: TracedValue = amplitude_of_harmonic(x, y)
     return size
 
 
 def _order_forces(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:
-    """Return the inertia force of each order of one cylinder and, where all are alike, what is free of it."""
+    """Return the inertia force of each order of one cylinder and, if all are equal, the free force and moment."""
     values, trace, layout = dict[str, TracedValue](), engine.master.trace, engine.layout
     of_articulated = balance.harmonics.coefficients.ndim > 1
     pitch, orders = balance_pitch(layout), balance.harmonics.orders
-    for at, (order, factor) in enumerate(zip(orders, layout_factors(layout, orders, pitch or 1.0), strict=True)):
+    for index, (order, factor) in enumerate(zip(orders, layout_factors(layout, orders, pitch or 1.0), strict=True)):
         for number, row in enumerate(np.atleast_2d(np.abs(balance.harmonics.coefficients)), start=1):
             name = f"{order}.{number}" if of_articulated else f"{order}"
-            if not row[at]:
+            if not row[index]:
                 # an order that the method does not have
                 continue
-            of = engine.cylinders[number - 1].trace
-            acceleration = of.get("inertia_acceleration", of["piston_acceleration"])
-            is_plain = "inertia_acceleration" not in of and not of_articulated
-            by = _coefficient(of, order, balance.harmonics.coefficients[at]) if is_plain else None
-            amplitude = ProcedureValue(float(row[at]), "harmonic", (acceleration,), argument=by)
+            own = engine.cylinders[number - 1].trace
+            acceleration = own.get("inertia_acceleration", own["piston_acceleration"])
+            is_plain = "inertia_acceleration" not in own and not of_articulated
+            derivation = _coefficient(own, order, balance.harmonics.coefficients[index]) if is_plain else None
+            amplitude = ProcedureValue(float(row[index]), "harmonic", (acceleration,), argument=derivation)
             coefficient = TracedValue(amplitude, f"acceleration_coefficient.{name}")
             force = order_inertia_force(
-                of["reciprocating_mass"], trace["crank_radius"], trace["speed"], coefficient
+                own["reciprocating_mass"], trace["crank_radius"], trace["speed"], coefficient
             ).named(f"order_inertia_force.{name}")
             values |= {item.key: item for item in (coefficient, force)}
             if not of_articulated:
@@ -272,11 +272,11 @@ def _order_forces(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[s
 
 def _coefficient(trace: Mapping[str, TracedValue], order: int, value: complex) -> TracedValue:
     """Return the amplitude of an order of the acceleration, over the crank radius, of its waves."""
-    of, r = trace["piston_transfer_2"], trace["crank_radius"]
+    transfer, r = trace["piston_transfer_2"], trace["crank_radius"]
     waves = {"cosine": value.real * r.value, "sine": -value.imag * r.value}
     result: TracedValue = (
         amplitude_of_harmonic(
-            *(TracedValue(HarmonicCoefficient(value, of, part, order)) for part, value in waves.items())
+            *(TracedValue(HarmonicCoefficient(value, transfer, part, order)) for part, value in waves.items())
         )
         / r
     )
@@ -284,7 +284,7 @@ def _coefficient(trace: Mapping[str, TracedValue], order: int, value: complex) -
 
 
 def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: TracedValue) -> dict[str, TracedValue]:
-    """Return force and moment that a layout leaves free of a force that all cylinders have alike."""
+    """Return the free force and moment of a layout for a force that is the same in all cylinders."""
     K_F = TracedValue(ProcedureValue(factor.force.largest, "vector_sum"), f"force_factor.{name}")
     values = [K_F, free_force(K_F, force).named(f"free_force.{row}")]
     if pitch:
@@ -299,8 +299,8 @@ def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: Trace
 def balance_pitch(layout: Layout) -> float:
     """Return the distance between neighbouring cylinders of the first bank, of all where it has one; zero if none."""
     places = layout.places
-    for some in ([place for place in places if place.axis == places[0].axis], places):
-        along = sorted({item.position for item in some})
+    for subset in ([place for place in places if place.axis == places[0].axis], places):
+        along = sorted({item.position for item in subset})
         if len(along) > 1:
             return min(after - before for before, after in pairwise(along))
     return 0.0
@@ -328,10 +328,10 @@ def _weights(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, T
     """Return the mass moments of counterweights and balance shafts, and the forces of these."""
     moments = [weight.mass_moment for weight in balance.weights if isinstance(weight.mass_moment, TracedValue)]
     values = {item.key: item for item in in_order(moments) if item.key.startswith(_OF_WEIGHTS)}
-    for at, weight in enumerate(balance.shaft_weights, start=1):
-        moment = TracedValue(ProcedureValue(weight.mass_moment, "vector_sum"), f"balance_shaft_moment.{at}")
+    for number, weight in enumerate(balance.shaft_weights, start=1):
+        moment = TracedValue(ProcedureValue(weight.mass_moment, "vector_sum"), f"balance_shaft_moment.{number}")
         force = unbalance_force(moment, weight.order * engine.master.trace["speed"])
-        values |= {moment.key: moment, f"unbalance_force.balance_shafts.{at}": force}
+        values |= {moment.key: moment, f"unbalance_force.balance_shafts.{number}": force}
     return {key: value.named(key) for key, value in values.items()}
 
 
@@ -341,7 +341,7 @@ _OF_WEIGHTS = ("rotating_mass", "counterweight_moment")
 def balance_summary(
     engine: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
-    """Return what is left free by order, and the share of the reciprocating masses that counterweights take best."""
+    """Return the residual by order, and the share of the reciprocating masses that counterweights take best."""
     kind = "residual" if any(name.startswith("residual") for name in balance.rows) else "reciprocating"
     free = [key for key in trace if key.startswith((f"free_force.{kind}.", f"free_moment.{kind}."))]
     return {key: trace[key] for key in free if trace[key].value} | _best_weights(engine, balance, trace)
@@ -350,9 +350,9 @@ def balance_summary(
 def _best_weights(
     engine: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
-    """Return the share at which what turns with the crank is gone, or least, and the counterweights with that share.
+    """Return the balanced share with the least force that turns with the crank, and its counterweights.
 
-    Nothing where the reciprocating masses on the throws cancel each other.
+    Empty if the reciprocating masses on the throws cancel each other.
     """
     layout, r, w = engine.layout, engine.master.lengths.crank_radius, engine.master.speed
     before = balance_sum((*balance.reciprocating, *balance.knuckles))[0]
@@ -363,11 +363,11 @@ def _best_weights(
     if not whole_part:
         return {}
     free = tuple(trace[key] for key in ("free_force.reciprocating.1", "free_moment.reciprocating.1") if key in trace)
-    part, by = (swinging * whole_part.conjugate()).real / abs(whole_part) ** 2, None
+    part, derivation = (swinging * whole_part.conjugate()).real / abs(whole_part) ** 2, None
     coefficient = trace.get("acceleration_coefficient.1")
     if coefficient is not None and not balance.knuckles:
-        by = coefficient * round(part / coefficient.value, _DIGITS)
-    share = TracedValue(ProcedureValue(part, "vector_share", free, argument=by))
+        derivation = coefficient * round(part / coefficient.value, _DIGITS)
+    share = TracedValue(ProcedureValue(part, "vector_share", free, argument=derivation))
     share = share.named("best_balanced_share")
     moments = [
         total(f"best_counterweight_moment.{pin + 1}", [
@@ -379,14 +379,13 @@ def _best_weights(
         ])
         for pin in sorted(engine.on_pin)
     ]  # fmt: skip
-    alike = all(math.isclose(moment.value, moments[0].value, rel_tol=1e-12) for moment in moments)
-    if alike:
+    if all(math.isclose(moment.value, moments[0].value, rel_tol=1e-12) for moment in moments):
         moments = [moments[0].named("best_counterweight_moment")]
     return {moment.key: moment for moment in (share, *moments)}
 
 
 def balance_listing(engine: MultiCylinderEngine, balance: EngineBalance, trace: Mapping[str, TracedValue]) -> Listing:
-    """Return forces and moments by order: of each kind of mass, and what is left."""
+    """Return forces and moments by order: of each kind of mass, and the residual."""
     kinds = ["free_force", "free_force_min", "free_force_direction"]
     if balance_pitch(engine.layout):
         kinds += ["free_moment", "free_moment_min"]
@@ -405,11 +404,11 @@ def balance_checks(engine: MultiCylinderEngine, balance: EngineBalance, samples:
     spectrum = np.fft.fft(vectors) / len(turn)
     scale = float(np.max(np.abs(force))) or 1.0
     # crank angles count from the axis of cylinder 1, which is where the phasors begin as well
-    apart = [
+    residuals = [
         max(abs(spectrum[item.order] - item.force.forward), abs(spectrum[-item.order] - item.force.backward))
         for item in balance.reciprocating
     ]
-    # an order that is not listed is none
+    # orders that are not listed are zero
     left = set(ALL_ORDERS) - {item.order for item in balance.reciprocating}
-    apart += [abs(spectrum[order]) for item in left for order in (item, -item)]
-    return {"free_forces": float(max(apart)) / scale}
+    residuals += [abs(spectrum[order]) for item in left for order in (item, -item)]
+    return {"free_forces": float(max(residuals)) / scale}

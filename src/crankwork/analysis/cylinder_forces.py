@@ -83,8 +83,8 @@ def columns(solved: PreparedCylinder, grid: CrankGrid, keys: Iterable[str] = COL
     return Program({key: solved.trace[key] for key in keys if key in solved.trace})(grid)
 
 
-def _by_key(found: Iterable[TracedValue]) -> dict[str, TracedValue]:
-    return {item.key: item for item in found}
+def _by_key(values: Iterable[TracedValue]) -> dict[str, TracedValue]:
+    return {item.key: item for item in values}
 
 
 def _masses(solved: PreparedCylinder, masses: CrankGearMasses, moving: CylinderKinematics) -> Iterator[TracedValue]:
@@ -122,7 +122,7 @@ def _axial_forces(solved: PreparedCylinder, moving: CylinderKinematics) -> Itera
 
 
 def _rod_forces(solved: PreparedCylinder, moving: CylinderKinematics) -> Iterator[TracedValue]:
-    """Yield what the rod passes on, alone or with the correction couple that makes it a rigid rod, and the torque."""
+    """Yield the forces of the rod, alone or with the correction couple that makes it a rigid rod, and the torque."""
     trace, (r, l, e), angle = moving.trace, moving.lengths, moving.angle  # noqa: E741
     P, swing = trace["piston_force"], moving.motion.swing
     couple = list(_couple(solved, moving, l))
@@ -157,15 +157,15 @@ def _in_joints(solved: PreparedCylinder, moving: CylinderKinematics) -> Iterator
             g = given("gravity", solved.method.gravity, "method.gravity")
             cos, sin = traced_inputs.inclination(solved.machine, solved.lean)
             along = forces.weight_force(mass, g, cos).named("weight_force.piston")
-            beside = forces.transverse_weight(mass, g, sin).named("transverse_weight.piston")
-            side = side - beside if beside.value else side
+            transverse = forces.transverse_weight(mass, g, sin).named("transverse_weight.piston")
+            side = side - transverse if transverse.value else side
     if solved.articulated_rod is None:
         radial, tangential = _on_crankpin(solved, moving)
         yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}")
         yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}")
         yield joint_force(tangential, radial).named(f"joint_force.{pin}")
     else:
-        x, y = (-trace[f"knuckle_force_{way}"] for way in "yx")
+        x, y = (-trace[f"knuckle_force_{axis}"] for axis in "yx")
         yield x.named(f"joint_force_x.{pin}")
         yield y.named(f"joint_force_y.{pin}")
         yield joint_force(x, y).named(f"joint_force.{pin}")

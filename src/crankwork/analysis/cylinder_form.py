@@ -1,4 +1,4 @@
-"""The engine that a linkage of crank, rods and pistons is: found from its structure, never from its names."""
+"""The engine equivalent to a linkage of crank, rods and pistons, from its structure, never from its names."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def engine_form_or_reason(machine: Machine, *, has_all: bool = False) -> Machine
 
 
 def _check_expressible(machine: Machine, *, has_all: bool) -> None:
-    """Raise for what an engine has no tables for."""
+    """Raise NoCellsError for inputs that an engine has no tables for."""
     if machine.linkage is None or machine.transfer is not None or machine.turning is not None:
         raise NoCellsError(ErrorMessage("cells_driver"))
     partial = machine.working_range is not None or (machine.way is not None and not machine.way.is_whole)
@@ -86,7 +86,7 @@ def _check_expressible(machine: Machine, *, has_all: bool) -> None:
 
 
 class _Form:
-    """The cells of a linkage in the order of their cylinders, and what the engine is made of."""
+    """The cells of a linkage in the order of their cylinders, and the parts of the engine."""
 
     def __init__(self, machine: Machine, crank: CrankCells, shaft: Shaft) -> None:
         self._machine, self._crank, self._shaft = machine, crank, shaft
@@ -194,7 +194,7 @@ class _Form:
         return math.degrees(self._sense * cmath.phase(between))
 
     def _layout(self) -> Layout:
-        """Return where the cylinders stand, and when each begins its cycle."""
+        """Return the positions of the cylinders, and when each begins its cycle."""
         start = self._direction(self._crank.crank.start + cmath.phase(self._crank.pins[self._first.pin]))
         if abs(start) > _SAME_ANGLE:
             raise NoCellsError(ErrorMessage("cells_start", name=self._first.slider))
@@ -251,7 +251,7 @@ class _Form:
             # there is no cylinder that says how it leans
             reference = -self._inclination()
         axes = [_clean(self._direction(cell.head) - reference) for cell in self._cells]
-        # of half a turn each sign stands for the same
+        # half a turn is the same angle with either sign
         axes = [axis - _TURN * round(axis / _TURN) if abs(axis) > _TURN / 2 + _SAME_ANGLE else axis for axis in axes]
         axes = _unified(axes, _SAME_ANGLE)
         around = [axis % _TURN for axis in axes]
@@ -337,7 +337,7 @@ class _Form:
         return replace(rod, piston=piston.mass, crank=throw), own, inertia
 
     def _common(self, parts: Sequence[Part], names: Sequence[str]) -> Part:
-        """Return the part that all cylinders have alike; the inertia of what does not turn is nothing."""
+        """Return the part that all cylinders share; the inertia of a part that does not turn is zero."""
         first = parts[0]
         for part, name in zip(parts, names, strict=True):
             is_there = part.mass or first.mass
@@ -372,7 +372,7 @@ class _Form:
         return max(throw, 0.0), max(left, 0.0)
 
     def _cylinder(self, layout: Layout) -> Cylinder | None:
-        """Return the cylinder that all cells have alike, None without gas."""
+        """Return the cylinder that all cells share, None without gas."""
         chambers_of_cells = [self._chambers[cell.slider] for cell in self._cells]
         if all(chambers == CellChambers() for chambers in chambers_of_cells):
             bore = self._shaft.bore
@@ -424,7 +424,7 @@ class _Form:
 
 
 def _two_masses(cells: Sequence[Cell]) -> CrankGearMasses:
-    """Return the masses of rods that are alike at their ends, and their excess of inertia."""
+    """Return the masses of the ends of equal rods, and their excess of inertia."""
     first, *following = (_masses_of_rod(cell) for cell in cells)
     for masses, cell in zip(following, cells[1:], strict=True):
         if not _have_same_masses(masses, first, cells[0].length):
@@ -433,7 +433,7 @@ def _two_masses(cells: Sequence[Cell]) -> CrankGearMasses:
 
 
 def _have_same_masses(masses: CrankGearMasses, other: CrankGearMasses, length: float) -> bool:
-    """Return whether two rods have the same masses but for rounding."""
+    """Return whether two rods have the same masses within rounding."""
     size = 10 * _SAME * (other.rod_small_end + other.rod_big_end)
     ends = (masses.rod_small_end - other.rod_small_end, masses.rod_big_end - other.rod_big_end)
     excess = masses.rod_inertia_excess - other.rod_inertia_excess
@@ -467,7 +467,7 @@ def _kind(places: Sequence[CylinderPlace]) -> str:
 
 
 def _clean(angle: float) -> float:
-    """Return an angle without the rounding of what it was worked out of. [deg]"""
+    """Return an angle without the rounding of its calculation. [deg]"""
     near = round(angle, 9)
     return near + 0.0 if abs(angle - near) <= 1e-11 else angle
 

@@ -20,7 +20,7 @@ from crankwork.loads.traced_diagram import DiagramInput
 from crankwork.loads.valves import StatedValves
 
 _Value = TypeVar("_Value")
-# what a cycle is calculated with or checked by, and the rest of a summary says in its own way
+# inputs and checks of a cycle, which other keys of a summary also show
 _NOT_SHOWN = ("first_law_residual", "rotational_speed")
 
 
@@ -56,7 +56,7 @@ def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKin
     trace = moving.trace
     area = trace["piston_area"]
     volume = gas.cylinder_volume(trace["clearance_volume"], area, trace["piston_displacement"])
-    of_cycle = traced_pressure(space.diagram, volume, _path(solved), _retold(solved, space, trace, volume))
+    of_cycle = traced_pressure(space.diagram, volume, _path(solved), _general_form(solved, space, trace, volume))
     read, stated_gas = of_cycle, solved.machine.gas
     if stated_gas is not None and stated_gas.calculated is not None:
         # a calculated cycle begins at 0, whole turns earlier than its chamber
@@ -88,10 +88,10 @@ def _filling(
     return {} if filling is None else {key: filling(space.calculated.trace[key].value, columns, solved.stroke[1:])}
 
 
-def _retold(
+def _general_form(
     solved: PreparedCylinder, space: WorkingSpace, trace: Mapping[str, TracedValue], volume: TracedValue
 ) -> Callable[[], TracedValue] | None:
-    """Return what tells the pressure in knowns alone, where there are formulas for it."""
+    """Return the general form of the pressure in traced inputs, if there are formulas for it."""
     given_gas = solved.machine.gas
     if given_gas is None or given_gas.measured is not None:
         return None
@@ -100,8 +100,8 @@ def _retold(
         return None if traced is None else partial(traced, volume, solved.stroke[1:])
     size = trace["clearance_volume"], trace["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
-    told = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
-    return partial(told.general_form, space.diagram)
+    data = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
+    return partial(data.general_form, space.diagram)
 
 
 def _begins(solved: PreparedCylinder) -> Value:
@@ -156,7 +156,7 @@ def _ends_of_polytropes(solved: PreparedCylinder, space: WorkingSpace, volume: T
 
 
 def cycle_values(values: Mapping[str, _Value]) -> dict[str, _Value]:
-    """Return what a calculation of the cycle has to say in a summary: what the rest does not say as well."""
+    """Return the single values of a calculated cycle that the rest of a summary does not show."""
     own = {"indicated_work", "indicated_mean_pressure", "piston_area", "swept_volume", "bore", "stroke"}
     shown = {key: value for key, value in values.items() if key not in _NOT_SHOWN}
     return {f"{key}.cycle" if key in own else key: value for key, value in shown.items()}

@@ -23,7 +23,7 @@ from crankwork.mechanism.mechanism import slider_crank
 
 @dataclass(frozen=True, eq=False)
 class MultiCylinderEngine:
-    """An engine made ready: the solved crank gear of every cylinder by number; alike ones are the same object."""
+    """A prepared engine: the crank gear of every cylinder by number; equal ones are the same object."""
 
     machine: Machine
     engine: Engine
@@ -32,10 +32,10 @@ class MultiCylinderEngine:
     def of(self, number: int, key: str) -> TracedValue:
         """Return a column of a cylinder at the crank angle of cylinder 1, under its key and the number."""
         if (number, key) not in self._delayed:
-            by = self.layout.places[number - 1].firing_angle
+            delay = self.layout.places[number - 1].firing_angle
             name = f"{key}.{number}" if len(self.cylinders) > 1 else key
             known = self.cylinders[number - 1].trace[key]
-            self._delayed[number, key] = delayed(known, by, self.layout.cycle, name)
+            self._delayed[number, key] = delayed(known, delay, self.layout.cycle, name)
         return self._delayed[number, key]
 
     @cached_property
@@ -48,8 +48,8 @@ class MultiCylinderEngine:
 
     def each(self, key: str, degrees: ArrayLike) -> Array:
         """Return a column of every cylinder at crank angles of cylinder 1, shape (cylinders, n). [SI]"""
-        knowns = [self.of(number, key) for number in range(1, len(self.cylinders) + 1)]
-        return self.each_of(key, Program({known.key: known for known in knowns})(CrankGrid.from_degrees(degrees)))
+        columns = [self.of(number, key) for number in range(1, len(self.cylinders) + 1)]
+        return self.each_of(key, Program({column.key: column for column in columns})(CrankGrid.from_degrees(degrees)))
 
     def each_of(self, key: str, columns: Mapping[str, Array]) -> Array:
         """Return a column of every cylinder, shape (cylinders, n), out of columns of the whole engine. [SI]"""
@@ -57,17 +57,17 @@ class MultiCylinderEngine:
 
     @property
     def is_uniform(self) -> bool:
-        """Whether every cylinder does what the first does."""
+        """Whether all cylinders are the same object, with the same results."""
         return len(set(map(id, self.cylinders))) == 1
 
     @property
-    def moves_alike(self) -> bool:
+    def has_equal_motion(self) -> bool:
         """Whether the piston of every cylinder moves as that of the first does."""
         return len({(cylinder.lengths, cylinder.articulated_rod) for cylinder in self.cylinders}) == 1
 
     @property
     def layout(self) -> Layout:
-        """Where the cylinders stand and when they fire."""
+        """Positions and firing angles of the cylinders."""
         return self.engine.layout
 
     @property
@@ -99,20 +99,20 @@ def multi_cylinder_engine(solved: PreparedCylinder) -> MultiCylinderEngine:
     if engine is None:
         raise TypeError("this machine is one crank gear only")
     kinds, each = dict[_Kind, PreparedCylinder](), list[PreparedCylinder]()
-    for at in range(len(engine.layout.places)):
-        kind = _kind(machine, engine, at)
+    for index in range(len(engine.layout.places)):
+        kind = _kind(machine, engine, index)
         if kind not in kinds:
-            kinds[kind] = solved if at == 0 else _of_kind(solved, engine, kind)
+            kinds[kind] = solved if index == 0 else _of_kind(solved, engine, kind)
         each.append(kinds[kind])
     return MultiCylinderEngine(machine, engine, tuple(each))
 
 
 class _Kind(NamedTuple):
-    """What tells a cylinder from the others: rod, offset, gas and, where they matter, lean and share of a throw."""
+    """Key of cylinders that share results: rod, offset, gas and, where they matter, lean and share of a throw."""
 
     articulated_rod: ArticulatedRod | None
     offset: float | None
-    gas: int  # Where among the gases of the engine it stands first
+    gas: int  # First index among the gases of the engine
     lean: float = 0.0
     is_first: bool = True
 
@@ -133,23 +133,23 @@ def _of_kind(solved: PreparedCylinder, engine: Engine, kind: _Kind) -> PreparedC
     return replace(prepare(machine, solved.method), lean=kind.lean) if kind.gas else replace(solved, machine=machine)
 
 
-def _kind(machine: Machine, engine: Engine, at: int) -> _Kind:
+def _kind(machine: Machine, engine: Engine, index: int) -> _Kind:
     """Return the kind of a cylinder.
 
     With weight or a changing speed a bank leans by its own angle, and the mass of a throw counts for the first
     cylinder on it only.
     """
-    places, articulated_rod = engine.layout.places, engine.articulated_rods[at] if engine.articulated_rods else None
-    offset = engine.offsets[at] if engine.offsets else None
-    gas = next((item for item, gas in enumerate(engine.gases) if gas is engine.gases[at]), 0)
+    places, articulated_rod = engine.layout.places, engine.articulated_rods[index] if engine.articulated_rods else None
+    offset = engine.offsets[index] if engine.offsets else None
+    gas = next((item for item, gas in enumerate(engine.gases) if gas is engine.gases[index]), 0)
     if not (machine.has_gravity or machine.angular_acceleration):
         return _Kind(articulated_rod, offset, gas)
-    first = next(place for place in places if place.throw == places[at].throw)
-    return _Kind(articulated_rod, offset, gas, places[at].axis - places[0].axis, places[at] is first)
+    first = next(place for place in places if place.throw == places[index].throw)
+    return _Kind(articulated_rod, offset, gas, places[index].axis - places[0].axis, places[index] is first)
 
 
 def _own_machine(machine: Machine, articulated_rod: ArticulatedRod | None, *, is_first: bool) -> Machine:
-    """Return the machine as a cylinder, with a rod of its own where it is articulated, sees it."""
+    """Return the machine with the masses of one cylinder, those of an articulated rod if it has one."""
     if articulated_rod is not None and machine.masses is not None:
         own = machine.engine.articulated_masses if machine.engine is not None else None
         parts = ("rod_small_end", "rod_big_end", "rod_inertia_excess")

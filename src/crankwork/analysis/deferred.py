@@ -20,7 +20,7 @@ class Deferred(Mapping[str, V]):
         return {**self._first, **{key: value for key, value in self._further().items() if key not in self._first}}
 
     def __reduce__(self) -> tuple[type[Deferred[V]], tuple[Mapping[str, V], type[dict[str, V]]]]:
-        # what is left to do cannot be sent to another process
+        # a deferred calculation cannot be sent to another process
         return Deferred, (self._all, dict)
 
     def __getitem__(self, key: str) -> V:

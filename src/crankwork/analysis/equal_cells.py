@@ -71,7 +71,7 @@ def _with_chambers(machine: Machine, part: EqualPart) -> EqualPart | None:
 
 
 def _chambers_on(machine: Machine, links: frozenset[str]) -> Mapping[str, Chamber] | None:
-    """Return the chambers at the pieces of a part, None if one of them is no part's alone or needs its own way."""
+    """Return the chambers at the pieces of a part, None if one is shared, measured or has pipes."""
     result = {}
     for name, chamber in machine.chambers.items():
         pieces = {face.slider for face in chamber.faces}
@@ -85,7 +85,7 @@ def _chambers_on(machine: Machine, links: frozenset[str]) -> Mapping[str, Chambe
 
 
 def _is_later(first: Chamber, other: Chamber, delay: float) -> bool:
-    """Return whether the gas in a chamber is that of another one, later by an angle. [deg]"""
+    """Return whether the gas in a chamber is that of the first chamber, delayed by an angle. [deg]"""
     if first.pressure is not None:
         return True
     # a release of heat or valves begin at a dead centre, of which there is one in a turn

@@ -1,4 +1,4 @@
-"""When the cylinders of an engine fire, where they stand, how large they are, and what the gas does in them."""
+"""Firing angles, positions and sizes of the cylinders of an engine, and the work of the gas in them."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.working_cycle.engine_size import displacement
 
 _LISTED = ("bank_axis", "crankpin_angle", "firing_angle", "firing_interval")
-_OF_SLAVES = ("top_dead_centre_angle", "stroke", "swept_volume")
+_OF_ARTICULATED = ("top_dead_centre_angle", "stroke", "swept_volume")
 
 
 def firing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
-    """Return number and volume of the cylinders, where each stands and when it fires."""
+    """Return number and volume of the cylinders, and position and firing angle of each."""
     count, layout = given("cylinder_count", float(len(engine.cylinders)), "engine.cylinders"), engine.layout
     values = {count.key: count}
     for place in layout.places:
@@ -59,7 +59,7 @@ def _intervals(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -
 def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
     """Return the volume of all cylinders, and stroke and dead centre of each where pistons move differently."""
     result, numbered = dict[str, TracedValue](), list(enumerate(engine.cylinders, start=1))
-    if not engine.moves_alike:
+    if not engine.has_equal_motion:
         for number, item in numbered:
             top = (engine.layout.places[number - 1].firing_angle + item.stroke[1]) % engine.layout.cycle
             lengths = SliderCrank(*(item.trace[key] for key in ("crank_radius", "rod_length", "offset")))
@@ -69,7 +69,7 @@ def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> di
             result[f"stroke.{number}"] = item.traced_stroke(lengths)
     if all(cylinder.space is not None for cylinder in engine.cylinders):
         volumes = [cylinder.trace["swept_volume"] for cylinder in engine.cylinders]
-        if engine.moves_alike:
+        if engine.has_equal_motion:
             result["displacement"] = displacement(volumes[0], values["cylinder_count"])
         else:
             each = {f"swept_volume.{number}": volume for number, volume in enumerate(volumes, start=1)}
@@ -79,7 +79,7 @@ def _sizes(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> di
 
 
 def work_trace(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the works of all cylinders, and the power and the mean torque that follow; nothing without gas in each."""
+    """Return the works of all cylinders, and their power and mean torque; empty if a cylinder has no gas."""
     works = [work_of_gas(cylinder, cylinder.space) for cylinder in engine.cylinders if cylinder.space is not None]
     if len(works) < len(engine.cylinders):
         return {}
@@ -106,9 +106,9 @@ def work_trace(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -
 def delivery_trace(
     engine: MultiCylinderEngine, firing: Mapping[str, TracedValue], works: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
-    """Return what all cylinders with valves deliver per unit of time, after the flow of one of them or of each.
+    """Return the delivery of all cylinders with valves per unit of time, and the flow of one of them or of each.
 
-    `firing` and `works`: number and work of the cylinders. Nothing of one cylinder alone, whose delivery is its own.
+    `firing` and `works`: number and work of the cylinders. Empty for a single cylinder, which has its own delivery.
     """
     gases = {number: cylinder.machine.gas for number, cylinder in enumerate(engine.cylinders, start=1)}
     valved = {number: gas.valves for number, gas in gases.items() if gas is not None and gas.valves is not None}
@@ -126,8 +126,8 @@ def delivery_trace(
         flows[number] = inlet_flow(volume, speed, cycle).named(f"inlet_flow.{number}")
     stated = StatedValves(next(iter(valved.values())), "gas.valves")
     if engine.is_uniform:
-        one = flows[1].named("inlet_flow.of_cylinder")
-        values, flow = {one.key: one}, firing["cylinder_count"] * one
+        single = flows[1].named("inlet_flow.of_cylinder")
+        values, flow = {single.key: single}, firing["cylinder_count"] * single
     else:
         values = {flow.key: flow for flow in flows.values()}
         flow = total("inlet_flow", values.values())
@@ -135,13 +135,13 @@ def delivery_trace(
 
 
 def firing_listing(engine: MultiCylinderEngine, firing: Mapping[str, TracedValue]) -> Listing:
-    """Return where each cylinder stands and fires; where they differ, also stroke, dead centre and work.
+    """Return position and firing angle of each cylinder; if they differ, also stroke, dead centre and work.
 
     `firing`: number, volume, firing and work of the cylinders.
     """
     numbers = [place.number for place in engine.layout.places]
     columns = {"cylinder_number": np.array(numbers, dtype=float)}
-    unlike = _OF_SLAVES if "stroke.1" in firing else ()
+    unlike = _OF_ARTICULATED if "stroke.1" in firing else ()
     if unlike or engine.engine.gases:
         unlike = (*unlike, "indicated_work")
     for kind in (*_LISTED, *unlike):

@@ -1,4 +1,4 @@
-"""The flywheel of a machine: that which is given, what is wanted of one to be found, and the sizes of either."""
+"""The flywheel of a machine: a given one, the requirements on one to be sized, and the dimensions of both."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from crankwork.shaft.flywheel_sizing import (
 
 
 def target_fluctuation(machine: Machine, w: TracedValue) -> TracedValue | None:
-    """Return the fluctuation of the speed that is wanted, in whichever way it is stated."""
+    """Return the target fluctuation of the speed, in any form that it is stated in."""
     value, stated = machine.drive.fluctuation, machine.stated
     if value is None:
         return None
@@ -40,7 +40,7 @@ def target_fluctuation(machine: Machine, w: TracedValue) -> TracedValue | None:
 
 
 def extreme_speeds(machine: Machine) -> tuple[TracedValue, TracedValue]:
-    """Return the extreme speeds that a flywheel shall keep to, as they are stated."""
+    """Return the stated extreme speeds that a flywheel is sized for."""
     paths = {".largest": "flywheel.speeds[1]", ".least": "flywheel.speeds[2]"}
     high, low = (
         traced_inputs.speed_at(machine, machine.method, path, machine.stated[path].value, name)
@@ -50,14 +50,14 @@ def extreme_speeds(machine: Machine) -> tuple[TracedValue, TracedValue]:
 
 
 def turning_inertia(machine: Machine, key: str) -> TracedValue:
-    """Return the moment of inertia of all that turns and is given under a key; absent where nothing is."""
-    engine, wheel = machine.drive.inertia, tuple(_given_wheel(machine))
-    if not engine:
+    """Return the stated moment of inertia of the rotating parts, under a key; absent if none is stated."""
+    value, wheel = machine.drive.inertia, tuple(_given_wheel(machine))
+    if not value:
         return absent(key)
-    plain, own = given(key, engine, "flywheel.inertia"), machine.stated.get("crank.inertia")
-    beside = () if own is None else (given("reduced_inertia.shaft", own.value, "crank.inertia"),)
-    # that of a heavy crank is one of the bodies
-    for parts in ((*beside, *wheel), wheel):
+    plain, own = given(key, value, "flywheel.inertia"), machine.stated.get("crank.inertia")
+    shaft = () if own is None else (given("reduced_inertia.shaft", own.value, "crank.inertia"),)
+    # the inertia of a crank with mass is one of the bodies
+    for parts in ((*shaft, *wheel), wheel):
         if parts and (result := traced_inputs.checked(total(key, parts), plain)) is not plain:
             return result
     return plain
@@ -94,7 +94,7 @@ def _of_rim(name: str, value: float) -> TracedValue:
 
 
 def given_flywheel_dimensions(machine: Machine, w: TracedValue) -> dict[str, TracedValue]:
-    """Return what follows of the sizes of a flywheel that is given, beside those that are stated."""
+    """Return the dimensions of a given flywheel that follow from its stated ones."""
     values = dict[str, TracedValue]()
     for wheel in _given_wheel(machine):
         values |= flywheel_dimensions(machine, wheel, w)
@@ -104,7 +104,7 @@ def given_flywheel_dimensions(machine: Machine, w: TracedValue) -> dict[str, Tra
 
 
 def flywheel_dimensions(machine: Machine, inertia: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
-    """Return the mass of a flywheel of a moment of inertia, and what follows for its rim."""
+    """Return the mass of a flywheel of a moment of inertia, and the dimensions of its rim."""
     wheel = machine.drive.wheel
     if wheel is None:
         return {}

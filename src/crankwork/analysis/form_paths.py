@@ -1,4 +1,4 @@
-"""Where a linkage states what its engine form is calculated from."""
+"""Paths in a linkage of the inputs that its engine form is calculated from."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _of_gas(chambers: CellChambers) -> dict[str, str]:
 
 
 def relocate(traced: Iterable[TracedValue], paths: Mapping[str, str]) -> None:
-    """Give inputs of an engine form the paths of its linkage; what this does not state itself has none."""
+    """Give inputs of an engine form the paths of its linkage; empty for an input that the linkage does not state."""
     for known in in_order(traced):
         node = known.node
         if isinstance(node, Input) and _OF_ENGINES.match(node.path):

@@ -78,7 +78,7 @@ def _cycle(solved: PreparedLinkage) -> dict[str, TracedValue]:
 
 
 def _per_time(solved: PreparedLinkage, name: str) -> Callable[[TracedValue], TracedValue]:
-    """Return what makes a work of a cycle of a chamber a power, or a volume a flow."""
+    """Return the factor from the work of a cycle of a chamber to its power, or from a volume to a flow."""
     chamber, law = solved.machine.chambers[name], solved.machine.mechanism.driver.law
     if law is not None:
         period = given("period", law.period, "driver.period")
@@ -86,13 +86,13 @@ def _per_time(solved: PreparedLinkage, name: str) -> Callable[[TracedValue], Tra
     w = speed_of(solved.machine)
     cycle = given(f"cycle_angle.{name}", math.radians(chamber.cycle), f"chambers.{name}.period")
     again = own_cycle(chamber, solved.machine.mechanism.period) / chamber.cycle
-    engine = cycle if again == 1 else again * cycle.named(f"cycle_angle.{name}.stated")
+    full_cycle = cycle if again == 1 else again * cycle.named(f"cycle_angle.{name}.stated")
     is_work = gas.indicated_power
-    return lambda item: (inlet_flow if item.key.startswith("induced") else is_work)(item, w, engine)
+    return lambda item: (inlet_flow if item.key.startswith("induced") else is_work)(item, w, full_cycle)
 
 
 def _delivery(solved: PreparedLinkage, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return what passes the valves of each chamber; of several what the first stage draws in, and all take up."""
+    """Return the flow through the valves of each chamber; of several also the intake of the first stage and sums."""
     chambers, none = solved.machine.chambers, absent("clearance_volume")
     result = dict[str, TracedValue]()
     valved = {name: value.valves for name, value in chambers.items() if value.valves is not None}
@@ -116,7 +116,7 @@ def _delivery(solved: PreparedLinkage, values: Mapping[str, TracedValue]) -> dic
 
 
 def _together(key: str, names: Sequence[str], values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the sum of what several chambers have of a kind, nothing if one of them has it not."""
+    """Return the sum of a value over several chambers, empty if one of them lacks it."""
     parts = [values[f"{key}.{name}"] for name in names if f"{key}.{name}" in values]
     return {key: total(key, parts)} if len(parts) == len(names) else {}
 
@@ -144,7 +144,7 @@ def indicators(results: Results) -> dict[str, Indicator]:
 
 
 def _against(filling: ChamberGas, chambers: Mapping[str, Chamber], period: float) -> dict[str, float]:
-    """Return the work on what is around each chamber over its cycle, nothing where its volume comes back. [J]"""
+    """Return the work on the surroundings of each chamber over its cycle, zero if its volume returns. [J]"""
     cycles = {name: own_cycle(chamber, period) for name, chamber in chambers.items()}
     degrees = sorted({0.0, *cycles.values()})
     volumes = Program({name: filling.columns[f"cylinder_volume.{name}"] for name in chambers})
@@ -178,13 +178,13 @@ def gas_check(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:
 
 def _work_of_valves(solved: PreparedLinkage) -> dict[str, float]:
     """Return how far the work of chambers with valves is from that which follows from pressures alone."""
-    apart, singles = list[float](), solved.filling.singles
+    residuals, singles = list[float](), solved.filling.singles
     for name, value in solved.machine.chambers.items():
         stated = stated_valves(f"chambers.{name}", value)
-        # pipes take what no pressures of valves tell
+        # the pressures of valves do not include the work of pipes
         if stated is not None and not stated.valves.has_pipes:
             sizes = [singles[key].value if key in singles else 0.0
                      for key in (f"clearance_volume.{name}", f"swept_volume.{name}")]  # fmt: skip
             work = stated.work(*sizes)
-            apart.append(abs(singles[f"indicated_work.{name}"].value - value.factor * work) / abs(work))
-    return {"valves": max(apart)} if apart else {}
+            residuals.append(abs(singles[f"indicated_work.{name}"].value - value.factor * work) / abs(work))
+    return {"valves": max(residuals)} if residuals else {}

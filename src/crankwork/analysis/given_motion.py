@@ -54,7 +54,7 @@ def analyse_tabulated(machine: Machine, table: TransferTable) -> Results:
 
 @dataclass(frozen=True)
 class Rows:
-    """Numbers that stand at the positions of a table only. [deg]"""
+    """Numbers that are given at the positions of a table only. [deg]"""
 
     degrees: tuple[float, ...]
     values: tuple[float, ...]
@@ -75,20 +75,20 @@ class StatedRows(Rows):
 
     def between(self, degrees: float, _: TracedValue) -> TracedValue:
         """Return the number of the nearest position as it is stated."""
-        at = int(self._nearest(degrees))
-        return given("", self.values[at], f"{self.path}[{at + 1}]")
+        index = int(self._nearest(degrees))
+        return given("", self.values[index], f"{self.path}[{index + 1}]")
 
 
 def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str, TracedValue]:
     """Return the columns of a table."""
 
-    def row(key: str, values: Iterable[float], path: str = "", of: tuple[TracedValue, ...] = ()) -> TracedValue:
+    def row(key: str, values: Iterable[float], path: str = "", operands: tuple[TracedValue, ...] = ()) -> TracedValue:
         values, degrees = tuple(float(value) for value in values), tuple(grid.degrees.tolist())
         if len(values) == 1:
             return given(key, values[0], f"{path}[1]") if values[0] else absent(key)
         if path:
             return TracedValue(Tabulated(StatedRows(degrees, values, path), "given"), key)
-        return TracedValue(Tabulated(Rows(degrees, values), "positions", operands=of), key)
+        return TracedValue(Tabulated(Rows(degrees, values), "positions", operands=operands), key)
 
     def part(body: TabulatedBody) -> TracedValue:
         path = f"{table.of_bodies}.{body.name}"
@@ -112,7 +112,7 @@ def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str,
     balancing: TracedValue = balancing_torque_of_parts(static, trace["dynamic_torque"])
     torques = static, trace["dynamic_torque"], efficiency_of(machine.drive)
     drives = replay(balancing, grid) > 0
-    # each position has its own law: positions have nothing between them
+    # each position has its own law: no values are defined between positions
     laws = tuple((driving_torque_as_motor if drive else driving_torque_as_brake)(*torques) for drive in drives)
     driving = TracedValue(Piecewise(grid.degrees.tolist(), laws), "driving_torque")
     return trace | {"static_torque": static, "balancing_torque": balancing, "driving_torque": driving}
@@ -125,15 +125,15 @@ def _change(
     key = "reduced_inertia_1"
     if table.reduced_inertia_1 is not None:
         return row(key, table.reduced_inertia_1, f"{table.of_crank}.reduced_inertia_1")
-    column, of = replay(inertia, grid), (inertia,)
+    column, operands = replay(inertia, grid), (inertia,)
     if table.differences == "spectral":
-        return row(key, difference_derivative(grid.angle, column, "spectral"), of=of)
-    ahead = row("reduced_inertia.next", np.roll(column, -1), of=of)
+        return row(key, difference_derivative(grid.angle, column, "spectral"), operands=operands)
+    ahead = row("reduced_inertia.next", np.roll(column, -1), operands=operands)
     step = np.append(np.diff(grid.angle), grid.angle[0] + 2 * np.pi - grid.angle[-1])
     if table.differences == "forward":
         forward: TracedValue = forward_difference(ahead, inertia, row("crank_angle.step", step))
         return forward
-    behind = row("reduced_inertia.previous", np.roll(column, 1), of=of)
+    behind = row("reduced_inertia.previous", np.roll(column, 1), operands=operands)
     central: TracedValue = central_difference(ahead, behind, row("crank_angle.step", step + np.roll(step, 1)))
     return central
 
@@ -157,11 +157,11 @@ def _summary(
         result["efficiency"] = efficiency_of(machine.drive)
     for key in ("reduced_inertia", "dynamic_torque", "driving_torque"):
         for word, find in (("max", np.argmax), ("min", np.argmin)) if key in columns else ():
-            row, of = int(find(columns[key])), (trace[key],)
-            at = float(np.degrees(columns["crank_angle"][row]))
-            result[f"{key}_{word}"] = TracedValue(ProcedureValue(float(columns[key][row]), word, of, at))
+            row, operands = int(find(columns[key])), (trace[key],)
+            degrees = float(np.degrees(columns["crank_angle"][row]))
+            result[f"{key}_{word}"] = TracedValue(ProcedureValue(float(columns[key][row]), word, operands, degrees))
             result[f"{key}_{word}_angle"] = TracedValue(
-                ProcedureValue(float(columns["crank_angle"][row]), f"{word}_angle", of, at)
+                ProcedureValue(float(columns["crank_angle"][row]), f"{word}_angle", operands, degrees)
             )
     return {key: value.named(key) for key, value in result.items()}
 

@@ -53,18 +53,19 @@ COLUMNS = (
 _COLUMN_OF = {"torque": "turning_moment", "load": "load_torque"}
 _STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
 _ROUNDED = 1e-9
-_NOTHING = 1e-13
-# of figures: how far beside a jump a curve is drawn [deg], and of how many points
-_BESIDE = 1e-7
+_NEGLIGIBLE = 1e-13
+# of figures: distance from a jump at which a curve is drawn [deg], and largest number of points
+_JUMP_OFFSET = 1e-7
 _MOST_DRAWN = 4000
 
 
 def analyse_turning(machine: Machine, turning: ShaftTorques, grid: CrankGrid | None = None) -> Results:
-    """Return what a shaft does over the period of the torques on it (khurmi_gupta_2005, ch. 16)."""
+    """Return the results of a shaft over the period of the torques on it (khurmi_gupta_2005, ch. 16)."""
     w = _speed(machine)
     solved = PreparedMachine(machine, machine.method, w.value)
     grid = grid or CrankGrid.steps(machine.table_step, machine.cycle, special=machine.table_special)
-    result = _of_course(machine, turning, w) if _has_course(turning) else _of_energies(machine, turning, w)
+    is_complete = all(diagram.is_complete for diagram in turning.diagrams.values())
+    result = (_of_torque_curves if is_complete else _of_energies)(machine, turning, w)
     columns = {"crank_angle": TracedValue(AngleFunction("angle"), "crank_angle"), **result.columns}
     summary = {key: value.named(key) for key, value in result.summary.items()}
     trace = {**columns, **summary, **result.between}
@@ -82,7 +83,7 @@ def analyse_turning(machine: Machine, turning: ShaftTorques, grid: CrankGrid | N
 
 
 class _Turned(NamedTuple):
-    """What was found of a shaft."""
+    """Results of a shaft."""
 
     columns: Mapping[str, TracedValue]
     summary: Mapping[str, TracedValue]
@@ -90,10 +91,6 @@ class _Turned(NamedTuple):
     checks: Mapping[str, float]
     notices: tuple[Notice, ...]
     listings: Mapping[str, Listing]
-
-
-def _has_course(turning: ShaftTorques) -> bool:
-    return all(diagram.is_complete for diagram in turning.diagrams.values())
 
 
 def _speed(machine: Machine) -> TracedValue:
@@ -127,7 +124,7 @@ def _power(machine: Machine, turning: ShaftTorques, mean: TracedValue, w: Traced
 
 
 def _per_cycle(machine: Machine, mean: TracedValue, excess: TracedValue) -> dict[str, TracedValue]:
-    """Return the work of a cycle and what part of it the flywheel takes and gives."""
+    """Return the work of a cycle, the excess work and their ratio."""
     if not mean.value:
         return {"excess_work": excess}
     cycle = given("cycle_angle", math.radians(machine.cycle))
@@ -136,14 +133,14 @@ def _per_cycle(machine: Machine, mean: TracedValue, excess: TracedValue) -> dict
     return {"work_per_cycle": work, "excess_work": excess, "energy_fluctuation": ratio}
 
 
-def _of_course(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turned:
-    """Return what follows of torques that are known at every angle."""
-    made = {key: torque_trace(machine, turning, table, key, w) for table, key in _keys(turning)}
-    over = CycleInterpolant(made, CrankGrid.from_degrees, machine.cycle)
+def _of_torque_curves(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turned:
+    """Return the results of torques that are given at every angle."""
+    traced = {key: torque_trace(machine, turning, table, key, w) for table, key in _keys(turning)}
+    over = CycleInterpolant(traced, CrankGrid.from_degrees, machine.cycle)
     means = {key: _mean(over, machine, turning, table, w) for table, key in _keys(turning)}
     mean = next(iter(means.values()))
-    # what is not given is constant
-    drive, load = (made.get(key, mean).named(key) for key in ("turning_moment", "load_torque"))
+    # a torque that is not given is constant
+    drive, load = (traced.get(key, mean).named(key) for key in ("turning_moment", "load_torque"))
     columns = {"turning_moment": drive, "load_torque": load, "excess_torque": (drive - load).named("excess_torque")}
     net = columns["excess_torque"]
     torque, result = _excess(turning, over)
@@ -152,21 +149,21 @@ def _of_course(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turn
     excess, turn = excess_of(balance), analyse_speed(machine, balance, w, "extremes")
     columns |= turn.columns
     summary = {**_given_values(machine, w), "mean_torque": mean, **_power(machine, turning, mean, w)}
-    summary |= _extremes_of(made, over) | _per_cycle(machine, mean, excess) | turn.summary
+    summary |= _extremes_of(traced, over) | _per_cycle(machine, mean, excess) | turn.summary
     inertia = 0.0 if turn.speed is None else turn.speed.inertia.mean
     if turn.speed is not None:
-        engine = next(
+        total_inertia = next(
             (value for key, value in turn.between.items() if key in ("whole_inertia", "flywheel_inertia")), own
         )
-        turned = acceleration_of_crank(net, absent("speed"), engine, absent("reduced_inertia_1"))
-        columns["angular_acceleration"] = turned
-        summary |= _extremes("angular_acceleration", turned, torque * (1 / inertia))
+        acceleration = acceleration_of_crank(net, absent("speed"), total_inertia, absent("reduced_inertia_1"))
+        columns["angular_acceleration"] = acceleration
+        summary |= _extremes("angular_acceleration", acceleration, torque * (1 / inertia))
     checks = _checks(turning, over, columns, (result, turn.speed, inertia))
     notices = (*_notices(turning), *turn.notices)
     listings = {"energy_extremes": _listing(result, turn.speed)}
     columns = {key: value.named(key) for key, value in columns.items()}
     stretches = (
-        item for item in in_order([*made.values(), *means.values()]) if item.key.partition(".")[0] in _STRETCHES
+        item for item in in_order([*traced.values(), *means.values()]) if item.key.partition(".")[0] in _STRETCHES
     )
     between = {stretch.key: stretch for stretch in stretches if stretch.key not in _STRETCHES} | turn.between
     summary |= {key: value for key, value in between.items() if key.startswith("shearing_force.")}
@@ -174,20 +171,20 @@ def _of_course(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turn
 
 
 def _keys(turning: ShaftTorques) -> Iterator[tuple[str, str]]:
-    """Yield tables that are given and the columns that they make."""
+    """Yield the tables that are given, each with the key of its column."""
     yield from ((table, _COLUMN_OF[table]) for table in turning.diagrams)
 
 
-def _blows(diagram: TorqueDiagram) -> float:
-    """Return the work of a period that is done at once. [J]"""
+def _impulsive_work(diagram: TorqueDiagram) -> float:
+    """Return the work of a period that is done at one angle. [J]"""
     return sum(stroke.work for stroke in diagram.strokes if not stroke.over) * len(diagram.delays)
 
 
 def _mean(over: CycleInterpolant, machine: Machine, turning: ShaftTorques, table: str, w: TracedValue) -> TracedValue:
-    """Return the mean of a torque, with what is done at once."""
+    """Return the mean of a torque, with the work that is done at one angle."""
     key, diagram = _COLUMN_OF[table], turning.diagrams[table]
     mean = over.mean(key, "mean_torque")
-    if not _blows(diagram):
+    if not _impulsive_work(diagram):
         return mean
     at_once = works_at_once(machine, turning, table, key, w)
     period = given("cycle_angle", diagram.period, f"{table}.period")
@@ -200,19 +197,19 @@ def _curve(over: CycleInterpolant, key: str) -> Curve:
 
 
 def _excess(turning: ShaftTorques, over: CycleInterpolant) -> tuple[Curve, ExcessWork]:
-    """Return the torque beyond the load, balanced, and its excess work with what is done at once."""
+    """Return the excess torque less its mean, and the excess work with the work that is done at one angle."""
     parts = {"torque": 1.0, "load": -1.0}
     net = Curve.constant(0.0, turning.cycle)
     for table, key in _keys(turning):
         net = net + _curve(over, key) * parts[table]
     result = excess_work(net)
     low, _, high, _ = net.extremes()
-    if result.work <= _NOTHING * turning.cycle * max(abs(low), abs(high)):
-        # what only rounding moves stands
+    if result.work <= _NEGLIGIBLE * turning.cycle * max(abs(low), abs(high)):
+        # a variation that is rounding is zero
         net = Curve.constant(result.mean_torque, turning.cycle)
         result = excess_work(net)
     jumps = [
-        _saw(diagram, turning.cycle) * parts[table] for table, diagram in turning.diagrams.items() if _blows(diagram)
+        _sawtooth(item, turning.cycle) * parts[key] for key, item in turning.diagrams.items() if _impulsive_work(item)
     ]
     if not jumps:
         return net - result.mean_torque, result
@@ -220,34 +217,34 @@ def _excess(turning: ShaftTorques, over: CycleInterpolant) -> tuple[Curve, Exces
     for jump in jumps:
         curve = curve + jump
     for table, diagram in turning.diagrams.items():
-        at_once += parts[table] * _blows(diagram) / diagram.period
+        at_once += parts[table] * _impulsive_work(diagram) / diagram.period
     mean = result.mean_torque + at_once
-    engine = ExcessWork(curve, curve.extremes(), mean, mean * turning.cycle)
-    return net - mean, engine
+    combined = ExcessWork(curve, curve.extremes(), mean, mean * turning.cycle)
+    return net - mean, combined
 
 
-def _saw(diagram: TorqueDiagram, cycle: float) -> Curve:
-    """Return the work that is done at once, less its mean over the angle, zero at an angle of zero."""
+def _sawtooth(diagram: TorqueDiagram, cycle: float) -> Curve:
+    """Return the work that is done at single angles, less its mean over the angle, zero at an angle of zero."""
     jumps = sorted(
-        ((stroke.start + delay) % diagram.period + at * diagram.period, stroke.work)
-        for at in range(round(cycle / diagram.period))
+        ((stroke.start + delay) % diagram.period + index * diagram.period, stroke.work)
+        for index in range(round(cycle / diagram.period))
         for stroke in diagram.strokes
         if not stroke.over
         for delay in diagram.delays
     )
     slope, done = sum(work for _, work in jumps) / cycle, 0.0
     corners = [(0.0, 0.0)]
-    for at, work in jumps:
-        corners += [(at, done - slope * at), (at, done + work - slope * at)]
+    for angle, work in jumps:
+        corners += [(angle, done - slope * angle), (angle, done + work - slope * angle)]
         done += work
     corners.append((cycle, 0.0))
     return Curve.linear(*zip(*corners, strict=True))
 
 
-def _extremes_of(made: Mapping[str, TracedValue], over: CycleInterpolant) -> dict[str, TracedValue]:
+def _extremes_of(traced: Mapping[str, TracedValue], over: CycleInterpolant) -> dict[str, TracedValue]:
     """Return the extremes of torques that are not constant."""
     values = dict[str, TracedValue]()
-    for key, known in made.items():
+    for key, known in traced.items():
         if known.varies:
             values |= _extremes(key, known, _curve(over, key))
     return values
@@ -256,20 +253,20 @@ def _extremes_of(made: Mapping[str, TracedValue], over: CycleInterpolant) -> dic
 def _extremes(key: str, known: TracedValue, curve: Curve) -> dict[str, TracedValue]:
     """Return the extremes of a column, on both sides of its jumps."""
     low, at_low, high, at_high = curve.extremes()
-    result, nothing = dict[str, TracedValue](), _NOTHING * max(abs(low), abs(high))
-    for word, found, at in (("max", high, at_high), ("min", low, at_low)):
-        value = found if abs(found) > nothing else 0.0
-        degrees = math.degrees(at)
+    result, negligible = dict[str, TracedValue](), _NEGLIGIBLE * max(abs(low), abs(high))
+    for word, extreme, phi in (("max", high, at_high), ("min", low, at_low)):
+        value = extreme if abs(extreme) > negligible else 0.0
+        degrees = math.degrees(phi)
         result[f"{key}_{word}"] = TracedValue(ProcedureValue(value, word, (known.named(key),), degrees))
-        result[f"{key}_{word}_angle"] = TracedValue(ProcedureValue(at, f"{word}_angle", (known.named(key),), degrees))
+        result[f"{key}_{word}_angle"] = TracedValue(ProcedureValue(phi, f"{word}_angle", (known.named(key),), degrees))
     return result
 
 
-def _listing(found: ExcessWork, speed: TrueSpeed | None) -> Listing:
-    """Return the extremes of the energy in their order: where, how much, what lies between, the speed there."""
-    at, energy = _turning_points(found.curve)
+def _listing(excess: ExcessWork, speed: TrueSpeed | None) -> Listing:
+    """Return the extremes of the energy in their order: angle, energy, work from the last extreme, speed."""
+    angles, energy = _turning_points(excess.curve)
     columns: dict[str, Array] = {
-        "crank_angle": at,
+        "crank_angle": angles,
         "kinetic_energy_change": energy,
         "loop_work": energy - np.roll(energy, 1),
     }
@@ -279,34 +276,34 @@ def _listing(found: ExcessWork, speed: TrueSpeed | None) -> Listing:
 
 
 def _turning_points(energy: Curve) -> tuple[Array, Array]:
-    """Return where an energy turns from growing to falling or back, and both sides of its jumps. [rad], [J]"""
+    """Return angles and values of the local extremes of an energy, with both sides of its jumps. [rad], [J]"""
     middle = (energy.angle[1:] + energy.angle[:-1]) / 2
     angles = np.unique(np.concatenate([energy.angle, energy.derivative.zeros(), middle]))
     before = np.append(angles[1:], energy.angle[-1]) - 1e-12 * energy.cycle
-    points = [(at, float(value)) for at, value in zip(angles[:-1], energy(angles[:-1]), strict=True)]
+    points = [(angle, float(value)) for angle, value in zip(angles[:-1], energy(angles[:-1]), strict=True)]
     ends = [(high, float(value)) for high, value in zip(angles[1:], energy(before[:-1]), strict=True)]
     size = max(abs(value) for _, value in points) or 1.0
-    course = list[tuple[float, float]]()
+    corners = list[tuple[float, float]]()
     for start, end in zip(points, ends, strict=True):
-        for at, value in (start, end):
-            if not course or abs(value - course[-1][1]) > _ROUNDED * size:
-                course.append((at, value))
-    count = len(course)
+        for angle, value in (start, end):
+            if not corners or abs(value - corners[-1][1]) > _ROUNDED * size:
+                corners.append((angle, value))
+    count = len(corners)
     if count < 3:
-        return np.array([at for at, _ in course]), np.array([value for _, value in course])
-    if abs(course[0][1] - course[-1][1]) <= _ROUNDED * size:
-        course.pop()
+        return np.array([angle for angle, _ in corners]), np.array([value for _, value in corners])
+    if abs(corners[0][1] - corners[-1][1]) <= _ROUNDED * size:
+        corners.pop()
     kept = [
         item
-        for last, item, following in zip([course[-1], *course[:-1]], course, [*course[1:], course[0]], strict=True)
+        for last, item, following in zip([corners[-1], *corners[:-1]], corners, [*corners[1:], corners[0]], strict=True)
         if (item[1] - last[1]) * (following[1] - item[1]) < 0
     ]
-    return np.array([at for at, _ in kept]), np.array([value for _, value in kept])
+    return np.array([angle for angle, _ in kept]), np.array([value for _, value in kept])
 
 
 def _notices(turning: ShaftTorques) -> Iterator[Notice]:
-    """Yield notices of work that is done at once, and of works that differ."""
-    if any(_blows(diagram) for diagram in turning.diagrams.values()):
+    """Yield notices of work that is done at one angle, and of works that differ."""
+    if any(_impulsive_work(diagram) for diagram in turning.diagrams.values()):
         yield Notice("work_at_once", {})
     if turning.torque is not None and turning.load is not None:
         driven, taken = (item.work / item.period * turning.cycle for item in (turning.torque, turning.load))
@@ -318,16 +315,16 @@ def _checks(
     turning: ShaftTorques,
     over: CycleInterpolant,
     columns: Mapping[str, TracedValue],
-    turned: tuple[ExcessWork, TrueSpeed | None, float],
+    balance: tuple[ExcessWork, TrueSpeed | None, float],
 ) -> dict[str, float]:
-    """Return residuals between what was integrated and the works of the diagrams in closed form."""
-    (values, speed, inertia), cycle = turned, turning.cycle
+    """Return residuals between integrated works and energies and those of the diagrams in closed form."""
+    (values, speed, inertia), cycle = balance, turning.cycle
     works = {key: turning.diagrams[table].work_to for table, key in _keys(turning)}
     angles = np.linspace(0.0, cycle, 721)[:-1] + cycle / 1440
     end = np.array([cycle])
     size = max((float(np.ptp(np.append(work(angles), work(end)))) for work in works.values()), default=0.0) or 1.0
-    engine = {
-        key: abs(over.integral(key) + _blows(diagram) * cycle / diagram.period - float(works[key](end)[0]))
+    residuals = {
+        key: abs(over.integral(key) + _impulsive_work(diagram) * cycle / diagram.period - float(works[key](end)[0]))
         for (_, key), diagram in zip(_keys(turning), turning.diagrams.values(), strict=True)
     }
     sense = {"turning_moment": 1.0, "load_torque": -1.0}
@@ -335,7 +332,7 @@ def _checks(
     for key, work in works.items():
         energy += sense[key] * (work(angles) - work(end) * angles / cycle)
     energy -= energy[0]
-    checks = {"turning_work": max(engine.values()) / size}
+    checks = {"turning_work": max(residuals.values()) / size}
     gained = values.curve(angles) - values.curve(angles[:1])
     checks["turning_energy"] = float(np.max(np.abs(gained - energy))) / size
     if speed is not None:
@@ -347,7 +344,7 @@ def _checks(
 
 
 def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turned:
-    """Return what follows of the areas of loops, or of the excess work alone."""
+    """Return the results of the areas of loops, or of the excess work alone."""
     ((table, diagram),) = turning.diagrams.items()
     summary, listings, between = _given_values(machine, w), dict[str, Listing](), dict[str, TracedValue]()
     mean = absent("mean_torque")
@@ -358,12 +355,12 @@ def _of_energies(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Tu
     if diagram.loops:
         excess, energies = _of_loops(machine, diagram, table)
         between |= {energy.key: energy for energy in energies}
-        every = np.array([energy.value for energy in energies])
-        number = np.arange(1.0, every.size + 1)
+        levels = np.array([energy.value for energy in energies])
+        number = np.arange(1.0, levels.size + 1)
         listings["energy_extremes"] = Listing({
             "loop_number": number,
             "loop_work": np.array(diagram.loops),
-            "kinetic_energy_change": every,
+            "kinetic_energy_change": levels,
         })  # fmt: skip
         checks["turning_work"] = abs(float(np.ptp(np.cumsum(diagram.loops))) - excess.value) / (excess.value or 1.0)
         summary |= _per_cycle(machine, mean, excess)
@@ -438,7 +435,7 @@ def _of_excess(machine: Machine, diagram: TorqueDiagram, table: str, mean: Trace
 
 
 class TurningDiagram(NamedTuple):
-    """A torque and its load as they are drawn, with the loops between them: where, and their works [deg], [SI]."""
+    """A torque and its load as they are drawn, with the loops between them: middles and works [deg], [SI]."""
 
     degrees: Array
     torque: Array
@@ -448,21 +445,21 @@ class TurningDiagram(NamedTuple):
 
 
 def turning_diagram(results: Results, step: float = 0.5) -> TurningDiagram | None:
-    """Return what the figure of a shaft shows, on both sides of every jump; None where no torque is known."""
+    """Return the curves of the figure of a shaft, on both sides of every jump; None if no torque is given."""
     if "turning_moment" not in results.columns:
         return None
     cycle = results.machine.cycle
     shown = ("turning_moment", "load_torque", "kinetic_energy_change")
     breaks = breakpoints_of([results.trace[key] for key in shown], cycle)
-    beside = np.concatenate([breaks[1:] - _BESIDE, breaks[:-1] + _BESIDE])
+    near_jumps = np.concatenate([breaks[1:] - _JUMP_OFFSET, breaks[:-1] + _JUMP_OFFSET])
     even = np.linspace(0.0, cycle, min(max(round(cycle / step), 360), _MOST_DRAWN) + 1)
-    degrees = np.unique(np.concatenate([even, beside]))
+    degrees = np.unique(np.concatenate([even, near_jumps]))
     result = results.columns_at(degrees, shown)
     extremes = results.listings["energy_extremes"].columns
     ends, works = np.degrees(extremes["crank_angle"]), extremes["loop_work"]
     loops = []
-    for at, work in enumerate(works.tolist()):
-        start, end = float(ends[at - 1]), float(ends[at])
+    for index, work in enumerate(works.tolist()):
+        start, end = float(ends[index - 1]), float(ends[index])
         inside = (degrees > start) & (degrees < end) if start < end else (degrees > start) | (degrees < end)
         if start > end:
             # the larger part of a loop that goes on in the next period

@@ -26,24 +26,24 @@ from crankwork.units import UNITS
 def torque_trace(machine: Machine, turning: ShaftTorques, table: str, key: str, w: TracedValue) -> TracedValue:
     """Return a torque of a description over the angle, that of all cylinders."""
     diagram = turning.diagrams[table]
-    one = _Torque(machine, diagram, table, key, w, turning.cycle).column()
+    single = _Torque(machine, diagram, table, key, w, turning.cycle).column()
     parts = [
-        delayed(one, round(math.degrees(by), 9), machine.cycle, f"{key}.{number}")
-        for number, by in enumerate(diagram.delays, start=1)
+        delayed(single, round(math.degrees(delay), 9), machine.cycle, f"{key}.{number}")
+        for number, delay in enumerate(diagram.delays, start=1)
     ]
     return total(key, parts)
 
 
 def works_at_once(machine: Machine, turning: ShaftTorques, table: str, key: str, w: TracedValue) -> TracedValue:
-    """Return the work of a period that is done at once."""
+    """Return the work of a period that is done at single angles."""
     diagram = turning.diagrams[table]
-    one = _Torque(machine, diagram, table, key, w, turning.cycle)
-    works = [one.work(at) for at, stroke in enumerate(diagram.strokes, start=1) if not stroke.over]
+    torque = _Torque(machine, diagram, table, key, w, turning.cycle)
+    works = [torque.work(number) for number, stroke in enumerate(diagram.strokes, start=1) if not stroke.over]
     return total("stroke_work", works * len(diagram.delays))
 
 
 def work_scale(machine: Machine, table: str) -> TracedValue | None:
-    """Return the work that an area of a drawing stands for, None without a scale."""
+    """Return the work that a unit of area of a drawing represents, None without a scale."""
     stated = {name: machine.stated.get(f"{table}.scale.{name}") for name in ("work", "torque", "angle")}
     known = {
         name: given(f"{name}_scale", value.value, f"{table}.scale.{name}")
@@ -99,27 +99,27 @@ class _Torque:
         for turn in range(self._times):
             angle = TracedAngle().shifted(-turn * self._period).angle
             for line in self._diagram.lines():
-                first, last = (self._point(at, moved) for at, moved in zip(line[:2], line.moved, strict=True))
+                first, last = (self._point(index, moved) for index, moved in zip(line[:2], line.moved, strict=True))
                 laws.append(torque_between_points(first[0], last[0], angle, first[1], last[1]))
                 ends.append(turn * self._period + math.degrees(line.end))
         ends[-1] = self._cycle
         return TracedValue(Piecewise(ends, tuple(laws)), self._key)
 
-    def _point(self, at: int, moved: int) -> tuple[TracedValue, TracedValue]:
+    def _point(self, index: int, moved: int) -> tuple[TracedValue, TracedValue]:
         """Return torque and angle of a point, moved by some periods."""
-        angle, torque = self._diagram.points[at]
-        height = given(f"{self._key}.{at + 1}", torque, f"{self._table}.torque[{at + 1}]")
-        place = given(f"crank_angle.{at + 1}", angle, f"{self._table}.at[{at + 1}]")
+        angle, torque = self._diagram.points[index]
+        height = given(f"{self._key}.{index + 1}", torque, f"{self._table}.torque[{index + 1}]")
+        place = given(f"crank_angle.{index + 1}", angle, f"{self._table}.at[{index + 1}]")
         if moved:
             period = given("cycle_angle", self._diagram.period, f"{self._table}.period")
-            place = (place + period if moved > 0 else place - period).named(f"crank_angle.{at + 1}")
+            place = (place + period if moved > 0 else place - period).named(f"crank_angle.{index + 1}")
         return height, place
 
     def _stretch(self, stroke: WorkStroke, number: int) -> list[TracedValue]:
-        """Return the torque that does work in a stretch, in each period."""
+        """Return the torque of a working stroke, in each period."""
         path, name = f"{self._table}.strokes[{number}]", f"{self._key}.stretch_{number}"
         work, over, end = self.work(number), self._over(stroke, number), math.degrees(stroke.over)
-        nothing, angle = absent(self._key), TracedAngle().angle
+        zero, angle = absent(self._key), TracedAngle().angle
         if stroke.shape == "constant":
             laws, ends = [torque_of_work(work, over)], [end]
         else:
@@ -128,22 +128,22 @@ class _Torque:
             top = (given("peak_share", stroke.peak, f"{path}.peak") * over).named("crank_angle.peak")
             laws, ends = [], []
             if stroke.peak > 0:
-                laws.append(torque_between_points(nothing, peak, angle, start, top))
+                laws.append(torque_between_points(zero, peak, angle, start, top))
                 ends.append(stroke.peak * end)
             if stroke.peak < 1:
-                laws.append(torque_between_points(peak, nothing, angle, top, over))
+                laws.append(torque_between_points(peak, zero, angle, top, over))
                 ends.append(end)
         if end < self._cycle - 1e-9:
-            laws, ends = [*laws, nothing], [*ends, self._cycle]
-        one = TracedValue(Piecewise(ends, tuple(laws)), name)
+            laws, ends = [*laws, zero], [*ends, self._cycle]
+        single = TracedValue(Piecewise(ends, tuple(laws)), name)
         begin = math.degrees(stroke.start)
         return [
-            delayed(one, round(begin + turn * self._period, 9), self._cycle, f"{name}.{turn + 1}")
+            delayed(single, round(begin + turn * self._period, 9), self._cycle, f"{name}.{turn + 1}")
             for turn in range(self._times)
         ]
 
     def work(self, number: int) -> TracedValue:
-        """Return the work of a stretch: stated, of an area of the drawing, or of shearing."""
+        """Return the work of a stroke: stated, of an area of the drawing, or of shearing."""
         machine, stated, path = self._machine, self._machine.stated, f"{self._table}.strokes[{number}]"
         plain = given(f"stroke_work.{number}", self._diagram.strokes[number - 1].work, f"{path}.work")
         scale = work_scale(machine, self._table)
@@ -168,7 +168,7 @@ class _Torque:
         return plain
 
     def _by_strength(self, number: int, area: TracedValue, thickness: TracedValue) -> TracedValue:
-        """Return the work of a stretch that shears an area by its strength, until the plate is through."""
+        """Return the work of a stroke that shears an area by its strength, until the plate is cut through."""
         stated, path = self._machine.stated, f"{self._table}.strokes[{number}]"
         strength = given("shear_strength", stated[f"{path}.shear_strength"].value, f"{path}.shear_strength")
         depth = given("penetration", stated[f"{path}.penetration"].value, f"{path}.penetration") * thickness
@@ -181,7 +181,7 @@ class _Torque:
         return force.named(f"shearing_force.{number}") * (depth + longer)  # type: ignore[no-any-return]
 
     def _over(self, stroke: WorkStroke, number: int) -> TracedValue:
-        """Return the angle of a stretch: stated, of a time, of a part of the period, or of a punch in a plate."""
+        """Return the angle of a stroke: stated, of a time, of a part of the period, or of a punch in a plate."""
         stated, path = self._machine.stated, f"{self._table}.strokes[{number}]"
         plain = given(f"stroke_angle.{number}", stroke.over, f"{path}.over")
         over, punch = stated.get(f"{path}.over"), stated.get(f"{path}.punch_stroke")

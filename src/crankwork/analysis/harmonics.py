@@ -12,20 +12,20 @@ from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue
 from crankwork.shaft.curve import Curve
 
-# orders per revolution, and what rounding leaves of the highest degrees of polynomials
+# orders per revolution, and relative size of coefficients of polynomials that are rounding
 _ORDERS = 12
 _ROUNDING = 1e-16
-# share of the torque of the largest joint force that rounding leaves of nothing
-_NOTHING = 1e-12
+# share of the torque of the largest joint force below which a torque is rounding
+_NEGLIGIBLE = 1e-12
 
 
 def order_count(cycle: float) -> int:
-    """Return how many harmonics of a cycle are told. [deg]"""
+    """Return how many harmonics of a cycle are listed. [deg]"""
     return round(_ORDERS * cycle / 360)
 
 
 def curve_of(over: CycleInterpolant, key: str) -> Curve:
-    """Return a column as polynomials, without degrees that are nothing but rounding."""
+    """Return a column as polynomials, without degrees that are only rounding."""
     series = over.polynomials(key)
     sizes = np.max(np.abs(series), axis=0)
     last = int(np.max(np.flatnonzero(sizes > _ROUNDING * sizes.max()), initial=0))
@@ -66,12 +66,12 @@ def harmonics_listing(harmonics: Mapping[str, TracedValue]) -> Listing:
 def delivered_harmonics(over: CycleInterpolant, cycle: float, radius: float) -> dict[str, TracedValue]:
     """Return the torque that a linkage gives to its crank, minus the balancing torque, and its harmonics.
 
-    Nothing where it is no more than what rounding leaves of the forces in joints at the crank radius. `over`: its
+    Empty if the torque is only the rounding of the joint forces at the crank radius. `over`: its
     columns over a whole cycle [deg]; `radius`: of the crank [m].
     """
     reach = {key: max(abs(end.value) for end in ends) for key, ends in over.extreme_points.items()}
     forces = [size for key, size in reach.items() if key.startswith("joint_force.")]
-    if reach.get("balancing_torque", 0.0) <= _NOTHING * radius * max(forces, default=0.0):
+    if reach.get("balancing_torque", 0.0) <= _NEGLIGIBLE * radius * max(forces, default=0.0):
         return {}
     torque = (-over.columns["balancing_torque"]).named("total_torque")
     coefficients = curve_harmonics(-curve_of(over, "balancing_torque"), order_count(cycle))

@@ -23,7 +23,7 @@ class LoadInput(NamedTuple):
 
     kind: str  # `slider`, `point`, `force`, `torque`, `spring`, `damper`, either with `slider_`, or `weight`
     names: Mapping[str, str]  # What it acts on: `name`, and the `other` end of a spring or damper
-    # Values and the units in which they are told; of a table its largest, none of a law that is a program [SI]
+    # Values and the units in which they are displayed; the largest of a table, None for a program [SI]
     amounts: Mapping[str, tuple[float | None, str]]
 
 
@@ -56,20 +56,20 @@ def _stated(load: Load) -> LoadInput:
 
 
 def _largest(force: object) -> float | None:
-    """Return the largest value of a constant or of a table, nothing of a law that is a program."""
+    """Return the largest value of a constant or of a table, None for a law that is a program."""
     values = getattr(force, "values", force)
     return None if callable(values) else float(np.max(np.abs(np.asarray(values, dtype=float))))
 
 
 class FrictionInput(NamedTuple):
-    """A joint that rubs as a description states it."""
+    """A joint with friction as a description states it."""
 
     name: str
-    amounts: Mapping[str, tuple[float, str]]  # Values by key of quantity, and the units in which they are told [SI]
+    amounts: Mapping[str, tuple[float, str]]  # Values by key of quantity, and the units of their display [SI]
 
 
 def stated_friction(machine: Machine) -> tuple[FrictionInput, ...]:
-    """Return what rubs in a linkage as its description states it."""
+    """Return the joints with friction of a linkage as its description states them."""
     if not machine.friction:
         return ()
     # linkages without friction do not load it
@@ -129,7 +129,7 @@ def stated_chambers(machine: Machine) -> tuple[ChamberInput, ...]:
 
 
 def stated_charges(machine: Machine) -> tuple[ChargeInput, ...]:
-    """Return what is sealed in the chambers of a linkage."""
+    """Return the gas charges sealed in the chambers of a linkage."""
     return tuple(
         ChargeInput(
             name, value.chambers, tuple((dead.volume, dead.temperature) for dead in value.dead_volumes), value.exponent

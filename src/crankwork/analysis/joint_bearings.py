@@ -34,7 +34,7 @@ from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
 
 FORCES = ("crankpin_radial_force", "crankpin_tangential_force", "crankpin_load")
-# columns of which extremes are told under other keys
+# columns whose extremes have other keys
 FOLLOWED = ("bearing_force_x", "crankpin_load")
 _X, _Y = "bearing_force_x", "bearing_force_y"
 _OF_CRANKPIN = {
@@ -150,7 +150,7 @@ def bearings_of(machine: Machine, motion: Motion, trace: Mapping[str, TracedValu
 
 
 def _crankpins(machine: Machine, pins: Mapping[str, Pin], cranks: Mapping[str, int]) -> dict[str, tuple[str, ...]]:
-    """Return the joints of the rods on each pin of a crank; what links too many put on one is not known there."""
+    """Return the joints of the rods on each pin of a crank, without the pins of redundant links (forces unknown)."""
     extra = {point for link in machine.redundant for point in link.member.points}
     # on the axis of the crank there is no arm
     extra |= {point.name for point in machine.mechanism.points if point.along == point.across == 0}
@@ -259,7 +259,7 @@ class BearingCycle:
         return {**self._bearings.between, **self.all_bearings}
 
     def listings(self) -> dict[str, Listing]:
-        """Return what the loads come to over the cycle, and the wear of crankpins and main journals."""
+        """Return the summary of the loads over the cycle, and the wear of crankpins and main journals."""
         if not self._loads:
             return {}
         result = {"bearing_loads": loads_listing(self.all_bearings, with_reversal=True)}

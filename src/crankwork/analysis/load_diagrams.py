@@ -67,30 +67,30 @@ class EngineDiagrams:
         return self.results.machine.cycle
 
     @cached_property
-    def whole(self) -> MultiCylinderEngine:
+    def engine(self) -> MultiCylinderEngine:
         """The engine."""
         return multi_cylinder_engine(self.results.solved)
 
     @property
     def count(self) -> int:
         """How many cylinders it has."""
-        return len(self.whole.cylinders)
+        return len(self.engine.cylinders)
 
     @property
     def has_throws(self) -> bool:
         """Whether its crankshaft has more than one throw."""
-        return len({place.throw for place in self.whole.layout.places}) > 1
+        return len({place.throw for place in self.engine.layout.places}) > 1
 
     @property
     def is_spread(self) -> bool:
-        """Whether cylinders stand side by side along the shaft."""
-        return len({place.position for place in self.whole.layout.places}) > 1
+        """Whether cylinders are at different positions along the shaft."""
+        return len({place.position for place in self.engine.layout.places}) > 1
 
     @cached_property
     def torque(self) -> EngineTorque:
         """Torque of one cylinder and of all, and speed."""
-        result = EngineTrace.of(self.whole.master)
-        return engine_torque(result.whole, result.trace, result.over, result.extremes)
+        result = EngineTrace.of(self.engine.master)
+        return engine_torque(result.engine, result.trace, result.over, result.extremes)
 
     @cached_property
     def excess(self) -> ExcessWork:
@@ -107,12 +107,12 @@ class EngineDiagrams:
     @cached_property
     def torques(self) -> Array:
         """Torque of every cylinder at `degrees`, shape (cylinders, n). [N m]"""
-        return self.whole.each("crank_torque", self.degrees)
+        return self.engine.each("crank_torque", self.degrees)
 
     @property
     def journal_torques(self) -> Array:
         """Torque on every main journal that carries some, from the second on, at `degrees`. [N m]"""
-        return np.asarray(torques_along_shaft(list(self.torques), self.whole.layout).journals[1:])
+        return np.asarray(torques_along_shaft(list(self.torques), self.engine.layout).journals[1:])
 
     @cached_property
     def loads(self) -> tuple[Array, BearingLoads]:
@@ -122,22 +122,22 @@ class EngineDiagrams:
         return degrees, self._loads_at(degrees)
 
     def _loads_at(self, degrees: Array) -> BearingLoads:
-        parts = Program(bearing_components(self.whole, self.results.trace))
-        return bearing_loads(self.whole, parts(CrankGrid.from_degrees(degrees)))
+        parts = Program(bearing_components(self.engine, self.results.trace))
+        return bearing_loads(self.engine, parts(CrankGrid.from_degrees(degrees)))
 
     def other_pressures(self, degrees: Array) -> dict[int, Array]:
         """Return the gas pressure of the first cylinder of every gas that is not that of cylinder 1, by number. [Pa]
 
         `degrees`: its own crank angles.
         """
-        gases = self.whole.engine.gases
-        firsts = [at for at, gas in enumerate(gases) if at and all(gas is not gase for gase in gases[:at])]
-        values = Program({str(at): self.whole.cylinders[at].trace["gas_pressure"] for at in firsts})
-        return {int(at) + 1: value for at, value in values(CrankGrid.from_degrees(degrees)).items()}
+        gases = self.engine.engine.gases
+        firsts = [index for index, gas in enumerate(gases) if index and all(gas is not gase for gase in gases[:index])]
+        values = Program({str(index): self.engine.cylinders[index].trace["gas_pressure"] for index in firsts})
+        return {int(index) + 1: value for index, value in values(CrankGrid.from_degrees(degrees)).items()}
 
     @property
     def pin_sizes(self) -> tuple[Array, Mapping[str, Array]]:
-        """Crank angles over the cycle without its end [deg], and the size of the load on every unlike crankpin. [N]"""
+        """Crank angles over the cycle without its end [deg], and the load on every distinct crankpin. [N]"""
         degrees, loads = self.loads
         return degrees, {str(pin): load.resultant for pin, load in loads.crankpins.items()}
 
@@ -148,7 +148,7 @@ class EngineDiagrams:
         [deg].
         """
         degrees, loads = self.loads if degrees is None else (degrees, self._loads_at(degrees))
-        load, rods = loads.crankpins[int(pin)], len(self.whole.on_pin[int(pin) - 1])
+        load, rods = loads.crankpins[int(pin)], len(self.engine.on_pin[int(pin) - 1])
         inertia = rods * _rod_inertia(self.results)
         return CrankpinLoad(load.resultant, polar_diagram(load, degrees, self.cycle, inertia), inertia, rods)
 
@@ -169,16 +169,16 @@ class EngineDiagrams:
     @cached_property
     def balance(self) -> EngineBalance:
         """Free forces and moments."""
-        return engine_balance(self.whole)
+        return engine_balance(self.engine)
 
     @cached_property
     def loci(self) -> dict[int, tuple[Locus, Locus]]:
-        """The forces of each order of cylinders and cranks, and of all, where either is not nothing."""
+        """The forces of each order of cylinders and cranks, and the residual, unless both are negligible."""
         balance = self.balance
         before = {item.order: item.force for item in balance_sum((*balance.reciprocating, balance.rotating))}
         after = {item.order: item.force for item in balance.residual}
-        least = _ROUNDING * self.whole.masses.reciprocating * self.whole.master.lengths.crank_radius
-        least *= self.whole.master.speed**2
+        least = _ROUNDING * self.engine.masses.reciprocating * self.engine.master.lengths.crank_radius
+        least *= self.engine.master.speed**2
         return {
             order: (_locus(value), _locus(after[order]))
             for order, value in before.items()
@@ -189,7 +189,7 @@ class EngineDiagrams:
     def phase_stars(self) -> list[PhaseStar]:
         """The phase stars of the orders up to 6."""
         step = 360 / self.cycle
-        return [phase_star(self.whole.layout, step * at) for at in range(1, round(_STAR_ORDERS / step) + 1)]
+        return [phase_star(self.engine.layout, step * k) for k in range(1, round(_STAR_ORDERS / step) + 1)]
 
 
 def _locus(ellipse: Ellipse) -> Locus:

@@ -1,4 +1,4 @@
-"""The joints of master rods: their crankpin, piston pin and wall bear what articulated rods pass on to them."""
+"""The joints of master rods: their crankpin, piston pin and wall also carry forces of articulated rods."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from crankwork.formula.traced_value import TracedAngle, TracedValue, total
 
 
 def master_joints(engine: MultiCylinderEngine, loads: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
-    """Yield the forces in the joints of every unlike master rod, by the names that they have for a rod alone.
+    """Yield the forces in the joints of every distinct master rod, under the keys of a single rod.
 
     `loads`: those of the crankpins.
     """
     pin, piston = joint_names(engine.master)
-    for at in distinct_crankpins(engine):
-        passed = [engine.of(item.number, "knuckle_side_force") for item in engine.on_pin[at - 1] if item.master]
+    for crankpin in distinct_crankpins(engine):
+        passed = [engine.of(item.number, "knuckle_side_force") for item in engine.on_pin[crankpin - 1] if item.master]
         if not passed:
             continue
-        place = next(item for item in engine.on_pin[at - 1] if not item.master)
+        place = next(item for item in engine.on_pin[crankpin - 1] if not item.master)
         number, own = place.number, "" if place.number == 1 else f".{place.number}"
         angle = TracedAngle().shifted(-place.firing_angle)
-        radial, tangential = (loads[f"crankpin_{way}_force.{at}"] for way in ("radial", "tangential"))
+        radial, tangential = (loads[f"crankpin_{axis}_force.{crankpin}"] for axis in ("radial", "tangential"))
         yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}{own}")
         yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}{own}")
         yield joint_force(tangential, radial).named(f"joint_force.{pin}{own}")
         side = total(f"knuckle_side_force{own}", passed)
-        x, y = (engine.of(number, f"joint_force_{way}.{piston}") for way in "xy")
+        x, y = (engine.of(number, f"joint_force_{axis}.{piston}") for axis in "xy")
         across = (x - side).named(f"joint_force_x.{piston}{own}")
         yield across
         yield joint_force(across, y).named(f"joint_force.{piston}{own}")

@@ -54,14 +54,14 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
     if machine.engine is None or "crank_torque" not in solved.trace:
         program = Program(own | followed)
         samples = Samples(program, CrankGrid.from_degrees, machine.cycle)
-        engine = None
+        engine_trace = None
         over = CycleInterpolant(followed, CrankGrid.from_degrees, machine.cycle, size_of=wrong, program=program)
     else:
         from crankwork.analysis.all_cylinders import EngineTrace  # noqa: PLC0415 - loaded where it is needed
 
-        # what one cylinder does is followed together with what all do
-        engine = EngineTrace.of(solved, followed, wrong, own)
-        samples, over = engine.samples, engine.over
+        # columns of one cylinder are interpolated together with those of all
+        engine_trace = EngineTrace.of(solved, followed, wrong, own)
+        samples, over = engine_trace.samples, engine_trace.over
     result = {**_geometry(solved), **_motion(solved, over), **_forces(solved, over)}
     result = _by_own_keys(machine, result)
     calculated = solved.space.calculated if solved.space is not None else None
@@ -74,7 +74,7 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         | result
     )
     if calculated is not None and "geometric_compression_ratio" in calculated.trace:
-        # that of the closed cylinder, as the summary has it
+        # the ratio of the closed cylinder, as in the summary
         trace["compression_ratio"] = calculated.trace["compression_ratio"]
     results = Results(
         solved,
@@ -91,11 +91,11 @@ def analyse_engine(machine: Machine, grid: CrankGrid | None = None, *, method: M
         return results
     from crankwork.analysis.all_cylinders import with_whole_engine  # noqa: PLC0415 - loaded where it is needed
 
-    return with_whole_engine(results, engine)
+    return with_whole_engine(results, engine_trace)
 
 
 def own_key(machine: Machine, key: str) -> str:
-    """Return the key of a value of cylinder 1; of what the whole engine has too, that of the cylinder names it."""
+    """Return the key of a value of cylinder 1; different from that of the whole engine if both have the value."""
     return MOVED.get(key, key) if machine.engine is not None else key
 
 
@@ -105,12 +105,12 @@ def _by_own_keys(machine: Machine, values: Mapping[str, TracedValue]) -> dict[st
 
 
 def _only(names: Mapping[str, str], columns: Mapping[str, Array]) -> dict[str, Array]:
-    """Return columns by key, each found under its name."""
+    """Return columns by key, each read under its name."""
     return {key: columns[name].copy() for key, name in names.items() if name in columns}
 
 
 def _followed(solved: PreparedCylinder) -> tuple[dict[str, TracedValue], dict[str, str]]:
-    """Return what the summary is about, of an approximate method with its errors, and what each is an error of."""
+    """Return the columns of the summary, with the errors of an approximate method, and the column of each error."""
     trace, wrong = solved.trace, dict[str, str]()
     values = {key: trace[key] for key in (*_MOVING, *_PUSHING) if key in trace}
     if not solved.method.is_exact:
@@ -168,7 +168,7 @@ def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
     if solved.space is not None:
         work = values["indicated_work"] = work_of_gas(solved, solved.space)
         if solved.machine.angular_acceleration:
-            # what speeds up the parts is none of a cycle that repeats
+            # the torque that accelerates the parts is not periodic
             mean = gas_formulas.mean_torque(work, cycle).named("mean_torque")
         values["indicated_mean_pressure"] = gas_formulas.indicated_mean_pressure(work, trace["swept_volume"])
         power = values["indicated_power"] = gas_formulas.indicated_power(work, trace["speed"], cycle)
@@ -178,7 +178,7 @@ def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
             values |= stated.drawn(trace["clearance_volume"], trace["swept_volume"])
             engine = solved.machine.engine
             if engine is None or len(engine.layout.places) == 1:
-                # of several cylinders all together deliver
+                # the delivery of several cylinders is that of the engine
                 values |= stated.passed(inlet_flow(values["induced_volume"], trace["speed"], cycle), power)
     values["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
     return values
@@ -195,7 +195,7 @@ def _checks(
     T, K, S, N = (dense[key] for key in ("tangential_force", "radial_force", "rod_force", "side_force"))
     P, r, l = dense["piston_force"], solved.lengths.crank_radius, solved.lengths.rod_length  # noqa: E741
     across = dense.get("rod_transverse_force", np.zeros_like(S))
-    # what the wall takes beside the rod: the weight across the axis
+    # the wall also carries the weight across the axis
     weight = dense.get("transverse_weight", np.zeros_like(S))
     height = r * np.cos(dense["crank_angle"]) + l * np.cos(dense["rod_angle"])
     rigid = "_rigid" if "rod_transverse_force" in dense else ""
@@ -225,10 +225,10 @@ def _checks(
 
 
 def _torque_of_energy(solved: PreparedCylinder, dense: Mapping[str, Array]) -> Array:
-    """Return the torque that gas and weights do work with, less what changes the energy of the masses."""
+    """Return the torque of the work of gas and weights, less that of the change of kinetic energy."""
     w, eps, trace = solved.speed, solved.machine.angular_acceleration, solved.trace
     pushed = sum((dense[key] for key in ("gas_force", "weight_force") if key in dense), np.zeros_like(w))
-    # that of the rotating mass has its inertia in it
+    # the torque of the rotating mass includes its inertia
     turning = trace["rotating_mass"].value * solved.lengths.crank_radius**2
     rotating = dense.get("rotating_torque", 0.0) + turning * eps
     energy = w**2 / 2 * dense["reduced_inertia_1"] + dense["reduced_inertia"] * eps
@@ -236,13 +236,13 @@ def _torque_of_energy(solved: PreparedCylinder, dense: Mapping[str, Array]) -> A
 
 
 def _allowed(solved: PreparedCylinder, summary: Mapping[str, float]) -> dict[str, float]:
-    """Return how far the work of the torque may be from that of the gas by the error of the torque that is stated."""
+    """Return the residual of the work that the stated error of the torque allows."""
     if "crank_torque_error" not in summary or solved.space is None:
         return {}
     return {"work": summary["crank_torque_error"] * math.radians(solved.machine.cycle) / moved_work(solved, summary)}
 
 
 def moved_work(solved: PreparedCylinder, summary: Mapping[str, float]) -> float:
-    """Return the most work that the torque could do over a cycle; what it does in the end may be nothing."""
+    """Return the work of the largest torque over a cycle, as a scale; the net work may be zero."""
     largest = max(abs(summary["crank_torque_max"]), abs(summary["crank_torque_min"]))
     return largest * math.radians(solved.machine.cycle) or 1.0

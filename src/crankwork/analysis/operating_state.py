@@ -1,4 +1,4 @@
-"""A solved linkage at work, in numbers, with what its redundant links bear."""
+"""The operating state of a linkage in numbers, with the forces along its redundant links."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def operating_state(solved: PreparedLinkage, motion: Motion) -> OperatingState:
 
 
 def is_shared(links: Sequence[RedundantLink]) -> bool:
-    """Return whether it is stated what every redundant link bears, so that joint forces are known."""
+    """Return whether the force share of every redundant link is stated, so that joint forces are known."""
     return all(link.share is not None for link in links)
 
 
@@ -56,10 +56,10 @@ class _Shares:
 
 
 def _left(
-    links: Sequence[RedundantLink], forces: Sequence[TracedValue], others: Sequence[TracedValue]
+    links: Sequence[RedundantLink], forces: Sequence[TracedValue], other_forces: Sequence[TracedValue]
 ) -> Iterator[TracedValue]:
     """Yield by how much forces along redundant links differ from their shares."""
-    for link, force, other in zip(links, forces, others, strict=True):
+    for link, force, other in zip(links, forces, other_forces, strict=True):
         share = given(f"force_share.{link.member.name}", link.share or 0.0, f"links.{link.member.name}.share")
         yield (force - share * other).named(f"axial_force.{link.member.name}.left")
 
@@ -67,8 +67,8 @@ def _left(
 def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tuple[JointForces, dict[str, TracedValue]]:
     """Return the joint forces of a mechanism at work with its redundant links, and the forces along links by key.
 
-    Those without redundant links where it is not stated what these bear; then only the driver's is one of the whole.
-    What a redundant link bears is found with all others; what is left of its share is noted as an equation.
+    Without redundant links if their shares are not stated; then only the driver's force is one of the full mechanism.
+    The forces of redundant links are solved together; the residuals of their shares are traced as equations.
     """
     links = solved.machine.redundant
     if not links or not is_shared(links):
@@ -78,8 +78,8 @@ def traced_joint_forces(solved: PreparedLinkage, running: OperatingState) -> tup
     loads = running.loads
     for link, force in zip(links, forces, strict=True):
         loads = loads.also(pressing(running.mechanism, running.motion, link, force))
-    engine = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
-    values = joint_forces(engine)
-    others = [force_along_other(running.mechanism, running.motion, values, link) for link in links]
-    root.residuals = tuple(_left(links, forces, others))
-    return values, {item.key: item for item in [*forces, *others]}
+    state = OperatingState(running.mechanism, running.motion, running.speed, loads, running.angular_acceleration)
+    values = joint_forces(state)
+    other_forces = [force_along_other(running.mechanism, running.motion, values, link) for link in links]
+    root.residuals = tuple(_left(links, forces, other_forces))
+    return values, {item.key: item for item in [*forces, *other_forces]}

@@ -31,7 +31,7 @@ HARMONICS = tuple(
 
 
 class CylinderKinematics(NamedTuple):
-    """A cylinder in motion: what is given, what moves, and everything by key so far."""
+    """A cylinder in motion: inputs, motion, and all traced values by key so far."""
 
     angle: Value
     lengths: SliderCrank

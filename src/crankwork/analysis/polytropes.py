@@ -40,7 +40,7 @@ def polytropes(results: Results) -> Polytropes | None:
     step = max(1.0, math.ceil(ratio / _ROWS))
     multiples = np.array([*np.arange(1.0, ratio - 1e-9, step), ratio])
     ends = [end / space.clearance for span in spans.values() for end in span]
-    # an end beside a whole multiple is that multiple
+    # an end near an integer multiple is that multiple
     ends = [end for end in ends if not np.any(np.isclose(end, multiples, rtol=1e-6))]
     volumes = np.unique(np.round([*multiples, *ends], 9)) * space.clearance
     within = {name: _is_within(volumes, *span) for name, span in spans.items()}
@@ -67,7 +67,7 @@ def _by_stroke(diagram: IndicatorDiagram, cycle: float) -> dict[str, Segment]:
 
 def _span(results: Results, diagram: IndicatorDiagram, segment: Segment) -> tuple[float, float]:
     """Return the least and the largest volume of a polytrope, with that of the state it passes through. [m3]"""
-    same = [one for one in diagram.segments if one.law == "polytropic" and one.state == segment.state]
+    same = [piece for piece in diagram.segments if piece.law == "polytropic" and piece.state == segment.state]
     degrees = [angle for item in same for angle in (item.start, item.end)]
     volumes = results.columns_at(degrees, ("cylinder_volume",))["cylinder_volume"]
     reference = segment.state[1]

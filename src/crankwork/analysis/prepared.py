@@ -200,7 +200,7 @@ def _with_space(solved: PreparedCylinder, notices: list[Notice]) -> PreparedCyli
         begins = solved.begins if gas.valves is None else top
         ends = ((top - begins) % _TURN, (bottom - begins) % _TURN) if begins else (top, bottom)
         diagram = _given_diagram(gas, lambda degrees: volume_at(degrees + begins), ends, notices).later(begins)
-        notices += [Notice("jump", {"point": name, "angle": at, "step": step}) for name, at, step in diagram.jumps]
+        notices += [Notice("jump", {"point": name, "angle": phi, "step": step}) for name, phi, step in diagram.jumps]
     rod_area = float(gas_formulas.piston_area(method.pi, cylinder.piston_rod_diameter))
     work, of_rod = gas.factor * diagram.work(volume_at), (rod_area, gas.back_pressure)
     space = WorkingSpace(area, clearance, swept, diagram, ambient, work, *of_rod, calculated, gas.factor)
@@ -216,10 +216,10 @@ def _given_diagram(
     """
     if gas.measured is not None:
         around = PressureReference(volume_at, centres[0])
-        diagram, told = measured_diagram(
+        diagram, messages = measured_diagram(
             gas.measured, gas.cycle, around, shift=gas.angle_shift, step=gas.resample, path=gas.path
         )
-        notices += [Notice(*item) for item in told]
+        notices += [Notice(*item) for item in messages]
         return diagram
     diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
     return diagram if gas.valves is None else StatedValves(gas.valves, "gas.valves").traced(diagram)

@@ -1,4 +1,4 @@
-"""What an analysis returns: columns over the crank angle, single values, checks and notices."""
+"""Results of an analysis: columns over the crank angle, single values, checks and notices."""
 
 from __future__ import annotations
 
@@ -38,20 +38,20 @@ if TYPE_CHECKING:
 
 # a residual above this is more than rounding
 _ROUNDING = 1e-7
-# rows of a table are no further from where they are said to stand, in degrees
+# largest distance of a row of a table from its stated angle [deg]
 _SAME_ANGLE = 1e-9
 
 
 class Listing(NamedTuple):
     """A table that does not run over the crank angle: orders, rays, cylinders, bearings."""
 
-    # Columns by key of `quantities.QUANTITIES`, the first of which says what each row is, shape (n,) [SI]
+    # Columns by key of `quantities.QUANTITIES`, the first of which identifies each row, shape (n,) [SI]
     columns: Mapping[str, Array]
-    # What rows are called where they are things, such as `crankpin.1`; empty where the first column says it
+    # Names of the rows, such as `crankpin.1`; empty if the first column identifies the rows
     names: tuple[str, ...] = ()
 
     def with_rows_of(self, other: Listing) -> Listing:
-        """Return this table with the rows of another one below it; of rows that both have, with its further columns."""
+        """Return this table with further rows and columns of another; rows of the same name are joined."""
         if not self.names:
             return Listing({**other.columns, **self.columns})
         names = (*self.names, *(name for name in other.names if name not in self.names))
@@ -203,7 +203,7 @@ class Results(Mapping[str, Array | float]):
         return self.other if self.other._has(key) else self  # noqa: SLF001 - of its own class
 
     def current(self, key: str) -> str:
-        """Return the key that a result has today; warn where it had another one, or was the value of something else."""
+        """Return the current key of a result; warn if the key was renamed, or was the key of another value."""
         renamed, engine = RENAMED.get(key, key), self.machine.engine
         notice, is_renamed = None, renamed != key and renamed in self
         if is_renamed:
@@ -290,7 +290,7 @@ class Results(Mapping[str, Array | float]):
             raise self._unknown(key, self)
         return np.asarray(Program({key: self.trace[key]})(self.grid)[key] + np.zeros(len(self.grid)))
 
-    # as objects: arrays do not say in a word whether they are equal
+    # identity: comparing arrays gives no single truth value
     __eq__ = object.__eq__
     __hash__ = object.__hash__
 
@@ -307,8 +307,8 @@ class Results(Mapping[str, Array | float]):
         return list(self)
 
     def unit(self, key: str) -> str:
-        """Return the SI unit of what a key gives, empty for a pure number."""
-        # words stand above the analysis, and these are doors to them
+        """Return the SI unit of the value of a key, empty for a pure number."""
+        # texts belong to packages above the analysis; these methods only call them
         from crankwork.report.display import key_unit  # noqa: PLC0415
 
         if key not in self:
@@ -444,50 +444,50 @@ class Results(Mapping[str, Array | float]):
         CrankworkError
             As `value` does.
         """
-        # words stand above the analysis, and this is a door to them
+        # texts belong to packages above the analysis; this method only calls them
         from crankwork.note.explain import explanation  # noqa: PLC0415
 
         key = self.current(key)
         return explanation(self.holding(key), key, at, language)
 
-    def _column_at(self, key: str, known: TracedValue | None, at: float) -> float:
-        row = int(np.argmin(np.abs(self.grid.degrees - at)))
+    def _column_at(self, key: str, known: TracedValue | None, degrees: float) -> float:
+        row = int(np.argmin(np.abs(self.grid.degrees - degrees)))
         if known is None or self.has_positions:
-            if abs(float(self.grid.degrees[row]) - at) > _SAME_ANGLE:
+            if abs(float(self.grid.degrees[row]) - degrees) > _SAME_ANGLE:
                 nearest = f"{self.grid.degrees[row]:g}"
-                raise CrankworkError(ErrorMessage("angle_between_rows", key=key, angle=at, nearest=nearest))
+                raise CrankworkError(ErrorMessage("angle_between_rows", key=key, angle=degrees, nearest=nearest))
             if known is None:
                 return float(self.columns[key][row])
         with warnings.catch_warnings():
-            # at an angle that the crank does not reach, which is refused below
+            # at an angle that the crank does not reach, an error is raised below
             warnings.simplefilter("ignore", RuntimeWarning)
-            value = float(Program({key: known})(CrankGrid.from_degrees([at]))[key][0])
+            value = float(Program({key: known})(CrankGrid.from_degrees([degrees]))[key][0])
         if not math.isfinite(value):
-            raise CrankworkError(ErrorMessage("angle_unreached", key=key, angle=at))
+            raise CrankworkError(ErrorMessage("angle_unreached", key=key, angle=degrees))
         return value
 
     @property
     def has_positions(self) -> bool:
-        """Whether columns stand at the positions of a document's table, with nothing between them."""
+        """Whether columns have values only at the positions of a document's table, none between them."""
         return self.machine.transfer is not None
 
-    def _within(self, key: str, at: float | None) -> float:
-        """Return a crank angle for what varies."""
+    def _within(self, key: str, angle_or_time: float | None) -> float:
+        """Return the crank angle of a value that varies. [deg]"""
         if self.period:
-            if at is None:
+            if angle_or_time is None:
                 raise CrankworkError(ErrorMessage("time_missing", key=key, example=f"{self.period / 2:g}"))
-            if not 0 <= at <= self.period:
-                raise CrankworkError(ErrorMessage("time_outside", time=at, period=self.period))
-            return self.degrees_of(at)
-        if at is None:
+            if not 0 <= angle_or_time <= self.period:
+                raise CrankworkError(ErrorMessage("time_outside", time=angle_or_time, period=self.period))
+            return self.degrees_of(angle_or_time)
+        if angle_or_time is None:
             middle = float(self.grid.degrees[len(self.grid) // 2])
             raise CrankworkError(ErrorMessage("angle_missing", key=key, example=f"{middle:g}"))
-        if not 0 <= at <= self.machine.cycle:
-            raise CrankworkError(ErrorMessage("angle_outside", angle=at, cycle=self.machine.cycle))
-        return float(at)
+        if not 0 <= angle_or_time <= self.machine.cycle:
+            raise CrankworkError(ErrorMessage("angle_outside", angle=angle_or_time, cycle=self.machine.cycle))
+        return float(angle_or_time)
 
     def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:
-        """Return the refusal of a key, with the nearest that there are."""
+        """Return the error of an unknown key, with the nearest keys that exist."""
         known, kind = list(known), key.partition(".")[0]
         if kind in QUANTITIES and not any(item.partition(".")[0] == kind for item in known):
             return UnknownKeyError(ErrorMessage("result_absent", key=_printable(key), method=self.method.name))

@@ -1,4 +1,4 @@
-"""What is only rounding: tables print nothing where numbers without an end would leave nothing."""
+"""Values that are only rounding: tables print zero where exact arithmetic would give zero."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _FORCES = (
     "joint_force_x", "joint_force_y", "joint_force", "axial_force", "normal_force", "tooth_force", "separating_force",
     "driver_force", "crankpin_radial_force", "crankpin_tangential_force", "crankpin_load", "main_journal_load",
 )  # fmt: skip
-# what forces leave at their distances
+# torques, sized also by forces times distances
 _TORQUES = (
     "static_torque", "balancing_torque", "driving_torque", "driver_torque", "normal_moment", "kinetic_energy_change",
 )  # fmt: skip
 # quantities that are sized together
-_ALIKE = (
+_SIZED_TOGETHER = (
     _PLACES,
     ("point_velocity_x", "point_velocity_y", "point_velocity", "slider_velocity", "driver_velocity"),
     ("point_acceleration_x", "point_acceleration_y", "point_acceleration", "slider_acceleration",
@@ -37,7 +37,7 @@ _ALIKE = (
 
 
 def without_rounding(columns: Mapping[str, Array], speed: float) -> dict[str, Array]:
-    """Return columns, those as zero that are nothing beside what their quantity comes to. `speed`: of the crank."""
+    """Return columns, zero where they are negligible against the size of their quantity. `speed`: of the crank."""
     sizes = _sizes(columns, speed)
     return {
         key: np.where(np.isfinite(value), 0.0, value) if _is_rounding(key, _largest(value), sizes) else value
@@ -46,13 +46,13 @@ def without_rounding(columns: Mapping[str, Array], speed: float) -> dict[str, Ar
 
 
 def summary_without_rounding(results: Results) -> dict[str, float]:
-    """Return the single values, as zero those extremes that are nothing beside their column or its quantity."""
+    """Return the single values; extremes that are negligible against their column or its quantity are zero."""
     limits = rounding_of_extremes(results)
     return {key: 0.0 if abs(value) <= limits.get(key, 0.0) else value for key, value in results.summary.items()}
 
 
 def rounding_of_extremes(results: Results) -> dict[str, float]:
-    """Return of the extremes of columns by key what of each is rounding."""
+    """Return the size of rounding of the extremes of columns by key."""
     summary, sizes, values = results.summary, _sizes(results.columns, results.machine.speed), dict[str, float]()
     for column in results.columns:
         kind, dot, name = column.partition(".")
@@ -63,7 +63,7 @@ def rounding_of_extremes(results: Results) -> dict[str, float]:
 
 
 def _sizes(columns: Mapping[str, Array], speed: float) -> dict[str, float]:
-    """Return what each kind of quantity comes to. Angles are measured by a radian."""
+    """Return the size of each kind of quantity; that of angles is one radian."""
     largest: dict[str, float] = {}
     for key, value in columns.items():
         kind = key.partition(".")[0]
@@ -72,7 +72,7 @@ def _sizes(columns: Mapping[str, Array], speed: float) -> dict[str, float]:
     def most(kinds: tuple[str, ...]) -> float:
         return max(largest.get(kind, 0.0) for kind in kinds)
 
-    sizes = {kind: most(some) for some in _ALIKE for kind in some}
+    sizes = {kind: most(group) for group in _SIZED_TOGETHER for kind in group}
     fastest = max(speed, most(_SPEEDS))
     sizes |= dict.fromkeys(("link_angle", "driver_angle", "rotation_ratio"), 1.0)
     sizes |= dict.fromkeys(_SPEEDS, fastest)

@@ -1,4 +1,4 @@
-"""Where crank, rods and pistons of every cylinder of an engine are, what its gas presses, and when it fires."""
+"""Positions of crank, rods and pistons of every cylinder of an engine, its gas pressure, and when it fires."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class SampledEngine(NamedTuple):
 
 
 def engine_moving(machine: Machine, degrees: Array, results: Results | None = None) -> SampledEngine | None:
-    """Return a machine with cylinders at crank angles; nothing if it has none.
+    """Return a machine with cylinders at crank angles; None if it has no cylinders.
 
     `results`: without them pressures are not known.
     """
@@ -68,18 +68,18 @@ def engine_moving(machine: Machine, degrees: Array, results: Results | None = No
     for crankpin in sorted({place.crankpin for place in layout.places}):
         mechanism = throw_mechanism(layout, lengths, engine.articulated_rods, engine.offsets, crankpin)
         points = {name: value.place for name, value in sample_motion(mechanism, degrees).points.items()}
-        # dead centres lie between the frames
-        every = sample_motion(mechanism, np.arange(_TURN)).points
+        # dead centres lie between the sampled angles
+        turn = sample_motion(mechanism, np.arange(_TURN)).points
         for place in (place for place in layout.places if place.crankpin == crankpin):
             offset = engine.offsets[place.number - 1] if engine.offsets else lengths.offset
             joint = points[f"C{place.number}" if place.master else "A"]
-            one = SampledCylinder(place, offset, points["A"], joint, points[f"B{place.number}"], 0.0, 0.0)
-            reach = every[f"B{place.number}"].place @ one.axis
-            one = one._replace(top=float(reach.max()), bottom=float(reach.min()))
+            cylinder = SampledCylinder(place, offset, points["A"], joint, points[f"B{place.number}"], 0.0, 0.0)
+            reach = turn[f"B{place.number}"].place @ cylinder.axis
+            cylinder = cylinder._replace(top=float(reach.max()), bottom=float(reach.min()))
             own = {key: values[place.number - 1] for key, values in columns.items()}
             if (pressure := own.pop("gas_pressure", None)) is not None:
-                one = one._replace(pressure=pressure, fires=_fires(machine, engine, place))
-            result.append(one._replace(forces=own))
+                cylinder = cylinder._replace(pressure=pressure, fires=_fires(machine, engine, place))
+            result.append(cylinder._replace(forces=own))
     return SampledEngine(degrees, layout, tuple(sorted(result, key=lambda item: item.place.number)))
 
 
@@ -95,17 +95,17 @@ def _columns(results: Results | None, degrees: Array) -> dict[str, Array]:
     """Return gauge pressure and forces of every cylinder, as far as they are known, shape (cylinders, n). [SI]"""
     if results is None:
         return {}
-    keys, at = (
+    keys, angles = (
         [key for key in ("gas_pressure", *FORCES) if key in results.trace],
         np.mod(degrees, results.machine.cycle),
     )
     if results.machine.engine is None:
-        return {key: values[None] for key, values in results.columns_at(at, keys).items()}
+        return {key: values[None] for key, values in results.columns_at(angles, keys).items()}
     # machines of one cylinder do not load it
     from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415
 
     engine = multi_cylinder_engine(results.solved)
-    return {key: engine.each(key, at) for key in keys if len(engine.has(key)) == len(engine.cylinders)}
+    return {key: engine.each(key, angles) for key in keys if len(engine.has(key)) == len(engine.cylinders)}
 
 
 def _fires(machine: Machine, engine: Engine, place: CylinderPlace) -> float | None:

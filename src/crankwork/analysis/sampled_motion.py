@@ -1,4 +1,4 @@
-"""Where a linkage is over the crank angle, as plain arrays: what plans and drawings are made of."""
+"""Positions of a linkage over the crank angle, as plain arrays: the data of plans and drawings."""
 
 from __future__ import annotations
 
@@ -114,12 +114,12 @@ def animation_path(mechanism: Mechanism, frames: int) -> AnimationPath:
 
 
 def transient_animation_path(results: Results) -> AnimationPath | None:
-    """Return how the crank of a machine let go moves, at equal times; nothing where its dyads change their branches."""
+    """Return the crank angles of a transient motion at equal times; None if its dyads change their branches."""
     ran = results.listings.get("transient")
     happened = results.listings.get("transient_events", ran)
     if ran is None or happened is None or any(name.startswith("dead_position") for name in happened.names):
         return None
     time, angle = ran.columns["time"], ran.columns["crank_angle"]
-    # the last row may come sooner after the one before it
+    # the last interval of time may be shorter
     rows = np.arange(0, len(time) - (len(time) > 2), math.ceil(len(time) / _MOST_FRAMES))
     return AnimationPath(np.degrees(angle[rows]), results.machine.mechanism, turns=True, own_time=float(time[rows[-1]]))

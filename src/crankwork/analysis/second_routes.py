@@ -57,28 +57,27 @@ def joint_force_residuals(solved: PreparedCylinder, samples: Samples) -> dict[st
 
 
 def throw_residuals(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, float]:
-    """Return how far torque and load of a crankpin with articulated rods are from those of the linkage that they are.
+    """Return how far torque and load of a crankpin with articulated rods are from those of the same linkage.
 
-    Nothing for other engines, and for a method that only comes near the motion.
+    Empty for other engines, and for a method that approximates the motion.
     """
     solved, masses = engine.master, engine.each_masses
     places = engine.on_pin[engine.layout.places[0].crankpin]
     numbers = [place.number for place in places]
-    is_rigid = solved.method.rod == "rigid" or not any(masses[at - 1].rod_inertia_excess for at in numbers)
+    is_rigid = solved.method.rod == "rigid" or not any(masses[number - 1].rod_inertia_excess for number in numbers)
     if not any(engine.engine.articulated_rods) or not solved.method.is_exact or not is_rigid:
         return {}
     mechanism = throw_mechanism(engine.layout, solved.lengths, engine.engine.articulated_rods)
     rods = [dyad for dyad in mechanism.dyads if isinstance(dyad, RRP)]
     bodies = [body_at(mechanism.crank.link, masses[numbers[0] - 1].crank, 0.0, mechanism.crank.pin)]
-    bodies += [body for rod, at in zip(rods, numbers, strict=True) for body in _bodies(rod, masses[at - 1])]
+    pairs = tuple(zip(rods, numbers, strict=True))
+    bodies += [body for rod, number in pairs for body in _bodies(rod, masses[number - 1])]
     grid = CrankGrid.from_degrees(np.arange(_FIRST, engine.layout.cycle, _STEP))
     pin = f"crankpin_load.{places[0].crankpin + 1}"
-    torques = {f"torque.{at}": engine.of(at, "crank_torque") for at in numbers}
-    gases = {
-        rod.slider: engine.of(at, "gas_force") for rod, at in zip(rods, numbers, strict=True) if engine.has("gas_force")
-    }
+    torques = {f"torque.{number}": engine.of(number, "crank_torque") for number in numbers}
+    gases = {rod.slider: engine.of(number, "gas_force") for rod, number in pairs if engine.has("gas_force")}
     own = Program({**torques, **gases, "load": trace[pin]})(grid)
-    # the axis of cylinder 1 stands in the mechanism as in the layout
+    # the axis of cylinder 1 has the same direction in the mechanism as in the layout
     lean = solved.machine.inclination - math.radians(engine.layout.places[0].axis)
     pushing = {name: own[name] for name in gases}
     values = system_joint_forces(_running(solved, replace(mechanism, bodies=tuple(bodies)), pushing, grid, lean))
@@ -92,9 +91,9 @@ def throw_residuals(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue
     }
 
 
-def _largest(found: JointForces) -> float:
-    """Return the largest force in a joint: of a heavy rod without a piston what remains of others is rounding. [N]"""
-    return max(float(np.max(pin.resultant)) for pin in found.pins.values())
+def _largest(forces: JointForces) -> float:
+    """Return the largest force in any joint, since a single joint may carry only rounding. [N]"""
+    return max(float(np.max(pin.resultant)) for pin in forces.pins.values())
 
 
 def _running(
@@ -122,8 +121,8 @@ def _running(
 def _bodies(rod: RRP, masses: CrankGearMasses) -> Iterator[Body]:
     """Yield piston and rod; the two masses of the rod with the inertia of a rigid one about their centre."""
     yield body_at(rod.slider, masses.piston, 0.0, rod.slider)
-    engine = masses.rod_small_end + masses.rod_big_end
-    if engine or masses.rod_inertia_excess:
-        share = masses.rod_small_end / engine if engine else 0.0
-        inertia = masses.rod_inertia_excess + engine * share * (1 - share) * rod.length**2
-        yield Body(rod.link, engine, inertia, rod.joint, rod.slider, share)
+    mass = masses.rod_small_end + masses.rod_big_end
+    if mass or masses.rod_inertia_excess:
+        share = masses.rod_small_end / mass if mass else 0.0
+        inertia = masses.rod_inertia_excess + mass * share * (1 - share) * rod.length**2
+        yield Body(rod.link, mass, inertia, rod.joint, rod.slider, share)

@@ -36,7 +36,7 @@ from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import TrueSpeed, excess_work
 
 _SAMPLES = 1440
-# what rounding leaves of a mean of nothing, of the largest torque of a cylinder
+# share of the largest torque of a cylinder below which a mean is rounding
 _CANCELLED = 1e-13
 
 
@@ -44,10 +44,10 @@ class EngineTorque(NamedTuple):
     """Torque of cylinder 1 and of all over the cycle, the speed, and their trace."""
 
     # Torques [N m]
-    one: Curve
+    cylinder: Curve
     total: Curve
     speed: TrueSpeed | None  # With the flywheel, where anything has an inertia
-    # Energy and speed over the crank angle; single values; what lies between them
+    # Energy and speed over the crank angle; single values; intermediate values
     columns: Mapping[str, TracedValue]
     summary: Mapping[str, TracedValue]
     between: Mapping[str, TracedValue]
@@ -77,22 +77,20 @@ def _torque(engine: MultiCylinderEngine, number: int, tangential: TracedValue) -
 
 
 def engine_reduction(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
-    """Return the reduced moment of inertia of all cylinders, and of what turns with the crank, with its derivative."""
+    """Return the reduced moment of inertia of all cylinders and of rotating parts, with its derivative."""
     if engine.machine.masses is None:
         return {}
     places, r = engine.layout.places, engine.master.trace["crank_radius"]
     numbers = [place.number for place in places]
-    parts = [
-        engine.of(at, f"reduced_inertia.{item}") for item in MOVING for at in engine.has(f"reduced_inertia.{item}")
-    ]
-    parts_1 = [
-        engine.of(at, f"reduced_inertia_1.{item}") for item in MOVING for at in engine.has(f"reduced_inertia_1.{item}")
-    ]
-    for at, place in zip(numbers, places, strict=True):
+    parts, parts_1 = (
+        [engine.of(number, f"{key}.{item}") for item in MOVING for number in engine.has(f"{key}.{item}")]
+        for key in ("reduced_inertia", "reduced_inertia_1")
+    )
+    for number, place in zip(numbers, places, strict=True):
         mass = rotating_mass_of(engine, place)
-        if "knuckle_mass" in engine.cylinders[at - 1].trace:
-            mass = mass - engine.cylinders[at - 1].trace["knuckle_mass"]
-        parts.append((mass * r * r).named(f"reduced_inertia.rotating.{at}"))
+        if "knuckle_mass" in engine.cylinders[number - 1].trace:
+            mass = mass - engine.cylinders[number - 1].trace["knuckle_mass"]
+        parts.append((mass * r * r).named(f"reduced_inertia.rotating.{number}"))
     if engine.machine.drive.inertia:
         parts.append(turning_inertia(engine.machine, "reduced_inertia.drive"))
     values = total("total_reduced_inertia", parts), total("total_reduced_inertia_1", parts_1)
@@ -107,17 +105,17 @@ def engine_torque(
 ) -> EngineTorque:
     """Return the torque of the engine with the flywheel it needs, and why there is none."""
     first = engine.of(1, "crank_torque").key
-    one, all_ = (curve_of(over, key) for key in (first, "total_torque"))
+    cylinder, all_ = (curve_of(over, key) for key in (first, "total_torque"))
     w = engine.master.trace["speed"]
     balance = _balance(engine, trace, over, all_)
     mean = over.mean("total_torque", "mean_total_torque")
     if engine.machine.angular_acceleration and balance.torque.key == "static_torque":
-        # what speeds up the parts is none of a cycle that repeats
+        # the torque that accelerates the parts is not periodic
         mean = (
             -TracedValue(ProcedureValue(-balance.curve.mean, "mean", (balance.torque,)), "mean_driving_torque")
         ).named(mean.key)
-    if abs(mean.value) <= _CANCELLED * max(map(abs, one.extremes()[::2])):
-        # of cylinders that only weights and inertia turn rounding is left
+    if abs(mean.value) <= _CANCELLED * max(map(abs, cylinder.extremes()[::2])):
+        # without gas, weights and inertia leave a mean of rounding only
         mean = TracedValue(ProcedureValue(0.0, "mean", (trace["total_torque"],)), mean.key)
     mean = delivered_or_needed(mean)
     summary = {"mean_torque": mean}
@@ -131,15 +129,15 @@ def engine_torque(
     summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
     named = {key: known if known is mean else known.named(key) for key, known in summary.items()}
     between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
-    return EngineTorque(one, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
+    return EngineTorque(cylinder, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
 
 
 def _balance(
     engine: MultiCylinderEngine, trace: Mapping[str, TracedValue], over: CycleInterpolant, total_torque: Curve
 ) -> Balance:
-    """Return what gas and weights do on the crank, with the reduced inertia of all that moves.
+    """Return the torque of gas and weights on the crank, with the reduced inertia of all moving parts.
 
-    As textbooks do it: the torque of all cylinders at constant speed, with what turns with the crank alone.
+    By the textbook method: the torque of all cylinders at constant speed, with the inertia of rotating parts only.
     """
     drive, total_ = turning_inertia(engine.machine, "reduced_inertia.drive"), trace["total_torque"]
     if "reduced_inertia" not in trace or not has_own_inertia(engine):
@@ -158,7 +156,7 @@ def _balance(
 
 
 def has_own_inertia(engine: MultiCylinderEngine) -> bool:
-    """Return whether rods and pistons count in the speed: not as textbooks do it."""
+    """Return whether rods and pistons count in the speed; by the textbook method they do not."""
     return engine.machine.masses is not None and engine.master.method.kinematics != "textbook"
 
 
@@ -166,27 +164,27 @@ def harmonics_trace(
     engine: MultiCylinderEngine, torque: EngineTorque, trace: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
     """Return the harmonics of the torque of one cylinder and of all, each under its order: `harmonic_amplitude.2.5`."""
-    layout, of = engine.layout, engine.of(1, "crank_torque")
+    layout, first = engine.layout, engine.of(1, "crank_torque")
     count = order_count(layout.cycle)
-    one = curve_harmonics(torque.one, count)
+    harmonics = curve_harmonics(torque.cylinder, count)
     all_ = None if engine.is_uniform else curve_harmonics(torque.total, count)
-    values = {known.key: known for known in traced_harmonics(one, of)}
-    stars = phase_sums(layout, one.orders.tolist())
-    for at, order in enumerate(one.orders.tolist()):
-        star = TracedValue(ProcedureValue(abs(stars[at]), "phase_star"), f"phase_sum.{order:g}")
+    values = {known.key: known for known in traced_harmonics(harmonics, first)}
+    stars = phase_sums(layout, harmonics.orders.tolist())
+    for index, order in enumerate(harmonics.orders.tolist()):
+        star = TracedValue(ProcedureValue(abs(stars[index]), "phase_star"), f"phase_sum.{order:g}")
         if all_ is None:
-            of_all = amplitude_of_total(values[f"harmonic_amplitude.{order:g}"], star)
+            amplitude = amplitude_of_total(values[f"harmonic_amplitude.{order:g}"], star)
         else:
             total = trace["total_torque"]
             parts = (
-                TracedValue(HarmonicCoefficient(float(getattr(all_, part)[at]), total, part, order))
+                TracedValue(HarmonicCoefficient(float(getattr(all_, part)[index]), total, part, order))
                 for part in ("cosine", "sine")
             )
-            of_all = TracedValue(
-                ProcedureValue(float(all_.amplitude[at]), "fourier", (total,), None, amplitude_of_harmonic(*parts))
+            amplitude = TracedValue(
+                ProcedureValue(float(all_.amplitude[index]), "fourier", (total,), None, amplitude_of_harmonic(*parts))
             )
-        of_all = of_all.named(f"total_harmonic_amplitude.{order:g}")
-        values |= {known.key: known for known in (star, of_all)}
+        amplitude = amplitude.named(f"total_harmonic_amplitude.{order:g}")
+        values |= {known.key: known for known in (star, amplitude)}
     return values
 
 
@@ -207,13 +205,13 @@ def torque_checks(
         degrees: Array = np.arange(float(count)) * (engine.layout.cycle / count)
         each = engine.each_of("crank_torque", samples(CrankGrid.from_degrees(degrees)))
         count = order_count(engine.layout.cycle)
-        one = torque_harmonics(each[0], engine.layout.cycle, count)
+        harmonics = torque_harmonics(each[0], engine.layout.cycle, count)
         stars, direct = (
-            total_harmonics(one, engine.layout),
+            total_harmonics(harmonics, engine.layout),
             torque_harmonics(each.sum(axis=0), engine.layout.cycle, count),
         )
-        apart = np.hypot(stars.cosine - direct.cosine, stars.sine - direct.sine)
-        result["phase_stars"] = float(np.max(apart)) / (float(np.max(one.amplitude)) or 1.0)
+        difference = np.hypot(stars.cosine - direct.cosine, stars.sine - direct.sine)
+        result["phase_stars"] = float(np.max(difference)) / (float(np.max(harmonics.amplitude)) or 1.0)
     return result
 
 

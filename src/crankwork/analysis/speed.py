@@ -57,12 +57,12 @@ _SLOPES = {
     "wittenbauer": (wittenbauer_slope_largest, wittenbauer_slope_least),
     "exact": (slope_largest, slope_least),
 }
-# how far the fluctuation of the books may be from that of the speeds that are told, before it is said [-]
+# relative difference of the textbook fluctuation from that of the speeds, above which it is reported [-]
 _BOOKS_ARE_NEAR = 0.01
 
 
 class Balance(NamedTuple):
-    """What acts on the crank over a cycle, but for the constant torque that balances it, and the inertia of all."""
+    """Torque on the crank over a cycle, without the constant torque that balances it, and the reduced inertia."""
 
     torque: TracedValue  # Without that of inertia [N m]
     curve: Curve  # The same, positive where it drives [N m]
@@ -73,14 +73,14 @@ class Balance(NamedTuple):
 
 
 def has_friction(drive: Drive, over: CycleInterpolant) -> bool:
-    """Return whether friction counts in what drives a linkage: it is known, and no efficiency stands for it."""
+    """Return whether friction counts in the driving torque: it is known, and no efficiency replaces it."""
     return "torque_with_friction" in over.columns and drive.losses != "machine"
 
 
 def balance_of(
     machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedValue], *, counts_efficiency: bool = True
 ) -> Balance:
-    """Return what loads and losses take from the crank of a linkage, with its reduced inertia.
+    """Return the torque of loads and losses on the crank of a linkage, with its reduced inertia.
 
     Losses are those of friction at the mean speed, or else those of an efficiency as the calculation uses it, unless
     the motor has them.
@@ -101,12 +101,12 @@ def balance_of(
 
 
 def delivered_or_needed(delivered: TracedValue) -> TracedValue:
-    """Return the mean torque of a machine: what it delivers or, under the name of that, what its driver must give."""
+    """Return the mean torque of a machine: delivered or, under the key of a driving torque, that of its driver."""
     return delivered if delivered.value >= 0 else (-delivered).named("mean_driving_torque")
 
 
 class SpeedResults(NamedTuple):
-    """How evenly a machine runs: columns, single values, residuals, what the reader should know, what lies between."""
+    """Results for the speed of a machine: columns, single values, residuals, notices, intermediate values."""
 
     columns: dict[str, TracedValue]
     summary: dict[str, TracedValue]
@@ -118,7 +118,7 @@ class SpeedResults(NamedTuple):
 
 
 def has_flywheel(drive: Drive) -> bool:
-    """Return whether a flywheel is given or to be found."""
+    """Return whether a flywheel is given or to be sized."""
     return drive.fluctuation is not None or drive.wheel is not None
 
 
@@ -128,7 +128,7 @@ def excess_of(balance: Balance) -> TracedValue:
 
 
 def work_of(excess: TracedValue, mean: TracedValue | None, cycle: TracedValue) -> dict[str, TracedValue]:
-    """Return the work of a cycle, and how much of it the kinetic energy takes and gives; nothing without either."""
+    """Return the work of a cycle and the ratio of the excess work to it; empty without a mean torque."""
     if mean is None or not mean.value:
         return {}
     work = work_of_mean_torque(mean, cycle)
@@ -138,7 +138,7 @@ def work_of(excess: TracedValue, mean: TracedValue | None, cycle: TracedValue) -
 def analyse_speed(machine: Machine, balance: Balance, w: TracedValue, mean: Mean = "time") -> SpeedResults:
     """Return flywheel, fluctuation and speed of a machine, as far as its inertia is known.
 
-    `mean`: of what its speed is the mean.
+    `mean`: kind of mean that its stated speed is.
     """
     change = TracedValue(
         Tabulated(
@@ -148,33 +148,33 @@ def analyse_speed(machine: Machine, balance: Balance, w: TracedValue, mean: Mean
     )
     columns, wanted, excess = {"kinetic_energy_change": change}, target_fluctuation(machine, w), excess_of(balance)
     works = _works(balance, w, wanted) if balance.inertia.varies else {}
-    of_all = {value.key: value for way, value in works.items() if way == "mertsalov"}
+    mertsalov = {value.key: value for method, value in works.items() if method == "mertsalov"}
     if not (has_flywheel(machine.drive) or machine.drive.inertia):
-        return SpeedResults(columns, of_all, {}, (), {})
+        return SpeedResults(columns, mertsalov, {}, (), {})
     try:
-        every_way = partial(_every_way, balance, works, w)
-        summary, between, wheel, inertia = wheels_of(machine, w, wanted, excess, balance.inertia, every_way)
+        by_all_methods = partial(_by_all_methods, balance, works, w)
+        summary, between, wheel, inertia = wheels_of(machine, w, wanted, excess, balance.inertia, by_all_methods)
     except MethodError as error:
         return SpeedResults(columns, {}, {}, (Notice("no_flywheel", {"message": error.args[0]}),), {})
-    summary |= of_all
+    summary |= mertsalov
     if not (inertia.varies or inertia.value > 0):
-        told = () if wanted is None else (Notice("no_flywheel", {"message": ErrorMessage("masses_missing")}),)
-        return SpeedResults(columns, summary, {}, told, between)
+        missing = () if wanted is None else (Notice("no_flywheel", {"message": ErrorMessage("masses_missing")}),)
+        return SpeedResults(columns, summary, {}, missing, between)
     try:
         speed = true_speed(balance.inertia_curve + wheel.value, balance.curve, w.value, balance.excess, mean=mean)
     except MethodError as error:
         return SpeedResults(columns, summary, {}, (Notice("no_steady_speed", {"message": error.args[0]}),), between)
     energy = TracedValue(ProcedureValue(speed.energy, "energy", (balance.torque,)), "kinetic_energy.start")
     columns["crank_speed"] = speed_of_energy(energy + change, inertia).named("crank_speed")
-    of = (balance.torque, inertia, w)
+    operands = (balance.torque, inertia, w)
     result = SpeedOfPolynomials(balance.sign, mean)
     if not inertia.varies:
         summary["speed_fluctuation"] = fluctuation_of_inertia(excess, inertia, w)
     elif wanted is not None and wheel.value:
         summary["speed_fluctuation"] = wanted
     else:
-        summary["speed_fluctuation"] = TracedValue(FunctionValue(speed.fluctuation, "fluctuation", of, result, 0))
-    summary |= _extremes(speed, columns["crank_speed"], of, result)
+        summary["speed_fluctuation"] = TracedValue(FunctionValue(speed.fluctuation, "fluctuation", operands, result, 0))
+    summary |= _extremes(speed, columns["crank_speed"], operands, result)
     summary |= recovery_torque_values(machine, inertia, w, summary)
     checks = {}
     if wanted is not None and balance.inertia.varies:
@@ -188,36 +188,39 @@ def analyse_speed(machine: Machine, balance: Balance, w: TracedValue, mean: Mean
 
 
 def _works(balance: Balance, w: TracedValue, wanted: TracedValue | None) -> dict[str, TracedValue]:
-    """Return the excess work in the sense of every way that takes tangents, by their slopes.
+    """Return the excess work of each method that uses tangents, from their slopes.
 
-    Mertsalov's is that of the torque at the mean speed, that of inertia in it.
+    Mertsalov's is the excess work of the torque at the mean speed, with the torque of inertia.
     """
     slopes: dict[str, tuple[TracedValue, TracedValue]] = {}
     slopes["mertsalov"] = 2 * (slope_of_mean_speed(w).named("wittenbauer_slope.mertsalov"),)
-    for way, (largest, least) in _SLOPES.items() if wanted is not None else ():
+    for method, (largest, least) in _SLOPES.items() if wanted is not None else ():
         ends = {"largest": largest(w, wanted), "least": least(w, wanted)}
-        slopes[way] = tuple(value.named(f"wittenbauer_slope.{way}.{end}") for end, value in ends.items())
+        slopes[method] = tuple(value.named(f"wittenbauer_slope.{method}.{end}") for end, value in ends.items())
     values = works_of_tangents(balance.inertia_curve, balance.excess, [(a.value, b.value) for a, b in slopes.values()])
     return {
-        way: TracedValue(
-            ProcedureValue(work, "tangents", (balance.torque, balance.inertia, *ends)), f"excess_work.{way}"
+        method: TracedValue(
+            ProcedureValue(work, "tangents", (balance.torque, balance.inertia, *ends)), f"excess_work.{method}"
         )
-        for (way, ends), work in zip(slopes.items(), values, strict=True)
+        for (method, ends), work in zip(slopes.items(), values, strict=True)
     }
 
 
 def _extremes(
-    speed: TrueSpeed, column: TracedValue, of: tuple[TracedValue, ...], found: SpeedOfPolynomials
+    speed: TrueSpeed, column: TracedValue, operands: tuple[TracedValue, ...], solution: SpeedOfPolynomials
 ) -> dict[str, TracedValue]:
     """Return the extremes of the speed, each with its angle."""
     low, at_low, high, at_high = speed.extremes
     result = {}
-    for part, (word, value, at) in ((1, ("max", high, at_high)), (3, ("min", low, at_low))):
-        degrees = math.degrees(at)
-        by, where = (TracedValue(FunctionValue(item, word, of, found, part + k)) for k, item in enumerate((value, at)))
-        result[f"crank_speed_{word}"] = TracedValue(ProcedureValue(value, word, (column,), degrees, by))
+    for part, (word, value, angle) in ((1, ("max", high, at_high)), (3, ("min", low, at_low))):
+        degrees = math.degrees(angle)
+        derivation, where = (
+            TracedValue(FunctionValue(item, word, operands, solution, part + k))
+            for k, item in enumerate((value, angle))
+        )
+        result[f"crank_speed_{word}"] = TracedValue(ProcedureValue(value, word, (column,), degrees, derivation))
         result[f"crank_speed_{word}_angle"] = TracedValue(
-            ProcedureValue(at, f"{word}_angle", (column,), degrees, where)
+            ProcedureValue(angle, f"{word}_angle", (column,), degrees, where)
         )
     return result
 
@@ -237,49 +240,49 @@ def wheels_of(
     wanted: TracedValue | None,
     excess: TracedValue,
     own: TracedValue,
-    every_way: Callable[[TracedValue], dict[str, TracedValue]] | None = None,
+    by_all_methods: Callable[[TracedValue], dict[str, TracedValue]] | None = None,
 ) -> Wheels:
     """Return the flywheel of a machine from its excess work and the moment of inertia without it.
 
-    `every_way`: the flywheels for a wanted fluctuation by every way, where that inertia varies.
+    `by_all_methods`: the flywheels for a wanted fluctuation by each method, if that inertia varies.
     """
     if wanted is None:
         return Wheels(given_flywheel_dimensions(machine, w), {}, absent("flywheel_inertia"), own)
     check_fluctuation(wanted.value, w.value)
-    ways, between = dict[str, TracedValue](), dict[str, TracedValue]()
-    if own.varies and every_way is not None:
-        ways = every_way(wanted)
-        wheel = ways["flywheel_inertia.exact"]
-        engine = (own + wheel).named("whole_inertia")
+    wheels, between = dict[str, TracedValue](), dict[str, TracedValue]()
+    if own.varies and by_all_methods is not None:
+        wheels = by_all_methods(wanted)
+        wheel = wheels["flywheel_inertia.exact"]
+        total_inertia = (own + wheel).named("whole_inertia")
     else:
-        wheel = engine = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
+        wheel = total_inertia = inertia_for_fluctuation(excess, wanted, w).named("flywheel_inertia")
         if not own.is_absent:
-            engine = engine.named("whole_inertia")
-            wheel = flywheel_beside_machine(engine, own)
+            total_inertia = total_inertia.named("whole_inertia")
+            wheel = flywheel_beside_machine(total_inertia, own)
         wheel = _needed(wheel)
-        between = {engine.key: engine} if wheel.value else {}
-    summary = {"flywheel_inertia": wheel, **ways, **(flywheel_dimensions(machine, wheel, w) if wheel.value else {})}
-    return Wheels(summary, between, wheel, engine if wheel.value else own)
+        between = {total_inertia.key: total_inertia} if wheel.value else {}
+    summary = {"flywheel_inertia": wheel, **wheels, **(flywheel_dimensions(machine, wheel, w) if wheel.value else {})}
+    return Wheels(summary, between, wheel, total_inertia if wheel.value else own)
 
 
-def _every_way(
+def _by_all_methods(
     balance: Balance, works: Mapping[str, TracedValue], w: TracedValue, wanted: TracedValue
 ) -> dict[str, TracedValue]:
-    """Return the flywheel for a wanted fluctuation by every way, each of its excess work."""
+    """Return the flywheel for a wanted fluctuation by each method, from its excess work."""
     energy = TracedValue(ProcedureValue(balance.excess.work, "range", (balance.torque, balance.inertia)), "excess_work")
-    ways = {"energy": energy, **works}
-    return {f"flywheel_inertia.{way}": _wheel(way, work, balance, w, wanted) for way, work in ways.items()}
+    works = {"energy": energy, **works}
+    return {f"flywheel_inertia.{method}": _wheel(method, work, balance, w, wanted) for method, work in works.items()}
 
 
-def _wheel(way: str, work: TracedValue, balance: Balance, w: TracedValue, wanted: TracedValue) -> TracedValue:
-    """Return the flywheel of one way, of its excess work."""
+def _wheel(method: str, work: TracedValue, balance: Balance, w: TracedValue, wanted: TracedValue) -> TracedValue:
+    """Return the flywheel of one method from its excess work."""
     wheel: TracedValue = inertia_for_fluctuation(work, wanted, w)
-    if way in ("energy", "mertsalov"):
+    if method in ("energy", "mertsalov"):
         own = balance.inertia_curve
-        word, value = ("mean", own.mean) if way == "energy" else ("min", own.extremes().least)
+        word, value = ("mean", own.mean) if method == "energy" else ("min", own.extremes().least)
         less = TracedValue(ProcedureValue(value, word, (balance.inertia,)), f"reduced_inertia.{word}")
-        wheel = flywheel_beside_machine(wheel.named(f"whole_inertia.{way}"), less)
-    return _needed(wheel).named(f"flywheel_inertia.{way}")
+        wheel = flywheel_beside_machine(wheel.named(f"whole_inertia.{method}"), less)
+    return _needed(wheel).named(f"flywheel_inertia.{method}")
 
 
 def _needed(wheel: TracedValue) -> TracedValue:
@@ -288,7 +291,7 @@ def _needed(wheel: TracedValue) -> TracedValue:
 
 
 def _rotor(motor: GearedMotor) -> dict[str, TracedValue]:
-    """Return the moment of inertia of the rotor on the crank; nothing without one."""
+    """Return the moment of inertia of the rotor on the crank; empty without one."""
     if not motor.inertia:
         return {}
     inertia = given("flywheel_inertia.motor", motor.inertia, "motor.inertia")
@@ -316,9 +319,9 @@ def driven_by_motor(
     if power.value > drive.rated_power:
         powers: dict[str, float | str] = {"needed": power.value / 1e3, "rated": drive.rated_power / 1e3}
         notices = (Notice("overloaded", powers),)
-    more, told = _steady(motor, w.value, inertia, load, added)
-    steady = {key: TracedValue(ProcedureValue(value, "steady"), key) for key, value in more.items()}
-    return SpeedResults({}, {"motor_power": power, **steady}, {}, notices + told, _rotor(motor))
+    values, reasons = _steady(motor, w.value, inertia, load, added)
+    steady = {key: TracedValue(ProcedureValue(value, "steady"), key) for key, value in values.items()}
+    return SpeedResults({}, {"motor_power": power, **steady}, {}, notices + reasons, _rotor(motor))
 
 
 def _steady(

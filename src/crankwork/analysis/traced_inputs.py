@@ -1,7 +1,7 @@
-"""What a description states of an engine, and what follows from it before the calculation begins.
+"""The stated inputs of an engine, and the values that follow from them before the calculation begins.
 
 A machine holds its lengths and masses in one form; a description may state others: stroke, rod ratio, masses over the
-piston area. What it states is the leaf of the trace, and the line between them is worked.
+piston area. The stated number is the input of the trace, and the step between them is calculated.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     if stroke is not None:
         radius = checked(given("stroke", stroke.value, "crank.stroke") / 2, radius)
     length = given("rod_length", l, "rod.length")
-    if ratio is not None and _is(ratio.value, r / l):
+    if ratio is not None and _is_close(ratio.value, r / l):
         length = checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
     elif ratio is not None:
         length = checked(radius * given("inverse_rod_ratio", ratio.value, "rod.ratio"), length)
@@ -50,11 +50,11 @@ def _offset_of(machine: Machine, offset: float) -> str:
 
 
 def of_cycle(machine: Machine, key: str) -> TracedValue | None:
-    """Return what the calculation of a cycle found for a size that the description leaves open."""
+    """Return the size from the calculation of a cycle if the description leaves the size open."""
     cycle = getattr(machine.gas.calculated, "cycle", None) if machine.gas is not None else None
-    asked = _stated(machine, "cycle.power")
-    result = None if cycle is None or asked is None else cycle.trace.get(key)
-    # a size that follows is taken in whole millimetres
+    target = _stated(machine, "cycle.power")
+    result = None if cycle is None or target is None else cycle.trace.get(key)
+    # calculated sizes are rounded to millimetres
     return None if result is None else TracedValue(ProcedureValue(round(result.value, 3), "rounded", (result,)), key)
 
 
@@ -85,9 +85,9 @@ def speed(machine: Machine, method: Method) -> TracedValue:
 
 
 def speed_at(machine: Machine, method: Method, path: str, value: float, name: str = "") -> TracedValue:
-    """Return an angular speed that stands at a path: stated, or of its revolutions with the method's own pi. [rad/s]
+    """Return an angular speed with an input path: stated, or of its revolutions with the method's own pi. [rad/s]
 
-    `name`: what tells it from the speed of the crank.
+    `name`: suffix that distinguishes it from the speed of the crank.
     """
     stated, turns = _stated(machine, path), given(f"rotational_speed{name}", value * 30 / math.pi, path, "rpm")
     result: TracedValue = angular_speed(method.pi, turns).named(f"speed{name}")
@@ -140,11 +140,11 @@ def masses(
     excess = given("rod_inertia_excess", known.rod_inertia_excess, f"{table}.inertia")
     stated = _stated(machine, f"{table}.mass")
     if stated is not None:
-        engine = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
+        total_mass = mass("rod_mass", known.rod_small_end + known.rod_big_end, f"{table}.mass")
         centre = _centre(machine, length, table)
-        small = checked(rod_small_end_mass(engine, centre, length), small)
-        big = checked(rod_big_end_mass(engine, small), big)
-        excess = _excess(machine, (engine, centre, length), excess, table)
+        small = checked(rod_small_end_mass(total_mass, centre, length), small)
+        big = checked(rod_big_end_mass(total_mass, small), big)
+        excess = _excess(machine, (total_mass, centre, length), excess, table)
     yield from (small, big)
     if known.rod_inertia_excess:
         yield excess
@@ -152,11 +152,11 @@ def masses(
 
 def _centre(machine: Machine, length: Value, table: str) -> TracedValue:
     """Return the distance of the centre of mass of the rod from the crankpin."""
-    share, at = (_stated(machine, f"{table}.{key}") for key in ("small_end_share", "centre_of_mass"))
+    share, centre = (_stated(machine, f"{table}.{key}") for key in ("small_end_share", "centre_of_mass"))
     if share is not None:
         distance: TracedValue = given("small_end_share", share.value, f"{table}.small_end_share") * length
         return distance.named("rod_centre_distance")
-    return given("rod_centre_distance", at.value if at is not None else 0.0, f"{table}.centre_of_mass")
+    return given("rod_centre_distance", centre.value if centre is not None else 0.0, f"{table}.centre_of_mass")
 
 
 def _excess(
@@ -178,10 +178,10 @@ def _stated(machine: Machine, path: str) -> InputNumber | None:
     return machine.stated.get(path)
 
 
-def _is(one: float, other: float) -> bool:
-    return math.isclose(one, other, rel_tol=_SAME)
+def _is_close(first: float, second: float) -> bool:
+    return math.isclose(first, second, rel_tol=_SAME)
 
 
 def checked(value: TracedValue, plain: TracedValue) -> TracedValue:
-    """Return what follows from the description if it is what the machine has, which may have been changed since."""
-    return value.named(plain.key) if _is(value.value, plain.value) else plain
+    """Return a calculated value if it equals that of the machine, else the latter, which was changed since."""
+    return value.named(plain.key) if _is_close(value.value, plain.value) else plain

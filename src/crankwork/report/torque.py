@@ -139,7 +139,7 @@ def firings(engine: Drawn, graph: Graph) -> None:
     """Write the number of each cylinder above a graph where it fires."""
     centre = 360.0 if engine.cycle == FOUR_STROKE else 0.0
     numbers_at: dict[float, list[str]] = {}
-    for cylinder, place in enumerate(engine.diagrams.whole.layout.places, start=1):
+    for cylinder, place in enumerate(engine.diagrams.engine.layout.places, start=1):
         angle = (place.firing_angle + place.top + centre) % engine.cycle
         numbers_at.setdefault(round(angle, 6), []).append(str(cylinder))
     top = graph.box.top
