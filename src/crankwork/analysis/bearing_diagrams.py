@@ -16,6 +16,7 @@ from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.wear import OilHole, oil_hole
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, breakpoints_of
 from crankwork.kinematics.crank_grid import Array
+from crankwork.quantities.key import key_of
 
 __all__ = [
     "AFTER", "BearingDiagrams", "CrankpinLoad", "JointDiagrams", "PolarDiagram", "WearRing", "load_extremes",
@@ -64,7 +65,7 @@ def wear_rings(results: Results, listing: str) -> tuple[Array, dict[str, WearRin
     """Return the angles of the rays of wear diagrams [deg], and the rings by the name of the journal."""
     columns = dict(results.listings[listing].columns)
     angles = np.degrees(columns.pop("wear_ray_angle"))
-    return angles, {key.partition(".")[2]: WearRing(sums, oil_hole(sums)) for key, sums in columns.items()}
+    return angles, {key_of(key).owner: WearRing(sums, oil_hole(sums)) for key, sums in columns.items()}
 
 
 def load_extremes(trace: Mapping[str, TracedValue]) -> list[float]:
@@ -85,7 +86,7 @@ class JointDiagrams:
     def _names(self, listing: str) -> tuple[str, ...]:
         table = self.results.listings.get(listing)
         columns = () if table is None else tuple(table.columns)
-        return tuple(key.partition(".")[2] for key in columns if key.startswith("wear_sum."))
+        return tuple(key_of(key).owner for key in columns if key.startswith("wear_sum."))
 
     @property
     def pins(self) -> tuple[str, ...]:

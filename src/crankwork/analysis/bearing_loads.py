@@ -16,6 +16,7 @@ from crankwork.cylinders.wear import OilHoleOfPolynomials, oil_hole, ray_angles,
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import FunctionValue, ProcedureValue, Tabulated, TracedValue
 from crankwork.kinematics.crank_grid import Array
+from crankwork.quantities.key import key_of
 
 # between the loads that wear diagrams add up [deg]
 WEAR_STEP = 10.0
@@ -37,7 +38,7 @@ def load_values(
 
     `key`: of the column of the load; `size`: diameter and length [m].
     """
-    kind, _, owner = key.partition(".")
+    kind, owner = key_of(key)
     mean = over.mean(key, f"mean_bearing_load.{name}")
     values = {mean.key: mean}
     for word in ("max", "max_angle", "min", "min_angle"):
@@ -61,8 +62,7 @@ def reversal_values(
 
     `key`: of the column of that load; `owner`: of the keys that are returned.
     """
-    kind, dot, name = key.partition(".")
-    peaks = extremes[f"{kind}_max{dot}{name}"].value, extremes[f"{kind}_min{dot}{name}"].value
+    peaks = extremes[key_of(key).derived("_max")].value, extremes[key_of(key).derived("_min")].value
     turned, column = reversal(*over.sign_intervals(key), peaks), (over.columns[key],)
     numbers = (math.radians(turned.duration), turned.ratio)
     values = (
@@ -108,7 +108,7 @@ def hole_of(key: str, table: TracedValue, forces: Iterable[TracedValue], rays: i
 
 def loads_listing(values: Mapping[str, TracedValue], *, with_reversal: bool = False) -> Listing:
     """Return the summary of the loads of all bearings over the cycle, a row for each."""
-    names = tuple(key.partition(".")[2] for key in values if key.startswith("mean_bearing_load."))
+    names = tuple(key_of(key).owner for key in values if key.startswith("mean_bearing_load."))
     columns = {
         key: np.array([values[f"{key}.{name}"].value if f"{key}.{name}" in values else np.nan for name in names])
         for key in (*_LISTED, *(_REVERSAL if with_reversal else ()))

@@ -15,6 +15,7 @@ from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import ErrorMessage
+from crankwork.quantities.key import key_of
 
 # kinds of columns that are compared if two results have both
 _MOTION = (
@@ -62,8 +63,7 @@ def comparison_key(key: str, name: str) -> str:
 
 def difference_key(key: str, name: str) -> str:
     """Return the key of the difference of the column of a name from that of the results."""
-    kind, dot, owner = key.partition(".")
-    return f"{kind}_difference{dot}{owner}.{name}"
+    return f"{key_of(key).derived('_difference')}.{name}"
 
 
 def compare(results: Results, others: Mapping[str, Results], name: str = "") -> Results:
@@ -123,7 +123,7 @@ def _common(all_results: tuple[Results, ...]) -> Iterator[str]:
     kinds = (*_MOTION, *_FORCES) if len({item.machine.cycle for item in all_results}) == 1 else _MOTION
     for kind in kinds:
         for key in all_results[0].columns:
-            if key.partition(".")[0] == kind and all(key in item.columns and key in item.trace for item in all_results):
+            if key_of(key).quantity == kind and all(key in item.columns and key in item.trace for item in all_results):
                 yield key
 
 

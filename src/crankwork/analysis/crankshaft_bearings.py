@@ -32,6 +32,7 @@ from crankwork.formula.replay import Samples
 from crankwork.formula.traced_value import Delayed, FormulaCall, Node, TracedValue, absent, given, in_order, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import RodSwing
+from crankwork.quantities.key import key_of
 
 _X, _Y = "bearing_force_x", "bearing_force_y"
 _ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_", "journal_share", "bearing_force_")
@@ -310,7 +311,7 @@ _COLUMNS = (
 
 def load_columns(trace: Mapping[str, TracedValue]) -> dict[str, str]:
     """Return the column of the load of each bearing by its name: `crankpin.1`, `big_end`, `main_journal.3`."""
-    sizes = [key for key in trace if key.partition(".")[0].endswith("_load")]
+    sizes = [key for key in trace if key_of(key).quantity.endswith("_load")]
     return {key.replace("_load", "", 1): key for key in sizes}
 
 
@@ -323,7 +324,7 @@ def bearing_values(
     """Return the summary of the loads over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
     values = dict[str, TracedValue]()
     for name, key in load_columns(trace).items():
-        kind = name.partition(".")[0]
+        kind = key_of(name).quantity
         part = _SIZES.get(kind, "crankpin")
         diameter, length = (getattr(engine.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
         size = None

@@ -38,6 +38,7 @@ from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
 from crankwork.formula.replay import Samples, replay
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, given, in_order, total
 from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.quantities.key import key_of
 
 # by which the first orders that samples cannot tell apart are below the first
 _DECADES = 17
@@ -191,7 +192,7 @@ def balance_trace(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[s
 
 def _parts(name: str, values: Mapping[str, TracedValue]) -> list[TracedValue]:
     """Return the forces that a row is the sum of."""
-    kind, _, order = name.partition(".")
+    kind, order = key_of(name)
     start = f"order_inertia_force.{order}." if kind == "reciprocating" else f"unbalance_force.{kind}"
     return [known for key, known in values.items() if key.startswith(start)]
 
@@ -208,7 +209,7 @@ def _residual_formulas(
     }
     terms = list[tuple[TracedValue, OrderBalance]]()
     for name, value in rows.items():
-        kind = name.partition(".")[0]
+        kind = key_of(name).quantity
         if kind == "counterweights":
             for weight in balance.weights:
                 if not isinstance(weight.mass_moment, TracedValue):

@@ -14,6 +14,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.equal_parts import EqualPart, equal_parts
 from crankwork.mechanism.joints import joints
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.quantities.key import key_of
 
 _TURN = 360.0
 # columns that do not depend on where a part points to
@@ -46,7 +47,7 @@ def with_equal_columns(
         owners = {own: name for name, own in part.names.items() if own != name}
         owners |= {joint.name: part.joint_of_first(joint, held).name for joint in held if joint.link in part.links}
         for key in columns:
-            kind, _, owner = key.partition(".")
+            kind, owner = key_of(key)
             first = f"{kind}.{owners.get(owner, '')}"
             if kind in _WITHOUT_DIRECTION and first in columns and columns[key].varies:
                 result[key] = delayed(columns[first], part.delay, part.cycle, key)

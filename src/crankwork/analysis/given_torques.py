@@ -34,6 +34,7 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.machine import Machine
+from crankwork.quantities.key import key_of
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import (
     ExcessWork,
@@ -163,7 +164,7 @@ def _of_torque_curves(machine: Machine, turning: ShaftTorques, w: TracedValue) -
     listings = {"energy_extremes": _listing(result, turn.speed)}
     columns = {key: value.named(key) for key, value in columns.items()}
     stretches = (
-        item for item in in_order([*traced.values(), *means.values()]) if item.key.partition(".")[0] in _STRETCHES
+        item for item in in_order([*traced.values(), *means.values()]) if key_of(item.key).quantity in _STRETCHES
     )
     between = {stretch.key: stretch for stretch in stretches if stretch.key not in _STRETCHES} | turn.between
     summary |= {key: value for key, value in between.items() if key.startswith("shearing_force.")}

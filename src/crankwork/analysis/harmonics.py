@@ -10,6 +10,7 @@ from crankwork.analysis.results import Listing
 from crankwork.cylinders.torque_harmonics import TorqueHarmonics, amplitude_of_harmonic, curve_harmonics
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue
+from crankwork.quantities.key import key_of
 from crankwork.shaft.curve import Curve
 
 # orders per revolution, and relative size of coefficients of polynomials that are rounding
@@ -56,7 +57,7 @@ def harmonics_listing(harmonics: Mapping[str, TracedValue]) -> Listing:
     """Return the harmonics of the torque by their order."""
     columns: dict[str, list[float]] = {"harmonic_order": []}
     for key, known in harmonics.items():
-        kind, _, order = key.partition(".")
+        kind, order = key_of(key)
         columns.setdefault(kind, []).append(known.value)
         if kind.endswith("harmonic_cosine"):
             columns["harmonic_order"].append(float(order))

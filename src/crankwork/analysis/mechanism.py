@@ -67,6 +67,7 @@ from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import mobility
+from crankwork.quantities.key import key_of
 from crankwork.shaft.motor_selection import needed_power
 
 _DENSE_STEP = 1.0
@@ -197,8 +198,8 @@ def _is_needed(mean: TracedValue | None) -> bool:
 
 def linkage_value(machine: Machine, key: str) -> Results:
     """Return the values over the cycle of the one link, joint or point that a key names; no checks, and no table."""
-    moved, (_, _, name) = _moved(machine, None), key.partition(".")
-    of_one = {key: known for key, known in moved.trace.items() if key.partition(".")[2] == name}
+    moved, name = _moved(machine, None), key_of(key).owner
+    of_one = {key: known for key, known in moved.trace.items() if key_of(key).owner == name}
     summary = _singles(moved, of_one, name).summary
     values = {key: known.value for key, known in summary.items()}
     return Results(moved.solved, moved.table, {}, values, {}, (), {}, trace=of_one | summary)
@@ -219,7 +220,7 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
     machine, result = moved.machine, moved.reached.travel
     quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
     quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
-    quality = {key: value for key, value in quality.items() if name is None or key.partition(".")[2] == name}
+    quality = {key: value for key, value in quality.items() if name is None or key_of(key).owner == name}
     pivoted = pivoted_links(machine.mechanism)
     followed = _followed(trace, pivoted, has_friction=moved.friction.is_free) | quality
     notices = list[Notice]()
@@ -325,7 +326,7 @@ def _singular_notices(columns: SingularColumns) -> Iterator[Notice]:
 
 def _where(columns: Mapping[str, tuple[float, ...]]) -> dict[str, float | str]:
     """Return the kinds of singular columns, and the crank angles of the singularities."""
-    kinds = dict.fromkeys(key.partition(".")[0] for key in columns)
+    kinds = dict.fromkeys(key_of(key).quantity for key in columns)
     angles = sorted({angle for column in columns.values() for angle in column})
     return {"angles": "°, ".join(f"{angle:.6g}" for angle in angles), "quantities": ", ".join(kinds)}
 
@@ -346,7 +347,7 @@ def _followed(
     return {
         key: value
         for key, value in trace.items()
-        if key in DYNAMICS or key.partition(".")[0] in kinds or (key in turning and value.varies)
+        if key in DYNAMICS or key_of(key).quantity in kinds or (key in turning and value.varies)
     }
 
 
@@ -356,11 +357,11 @@ def _summary(
     machine, law = solved.machine, solved.machine.mechanism.driver.law
     result = {**_given_values(machine), **quality}
     elsewhere = (*FOLLOWED, *BEARING_COLUMNS)
-    keys = [key for key in over.columns if key.partition(".")[0] not in elsewhere and not over.is_zero(key)]
+    keys = [key for key in over.columns if key_of(key).quantity not in elsewhere and not over.is_zero(key)]
     extremes, pivoted = over.extremes(*keys), pivoted_links(machine.mechanism)
     for key in keys:
-        kind, dot, name = key.partition(".")
-        largest, least = (extremes[f"{kind}_{word}{dot}{name}"] for word in ("max", "min"))
+        kind, name = key_of(key)
+        largest, least = (extremes[key_of(key).derived(ending)] for ending in ("_max", "_min"))
         travel, is_place = largest - least, kind in _TRAVEL
         size = 1.0 if kind == "link_angle" else max(abs(largest.value), abs(least.value))
         if is_place and travel.value <= _NO_TRAVEL * size:
@@ -373,10 +374,9 @@ def _summary(
             result[f"{_TRAVEL[kind]}.{name}"] = travel
         if not is_place or rocks(pivoted, key, travel.value):
             for word in ("max",) if kind in _SIZES else ("max", "min"):
-                extreme = f"{kind}_{word}{dot}{name}"
+                extreme, place = (key_of(key).derived(ending) for ending in (f"_{word}", f"_{word}_angle"))
                 result[extreme] = extremes[extreme]
-                angle = extremes[f"{kind}_{word}_angle{dot}{name}"]
-                result |= _at_time(extreme, angle, law) if law else {f"{kind}_{word}_angle{dot}{name}": angle}
+                result |= _at_time(extreme, extremes[place], law) if law else {place: extremes[place]}
     if is_whole and law is None:
         result |= time_ratios(over, {key: value.named(key) for key, value in result.items()})
     if (machine.loads or machine.chambers) and is_whole and law is None and "static_torque" in over.columns:
@@ -406,8 +406,7 @@ def _given_values(machine: Machine) -> dict[str, TracedValue]:
 
 def _at_time(extreme: str, angle: TracedValue, law: Law) -> dict[str, TracedValue]:
     """Return the time of an extreme from its angle in the period. [s]"""
-    kind, dot, name = extreme.partition(".")
-    key, node = f"{kind}_time{dot}{name}", angle.node
+    key, node = key_of(extreme).derived("_time"), angle.node
     if not isinstance(node, ProcedureValue) or node.at is None:
         return {}
     return {
@@ -501,5 +500,5 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "bearings": ON_CRANKPINS,
         "main_journals": ("main_journal_load",),
     }  # fmt: skip
-    groups = {name: tuple(key for key in columns if key.partition(".")[0] in keys) for name, keys in kinds.items()}
+    groups = {name: tuple(key for key in columns if key_of(key).quantity in keys) for name, keys in kinds.items()}
     return {"driver": _OF_DRIVER, "dynamics": DYNAMICS, **groups}

@@ -22,6 +22,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import ErrorMessage, Language
 from crankwork.method import Method
 from crankwork.quantities import QUANTITIES, base_key
+from crankwork.quantities.key import key_of
 from crankwork.quantities.renamed import MOVED, RENAMED
 from crankwork.units import coherent_unit
 
@@ -71,7 +72,7 @@ class Results(Mapping[str, Array | float]):
 
     Parameters
     ----------
-    solved : Solved
+    solved : PreparedMachine
         The machine and the method that made the results.
     grid : CrankGrid, shape (n,)
         Crank angles of the columns. [rad]
@@ -90,7 +91,7 @@ class Results(Mapping[str, Array | float]):
     allowed : mapping of str to float
         What a residual may be by the error that an approximate method states, by its key in `checks`; the others
         may be rounding. [-]
-    trace : mapping of str to Known
+    trace : mapping of str to TracedValue
         How every column, every single value and what lies between them came about.
     compared : Comparison, optional
         Results that stand beside these, by `crankwork.compare`.
@@ -488,8 +489,8 @@ class Results(Mapping[str, Array | float]):
 
     def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:
         """Return the error of an unknown key, with the nearest keys that exist."""
-        known, kind = list(known), key.partition(".")[0]
-        if kind in QUANTITIES and not any(item.partition(".")[0] == kind for item in known):
+        known, kind = list(known), key_of(key).quantity
+        if kind in QUANTITIES and not any(key_of(item).quantity == kind for item in known):
             return UnknownKeyError(ErrorMessage("result_absent", key=_printable(key), method=self.method.name))
         near = difflib.get_close_matches(key, known, n=3, cutoff=0.7) or [item for item in known if key in item][:3]
         if near:

@@ -8,6 +8,7 @@ import numpy as np
 
 from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import Array
+from crankwork.quantities.key import key_of
 
 # of the size that a quantity has in a machine, the part that is rounding
 _ROUNDING = 1e-12
@@ -55,9 +56,8 @@ def rounding_of_extremes(results: Results) -> dict[str, float]:
     """Return the size of rounding of the extremes of columns by key."""
     summary, sizes, values = results.summary, _sizes(results.columns, results.machine.speed), dict[str, float]()
     for column in results.columns:
-        kind, dot, name = column.partition(".")
-        ends = [key for end in ("max", "min") if (key := f"{kind}_{end}{dot}{name}") in summary]
-        size = max([sizes.get(kind, 0.0), *(abs(summary[key]) for key in ends)])
+        ends = [key for end in ("_max", "_min") if (key := key_of(column).derived(end)) in summary]
+        size = max([sizes.get(key_of(column).quantity, 0.0), *(abs(summary[key]) for key in ends)])
         values |= dict.fromkeys(ends, _ROUNDING * size)
     return values
 
@@ -66,7 +66,7 @@ def _sizes(columns: Mapping[str, Array], speed: float) -> dict[str, float]:
     """Return the size of each kind of quantity; that of angles is one radian."""
     largest: dict[str, float] = {}
     for key, value in columns.items():
-        kind = key.partition(".")[0]
+        kind = key_of(key).quantity
         largest[kind] = max(largest.get(kind, 0.0), _largest(value))
 
     def most(kinds: tuple[str, ...]) -> float:
@@ -85,4 +85,4 @@ def _largest(column: Array) -> float:
 
 
 def _is_rounding(key: str, largest: float, sizes: Mapping[str, float]) -> bool:
-    return 0.0 < largest <= _ROUNDING * sizes.get(key.partition(".")[0], 0.0)
+    return 0.0 < largest <= _ROUNDING * sizes.get(key_of(key).quantity, 0.0)

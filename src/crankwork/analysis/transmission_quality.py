@@ -17,6 +17,7 @@ from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.dyads import RRP, RRR
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.quantities.key import key_of
 
 FOLLOWED = ("transmission_cosine", "pressure_sine")
 # beyond these forces grow, and a linkage may jam; of pressure angles the largest [deg]
@@ -68,10 +69,10 @@ def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[No
     """Return the extreme transmission and pressure angles, and notices of those that are unusual."""
     result: dict[str, TracedValue] = {}
     notices: list[Notice] = []
-    keys = [key for key in over.columns if key.partition(".")[0] in ("transmission_cosine", "pressure_sine")]
+    keys = [key for key in over.columns if key_of(key).quantity in ("transmission_cosine", "pressure_sine")]
     extremes = over.extremes(*keys)
     for key in keys:
-        kind, _, name = key.partition(".")
+        kind, name = key_of(key)
         largest, least = extremes[f"{kind}_max.{name}"], extremes[f"{kind}_min.{name}"]
         if kind == "transmission_cosine":
             values = {
@@ -100,7 +101,7 @@ def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[No
 
 def rocks(pivoted: Collection[str], key: str, travel: float) -> bool:
     """Say whether a column is that of a slider, or of a link that rocks about a fixed pivot, as `pivoted` ones do."""
-    kind, _, name = key.partition(".")
+    kind, name = key_of(key)
     return kind == "slider_displacement" or (travel < math.pi and name in pivoted)
 
 
@@ -108,7 +109,7 @@ def time_ratios(over: CycleInterpolant, summary: Mapping[str, TracedValue]) -> I
     """Yield the time of the slower stroke over that of the faster one, of columns that turn back twice in a turn."""
     turns = (over.edges[-1] - over.edges[0]) / _TURN
     for key in over.columns:
-        kind, _, name = key.partition(".")
+        kind, name = key_of(key)
         ends = [f"{kind}_{word}_angle.{name}" for word in ("max", "min")]
         if kind not in ("slider_displacement", "link_angle") or ends[0] not in summary:
             continue
