@@ -69,7 +69,7 @@ class Moment(NamedTuple):
 
 def machine() -> TransientSystem:
     """Return the mechanism as its crank feels it."""
-    return TransientModel(crankwork.analyse(MACHINE).solved, path_coordinate(MACHINE, None)).felt
+    return TransientModel(crankwork.analyse(MACHINE).solved, path_coordinate(MACHINE, None)).system
 
 
 def coordinates(moment: Moment) -> tuple[Array, Array]:

@@ -106,7 +106,7 @@ class PreparedCylinder(PreparedMachine):
         return cylinder_trace(self)
 
     def traced_stroke(self, lengths: SliderCrank) -> TracedValue:
-        """Return the stroke as a known, of lengths that are knowns."""
+        """Return the stroke as a traced value, of traced lengths."""
         if self.articulated_rod is not None:
             return TracedValue(ProcedureValue(self.stroke[0], "dead_centre", lengths), "stroke")
         return traced_inputs.stroke(lengths)

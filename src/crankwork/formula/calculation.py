@@ -26,7 +26,7 @@ class Calculation:
     Examples
     --------
     >>> from crankwork.kinematics.slider_crank import mean_piston_speed
-    >>> worked = Worked()
+    >>> worked = Calculation()
     >>> _ = worked.given("stroke", 0.09), worked.given("rotational_speed", 3000.0)
     >>> worked(mean_piston_speed).value
     9.0

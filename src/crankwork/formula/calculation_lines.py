@@ -106,7 +106,7 @@ def without_noise(line: Line) -> Line:
 
 
 class Snapshot:
-    """Everything that knowns are made of, at one crank angle, in degrees.
+    """Everything that traced values are made of, at one crank angle, in degrees.
 
     The mark says whose values those are that vary with the crank angle, where they are not those of cylinder 1: after a
     point it ends their keys.

@@ -107,7 +107,7 @@ def formula(
         entry = FORMULAS[function.__name__] = Formula(function, quantity, source, unit, constants, valid, printed)
 
         @functools.wraps(function)
-        def compute_or_trace(*operands: Any) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
+        def compute_or_trace(*operands: Any) -> Any:  # noqa: ANN401 - numbers give numbers, traced give traced
             if is_traced(*operands):
                 return TracedValue(FormulaCall(entry, operands), quantity)
             # through the entry, as in replays, so that `instead` replaces both
@@ -368,7 +368,7 @@ def simplify(tree: Expression) -> Expression:
 
     Examples
     --------
-    >>> fold(Operation(operator.add, (Symbol("r"), Operation(operator.mul, (Number(0.0), Symbol("e"))))))
+    >>> simplify(Operation(operator.add, (Symbol("r"), Operation(operator.mul, (Number(0.0), Symbol("e"))))))
     Symbol(name='r')
     """
     if not isinstance(tree, Operation):

@@ -1,9 +1,9 @@
 """Values with their calculation.
 
-A known is a node of the calculation and the name it goes by where it is used. Formulas make knowns of knowns; outside
-formulas a known takes part in plain sums, products and quotients only and refuses everything else, because what is
-not traced could neither be explained nor replayed. What does not vary with the crank angle has its value at once;
-a column is replayed at whatever angles are asked for.
+A traced value is a node of the calculation, and the name it goes by where it is used. Formulas make traced values of
+traced values; outside formulas a traced value takes part in plain sums, products and quotients only and refuses
+everything else, because what is not traced could neither be explained nor replayed. What does not vary with the crank
+angle has its value at once; a column is replayed at whatever angles are asked for.
 """
 
 from __future__ import annotations
@@ -193,8 +193,8 @@ class ProcedureValue(Node):
     """A single value that a procedure found: the largest of a column, its mean, a root, an angle.
 
     `word` names the procedure, `operands` are what it was applied to, `at` is the crank angle where the value stands,
-    if it stands at one [deg]. `by` is that angle where it follows from other knowns, or what a column reaches; of
-    other words the same value made of nothing but knowns.
+    if it stands at one [deg]. `by` is that angle where it follows from other traced values, or what a column
+    reaches; of other words the same value made of traced values alone.
     """
 
     __slots__ = ("at", "by", "word")
@@ -212,7 +212,7 @@ class ProcedureValue(Node):
 
     @property
     def general_form(self) -> TracedValue | None:
-        """The same value made of nothing but knowns, where there is such a way."""
+        """The same value made of traced values alone, where there is such a way."""
         return None if self.word in ("at", "reached") else self.by
 
 
@@ -387,7 +387,7 @@ def total(key: str, terms: Iterable[TracedValue]) -> TracedValue:
     return terms[0].named(key) if len(terms) == 1 else TracedValue(Sum(terms), key)
 
 
-def sum_terms(key: str, terms: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers give numbers, knowns a known
+def sum_terms(key: str, terms: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers give numbers, traced give traced
     """Return the sum of terms in order, traced under a key if they are traced."""
     return total(key, terms) if is_traced(*terms) else sum(terms)
 
@@ -397,7 +397,7 @@ def to_number(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
     return value.value if isinstance(value, TracedValue) else value
 
 
-def select(condition: Any, first: Any, second: Any) -> Any:  # noqa: ANN401 - numbers, arrays of them, or of knowns
+def select(condition: Any, first: Any, second: Any) -> Any:  # noqa: ANN401 - numbers, arrays of them, or of traced values
     """Return the first of two values where another is above zero, else the second."""
     if any(isinstance(value, np.ndarray) and value.dtype == object for value in (condition, first, second)):
         return np.frompyfunc(select, 3, 1)(condition, first, second)

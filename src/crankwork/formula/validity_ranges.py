@@ -15,7 +15,7 @@ CODE = "formula_range"
 def range_notices(
     traced_values: Iterable[TracedValue], angles: Angles | None = None
 ) -> Iterator[tuple[str, Mapping[str, float | str]]]:
-    """Yield where formulas that knowns are made of are used outside the range that their source vouches for.
+    """Yield where formulas that traced values are made of are used outside the range that their source vouches for.
 
     Of each formula and argument at most one notice, about the value farthest outside, in the unit of the argument.
     `angles`: where to look at operands that vary with the crank angle; without it they are not looked at [rad].

@@ -10,7 +10,7 @@ from crankwork.formula.expression import Value, formula
 
 
 class Transfer(NamedTuple):
-    """A coordinate and its first and second derivative by the crank angle, arrays of shape (n,) or knowns."""
+    """A coordinate and its first and second derivative by the crank angle, arrays of shape (n,) or traced values."""
 
     position: Value
     position_1: Value

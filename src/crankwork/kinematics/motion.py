@@ -34,7 +34,7 @@ class Motion:
     frames: Mapping[str, LinkMotion] = field(default_factory=dict)
     # Lines between the joints of those links of dyads whose frames they are not
     bars: Mapping[str, LinkMotion] = field(default_factory=dict)
-    # Coordinate of the driver, its rate and second rate, where a law moves it; columns or knowns
+    # Coordinate of the driver, its rate and second rate, where a law moves it; columns or traced values
     driver: Transfer | None = None
     # Parts whose traced motion is that of earlier ones
     equal_parts: tuple[EqualPart, ...] = ()

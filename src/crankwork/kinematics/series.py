@@ -155,7 +155,7 @@ def series_transfer(slider_crank: SliderCrank, grid: CrankGrid, order: int) -> T
 def traced_order(
     slider_crank: SliderCrank, order: int, coefficients: tuple[float, float], start: tuple[float, float]
 ) -> tuple[TracedValue, TracedValue, tuple[TracedValue, TracedValue]]:
-    """Return the coefficients of one order as knowns; of a central mechanism those of the sines are absent.
+    """Return the coefficients of one order as traced values; of a central mechanism those of the sines are absent.
 
     `start`: cosine and sine of order times the crank angle where the displacement is to be zero.
     """

@@ -160,7 +160,7 @@ def traced_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Me
     )
 
 
-def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # noqa: ANN401 - knowns where numbers are typed
+def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # noqa: ANN401 - traced where numbers are typed
     driver: Any = mechanism.driver
     match mechanism.driver:
         case Crank():
@@ -207,7 +207,7 @@ def _branch(name: str, branch: int) -> Any:  # noqa: ANN401 - a known where a nu
     return absent("branch", 1.0) if branch == 1 else given(f"branch.{name}", -1.0, f"branch.{name}")
 
 
-def _point(name: str, point: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
+def _point(name: str, point: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - traced where numbers are typed
     return tuple(
         given(f"point_{axis}.{name}", coordinate, f"{path}[{number}]")
         for number, axis, coordinate in zip((1, 2), "xy", point, strict=True)
@@ -230,7 +230,7 @@ def _slot(name: str, slot: Guide, path: str) -> Guide:
     )
 
 
-def _along_across(name: str, point: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - knowns where numbers are typed
+def _along_across(name: str, point: tuple[float, float], path: str) -> Any:  # noqa: ANN401 - traced where numbers are typed
     keys = (f"point_along.{name}", f"point_across.{name}")
     return tuple(
         _stated(key, coordinate, f"{path}[{number}]")

@@ -24,7 +24,7 @@ class LoadCurve:
     Examples
     --------
     >>> import numpy as np
-    >>> Table((0.0, 0.1), (0.0, 500.0))(np.array([0.05, 0.2]))
+    >>> LoadCurve((0.0, 0.1), (0.0, 500.0))(np.array([0.05, 0.2]))
     array([250.,   0.])
     """
 

@@ -39,7 +39,7 @@ def monotone_slopes(x: Array, y: Array, *, periodic: bool = False) -> Array:
     return slopes
 
 
-def _end_slope(near: Any, far: Any, delta_near: Any, delta_far: Any) -> Any:  # noqa: ANN401 - numbers or knowns
+def _end_slope(near: Any, far: Any, delta_near: Any, delta_far: Any) -> Any:  # noqa: ANN401 - numbers or traced values
     slope, steepest = ((2 * near + far) * delta_near - near * delta_far) / (near + far), 3 * delta_near
     turning = select((slope - steepest) * delta_near, steepest, slope)
     return select(slope * delta_near, select(delta_near * delta_far, slope, turning), 0.0)

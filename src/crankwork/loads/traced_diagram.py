@@ -58,7 +58,7 @@ class TracedVolume:
     def _numbers(self, degrees: Array) -> Array:
         return replay(self.volume, CrankGrid.from_degrees(degrees))
 
-    def __call__(self, degrees: Any) -> Any:  # noqa: ANN401 - of numbers and knowns
+    def __call__(self, degrees: Any) -> Any:  # noqa: ANN401 - of numbers and traced values
         """Return the volumes at crank angles, an array of traced values."""
         angles = [to_number(value) for value in degrees]
         volumes = self._numbers(np.array(angles, dtype=float))

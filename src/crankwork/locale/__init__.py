@@ -34,7 +34,7 @@ def translate(key: str, language: Language, **values: object) -> str:
 
     Examples
     --------
-    >>> say("units.mm", "ru")
+    >>> translate("units.mm", "ru")
     'мм'
     """
     room, _, name = key.partition(".")
@@ -79,7 +79,7 @@ class ErrorMessage(str):
 
     Examples
     --------
-    >>> str(Refusal("same", others=["a", "b"]))
+    >>> str(ErrorMessage("same", others=["a", "b"]))
     'says the same as a and b; keep one of them'
     """
 
@@ -106,7 +106,7 @@ def in_language(message: str, language: Language) -> str:
 
     Examples
     --------
-    >>> told(Refusal("same", others=["a", "b"]), "ru")
+    >>> in_language(ErrorMessage("same", others=["a", "b"]), "ru")
     'задаёт то же, что a и b; оставьте что-то одно'
     """
     return _filled(message.name, message.values, language) if isinstance(message, ErrorMessage) else message
