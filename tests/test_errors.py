@@ -31,7 +31,7 @@ def _classes() -> dict[str, type[BaseException]]:
     found = {}
     for one in pkgutil.walk_packages(crankwork.__path__, "crankwork."):
         # what is compiled is imported only where Numba is installed, and has no errors of its own
-        if not one.name.endswith(("__main__", "kernel.elementary", "shaft.stepping")):
+        if not one.name.endswith(("__main__", "kernel.elementary", "shaft.compiled_steps")):
             module = importlib.import_module(one.name)
             classes = inspect.getmembers(module, lambda one: inspect.isclass(one) and issubclass(one, BaseException))
             found |= {name: kind for name, kind in classes if kind.__module__.startswith("crankwork.")}

@@ -25,7 +25,7 @@ _AT_ONCE = 128
 @lru_cache(maxsize=1)
 def _module() -> ModuleType:
     """Return the module of compiled steps."""
-    text = read_resource("shaft", "stepping.py")
+    text = read_resource("shaft", "compiled_steps.py")
     # with the formula in its text, so that another formula is another module
     return compiled(f"{text}\n_FORMULA = {inspect.getsource(FORMULAS['acceleration_of_crank'].function)!r}\n")
 
