@@ -160,7 +160,7 @@ def test_notes_have_a_section_with_table_and_figure():
         note = crankwork.note_of(results, NoteOptions(language=language))
         titles = {"en": "Comparison", "ru": "Сравнение", "vi": "So sánh"}
         assert titles[language] in [one.text for one in note.blocks if isinstance(one, Heading)]
-        (table,) = (one for one in note.blocks if isinstance(one, Table) and one.label == "compared")
+        (table,) = (one for one in note.blocks if isinstance(one, Table) and one.label == "t:compared")
         assert len(table.headings) == 1 + 2 * len(results.compared.names)
         figures = [one for one in note.blocks if isinstance(one, Figure) and "comparison" in one.label]
         assert len(figures) == 1
