@@ -7,7 +7,6 @@ import itertools
 import numpy as np
 import pytest
 
-from crankwork.analysis import analyse
 from crankwork.description.machine_file import read_machine
 from crankwork.note.sheets import drawn_sheets
 from crankwork.quantities import LANGUAGES
@@ -21,6 +20,7 @@ from crankwork.show.pdf import png
 from crankwork.show.scene import ChartBox, Drawing, Pen, Polyline, Text, line, pen_of, rectangle, runs, shade_of
 from crankwork.show.svg import svg
 from each import for_each
+from expansions import of_linkage
 from looks import box_of, faults
 from shown import FEW, REST, WIDE, figures_of, in_parts, results_of
 
@@ -99,7 +99,7 @@ c = { stroke = 0.0, pressure = "0.8 MPa" }
 @pytest.mark.slow
 def test_names_are_printed_as_they_are_written():
     """Signs that mark an index, an exponent or slanted letters in our texts mark nothing in names of users."""
-    results = analyse(read_machine(NAMED))
+    results = of_linkage(read_machine(NAMED))
     scenes = {**drawings(results), "film": film_of(results).still(0)}
     scenes |= {sheet.name: sheet.drawing for sheet in drawn_sheets(results)}
     said = {
