@@ -174,7 +174,8 @@ export class Cycle {
     const roots = this.nodes.map((one) => Math.sqrt(Math.max(evaluated(square, middle + half * one)[0], 0)));
     const fitted = this.coefficients(roots, 0);
     const rest = Math.abs(fitted[this.count - 1]) + Math.abs(fitted[this.count - 2]);
-    if (rest * half <= limit || cut === HALVED) return half * fitted[0];
+    // of lengths that no machine has nothing is a number
+    if (!(rest * half > limit) || cut === HALVED) return half * fitted[0];
     return this.meanOfRoot(square, limit, low, middle, cut + 1) + this.meanOfRoot(square, limit, middle, high, cut + 1);
   }
 
