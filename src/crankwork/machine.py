@@ -53,6 +53,20 @@ class InputNumber(NamedTuple):
     unit: str = ""
 
 
+class FileInput(NamedTuple):
+    """A value of a description as it is written, and the key of the text about its field."""
+
+    value: object
+    meaning: str = ""
+
+
+class FileInputs(NamedTuple):
+    """What a description states, and the defaults of what it could state beside it, by path."""
+
+    stated: Mapping[str, FileInput]
+    defaults: Mapping[str, FileInput]
+
+
 @dataclass(frozen=True)
 class Document:
     """Title data of a note and its sheets; empty fields are left out or filled in by hand.
@@ -404,6 +418,8 @@ class Machine:
     other_form: Callable[[Machine], Machine | None] | None = field(default=None, compare=False, repr=False)
     # The numbers of the description by path, `crank.stroke`; empty without a description
     stated: Mapping[str, InputNumber] = field(default_factory=dict, compare=False, repr=False)
+    # What the description states and what it leaves to defaults; None without a description
+    inputs: Callable[[], FileInputs] | None = field(default=None, compare=False, repr=False)
 
     @property
     def lengths(self) -> SliderCrank | None:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from crankwork import Description, analyse, template
 from crankwork.formula.traced_value import FormulaCall, Input, ProcedureValue, TracedValue, in_order
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.working_cycle.cycle_data import GrinevetskyData
@@ -251,9 +252,11 @@ def test_clearance_volume_goes_with_the_whole_stroke():
 
 
 def test_what_was_not_given_is_said():
-    assumed = dict(grinevetsky(GrinevetskyData("petrol", 9.0, 5000.0)).notices)["cycle_assumed"]["names"]
-    assert "heat_use" in str(assumed)
-    assert "residual_pressure" in str(assumed)
+    description = Description(template("whole-engine"))
+    del description["cycle.heat_use"]
+    assumed = {key: item for item in analyse(description).assumptions for key in item.keys if item.code == "taken"}
+    assert assumed["cycle.heat_use"].value == 0.9  # kolchin_demidov_2008, ch. 3
+    assert "cycle.residual_temperature" not in assumed  # stated
     full = replace(
         PETROL, fuel=FUELS["petrol"], intake_pressure=85e3, residual_pressure=118e3, residual_temperature=1060.0,
         heating=8.0, compression_exponent=1.377, expansion_exponent=1.251, heat_use=0.91, filling=0.96,

@@ -96,7 +96,7 @@ def _engine_of(machine: Machine, method: Method) -> Machine | None:
 
     form = engine_form_or_reason(machine, has_all=True)
     if isinstance(form, Machine):
-        return form
+        return replace(form, inputs=machine.inputs)
     if method.is_exact:
         return None
     raise MethodError(ErrorMessage("method_of_engines", method=method.name, reason=form.message))

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from crankwork.analysis.assumptions import Assumption, IdleInput
     from crankwork.analysis.compare import Comparison
     from crankwork.machine import Machine
     from crankwork.report.notebook import Picture
@@ -149,6 +150,21 @@ class Results(Mapping[str, Array | float]):
         """The keys of the checks that are not met."""
         met = {key: value <= max(_ROUNDING, self.allowed.get(key, 0.0)) for key, value in self.checks.items()}
         return tuple(key for key, value in met.items() if not value)
+
+    @cached_property
+    def assumptions(self) -> tuple[Assumption, ...]:
+        """What the results assume that the description does not state, and what they leave out."""
+        # not needed for results
+        from crankwork.analysis.assumptions import assumptions  # noqa: PLC0415 - loaded where it is needed
+
+        return assumptions(self)
+
+    @cached_property
+    def without_effect(self) -> tuple[IdleInput, ...]:
+        """The inputs of the description that no result depends on, each with the reason."""
+        from crankwork.analysis.assumptions import idle_inputs  # noqa: PLC0415 - loaded where it is needed
+
+        return idle_inputs(self)
 
     @property
     def tables(self) -> Mapping[str, tuple[str, ...]]:

@@ -233,8 +233,9 @@ def new(options: CommonOptions, name: str | None, output: str | None) -> None:
 @click.option("--circuits", is_flag=True)
 @JSON
 @click.option("--expand", is_flag=True)
+@click.option("--assumptions", is_flag=True)
 @with_common_options
-def check(options: CommonOptions, *, circuits: bool, expand: bool) -> None:
+def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: bool) -> None:
     """Read a machine and say what it is."""
     if expand and (circuits or options.as_json):
         raise CrankworkError(ErrorMessage("expand_alone"))
@@ -243,6 +244,7 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool) -> None:
 
         click.echo(expanded(options.file, options.settings, options.language), nl=False)
         return
+    from crankwork.report.assumptions import screen_lines, sentence_lists
     from crankwork.report.notices import notice_text
     from crankwork.report.summary import description_text
 
@@ -267,6 +269,9 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool) -> None:
         click.echo(
             translate("check.note", options.language, notice=notice_text(notice.code, notice.values, options.language))
         )
+    for heading, texts in sentence_lists(results, options.language):
+        shown = texts if assumptions else screen_lines(texts, options.language)
+        click.echo("\n".join((f"{heading}:", *(f"  {text}" for text in shown))))
     options.raise_if_unverified(results)
 
 

@@ -100,11 +100,17 @@ _FUEL = TableSpec("fuel", {
     "heating_value": KeySpec(Quantity(("specific_energy",), 1e6, 2e8), required=True),
 })  # fmt: skip
 
+
+def _event(usual: str) -> KeySpec:
+    """Return an event of the valves, which a calculation by Wiebe needs."""
+    return KeySpec(_EVENT, default=DefaultBy("kind", {"wiebe": usual}))
+
+
 _TIMING = TableSpec("timing", {
-    "intake_opens": KeySpec(_EVENT),
-    "intake_closes": KeySpec(_EVENT),
-    "exhaust_opens": KeySpec(_EVENT),
-    "exhaust_closes": KeySpec(_EVENT),
+    "intake_opens": _event("15 deg"),
+    "intake_closes": _event("50 deg"),
+    "exhaust_opens": _event("60 deg"),
+    "exhaust_closes": _event("15 deg"),
     "ignition": KeySpec(_BEFORE),
     "ignition_delay": KeySpec(_EVENT),
     "peak": KeySpec(_BEFORE, default="12 deg"),
@@ -129,7 +135,9 @@ CYCLE = TableSpec("cycle", {
     "intake_temperature": KeySpec(_TEMPERATURE, default=_WARM, only=_CLOSED),
     "intake_loss_factor": KeySpec(Number(0.0, 50.0), only=_OF_REAL),
     "intake_speed": KeySpec(Quantity(("velocity",), 0.0, 1000.0), only=_OF_REAL),
-    "residual_pressure": KeySpec(_PRESSURE, only={"kind": (*_REAL, "wiebe")}),
+    "residual_pressure": KeySpec(
+        _PRESSURE, default=DefaultBy("kind", {"wiebe": "0.11 MPa"}), only={"kind": (*_REAL, "wiebe")}
+    ),
     "residual_temperature": KeySpec(_TEMPERATURE, only=_OF_REAL),
     "heating": KeySpec(_RISE, only=_OF_REAL),
     "charge_up": KeySpec(Number(0.5, 1.5), default=1.0, only=_OF_REAL),

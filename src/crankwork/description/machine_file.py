@@ -19,6 +19,7 @@ from crankwork.analysis import prepare
 from crankwork.description.build import build_machine
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
+from crankwork.description.file_inputs import file_inputs
 from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, SIZED_FILE
 from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.load_keys import LOADING
@@ -122,7 +123,10 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     elif machine is not None and keys in _ENGINES:
         form = functools.partial(_linkage_form, machine, values, decimal_comma=reader.decimal_comma, folder=folder)
         machine = replace(machine, other_form=form)
-    return None if machine is None else replace(machine, document=stated_document(read_values))
+    if machine is None:
+        return None
+    inputs = functools.partial(file_inputs, read_values, values)
+    return replace(machine, document=stated_document(read_values), inputs=inputs)
 
 
 # what a linkage form is made of

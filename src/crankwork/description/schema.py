@@ -204,7 +204,7 @@ class MapOf(NamedTuple):
 
 
 class DefaultBy(NamedTuple):
-    """A default that depends on another key: that key, and the default for each of its values."""
+    """A default that depends on a key of its table or of the table around: that key, and the default for its values."""
 
     key: str
     values: Mapping[str, Any]
@@ -255,6 +255,8 @@ class TableSpec(NamedTuple):
             if later or any(name not in self.keys[other].instead_of for other in clashes):
                 reader.add_error(path, ErrorMessage("same", others=clashes))
         values = Values({name: read_value for name, read_value in result.items() if read_value is not None}, self)
+        for inner in (item for item in values.values() if isinstance(item, Values)):
+            inner.outer = values
         prefix = f"{key}." if key else ""
         for name, entry in self.keys.items():
             if name in value:
@@ -268,7 +270,7 @@ class TableSpec(NamedTuple):
         entry = self.keys.get(name)
         match entry.kind if entry else None:
             case TableSpec() as table:
-                return Values({}, table)
+                return Values({}, table, values)
             case MapOf():
                 return {}
             case ListOf() if entry and entry.default is None:
@@ -283,7 +285,10 @@ class TableSpec(NamedTuple):
         if entry is None or self._foreign(entry, values) or any(excluding):
             return None
         default = entry.default
-        return default.values.get(values[default.key]) if isinstance(default, DefaultBy) else default
+        if not isinstance(default, DefaultBy):
+            return default
+        governing = values if default.key in self.keys else values.outer
+        return None if governing is None else default.values.get(governing[default.key])
 
     @staticmethod
     def _foreign(entry: KeySpec, values: Values) -> tuple[str, tuple[str, ...]] | None:
@@ -371,9 +376,9 @@ class TableSpec(NamedTuple):
 class Values(dict[str, Any]):
     """Values of a table; a missing key gives its default and is not `in` the table."""
 
-    def __init__(self, stated: Mapping[str, Any], table: TableSpec) -> None:
+    def __init__(self, stated: Mapping[str, Any], table: TableSpec, outer: Values | None = None) -> None:
         super().__init__(stated)
-        self.table = table
+        self.table, self.outer = table, outer
 
     def __missing__(self, name: str) -> Any:  # noqa: ANN401 - each kind has its own type
         return self.table.default(name, self)
@@ -397,7 +402,7 @@ class Values(dict[str, Any]):
 
     def but(self, **changes: Any) -> Values:  # noqa: ANN401 - each kind has its own type
         """Return these values with changes."""
-        return Values({**self, **changes}, self.table)
+        return Values({**self, **changes}, self.table, self.outer)
 
 
 @functools.cache

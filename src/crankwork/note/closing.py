@@ -21,6 +21,7 @@ from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
+from crankwork.report.assumptions import plain_assumptions
 from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.look import kind_of
@@ -136,6 +137,9 @@ def _checks(material: Material) -> Iterator[Block]:
     if results.notices:
         yield words.paragraph("notices")
         yield ItemList(tuple((_notice(notice, words),) for notice in results.notices))
+    if assumed := plain_assumptions(results, words.language):
+        yield words.paragraph("assumptions")
+        yield ItemList(tuple((text,) for text in assumed))
 
 
 def _identity(key: str, words: Words) -> Cell:

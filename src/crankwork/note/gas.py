@@ -292,8 +292,9 @@ def _key(name: str) -> str:
 
 def _assumed(material: Material) -> set[str]:
     """Return the keys of default values that the calculation assumes."""
-    names = [str(notice.values["names"]) for notice in material.results.notices if notice.code == "cycle_assumed"]
-    keys = {FILE_KEYS.get(name, name) for names_of_notice in names for name in names_of_notice.split(", ")}
+    taken = (key for item in material.results.assumptions if item.code in ("taken", "fuel") for key in item.keys)
+    names = {key.rpartition(".")[2].partition("[")[0] for key in taken}
+    keys = {FILE_KEYS.get(name, name) for name in names}
     return keys | {key_brought for key in keys for key_brought in _BROUGHT.get(key, ())}
 
 

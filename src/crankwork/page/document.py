@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Container
+from collections.abc import Container, Iterator
 from typing import Any
 
 from crankwork.analysis import Results
@@ -17,6 +17,7 @@ from crankwork.note.interactive import bar, controls, look, page_data, stored_da
 from crankwork.page.sliders import LivePage, SliderDesigns, scale
 from crankwork.page.trace_export import TraceExport
 from crankwork.quantities import Language
+from crankwork.report.assumptions import sentence_lists
 from crankwork.report.display import display_key, displayed, in_own_units, key_unit, label
 from crankwork.report.drawing import film_of
 from crankwork.report.figures import drawings
@@ -190,14 +191,16 @@ def values(results: Results, explained: Container[str], language: Language, live
             translate("report.checks", language), [_check_row(results, key, language) for key in results.checks]
         )
     parts.append("</div>")
-    if results.notices:
-        texts = (html.escape(notice_text(notice.code, notice.values, language)) for notice in results.notices)
-        parts += [
-            f"<h3>{html.escape(translate('report.notices', language))}</h3><ul class=filed>",
-            *(f"<li>{text}</li>" for text in texts),
-        ]
-        parts.append("</ul>")
-    return [*parts, "</section>"]
+    return [*parts, *sentences(results, language), "</section>"]
+
+
+def sentences(results: Results, language: Language) -> Iterator[str]:
+    """Yield lists of notices, assumptions and inputs without effect, as HTML."""
+    notices = [notice_text(notice.code, notice.values, language) for notice in results.notices]
+    lists = [(translate("report.notices", language), notices)] if notices else []
+    for heading, texts in (*lists, *sentence_lists(results, language)):
+        items = (f"<li>{html.escape(text)}</li>" for text in texts)
+        yield "".join((f"<h3>{html.escape(heading)}</h3><ul class=filed>", *items, "</ul>"))
 
 
 def _small_table(caption: str, rows: list[str]) -> list[str]:

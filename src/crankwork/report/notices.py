@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from crankwork.analysis import Results
 from crankwork.formula.expression import symbol
-from crankwork.locale import decimal, has_text, in_language, translate
+from crankwork.locale import decimal, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.quantities.key import key_of
-from crankwork.report.display import FILE_KEYS, label
+from crankwork.report.display import label
 from crankwork.report.tables import any_nonzero
 
 _DRAWN = ("reduced_inertia", "static_torque", "dynamic_torque", "driving_torque", "joint_force")
@@ -22,9 +22,7 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
     """Return the sentence of a notice with its numbers printed."""
     shown = {}
     for key, value in values.items():
-        if key == "names":
-            shown[key] = _meanings(str(value), language)
-        elif key == "quantities":
+        if key == "quantities":
             shown[key] = ", ".join(label(name, language) for name in str(value).split(", "))
         elif key == "quantity":
             shown[key] = label(str(value), language)
@@ -41,17 +39,6 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
         unit = unit_name(argument_unit(str(values["argument"])), language)
         shown |= {key: f"{shown[key]} {unit}".rstrip() for key in ("value", "high")}
     return translate(f"notices.{code}", language, **shown)
-
-
-def _meanings(names: str, language: Language) -> str:
-    """Return keys of the machine file with what they mean, in a language that is not theirs."""
-    if language == "en":
-        return names
-    meant = {name: FILE_KEYS.get(name, name) for name in names.split(", ")}
-    return ", ".join(
-        f"{label(key, language)} ({name})" if key in QUANTITIES or has_text(f"report.{key}") else name
-        for name, key in meant.items()
-    )
 
 
 def skipped_figure_notes(results: Results, language: Language) -> Iterator[str]:

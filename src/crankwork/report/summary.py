@@ -10,6 +10,7 @@ from crankwork.analysis.rounding_noise import summary_without_rounding
 from crankwork.locale import ErrorMessage, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities import SUBJECTS, Language, subject
+from crankwork.report.assumptions import assumption_texts, idle_texts, screen_lines, sentence_lists
 from crankwork.report.comparison import comparison_data, comparison_text
 from crankwork.report.display import (
     display_key,
@@ -63,6 +64,8 @@ def summary_data(results: Results, *, per_area: bool = False) -> dict[str, Any]:
         "allowed": dict(results.allowed),
         "not_met": list(results.unmet),
         "notices": [notice_text(notice.code, notice.values, "en") for notice in results.notices],
+        "assumptions": assumption_texts(results, "en"),
+        "without_effect": idle_texts(results, "en"),
         **comparison_data(results, per_area=per_area),
     }
 
@@ -97,6 +100,8 @@ def summary_text(results: Results, *, language: Language = "en", per_area: bool 
     if results.notices:
         lines += ["", translate("report.notices", language)]
         lines += [f"  {notice_text(notice.code, notice.values, language)}" for notice in results.notices]
+    for heading, texts in sentence_lists(results, language):
+        lines += ["", heading, *(f"  {line}" for line in screen_lines(texts, language))]
     if results.compared is not None:
         lines += ["", comparison_text(results, language, per_area=per_area)]
     return "\n".join(lines)

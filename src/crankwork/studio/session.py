@@ -31,7 +31,7 @@ from crankwork.note.contents import note_of, sheets_of, written_note
 from crankwork.note.explain import place_text
 from crankwork.note.interactive import controls, page_data
 from crankwork.note.options import NoteOptions
-from crankwork.page.document import follow, page, tables, values
+from crankwork.page.document import follow, page, sentences, tables, values
 from crankwork.page.sliders import FAINT, LivePage, Slider, scale
 from crankwork.page.trace_export import TraceExport
 from crankwork.quantities.key import key_of
@@ -296,7 +296,7 @@ class Session:
             **seen, "title": results.machine.title, "method": results_method(results, language),
             "dyads": dyads(results.machine) if results.machine.linkage else [], "places": _places(results),
             "names": {name: figure_title(name, language) for name in names},
-            "values": "".join(values(results, results.trace, language)),
+            "values": "".join((*values(results, results.trace, language), *sentences(results, language))),
             "notices": [notice_text(notice.code, notice.values, language) for notice in results.notices],
             "summary": dict(results.summary),
             "scales": {key: (scale(key)[0], unit_name(key_unit(key), language)) for key in results.summary},

@@ -93,8 +93,8 @@ _USUAL = {
 _RESIDUAL = {"petrol": 1.15, "diesel": 1.05}
 
 
-def with_usual_values(data: GrinevetskyData) -> tuple[GrinevetskyData, tuple[str, ...]]:
-    """Return data completed with usual values, and the names of the fields that were completed."""
+def with_usual_values(data: GrinevetskyData) -> GrinevetskyData:
+    """Return data completed with usual values."""
     check_data(data)
     usual: dict[str, float] = dict(_USUAL[data.kind])
     if data.intake_pressure is not None:
@@ -109,11 +109,7 @@ def with_usual_values(data: GrinevetskyData) -> tuple[GrinevetskyData, tuple[str
     if data.kind == "diesel" and (data.fuel or FUELS["diesel"]).molar_mass:
         # the fuel of a diesel does not evaporate before the cylinder
         rest["fuel"] = (data.fuel or FUELS["diesel"])._replace(molar_mass=None)
-    complete = replace(data, **taken, **rest)  # type: ignore[arg-type]
-    names = [*taken, *(["fuel"] if data.fuel is None else [])]
-    if data.mechanical_loss is None and (data.power or data.stroke):
-        names.append("mechanical_loss")
-    return complete, tuple(names)
+    return replace(data, **taken, **rest)  # type: ignore[arg-type]
 
 
 def _losses(key: str) -> tuple[float, float]:

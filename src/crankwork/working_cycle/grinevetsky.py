@@ -47,7 +47,7 @@ def grinevetsky(data: GrinevetskyData) -> CalculatedCycle:
     Values in the order of textbooks, corners of the theoretical diagram, notices. `data`: with power, or bore and
     stroke, the engine is sized too. Source: kolchin_demidov_2008, ch. 1, 3, 4; nguyen_tat_tien_2000.
     """
-    full, assumed = with_usual_values(data)
+    full = with_usual_values(data)
     worked = traced_cycle_inputs(data, full)
     burning(worked, full.fuel or FUELS[full.kind])
     mixture(worked)
@@ -56,7 +56,7 @@ def grinevetsky(data: GrinevetskyData) -> CalculatedCycle:
     _combustion(worked, full)
     _expansion(worked, full)
     _indicated(worked, full)
-    notices: list[Notice] = [("cycle_assumed", {"names": ", ".join(assumed)})] if assumed else []
+    notices = list[Notice]()
     if full.power or full.stroke:
         notices += sized(worked, full)
         _effective(worked, full)

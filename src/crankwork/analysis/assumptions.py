@@ -1,0 +1,307 @@
+"""What results assume that nobody stated, what they leave out, and the inputs that no result depends on."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from crankwork.formula.traced_value import Input, in_order
+from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.load_curve import LoadCurve
+from crankwork.loads.process import ProcessForce
+from crankwork.loads.weight import Weight
+from crankwork.machine import FileInput, InputNumber
+from crankwork.working_cycle.fuels import FUELS
+
+if TYPE_CHECKING:
+    from crankwork.analysis.results import Results
+
+# keys of a file about its texts, tables and drawings, which change no result
+_DISPLAY = re.compile(r"(title|document|format|units|decimal_mark|table)\b.*|.*\bsource")
+# they choose a circuit, which nearby positions choose as well, or permit what may not be there
+_CHOOSING = re.compile(r"(positions|branch)\..*|engine\.uneven")
+# numbers that are in the trace if a result depends on them
+_TRACED = re.compile(
+    r"(crank|rod|piston|links|sliders|geared|driver)\b.*\.(\w*mass|inertia|radius_of_gyration|centre_of_mass|small_end_share)"
+    r"|(cylinder|chambers\..*)\.(inclination|compression_ratio|clearance_volume|piston_rod_diameter|rod_diameter|bore)"
+    r"|method\.gravity|(gas|chambers\.[^.]+)\.(ambient|back_pressure)|bearings\..*_(diameter|length)"
+    r"|engine\.articulated\.\w+|cycle\.\w+"
+)
+_WEIGHING = re.compile(r"method\.gravity|cylinder\.inclination")
+_FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
+_FACE = re.compile(r"\.faces\[1\]")
+_SAMPLES, _ROUNDING = 721, 1e-9
+_CORNERS = ("petrol", "diesel", "otto", "ideal-diesel", "dual")
+
+
+class Assumption(NamedTuple):
+    """Something that results assume: the default of a key, a value taken as usual, an effect left out, a convention.
+
+    `code` names its sentence; `keys` of the machine file state it otherwise; `value` as a file would state it or in SI
+    with its `quantity`; `meaning` is the key of the text about the field; `names` are the parts that it concerns.
+    """
+
+    code: str
+    keys: tuple[str, ...] = ()
+    value: Any = None
+    meaning: str = ""
+    quantity: str = ""
+    names: tuple[str, ...] = ()
+
+
+class IdleInput(NamedTuple):
+    """An input that no result depends on, and the code of the reason with its values."""
+
+    key: str
+    reason: str
+    values: Mapping[str, float | str] = {}
+
+
+def assumptions(results: Results) -> tuple[Assumption, ...]:
+    """Return what results assume, what matters most first; of the defaults those that a result depends on."""
+    inputs = results.machine.inputs
+    if inputs is None:
+        return ()
+    file = inputs()
+    found = [*_left_out(results), *_conventions(results), *_taken(results, {**file.stated, **file.defaults})]
+    defaults: dict[tuple[str, str], list[str]] = {}
+    for path, default in file.defaults.items():
+        if path not in _SAID and _default_matters(path, results, file.stated):
+            defaults.setdefault((default.meaning, str(default.value)), []).append(path)
+    found += [
+        Assumption("default", tuple(paths), file.defaults[paths[0]].value, meaning)
+        for (meaning, _), paths in defaults.items()
+    ]
+    return tuple(found)
+
+
+# defaults that have sentences of their own
+_SAID = ("method.weights",)
+
+
+def _left_out(results: Results) -> Iterator[Assumption]:
+    """Yield effects that are not included."""
+    machine = results.machine
+    has_forces = any(key.startswith(("joint_force", "piston_force")) for key in results.columns)
+    if _has_mass(results) and not _has_weights(results):
+        yield Assumption("no_weights", ("method.weights",))
+    if has_forces and not machine.friction and machine.drive.efficiency == 1.0:
+        yield Assumption("no_friction", ("friction", "efficiency"))
+    yield from _without_mass(results)
+
+
+def _without_mass(results: Results) -> Iterator[Assumption]:
+    """Yield the moving parts whose mass is not stated beside others whose mass is."""
+    machine = results.machine
+    if machine.linkage is not None:
+        parts = {f"links.{member.name}" if not member.guide else f"sliders.{member.name}": member.mass
+                 for member in machine.linkage.members}  # fmt: skip
+    elif machine.masses is not None:
+        rod = machine.masses.rod_small_end + machine.masses.rod_big_end
+        parts = {"piston": machine.masses.piston, "rod": rod}
+    else:
+        return
+    light = [name for name, mass in parts.items() if not mass]
+    if light and _has_mass(results):
+        yield Assumption("massless", tuple(f"{name}.mass" for name in light), names=tuple(light))
+
+
+def _has_mass(results: Results) -> bool:
+    machine = results.machine
+    members = machine.linkage.members if machine.linkage is not None else ()
+    return any(member.mass for member in members) or (machine.masses is not None and any(vars(machine.masses).values()))
+
+
+def _has_weights(results: Results) -> bool:
+    return results.machine.has_gravity or any(isinstance(load, Weight) for load in results.machine.loads)
+
+
+def _conventions(results: Results) -> Iterator[Assumption]:
+    """Yield conventions of angles and of deviations."""
+    machine = results.machine
+    if machine.lengths is not None and machine.gas is not None:
+        yield Assumption("angle_of_cycle" if machine.cycle > 360.0 else "angle_of_turn", ())
+    if machine.deviations:
+        yield Assumption("deviation", tuple(machine.deviations))
+
+
+def _taken(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assumption]:
+    """Yield inputs of the calculation that a cycle takes as usual for the kind of engine, and orders of cylinders."""
+    engine = results.machine.engine
+    if engine is not None and len(engine.layout.places) > 1 and not any(map(_FIRING.match, stated)):
+        order = "-".join(str(number) for number in engine.layout.firing_order)
+        yield Assumption("firing_order", ("engine.firing_order",), order)
+    calculated = getattr(getattr(results.machine.gas, "calculated", None), "cycle", None)
+    if getattr(calculated, "kind", "") not in FUELS:
+        return
+    fuel = next((path for path in stated if re.fullmatch(r"(.*\.)?cycle\.fuel\b.*", path)), "")
+    if not fuel:
+        yield Assumption("fuel", ("cycle.fuel",), calculated.kind)
+    for path, (node, quantity) in leaves(results).items():
+        table = path.partition("[")[0]
+        if re.fullmatch(r"(chambers\.[^.]+\.)?cycle\.\w+(\[\d\])?", path) and not any(
+            name.startswith(table) for name in stated
+        ):
+            yield Assumption("taken", (path,), node.value, quantity=quantity)
+
+
+def is_display(path: str) -> bool:
+    """Return whether a key of a file changes no result: texts, tables and drawings."""
+    return _DISPLAY.fullmatch(path) is not None
+
+
+def leaves(results: Results) -> dict[str, tuple[Input, str]]:
+    """Return the inputs that results depend on, by path, with the key of their quantity."""
+    found: dict[str, tuple[Input, str]] = {}
+    for known in in_order(results.trace.values()):
+        if isinstance(known.node, Input) and known.node.path:
+            found.setdefault(_FACE.sub("", known.node.path), (known.node, known.key))
+    return found
+
+
+_Rule = Callable[["Results", Mapping[str, FileInput], str], bool]
+# defaults that matter on a condition only; the others always do
+_CONDITIONS: tuple[tuple[str, _Rule], ...] = (
+    # the summary says the method, and pi is a constant of mathematics
+    (r"method\.(pi|kinematics)", lambda *_: False),
+    (r"method\.gravity", lambda results, *_: "method.gravity" in leaves(results)),
+    (r"method\.weights", lambda results, *_: _has_mass(results)),
+    (r"rod\.ratio_definition", lambda _, stated, __: "rod.ratio" in stated),
+    (r"engine\.strokes", lambda results, *_: results.machine.gas is None),
+    (r"engine\.uneven", lambda *_: False),
+    (r"(cycle|chambers\..*\.cycle)\.stroke_bore_ratio", lambda _, stated, __: "cycle.power" in stated),
+    (r"(cycle|chambers\..*\.cycle)\.motored", lambda results, *_: _has_misfire(results)),
+    (r"sliders\..*\.inertia", lambda results, _, path: _turns(results, path.split(".")[1])),
+    (r"loads\[\d+\]\.(curve|against|stroke)", lambda _, stated, path: f"{path.rpartition('.')[0]}.at[3]" in stated),
+    (r"transient\.until", lambda *_: False),
+    (r"transfer\.bodies\..*\.mass", lambda _, stated, path: f"{path.removesuffix('mass')}velocity[1]" in stated),
+    (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
+    (
+        r".*\.timing\.peak",
+        lambda results, stated, path: not _idle_event(path.removesuffix(".peak"), "peak", stated, results),
+    ),
+)
+
+
+def _default_matters(path: str, results: Results, stated: Mapping[str, FileInput]) -> bool:
+    if _DISPLAY.fullmatch(path):
+        return False
+    return next((rule(results, stated, path) for pattern, rule in _CONDITIONS if re.fullmatch(pattern, path)), True)
+
+
+def _has_misfire(results: Results) -> bool:
+    engine = results.machine.engine
+    return engine is not None and bool(engine.misfires)
+
+
+def _turns(results: Results, slider: str) -> bool:
+    """Return whether a sliding piece turns with the link that carries its guide."""
+    linkage = results.machine.linkage
+    carrier = linkage.guides[linkage.member(slider).guide].link if linkage is not None else ""
+    is_sliding = linkage is not None and any(member.name == carrier and member.guide for member in linkage.members)
+    return _turns(results, carrier) if is_sliding else bool(carrier)
+
+
+def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
+    """Return the stated inputs that no result depends on."""
+    inputs = results.machine.inputs
+    if inputs is None:
+        return ()
+    stated = {path: item for path, item in inputs().stated.items() if not _DISPLAY.fullmatch(path)}
+    found = {item.key: item for item in _unreached_forces(results, stated)}
+    in_trace = leaves(results)
+    for path in stated:
+        if path not in found and not _CHOOSING.fullmatch(path) and (code := _idle(path, stated, results, in_trace)):
+            found[path] = IdleInput(path, code)
+    return tuple(found[path] for path in stated if path in found)
+
+
+def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace: Mapping[str, Any]) -> str:
+    """Return the code of the reason why nothing depends on an input; empty if something does."""
+    table, _, name = path.rpartition(".")
+    if table == "motor":
+        codes = {notice.code for notice in results.notices}
+        return "not_running" if codes & {"stalls", "no_steady_speed"} and "transient.motor" not in stated else ""
+    if table.endswith("timing"):
+        return _idle_event(table, name, stated, results)
+    if path == "engine.spacing":
+        moments = results.listings["balance"].columns.get("free_moment") if "balance" in results.listings else None
+        return "no_moments" if moments is None or not np.any(moments) else ""
+    if path == "engine.strokes":
+        return "strokes_of_gas" if results.machine.gas is not None else ""
+    if path.startswith("flywheel.") and name in ("fluctuation", "percent"):
+        return "steady_enough" if results.summary.get("flywheel_inertia") == 0.0 else ""
+    if path == "method.weights":
+        return "" if _has_mass(results) else "no_masses"
+    if match := re.fullmatch(r"(.*)\.points\.([^.]+)\.angle", path):
+        return "" if _bounds_pieces(match[1], match[2], stated) else "only_volume"
+    number = results.machine.stated.get(path)
+    if number is None or not number.value or _FACE.sub("", path) in in_trace or not _TRACED.fullmatch(path):
+        return ""
+    return "weights_off" if _WEIGHING.fullmatch(path) and not _has_weights(results) else "unused"
+
+
+def _bounds_pieces(gas: str, point: str, stated: Mapping[str, FileInput]) -> bool:
+    """Return whether a point of a diagram stands on one of its pieces, or has no volume but that at its angle."""
+    on_piece = re.compile(rf"{re.escape(gas)}\.pieces\[\d+\]\.points\[\d+\]")
+    return f"{gas}.points.{point}.volume" not in stated or any(
+        item.value == point for path, item in stated.items() if on_piece.fullmatch(path)
+    )
+
+
+def _idle_event(table: str, name: str, stated: Mapping[str, FileInput], results: Results) -> str:
+    """Return why an event of the valves has no effect in a calculated cycle; empty if it has."""
+    cycle = table.removesuffix(".timing")
+    kind, corners = (stated.get(f"{cycle}.{key}", FileInput(None)).value for key in ("kind", "corners"))
+    is_rounded = corners == "rounded" or (corners is None and any(path.startswith(f"{table}.") for path in stated))
+    if (kind in _CORNERS or name == "peak") and not (is_rounded and kind in _CORNERS):
+        return "sharp_corners"
+    if results.machine.cycle > 360.0:
+        return "from_dead_centre" if name == "intake_closes" and kind in _CORNERS else ""
+    other = {"intake_closes": "exhaust_closes", "exhaust_closes": "intake_closes"}.get(name, "")
+    numbers = results.machine.stated
+    first, second = (numbers.get(f"{table}.{key}", InputNumber(0.0)).value for key in (name, other))
+    # one that is not far from the other may become the later one
+    return "closes_first" if other and 2 * first < second else ""
+
+
+def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iterator[IdleInput]:
+    """Yield entries of tables of process forces that lie beyond what the piece travels."""
+    for number, load in enumerate(results.machine.loads, start=1):
+        if not isinstance(load, ProcessForce) or not isinstance(load.force, LoadCurve) or load.against != "stroke":
+            continue
+        travel = _travel(results, load)
+        acting = load.force(travel)
+        values = {"begins": load.force.at[0] * 1e3, "from": float(travel[0]) * 1e3, "to": float(travel[-1]) * 1e3}
+        for key, numbers in (("at", load.force.at), ("values", load.force.values)):
+            for index in range(len(numbers)):
+                path = f"loads[{number}].{'at' if key == 'at' else 'force'}[{index + 1}]"
+                if path in stated and not _acts(load.force, key, index, travel, acting):
+                    yield IdleInput(path, "beyond_stroke" if np.any(acting) else "never_acts", values)
+
+
+def _travel(results: Results, load: ProcessForce) -> Array:
+    """Return distances from the start of the working stroke that the piece comes to. [m]"""
+    key = f"slider_displacement.{load.slider}"
+    positions = results.columns_at(np.linspace(0.0, results.machine.cycle, _SAMPLES), [key])[key] - load.start
+    ends = sorted((load.forward * float(np.min(positions)), load.forward * float(np.max(positions))))
+    return np.linspace(*ends, 4 * _SAMPLES)
+
+
+def _acts(curve: LoadCurve, key: Literal["at", "values"], index: int, travel: Array, acting: Array) -> bool:
+    """Return whether a force that is met changes with an entry of its table."""
+    numbers = getattr(curve, key)
+    for factor in (1.01, 0.99):
+        other = list(numbers)
+        other[index] = other[index] * factor or (factor - 1.0) * max(map(abs, numbers))
+        try:
+            changed = replace(curve, **{key: tuple(other)})(travel)
+        except ValueError:
+            return True
+        if np.max(np.abs(changed - acting)) > _ROUNDING * max(map(abs, curve.values)):
+            return True
+    return False

@@ -1,0 +1,59 @@
+"""What a machine file states and what it leaves to defaults, by path."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from crankwork.description.schema import TableSpec, Values
+from crankwork.locale import has_text
+from crankwork.machine import FileInput, FileInputs
+
+# tables whose defaults hold where they are left out
+_ALWAYS_PRESENT = ("method", "timing")
+
+
+def file_inputs(values: Values, written: Mapping[str, Any]) -> FileInputs:
+    """Return the inputs of a file: `values` as read, `written` as they stand in it."""
+    return FileInputs(dict(_stated(written, values, "")), dict(_defaults(values, "")))
+
+
+def _stated(written: Any, read: Any, path: str, meaning: str = "") -> Iterator[tuple[str, FileInput]]:  # noqa: ANN401
+    """Yield every value that a file states, by path."""
+    if isinstance(written, Mapping):
+        table = read.table if isinstance(read, Values) else None
+        for name, item in written.items():
+            inner = read.get(name) if isinstance(read, Mapping) else None
+            own = meaning if table is None else _meaning(table, name)
+            yield from _stated(item, inner, f"{path}.{name}" if path else name, own)
+    elif isinstance(written, list):
+        entries = read if isinstance(read, list) else [None] * len(written)
+        for number, (item, inner) in enumerate(zip(written, entries, strict=False), start=1):
+            yield from _stated(item, inner, f"{path}[{number}]", meaning)
+    else:
+        yield path, FileInput(written, meaning)
+
+
+def _defaults(values: Any, path: str) -> Iterator[tuple[str, FileInput]]:  # noqa: ANN401 - tables, lists and values
+    """Yield the default of every key that a table of a file could state and does not, by path."""
+    if isinstance(values, list):
+        for number, item in enumerate(values, start=1):
+            yield from _defaults(item, f"{path}[{number}]")
+    elif isinstance(values, Values):
+        for name, spec in values.table.keys.items():
+            inner = f"{path}.{name}" if path else name
+            if name in values:
+                yield from _defaults(values[name], inner)
+            elif isinstance(spec.kind, TableSpec) and name in _ALWAYS_PRESENT:
+                yield from _defaults(Values({}, spec.kind, values), inner)
+            elif (default := values.table.written_default(name, values)) is not None:
+                yield inner, FileInput(default, _meaning(values.table, name))
+    elif isinstance(values, Mapping):
+        for name, item in values.items():
+            yield from _defaults(item, f"{path}.{name}")
+
+
+def _meaning(table: TableSpec, name: str) -> str:
+    """Return the key of the text about a field, empty if it has none."""
+    keys = (f"fields.{table.name}.{name}", f"fields.{name}")
+    return next((key for key in keys if has_text(key)), "")

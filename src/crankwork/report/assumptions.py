@@ -1,0 +1,95 @@
+"""Assumptions of results, and inputs without effect, as sentences."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from crankwork.analysis import Results
+from crankwork.analysis.assumptions import Assumption
+from crankwork.locale import Language, decimal, translate
+from crankwork.locale.numbers import number, unit_name
+from crankwork.report.display import displayed, in_own_units, key_unit, label
+
+# what a screen shows beside the results
+MOST_LINES, WIDEST = 3, 100
+_MOST_KEYS = 3
+_QUANTITY = re.compile(r"([-+\d.eE]+) (\S.*)")
+
+
+@in_own_units
+def assumption_texts(results: Results, language: Language) -> list[str]:
+    """Return a sentence for each assumption, what matters most first."""
+    return [_assumption(item, language) for item in results.assumptions]
+
+
+@in_own_units
+def plain_assumptions(results: Results, language: Language) -> list[str]:
+    """Return the assumptions that are no defaults, without the keys of the file, for a note."""
+    plain = (item._replace(keys=()) for item in results.assumptions if item.code != "default")
+    return [_assumption(item, language).replace(" ()", "") for item in plain]
+
+
+def idle_texts(results: Results, language: Language) -> list[str]:
+    """Return a sentence for each reason why inputs are without effect."""
+    groups: dict[tuple[str, tuple[object, ...]], list[str]] = {}
+    for item in results.without_effect:
+        groups.setdefault((item.reason, tuple(item.values.items())), []).append(item.key)
+    return [
+        translate(
+            f"assumptions.{reason}",
+            language,
+            keys=_keys(keys, language),
+            **{name: number(value, language) for name, value in values},  # type: ignore[misc]
+        )
+        for (reason, values), keys in groups.items()
+    ]
+
+
+def sentence_lists(results: Results, language: Language) -> Iterator[tuple[str, list[str]]]:
+    """Yield the headings of assumptions and of inputs without effect with their sentences, where there are any."""
+    for name, texts in (
+        ("heading", assumption_texts(results, language)),
+        ("heading_idle", idle_texts(results, language)),
+    ):
+        if texts:
+            yield translate(f"assumptions.{name}", language), texts
+
+
+def screen_lines(texts: Sequence[str], language: Language) -> Iterator[str]:
+    """Yield the first sentences, cut to the width of a screen, and how many more there are."""
+    for text in texts[:MOST_LINES]:
+        yield text if len(text) <= WIDEST else f"{text[: WIDEST - 1].rstrip()}…"
+    if len(texts) > MOST_LINES:
+        yield translate("assumptions.more", language, count=len(texts) - MOST_LINES)
+
+
+def _assumption(item: Assumption, language: Language) -> str:
+    keys = _keys(item.keys, language)
+    if item.code == "taken":
+        unit = unit_name(key_unit(item.quantity), language)
+        value = f"{number(displayed(item.quantity, item.value), language)} {unit}".rstrip()
+        return translate("assumptions.taken", language, name=label(item.quantity, language), value=value, keys=keys)
+    name = translate(item.meaning, language) if item.meaning else ""
+    names = ", ".join(part.partition(".")[2] or part for part in item.names)
+    return translate(
+        f"assumptions.{item.code}", language, keys=keys, name=name, names=names, value=_written(item.value, language)
+    )
+
+
+def _written(value: object, language: Language) -> str:
+    """Return a value of a file as a language prints it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return ", ".join(_written(item, language) for item in value)
+    match = _QUANTITY.fullmatch(str(value))
+    if match is None:
+        return decimal(str(value), language) if isinstance(value, float) else str(value)
+    return f"{decimal(match[1], language)} {unit_name(match[2], language)}".replace(" °", "°")
+
+
+def _keys(keys: Sequence[str], language: Language) -> str:
+    shown = ", ".join(keys[:_MOST_KEYS])
+    rest = len(keys) - _MOST_KEYS
+    return shown if rest <= 0 else f"{shown} {translate('assumptions.more_keys', language, count=rest)}"

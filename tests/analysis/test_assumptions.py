@@ -1,0 +1,87 @@
+"""What results assume and which inputs have no effect, against changing every value and computing again."""
+
+import pytest
+
+from crankwork import Description, analyse, template
+from effects import mistold
+from expansions import ROOT, machine_files
+
+FILES = machine_files("examples")
+# computed again some hundred times each
+LONG = ("knuckle-press", "press-start", "andrews-squeezer")
+QUICK = ("crank-shaper", "engine", "scotch-yoke", "toggle-press", "whole-engine")
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_what_is_told_is_what_has_an_effect(name):
+    assert mistold(FILES[name], ROOT / "examples") == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in FILES if name not in (*QUICK, *LONG)])
+def test_what_is_told_is_what_has_an_effect_in_every_file(name):
+    assert mistold(FILES[name], ROOT / "examples") == []
+
+
+def codes(results):
+    return {item.code for item in results.assumptions}
+
+
+def idle(results):
+    return {item.key: item.reason for item in results.without_effect}
+
+
+def test_weights_that_are_given_and_not_counted_are_told():
+    description = Description(template("four-bar"))
+    description["method.gravity"] = "9.81 m/s2"
+    assert idle(analyse(description)) == {"method.gravity": "weights_off"}
+    description["method.weights"] = True
+    results = analyse(description)
+    assert idle(results) == {}
+    assert "no_weights" not in codes(results)
+
+
+def test_a_force_beyond_the_stroke_is_told():
+    description = Description(template("toggle-press"))
+    travel = analyse(description)["slider_stroke.ram"] * 1e3
+    for number, at in enumerate((1.1, 1.2, 1.3), start=1):
+        description[f"loads[1].at[{number}]"] = f"{at * travel} mm"
+    results = analyse(description)
+    assert set(idle(results).values()) == {"never_acts"}
+    assert results.without_effect[0].values["to"] == pytest.approx(travel)
+
+
+def test_an_inclination_without_weights_is_told():
+    description = Description(template("engine"))
+    description["cylinder.inclination"] = "30 deg"
+    assert idle(analyse(description)) == {"cylinder.inclination": "weights_off"}
+
+
+def test_a_compression_ratio_without_gas_is_told():
+    description = Description(template("slider-crank"))
+    description.replace({"cylinder.bore": "80 mm", "cylinder.compression_ratio": 9.0})
+    assert "cylinder.compression_ratio" in idle(analyse(description))
+
+
+def test_parts_without_mass_beside_others_are_told():
+    description = Description(template("four-bar"))
+    for key in ("mass", "inertia", "centre"):
+        del description[f"links.rocker.{key}"]
+    light = next(item for item in analyse(description).assumptions if item.code == "massless")
+    assert light.names == ("links.rocker",)
+
+
+def test_valve_timing_of_a_release_of_heat_is_told():
+    description = Description(template("engine"))
+    del description["gas"]
+    description.replace(
+        {
+            "cycle.kind": "wiebe",
+            "cycle.cycle_heat": "1100 J",
+            "cylinder.compression_ratio": 10.0,
+            "method.kinematics": "exact",
+        }
+    )
+    events = {key: item.value for item in analyse(description).assumptions for key in item.keys if "timing" in key}
+    assert events["cycle.timing.intake_closes"] == "50 deg"
+    assert events["cycle.timing.exhaust_opens"] == "60 deg"

@@ -1,0 +1,202 @@
+"""Which values of a machine file change a result, found by changing each and computing again."""
+
+from __future__ import annotations
+
+import copy
+import re
+import tomllib
+import warnings
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from crankwork.analysis import Results, analyse
+from crankwork.analysis.assumptions import is_display
+from crankwork.description.machine_file import Setting, apply_override, entry_at, file_keys, read_machine
+from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader
+from crankwork.errors import CrankworkError
+from crankwork.quantities import QUANTITIES, base_key
+from crankwork.units import UNITS, parse
+from expansions import written
+
+# a change is more than this part of a value, and of the largest of its dimension
+LIMIT, ROUNDING = 1e-9, 1e-13
+# what stands for a value of zero, in SI
+_SCALES = {"length": 1e-3, "angle": 0.01, "mass": 0.01, "inertia": 1e-5, "pressure": 1e3, "force": 10.0, "torque": 1.0}
+
+
+def stated_values(values: Mapping[str, Any]) -> Iterator[tuple[str, Any, object]]:
+    """Yield path, value and kind of every value that a file states."""
+    yield from _stated(values, file_keys(values), "")
+
+
+def _stated(value: Any, kind: object, path: str) -> Iterator[tuple[str, Any, object]]:
+    if isinstance(value, Mapping):
+        for name, item in value.items():
+            yield from _stated(item, entry_at(kind, name), f"{path}.{name}" if path else name)
+    elif isinstance(value, list):
+        for number, item in enumerate(value, start=1):
+            yield from _stated(item, entry_at(kind, number), f"{path}[{number}]")
+    elif not is_display(path):
+        yield path, value, kind
+
+
+def default_values(values: Mapping[str, Any]) -> Iterator[tuple[str, Any, object]]:
+    """Yield path, value and kind of every default that the file could state in the tables that it has."""
+    keys = file_keys(values)
+    present = {**values, "method": values.get("method", {})}
+    if "cycle" in values:
+        present["cycle"] = {"timing": {}, **values["cycle"]}
+    read = keys.read(present, "", Reader()) or Values({}, keys)
+    yield from _defaults(present, read, keys, "")
+
+
+def _defaults(value: Any, read: Any, kind: object, path: str) -> Iterator[tuple[str, Any, object]]:
+    if isinstance(value, list) and isinstance(read, list):
+        for number, (item, inner) in enumerate(zip(value, read, strict=True), start=1):
+            yield from _defaults(item, inner, entry_at(kind, number), f"{path}[{number}]")
+    if not isinstance(value, Mapping):
+        return
+    for name, item in value.items():
+        yield from _defaults(item, read.get(name), entry_at(kind, name), f"{path}.{name}" if path else name)
+    table = kind.other if isinstance(kind, NameOr) else kind
+    if isinstance(table, TableSpec):
+        for name in table.keys:
+            full = f"{path}.{name}" if path else name
+            default = None if name in value else table.written_default(name, read)
+            if default is not None and not is_display(full):
+                yield full, default, table.keys[name].kind
+
+
+def alternatives(value: Any, kind: object) -> Iterator[Any]:
+    """Yield other values in the place of one."""
+    if isinstance(kind, NameOr):
+        kind = kind.other
+    elif isinstance(kind, NumberOr | WordOr):
+        inner = [getattr(kind, name) for name in kind._fields if name in ("number", "quantity", "words")]
+        kind = next((one for one in inner if isinstance(one, Quantity) == isinstance(value, str)), None)
+    match kind:
+        case Flag():
+            yield not value
+        case Choice():
+            yield from (option for option in kind.options if option != value)
+        case Number(whole=True):
+            yield from (value + 1, value - 1)
+        case Number():
+            yield from (value * 1.01, value * 0.99, value * 2.0) if value else (0.01, -0.01)
+        case Quantity() if isinstance(value, str):
+            yield from _other_quantities(value, kind)
+        case ListOf() if isinstance(value, list):
+            others = [(number, other) for number, item in enumerate(value) for other in alternatives(item, kind.entry)]
+            yield from ([*value[:number], other, *value[number + 1 :]] for number, other in others)
+
+
+def _other_quantities(value: str, kind: Quantity) -> Iterator[str]:
+    parsed = parse(value.partition("±")[0], kind.dimensions, metric_hp=True, decimal_comma="," in value)
+    unit = UNITS[parsed.unit]
+    size = (parsed.value - unit.zero) / unit.factor
+    step = _SCALES.get(parsed.dimension, 1.0) / unit.factor
+    others = (size * 1.01, size * 0.99, size * 2.0) if parsed.value else (step, -step)
+    yield from (f"{other!r} {parsed.unit}" for other in others)
+
+
+def computed(values: Mapping[str, Any], folder: Path) -> Results:
+    """Return the results of a file."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return analyse(read_machine(written(values), folder=folder))
+
+
+def has_changed(first: Results, second: Results) -> bool:
+    """Return whether any summary value, column or entry of a table differs."""
+    one, other = _values_of(first), _values_of(second)
+    if one.keys() != other.keys():
+        return True
+    scales = _scales(first)
+    for key, value in one.items():
+        if value.shape != other[key].shape:
+            return True
+        apart = np.abs(value - other[key])
+        size = np.maximum(np.abs(value), np.abs(other[key]))
+        limit = np.maximum(LIMIT * size, ROUNDING * scales.get(_unit(key), 0.0))
+        if np.any(np.isnan(value) != np.isnan(other[key])) or np.any(apart > limit):
+            return True
+    return False
+
+
+def _unit(key: str) -> str:
+    quantity = QUANTITIES.get(base_key(key.rpartition("/")[2]))
+    return quantity.si_unit if quantity is not None else ""
+
+
+def _values_of(results: Results) -> dict[str, np.ndarray]:
+    values = {**results.columns, **{f"1/{key}": value for key, value in results.summary.items()}}
+    for name, table in results.listings.items():
+        values |= {f"{name}/{key}": column for key, column in table.columns.items()}
+    return {key: np.atleast_1d(np.asarray(value, dtype=float)) for key, value in values.items()}
+
+
+def _scales(results: Results) -> dict[str, float]:
+    scales: dict[str, float] = {}
+    for key, value in _values_of(results).items():
+        finite = np.abs(value[np.isfinite(value)])
+        if finite.size:
+            scales[_unit(key)] = max(scales.get(_unit(key), 0.0), float(finite.max()))
+    return scales
+
+
+def has_effect(values: dict[str, Any], path: str, value: Any, kind: object, base: Results, folder: Path) -> bool | None:
+    """Return whether another value in a place changes a result; None if none was tried. Refused: it does."""
+    computed_any = refused_any = False
+    for other in alternatives(value, kind):
+        changed = copy.deepcopy(values)
+        try:
+            apply_override(changed, Setting("--set", path, other))
+            results = computed(changed, folder)
+        except CrankworkError:
+            refused_any = True
+            continue
+        if has_changed(base, results):
+            return True
+        computed_any = True
+    return False if computed_any else (True if refused_any else None)
+
+
+def measured(text: str, folder: Path) -> tuple[Results, dict[str, bool], dict[str, bool]]:
+    """Return the results of a file, and whether each stated value and each default has an effect."""
+    values = tomllib.loads(text)
+    base = computed(values, folder)
+    found = []
+    for items in (stated_values(values), default_values(values)):
+        effects = {path: has_effect(values, path, value, kind, base, folder) for path, value, kind in items}
+        found.append({path: effect for path, effect in effects.items() if effect is not None})
+    return base, found[0], found[1]
+
+
+# changes of these keys are no test of what is told, by pattern and reason
+EXCEPTIONS = {
+    r"method\.pi": "a constant of mathematics, changed only to follow a book",
+    r"method\.kinematics": "the summary names the method",
+    r"(positions|branch)\..*": "they choose a circuit; others near by choose the same",
+    r"engine\.uneven": "it permits intervals and changes none",
+    r".*\.pieces\[\d+\]\.law": "between points of equal pressure all laws are one line",
+    r".*\.points\..*\.pressure": "that of the last point must agree with the first",
+}
+
+
+def told(results: Results) -> tuple[set[str], set[str]]:
+    """Return the inputs that results call without effect, and the defaults that they call assumptions."""
+    assumed = {key for item in results.assumptions for key in item.keys if item.code in ("default", "no_weights")}
+    return {item.key for item in results.without_effect}, assumed
+
+
+def mistold(text: str, folder: Path) -> list[str]:
+    """Return the keys of a file whose effect is another than results tell."""
+    base, stated, defaults = measured(text, folder)
+    idle, assumed = told(base)
+    wrong = {key for key, effect in stated.items() if effect == (key in idle)}
+    wrong |= {key for key, effect in defaults.items() if effect != (key in assumed)}
+    return sorted(key for key in wrong if not any(re.fullmatch(pattern, key) for pattern in EXCEPTIONS))
