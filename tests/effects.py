@@ -48,7 +48,7 @@ def default_values(values: Mapping[str, Any]) -> Iterator[tuple[str, Any, object
     """Yield path, value and kind of every default that the file could state in the tables that it has."""
     keys = file_keys(values)
     present = {**values, "method": values.get("method", {})}
-    if "cycle" in values:
+    if values.get("cycle", {}).get("kind") == "wiebe":
         present["cycle"] = {"timing": {}, **values["cycle"]}
     read = keys.read(present, "", Reader()) or Values({}, keys)
     yield from _defaults(present, read, keys, "")
@@ -113,10 +113,11 @@ def computed(values: Mapping[str, Any], folder: Path) -> Results:
 def has_changed(first: Results, second: Results) -> bool:
     """Return whether any summary value, column or entry of a table differs."""
     one, other = _values_of(first), _values_of(second)
-    if one.keys() != other.keys():
+    if any(np.any({**one, **other}[key]) for key in one.keys() ^ other.keys()):
         return True
     scales = _scales(first)
-    for key, value in one.items():
+    for key in one.keys() & other.keys():
+        value = one[key]
         if value.shape != other[key].shape:
             return True
         apart = np.abs(value - other[key])

@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "274ffc63bbc6",
     "quantities": "eb8dc364166d",
-    "defaults": "8ca4806cab4c",
+    "defaults": "852fd398a2cf",
 }
 
 

@@ -34,7 +34,7 @@ TEMPLATES = sorted((PACKAGE / machine_file.TEMPLATES).glob("*.toml"))
 ROOMS = sorted({path.stem for path in (PACKAGE / "locale").glob("*/*.toml")})
 # rooms whose names are put together with their room where they are asked for, and the folder whose constants name them
 NAMED_IN = {
-    "captions": "note", "check": "report", "columns": "", "drawing": "report", "explain": "",
+    "assumptions": "", "captions": "note", "check": "report", "columns": "", "drawing": "report", "explain": "",
     "fields": "description", "figures": "",
     "headings": "note", "kinds": "",
     "marks": "", "memory": "", "note": "note", "notices": "", "refusals": "", "report": "", "seen": "note",

@@ -255,7 +255,8 @@ def test_what_was_not_given_is_said():
     description = Description(template("whole-engine"))
     del description["cycle.heat_use"]
     assumed = {key: item for item in analyse(description).assumptions for key in item.keys if item.code == "taken"}
-    assert assumed["cycle.heat_use"].value == 0.9  # kolchin_demidov_2008, ch. 3
+    # kolchin_demidov_2008, ch. 3 and 5
+    assert (assumed["cycle.heat_use"].value, assumed["cycle.filling"].value) == (0.9, 0.96)
     assert "cycle.residual_temperature" not in assumed  # stated
     full = replace(
         PETROL, fuel=FUELS["petrol"], intake_pressure=85e3, residual_pressure=118e3, residual_temperature=1060.0,

@@ -67,20 +67,20 @@ def assumptions(results: Results) -> tuple[Assumption, ...]:
     if inputs is None:
         return ()
     file = inputs()
-    found = [*_left_out(results), *_conventions(results), *_taken(results, {**file.stated, **file.defaults})]
+    listed = [*_left_out(results), *_conventions(results), *_taken(results, {**file.stated, **file.defaults})]
     defaults: dict[tuple[str, str], list[str]] = {}
     for path, default in file.defaults.items():
-        if path not in _SAID and _default_matters(path, results, file.stated):
+        if path not in _WITH_SENTENCES and _default_matters(path, results, file.stated):
             defaults.setdefault((default.meaning, str(default.value)), []).append(path)
-    found += [
+    listed += [
         Assumption("default", tuple(paths), file.defaults[paths[0]].value, meaning)
         for (meaning, _), paths in defaults.items()
     ]
-    return tuple(found)
+    return tuple(listed)
 
 
 # defaults that have sentences of their own
-_SAID = ("method.weights",)
+_WITH_SENTENCES = ("method.weights",)
 
 
 def _left_out(results: Results) -> Iterator[Assumption]:
@@ -140,7 +140,7 @@ def _taken(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assump
         return
     fuel = next((path for path in stated if re.fullmatch(r"(.*\.)?cycle\.fuel\b.*", path)), "")
     if not fuel:
-        yield Assumption("fuel", ("cycle.fuel",), calculated.kind)
+        yield Assumption(f"fuel_{calculated.kind}", ("cycle.fuel",))
     for path, (node, quantity) in leaves(results).items():
         table = path.partition("[")[0]
         if re.fullmatch(r"(chambers\.[^.]+\.)?cycle\.\w+(\[\d\])?", path) and not any(
@@ -156,11 +156,11 @@ def is_display(path: str) -> bool:
 
 def leaves(results: Results) -> dict[str, tuple[Input, str]]:
     """Return the inputs that results depend on, by path, with the key of their quantity."""
-    found: dict[str, tuple[Input, str]] = {}
+    inputs: dict[str, tuple[Input, str]] = {}
     for known in in_order(results.trace.values()):
         if isinstance(known.node, Input) and known.node.path:
-            found.setdefault(_FACE.sub("", known.node.path), (known.node, known.key))
-    return found
+            inputs.setdefault(_FACE.sub("", known.node.path), (known.node, known.key))
+    return inputs
 
 
 _Rule = Callable[["Results", Mapping[str, FileInput], str], bool]
@@ -180,10 +180,9 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"transient\.until", lambda *_: False),
     (r"transfer\.bodies\..*\.mass", lambda _, stated, path: f"{path.removesuffix('mass')}velocity[1]" in stated),
     (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
-    (
-        r".*\.timing\.peak",
-        lambda results, stated, path: not _idle_event(path.removesuffix(".peak"), "peak", stated, results),
-    ),
+    (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path[:-5], "peak", stated, results)),
+    (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing", "peak", stated, results)),
+    (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, {})),
 )
 
 
@@ -201,9 +200,12 @@ def _has_misfire(results: Results) -> bool:
 def _turns(results: Results, slider: str) -> bool:
     """Return whether a sliding piece turns with the link that carries its guide."""
     linkage = results.machine.linkage
-    carrier = linkage.guides[linkage.member(slider).guide].link if linkage is not None else ""
-    is_sliding = linkage is not None and any(member.name == carrier and member.guide for member in linkage.members)
-    return _turns(results, carrier) if is_sliding else bool(carrier)
+    guide_of = {member.name: member.guide for member in linkage.members if member.guide} if linkage is not None else {}
+    if linkage is None or slider not in guide_of:
+        # one that drives slides on a fixed guide
+        return False
+    carrier = linkage.guides[guide_of[slider]].link
+    return _turns(results, carrier) if carrier in guide_of else bool(carrier)
 
 
 def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
@@ -212,12 +214,12 @@ def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
     if inputs is None:
         return ()
     stated = {path: item for path, item in inputs().stated.items() if not _DISPLAY.fullmatch(path)}
-    found = {item.key: item for item in _unreached_forces(results, stated)}
+    idle = {item.key: item for item in _unreached_forces(results, stated)}
     in_trace = leaves(results)
     for path in stated:
-        if path not in found and not _CHOOSING.fullmatch(path) and (code := _idle(path, stated, results, in_trace)):
-            found[path] = IdleInput(path, code)
-    return tuple(found[path] for path in stated if path in found)
+        if path not in idle and not _CHOOSING.fullmatch(path) and (code := _idle(path, stated, results, in_trace)):
+            idle[path] = IdleInput(path, code)
+    return tuple(idle[path] for path in stated if path in idle)
 
 
 def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace: Mapping[str, Any]) -> str:
@@ -234,7 +236,12 @@ def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace
     if path == "engine.strokes":
         return "strokes_of_gas" if results.machine.gas is not None else ""
     if path.startswith("flywheel.") and name in ("fluctuation", "percent"):
-        return "steady_enough" if results.summary.get("flywheel_inertia") == 0.0 else ""
+        return {None: "no_flywheel", 0.0: "steady_enough"}.get(results.summary.get("flywheel_inertia"), "")
+    if re.fullmatch(r"crank\.mass|geared\..*\.mass", path) and results.machine.linkage is not None:
+        # a centre of mass that is not stated is that of the pivot
+        return (
+            "" if f"{table}.centre" in stated or f"{table}.centre[1]" in stated or _has_weights(results) else "at_rest"
+        )
     if path == "method.weights":
         return "" if _has_mass(results) else "no_masses"
     if match := re.fullmatch(r"(.*)\.points\.([^.]+)\.angle", path):

@@ -9,9 +9,6 @@ from crankwork.description.schema import TableSpec, Values
 from crankwork.locale import has_text
 from crankwork.machine import FileInput, FileInputs
 
-# tables whose defaults hold where they are left out
-_ALWAYS_PRESENT = ("method", "timing")
-
 
 def file_inputs(values: Values, written: Mapping[str, Any]) -> FileInputs:
     """Return the inputs of a file: `values` as read, `written` as they stand in it."""
@@ -44,13 +41,18 @@ def _defaults(values: Any, path: str) -> Iterator[tuple[str, FileInput]]:  # noq
             inner = f"{path}.{name}" if path else name
             if name in values:
                 yield from _defaults(values[name], inner)
-            elif isinstance(spec.kind, TableSpec) and name in _ALWAYS_PRESENT:
+            elif isinstance(spec.kind, TableSpec) and _holds(name, values):
                 yield from _defaults(Values({}, spec.kind, values), inner)
             elif (default := values.table.written_default(name, values)) is not None:
                 yield inner, FileInput(default, _meaning(values.table, name))
     elif isinstance(values, Mapping):
         for name, item in values.items():
             yield from _defaults(item, f"{path}.{name}")
+
+
+def _holds(name: str, values: Values) -> bool:
+    """Return whether the defaults of a table hold where it is left out."""
+    return name == "method" or (name == "timing" and values["kind"] == "wiebe")
 
 
 def _meaning(table: TableSpec, name: str) -> str:

@@ -35,7 +35,7 @@ from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
     from crankwork.loads.measured_pressure import MeasuredPressure
-    from crankwork.machine import Machine
+    from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
 _ENGINES = (MACHINE_FILE, SIZED_FILE)
@@ -125,8 +125,13 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         machine = replace(machine, other_form=form)
     if machine is None:
         return None
-    inputs = functools.partial(file_inputs, read_values, values)
-    return replace(machine, document=stated_document(read_values), inputs=inputs)
+    return replace(machine, document=stated_document(read_values), inputs=functools.partial(_inputs, values))
+
+
+def _inputs(values: dict[str, Any]) -> FileInputs:
+    """Return what the values of a file state, and their defaults."""
+    keys = file_keys(values)
+    return file_inputs(keys.read(values, "", Reader()) or Values({}, keys), values)
 
 
 # what a linkage form is made of

@@ -292,7 +292,9 @@ def _key(name: str) -> str:
 
 def _assumed(material: Material) -> set[str]:
     """Return the keys of default values that the calculation assumes."""
-    taken = (key for item in material.results.assumptions if item.code in ("taken", "fuel") for key in item.keys)
+    taken = (
+        key for item in material.results.assumptions if item.code.startswith(("taken", "fuel")) for key in item.keys
+    )
     names = {key.rpartition(".")[2].partition("[")[0] for key in taken}
     keys = {FILE_KEYS.get(name, name) for name in names}
     return keys | {key_brought for key in keys for key_brought in _BROUGHT.get(key, ())}
