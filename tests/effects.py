@@ -150,20 +150,19 @@ def _scales(results: Results) -> dict[str, float]:
 
 
 def has_effect(values: dict[str, Any], path: str, value: Any, kind: object, base: Results, folder: Path) -> bool | None:
-    """Return whether another value in a place changes a result; None if none was tried. Refused: it does."""
-    computed_any = refused_any = False
+    """Return whether another value in a place changes a result; None if no other is possible."""
+    computed_any = False
     for other in alternatives(value, kind):
         changed = copy.deepcopy(values)
         try:
             apply_override(changed, Setting("--set", path, other))
             results = computed(changed, folder)
         except CrankworkError:
-            refused_any = True
             continue
         if has_changed(base, results):
             return True
         computed_any = True
-    return False if computed_any else (True if refused_any else None)
+    return False if computed_any else None
 
 
 def measured(text: str, folder: Path) -> tuple[Results, dict[str, bool], dict[str, bool]]:

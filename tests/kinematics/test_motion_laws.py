@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from crankwork import analyse, read
+from crankwork import analyse, read, read_machine
 from crankwork.errors import CrankworkError
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.traced_value import breakpoints_of
@@ -190,3 +190,71 @@ def test_a_machine_without_a_law_is_driven_by_none():
     machine = read(Path(__file__).parents[2] / "examples" / "press-geometry.toml")
     with pytest.raises(CrankworkError, match="driver"):
         machine.driven_by(TABLE)
+
+
+# a crank braked evenly from 25 rad/s, which turns back: angle 25 t - 125 t^2 from its start, exact at every point
+BRAKED = tuple((k / 10, 25 * k / 50 - 125 * (k / 50) ** 2) for k in range(1, 10))
+
+
+@pytest.mark.parametrize(
+    "segment",
+    [
+        Segment("constant-acceleration", 0.0, 1.0, rates=(25.0, 0.0)),
+        Segment("table", 0.0, 1.0, points=BRAKED, rates=(25.0, -25.0)),
+        Segment("table", 0.0, 1.0, points=BRAKED, rates=(None, None)),
+    ],
+)
+def test_even_braking_is_found_from_its_speed_and_from_its_points(segment):
+    q, rate, second = law_at(Law((segment,), 0.2, 0.0), CrankGrid.from_degrees(np.linspace(0.0, 360.0, 37)))
+    time = np.linspace(0.0, 0.2, 37)
+    assert q == pytest.approx(25 * time - 125 * time**2, abs=1e-12)
+    assert rate == pytest.approx(25 - 250 * time, abs=1e-10)
+    assert second == pytest.approx(np.full(37, -250.0), rel=1e-9)
+    assert extent(Law((segment,), 0.2, 0.0)) == pytest.approx((0.0, 1.25))
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3])
+def test_natural_ends_repeat_the_polynomial_of_few_points(count):
+    polynomial = np.polynomial.Polynomial([0.0, 3.0, *[-2.0, 0.7][: max(count, 0)]])
+    shares = np.linspace(0.0, 1.0, count + 2)[1:-1]
+    table = Segment(
+        "table", polynomial(1.0), 1.0, points=tuple(zip(shares, polynomial(shares), strict=True)), rates=(None, None)
+    )
+    grid = CrankGrid.from_degrees(np.linspace(0.0, 350.0, 36))
+    assert law_at(Law((table,), 1.0, 0.0), grid)[0] == pytest.approx(polynomial(np.linspace(0.0, 350 / 360, 36)))
+
+
+def test_points_of_an_even_braking_are_at_rest_at_their_ends_unless_the_file_says_otherwise():
+    values = ", ".join(f'"{np.degrees(q) - 90:.9f} deg"' for _, q in BRAKED)
+    law = f'{{ kind = "table", to = "-90 deg", over = "0.2 s", at = {[z for z, _ in BRAKED]}, values = [{values}] }}'
+    text = f"""
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "300 mm"
+[driver]
+start = "-90 deg"
+law = [{law}]
+[links]
+rod = {{ joins = ["A", "B"], length = "700 mm", mass = "2 kg", inertia = "0.05 kg*m2", centre = ["300 mm", "0 mm"] }}
+[guides]
+bed = {{ through = "O", angle = "0 deg" }}
+[sliders]
+block = {{ guide = "bed", pin = "B", mass = "1.5 kg" }}
+[positions]
+B = ["632 mm", "0 mm"]
+[table]
+step = "5 ms"
+"""
+    at_rest, stated = (
+        analyse(read_machine(file)) for file in (text, text.replace("over =", 'ends = "natural", over ='))
+    )
+    assert any("driver.law[1].ends" in item.keys for item in at_rest.assumptions)
+    assert not any("driver.law[1].ends" in item.keys for item in stated.assumptions)
+    # the exact parabola
+    assert max(np.abs(stated["driver_torque"])) == pytest.approx(115.09, abs=0.01)
+    assert stated.columns_at([0.0, 72.0, 144.0], ["driver_torque"])["driver_torque"] == pytest.approx(
+        [-15.857, -102.759, -35.339], abs=1e-3
+    )

@@ -111,8 +111,8 @@ def _without_mass(results: Results) -> Iterator[Assumption]:
 
 
 def _has_mass(results: Results) -> bool:
-    machine = results.machine
-    members = machine.linkage.members if machine.linkage is not None else ()
+    machine, linkage = results.machine, results.machine.linkage
+    members = (*linkage.members, *linkage.geared, linkage.driving) if linkage is not None else ()
     return any(member.mass for member in members) or (machine.masses is not None and any(vars(machine.masses).values()))
 
 
@@ -226,8 +226,7 @@ def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace
     """Return the code of the reason why nothing depends on an input; empty if something does."""
     table, _, name = path.rpartition(".")
     if table == "motor":
-        codes = {notice.code for notice in results.notices}
-        return "not_running" if codes & {"stalls", "no_steady_speed"} and "transient.motor" not in stated else ""
+        return "" if "steady_speed" in results.summary or "transient.motor" in stated else "not_running"
     if table.endswith("timing"):
         return _idle_event(table, name, stated, results)
     if path == "engine.spacing":
@@ -236,7 +235,10 @@ def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace
     if path == "engine.strokes":
         return "strokes_of_gas" if results.machine.gas is not None else ""
     if path.startswith("flywheel.") and name in ("fluctuation", "percent"):
-        return {None: "no_flywheel", 0.0: "steady_enough"}.get(results.summary.get("flywheel_inertia"), "")
+        wheels = [value for key, value in results.summary.items() if key.startswith("flywheel_inertia")]
+        return "" if any(wheels) else "steady_enough" if wheels else "no_flywheel"
+    if path == "cylinder.inclination":
+        return "" if _has_weights(results) else "weights_off"
     if re.fullmatch(r"crank\.mass|geared\..*\.mass", path) and results.machine.linkage is not None:
         # a centre of mass that is not stated is that of the pivot
         return (

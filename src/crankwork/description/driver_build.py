@@ -100,7 +100,7 @@ def build_law(values: Values, reader: Reader) -> Law | None:
     made = tuple(
         Segment(
             segment["kind"], to, time / period, segment["ramp"] or Segment.ramp,
-            tuple(zip(segment["at"], (place.value for place in segment["values"]), strict=True)),
+            tuple(zip(segment["at"], (place.value for place in segment["values"]), strict=True)), _rates(segment),
         )
         for (_, segment), to, time in zip(segments, filled[1:], times, strict=True)
     )  # fmt: skip
@@ -125,10 +125,18 @@ def _end(segment: Values, number: int, before: list[float | None], wanted: str, 
     return _place(segment, "to", f"{path}.to", wanted, reader)
 
 
+def _rates(segment: Values) -> tuple[float | None, float | None]:
+    """Return the rates at both ends of a segment, None where they follow from the points of a table."""
+    usual = None if segment["ends"] == "natural" else 0.0
+    start, end = (segment.si(f"{end}_speed") for end in ("start", "end"))
+    return usual if start is None else start, usual if end is None else end
+
+
 def _check_kind(segment: Values, path: str, wanted: str, reader: Reader) -> None:
     """Report a rate of a wrong dimension, and an invalid table."""
-    if "speed" in segment and segment["speed"].dimension != ("velocity" if wanted == "length" else "speed"):
-        reader.add_error(f"{path}.speed", ErrorMessage(f"driver_speed_{wanted}"))
+    for key in ("speed", "start_speed", "end_speed"):
+        if key in segment and segment[key].dimension != ("velocity" if wanted == "length" else "speed"):
+            reader.add_error(f"{path}.{key}", ErrorMessage(f"driver_speed_{wanted}"))
     if segment["kind"] == "table":
         _check_table(segment, path, wanted, reader)
 

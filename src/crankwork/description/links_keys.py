@@ -57,6 +57,7 @@ _CRANK = TableSpec("driving", {
     "to": KeySpec(_ANGLE),
 })  # fmt: skip
 
+_RATE_OF_DRIVER = Quantity(("velocity", "speed"), -3e4, 3e4)
 _COORDINATE_OF_DRIVER = Quantity(("length", "angle"), -1e3, 1e3)
 
 _BY_TABLE, _MOVES = {"kind": ("table",)}, {"kind": tuple(kind for kind in get_args(LawKind) if kind != "dwell")}
@@ -67,6 +68,9 @@ _SEGMENT = TableSpec("segment", {
     "speed": KeySpec(Quantity(("velocity", "speed"), 0.0, 3e4, above=True), instead_of=("over",),
                  only={"kind": ("constant",)}),
     "ramp": KeySpec(Number(0.0, 0.5, above=True), default=1 / 3, only={"kind": ("trapezoidal",)}),
+    "start_speed": KeySpec(_RATE_OF_DRIVER, only={"kind": ("constant-acceleration", "table")}),
+    "end_speed": KeySpec(_RATE_OF_DRIVER, only=_BY_TABLE),
+    "ends": KeySpec(Choice(("rest", "natural")), default="rest", only=_BY_TABLE),
     "at": KeySpec(ListOf(Number(0.0, 1.0)), only=_BY_TABLE),
     "values": KeySpec(ListOf(_COORDINATE_OF_DRIVER), only=_BY_TABLE),
 })  # fmt: skip

@@ -169,10 +169,17 @@ def shape(kind: LawKind, ramp: float = 1 / 3) -> tuple[LawPiece, ...]:
     return _from_accelerations(_ACCELERATIONS[kind])
 
 
-def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: bool) -> tuple[LawPiece, ...]:
+def smooth_shape(
+    shares: Sequence[float],
+    ways: Sequence[float],
+    *,
+    is_closed: bool,
+    rates: tuple[float | None, float | None] = (0.0, 0.0),
+) -> tuple[LawPiece, ...]:
     """Return the cubic spline through some points as a normalised law.
 
-    `shares`: from 0 to 1, ascending; `ways`: of any scale. Both ends are at rest; a closed spline is periodic instead.
+    `shares`: from 0 to 1, ascending; `ways`: of any scale; `rates`: at both ends, None where the first or last two
+    intervals have one polynomial (not-a-knot). A closed spline is periodic instead.
     """
     z, y = np.array(shares, dtype=float), np.array(ways, dtype=float)
     count, step = z.size, np.diff(z)
@@ -181,10 +188,11 @@ def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: b
     for k in range(1, count - 1):
         matrix[k, k - 1 : k + 2] = 1 / step[k - 1], 2 / step[k - 1] + 2 / step[k], 1 / step[k]
         right[k] = 3 * (slopes[k - 1] / step[k - 1] + slopes[k] / step[k])
-    matrix[0, 0] = matrix[-1, -1] = 1.0
+    for end, given_rate in ((0, rates[0]), (-1, rates[1])):
+        _end_row(matrix, right, end, given_rate, (step[::-1], slopes[::-1]) if end else (step, slopes))
     if is_closed:
         # equal rates and equal accelerations at both ends
-        matrix[-1, 0] = -1.0
+        matrix[-1, 0], right[-1] = -1.0, 0.0
         matrix[0] = 0.0
         matrix[0, :2] += 2 / step[0], 1 / step[0]
         matrix[0, -2:] += 1 / step[-1], 2 / step[-1]
@@ -197,6 +205,23 @@ def smooth_shape(shares: Sequence[float], ways: Sequence[float], *, is_closed: b
         shifted = local(np.polynomial.Polynomial([-z[k], 1.0]))
         pieces.append(LawPiece(float(z[k + 1]), tuple(shifted.coef.tolist())))
     return tuple(pieces)
+
+
+def _end_row(matrix: Array, right: Array, end: int, rate: float | None, inwards: tuple[Array, Array]) -> None:
+    """Set the equation of the rate at an end of a spline; steps and slopes `inwards` from there."""
+    next_to = -2 if end else 1
+    matrix[end, end] = 1.0
+    if rate is not None:
+        right[end] = rate
+        return
+    (first, *more), (slope, *others) = inwards
+    if len(more) < 2:
+        # three points have one parabola, two a straight line
+        matrix[end, next_to], right[end] = (1.0, 2 * slope) if more else (0.0, slope)
+        return
+    span = first + more[0]
+    matrix[end, next_to] = span / more[0]
+    right[end] = ((first + 2 * span) * more[0] * slope + first**2 * others[0]) / (span * more[0])
 
 
 _TRIED, _HALVINGS = np.linspace(0.0, 1.0, 2001), 52
@@ -281,12 +306,15 @@ def _placed_segments(law: Law) -> Iterator[_PlacedSegment]:
     shares = np.cumsum([0.0, *(section.share for section in law.segments)])
     edges, origin = (360.0 * (shares / shares[-1])).tolist(), law.start
     for segment, (start, end) in zip(law.segments, itertools.pairwise(edges), strict=True):
-        travel, pieces = _shape_of(segment, origin, is_alone=len(law.segments) == 1)
+        duration = law.period * (end - start) / 360.0
+        travel, pieces = _shape_of(segment, origin, duration, is_alone=len(law.segments) == 1)
         yield _PlacedSegment(start, end, origin, travel, pieces)
         origin = segment.to
 
 
-def _shape_of(segment: Segment, origin: float, *, is_alone: bool) -> tuple[float, tuple[LawPiece, ...] | _Own]:
+def _shape_of(
+    segment: Segment, origin: float, duration: float, *, is_alone: bool
+) -> tuple[float, tuple[LawPiece, ...] | _Own]:
     """Return the travel of a segment and its normalised law; a dwell has neither."""
     if not isinstance(segment.kind, str):
         return segment.to - origin, _Own(segment.kind)
@@ -295,7 +323,13 @@ def _shape_of(segment: Segment, origin: float, *, is_alone: bool) -> tuple[float
         places = (origin, *(place for _, place in segment.points), segment.to)
         travel = max(places) - min(places) or 1.0
         ways = [(place - origin) / travel for place in places]
-        return travel, smooth_shape(shares, ways, is_closed=is_alone and segment.to == origin)
+        first, last = (None if rate is None else rate * duration / travel for rate in segment.rates)
+        is_closed = is_alone and segment.to == origin and segment.rates == (0.0, 0.0)
+        return travel, smooth_shape(shares, ways, is_closed=is_closed, rates=(first, last))
+    if segment.kind == "constant-acceleration":
+        way, first = segment.to - origin, (segment.rates[0] or 0.0) * duration
+        travel = max(abs(way), abs(first)) or 1.0
+        return travel, (LawPiece(1.0, (0.0, first / travel, (way - first) / travel)),)
     if segment.kind == "dwell" or segment.to == origin:
         return 0.0, ()
     return segment.to - origin, shape(segment.kind, segment.ramp)
@@ -383,7 +417,7 @@ def extent(law: Law) -> tuple[float, float]:
         # the other laws stay between the values at their ends
         if isinstance(placed.pieces, _Own):
             passed += (placed.origin + placed.travel * placed.pieces.passed()).tolist()
-        elif segment.kind == "table":
+        elif segment.kind in ("table", "constant-acceleration"):
             passed += [place for _, place in segment.points]
             begin = 0.0
             for piece in placed.pieces:

@@ -13,7 +13,7 @@ from crankwork.mechanism.dyads import Guide, Point
 
 LawKind = Literal[
     "constant", "parabolic", "trapezoidal", "modified-trapezoidal", "cubic", "3-4-5", "4-5-6-7", "harmonic",
-    "cycloidal", "modified-sine", "dwell", "table",
+    "cycloidal", "modified-sine", "constant-acceleration", "dwell", "table",
 ]  # fmt: skip
 
 
@@ -51,6 +51,9 @@ class Segment:
     ramp: float = 1 / 3  # Share of the segment that each ramp of a trapezoidal velocity takes [-]
     # Of a table, shares of the segment between 0 and 1, and the coordinate there [-], [m] or [rad]
     points: tuple[tuple[float, float], ...] = ()
+    # Rates at both ends of a table, at the start of a constant acceleration; None where they follow from the points of
+    # a table [m/s] or [rad/s]
+    rates: tuple[float | None, float | None] = (0.0, 0.0)
 
 
 @dataclass(frozen=True)
