@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.one_cylinder import analyse_engine, own_key
+from crankwork.analysis.plausibility import implausible
 from crankwork.analysis.prepared import Notice, prepare
 from crankwork.analysis.results import Results
 from crankwork.errors import CrankworkError, MethodError
@@ -80,7 +81,8 @@ def analyse(
     results = _analysed(engine or machine, grid, method, progress)
     stated = tuple(Notice(*notice) for notice in machine.notices)
     other = partial(_in_other_form, machine, results.grid, used, is_engine=engine is not None)
-    results = replace(results, notices=(*stated, *results.notices), in_other_form=other)
+    notices = (*stated, *results.notices, *implausible(results))
+    results = replace(results, notices=notices, in_other_form=other)
     return results if engine is None else _located(results, machine)
 
 

@@ -31,7 +31,6 @@ _TRACED = re.compile(
     r"|method\.gravity|(gas|chambers\.[^.]+)\.(ambient|back_pressure)|bearings\..*_(diameter|length)"
     r"|engine\.articulated\.\w+|cycle\.\w+"
 )
-_WEIGHING = re.compile(r"method\.gravity|cylinder\.inclination")
 _FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
 _FACE = re.compile(r"\.faces\[1\]")
 _SAMPLES, _ROUNDING = 721, 1e-9
@@ -224,34 +223,53 @@ def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
 
 def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace: Mapping[str, Any]) -> str:
     """Return the code of the reason why nothing depends on an input; empty if something does."""
-    table, _, name = path.rpartition(".")
-    if table == "motor":
-        return "" if "steady_speed" in results.summary or "transient.motor" in stated else "not_running"
-    if table.endswith("timing"):
-        return _idle_event(table, name, stated, results)
-    if path == "engine.spacing":
-        moments = results.listings["balance"].columns.get("free_moment") if "balance" in results.listings else None
-        return "no_moments" if moments is None or not np.any(moments) else ""
-    if path == "engine.strokes":
-        return "strokes_of_gas" if results.machine.gas is not None else ""
-    if path.startswith("flywheel.") and name in ("fluctuation", "percent"):
-        wheels = [value for key, value in results.summary.items() if key.startswith("flywheel_inertia")]
-        return "" if any(wheels) else "steady_enough" if wheels else "no_flywheel"
-    if path == "cylinder.inclination":
-        return "" if _has_weights(results) else "weights_off"
-    if re.fullmatch(r"crank\.mass|geared\..*\.mass", path) and results.machine.linkage is not None:
-        # a centre of mass that is not stated is that of the pivot
-        return (
-            "" if f"{table}.centre" in stated or f"{table}.centre[1]" in stated or _has_weights(results) else "at_rest"
-        )
-    if path == "method.weights":
-        return "" if _has_mass(results) else "no_masses"
-    if match := re.fullmatch(r"(.*)\.points\.([^.]+)\.angle", path):
-        return "" if _bounds_pieces(match[1], match[2], stated) else "only_volume"
+    rule = next((rule for pattern, rule in _REASONS if re.fullmatch(pattern, path)), None)
+    if rule is not None:
+        return rule(results, stated, path)
     number = results.machine.stated.get(path)
     if number is None or not number.value or _FACE.sub("", path) in in_trace or not _TRACED.fullmatch(path):
         return ""
-    return "weights_off" if _WEIGHING.fullmatch(path) and not _has_weights(results) else "unused"
+    return "weights_off" if path == "method.gravity" and not _has_weights(results) else "unused"
+
+
+def _idle_wheel(results: Results, *_: object) -> str:
+    wheels = [value for key, value in results.summary.items() if key.startswith("flywheel_inertia")]
+    return "" if any(wheels) else "steady_enough" if wheels else "no_flywheel"
+
+
+def _idle_motor(results: Results, stated: Mapping[str, FileInput], _: str) -> str:
+    return "" if "steady_speed" in results.summary or "transient.motor" in stated else "not_running"
+
+
+def _idle_spacing(results: Results, *_: object) -> str:
+    moments = results.listings["balance"].columns.get("free_moment") if "balance" in results.listings else None
+    return "no_moments" if moments is None or not np.any(moments) else ""
+
+
+def _idle_mass(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    """Return whether a driving link has its mass at its pivot, where it is if no centre of mass is stated."""
+    centre = path.replace(".mass", ".centre")
+    moves = centre in stated or f"{centre}[1]" in stated or results.machine.linkage is None
+    return "" if moves or _has_weights(results) else "at_rest"
+
+
+def _idle_point(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    gas, _, point = path.removesuffix(".angle").rpartition(".points.")
+    return "" if _bounds_pieces(gas, point, stated) else "only_volume"
+
+
+# why an input may have no effect although it is in the trace, or need not be in it
+_REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str]], ...] = (
+    (r"motor\.\w+", _idle_motor),
+    (r".*\.timing\.\w+", lambda results, stated, path: _idle_event(*path.rsplit(".", 1), stated, results)),
+    (r"engine\.spacing", _idle_spacing),
+    (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
+    (r"flywheel\.(fluctuation|percent)", _idle_wheel),
+    (r"cylinder\.inclination", lambda results, *_: "" if _has_weights(results) else "weights_off"),
+    (r"crank\.mass|geared\..*\.mass", _idle_mass),
+    (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
+    (r".*\.points\.[^.]+\.angle", _idle_point),
+)
 
 
 def _bounds_pieces(gas: str, point: str, stated: Mapping[str, FileInput]) -> bool:

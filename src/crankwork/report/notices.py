@@ -12,7 +12,7 @@ from crankwork.mechanism.driver import Cylinder, LinkMotor
 from crankwork.notation import argument_unit
 from crankwork.quantities import QUANTITIES, Language
 from crankwork.quantities.key import key_of
-from crankwork.report.display import label
+from crankwork.report.display import displayed, key_unit, label
 from crankwork.report.tables import any_nonzero
 
 _DRAWN = ("reduced_inertia", "static_torque", "dynamic_torque", "driving_torque", "joint_force")
@@ -35,6 +35,11 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
         else:
             # pressure steps are the only values with a unit of their own, MPa
             shown[key] = number(value / 1e6 if key == "step" else value, language, digits=5)
+    if code == "implausible":
+        key = str(values["quantity"])
+        numbers = {name: displayed(key, float(values[name])) for name in ("value", "low", "high")}
+        shown |= {name: number(value, language) for name, value in numbers.items()}
+        shown["unit"] = f" {unit_name(key_unit(key), language)}".rstrip()
     if "argument" in values:
         unit = unit_name(argument_unit(str(values["argument"])), language)
         shown |= {key: f"{shown[key]} {unit}".rstrip() for key in ("value", "high")}

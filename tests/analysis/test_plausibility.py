@@ -1,0 +1,60 @@
+"""Values far outside normal design are told, those of real engines are not."""
+
+import cmath
+import math
+
+import pytest
+
+from crankwork import Description, analyse, template
+from crankwork.description.machine_file import read_machine
+from crankwork.report.notices import notice_text
+from expansions import ROOT, machine_files
+
+CODES = ("implausible", "firing_order")
+
+
+def told(results):
+    return {item.values.get("quantity", item.code) for item in results.notices if item.code in CODES}
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "quantity"),
+    [
+        ("piston.mass", "1050 g/cm2", "mass_per_area.of_piston"),
+        ("rod.mass", "0.2 g/cm2", "mass_per_area.of_rod"),
+        ("crank.speed", "23000 rpm", "mean_piston_speed"),
+        ("rod.ratio", 0.6, "rod_ratio"),
+        ("cylinder.bore", "900 mm", "stroke_bore_ratio"),
+        ("gas.points.z.pressure", "80 MPa", "gas_pressure_max"),
+    ],
+)
+def test_a_value_beyond_what_is_built_is_told_with_its_range(key, value, quantity):
+    description = Description(template("engine"))
+    assert told(analyse(description)) == set()
+    description[key] = value
+    results = analyse(description)
+    assert quantity in told(results)
+    notice = next(item for item in results.notices if item.values.get("quantity") == quantity)
+    for language in ("en", "ru", "vi"):
+        assert "{" not in notice_text(notice.code, notice.values, language)
+
+
+def test_a_firing_order_with_avoidable_moments_is_told_with_a_better_one():
+    description = Description(template("whole-engine"))
+    description["engine.firing_order"] = [1, 2, 3, 4]
+    notice = next(item for item in analyse(description).notices if item.code == "firing_order")
+    better = [int(number) for number in notice.values["better"].split("-")]
+
+    def couple(order):
+        # throws as they fire, 180 degrees apart, at equal distances along the shaft
+        return abs(sum(along * cmath.exp(-1j * math.pi * order.index(along)) for along in (1, 2, 3, 4)))
+
+    assert couple(better) == pytest.approx(0.0, abs=1e-12)
+    assert couple([1, 2, 3, 4]) == pytest.approx(2.0)
+
+
+def test_files_of_real_machines_are_plausible():
+    # those with friction take long and are no engines
+    for name, text in machine_files("examples").items():
+        if "[friction" not in text:
+            assert told(analyse(read_machine(text, folder=ROOT / "examples"))) == set(), name
