@@ -68,9 +68,10 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (_SLUG * _FT**2, "slug*ft2 slug·ft² lbf*ft*s2 lbf·ft·s²"), (_LBF * _IN, "lbf*in*s2 lbf·in·s²"),
     ],
     "speed": [
-        (_RPM, "rpm r/min rev/min 1/min min-1 min⁻¹ об/мин vg/ph vòng/phút v/ph v/p"), (1.0, "rad/s рад/с rad/giây"),
-        (2 * math.pi, "rev/s 1/s Hz s-1 об/с vg/s"),
+        (_RPM, "rpm r/min rev/min 1/min об/мин 1/мин vg/ph vòng/phút v/ph v/p"), (1.0, "rad/s рад/с"),
+        (2 * math.pi, "rev/s r/s об/с vg/s vòng/s"),
     ],
+    "frequency": [(2 * math.pi, "Hz 1/s Гц 1/с")],
     "angular_acceleration": [(1.0, "rad/s2 rad/s² рад/с2 рад/с²")],
     "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (_FT, "ft/s"), (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
     "acceleration": [
@@ -80,7 +81,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1e6, "MPa МПа MN/m2 MN/m² МН/м2 МН/м² N/mm2 N/mm² Н/мм2 Н/мм²"), (1e3, "kPa кПа kN/m2 kN/m²"),
         (1.0, "Pa Па N/m2 N/m²"), (1e5, "bar бар"), (1e2, "hPa гПа mbar мбар"),
         (KGF * 1e4, "kgf/cm2 kgf/cm² кгс/см2 кгс/см² kG/cm2 kG/cm² kp/cm2 kp/cm² at ат"),
-        (133.322387415, "mmHg ммртст"), (101325.0 / 760, "Torr торр"), (101325.0, "atm атм"),
+        (133.322387415, "mmHg ммртст мм_рт.ст."), (101325.0 / 760, "Torr торр"), (101325.0, "atm атм"),
         (_LBF / _IN**2, "psi lbf/in2 lbf/in²"), (_LBF / _FT**2, "psf lbf/ft2 lbf/ft²"),
     ],
     "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
@@ -167,6 +168,44 @@ UNITS: dict[str, Unit] = {
     **{name: Unit("temperature", 5 / 9, 459.67 * 5 / 9) for name in ("degF", "°F")},
 }
 
+# signs and words that textbooks print otherwise than the table
+_SIGNS = str.maketrans("²³¹⁻−⋅∙•×·", "231--*****", "^")
+_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min"}
+
+
+def _plain(name: str) -> str:
+    """Return a unit in plain signs: `N·m`, `N.m`, `кг⋅м^2`, `об./мин`, `мин⁻¹` and `m·s⁻²` are the same as others."""
+    name = re.sub(r"\s*([/*])\s*", r"\1", name.translate(_SIGNS)).replace(" ", "*")
+    name = re.sub(r"\.(?=[/*]|\Z)", "", name).replace(".", "*")
+    name = re.sub(r"[^\W\d_]+", lambda word: _WORDS.get(word[0], word[0]), name)
+    name = re.sub(r"(?:\A|\*)([^\W\d]+)-([123])(?=[*/]|\Z)", lambda part: f"/{part[1]}{part[2].replace('1', '')}", name)
+    return f"1{name}" if name.startswith("/") else name
+
+
+_PLAIN = {_plain(name): name for name in reversed(UNITS)}
+
+
+def known_unit(name: str) -> str:
+    """Return a unit as the table spells it, empty if it is none.
+
+    Examples
+    --------
+    >>> known_unit("кг⋅м^2"), known_unit("min⁻¹"), known_unit("furlong")
+    ('kg*m2', '1/min', '')
+    """
+    name = unicodedata.normalize("NFC", name.strip())
+    spellings_of_name = (name, name.replace(" ", "_"), name.replace(". ", ".").replace(" ", "_"))
+    return next((spelling for spelling in spellings_of_name if spelling in UNITS), "") or _PLAIN.get(_plain(name), "")
+
+
+_FIRST = {unit: name for name, unit in reversed(UNITS.items())}
+
+
+def first_spelling(unit: Unit) -> str:
+    """Return the first spelling of a unit."""
+    return _FIRST[unit]
+
+
 System = Literal["metric", "si", "imperial"]
 # Imperial units by the metric ones that quantities are stated with
 _IMPERIAL = {
@@ -236,7 +275,6 @@ _UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
 _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}){_UNIT}")
 _WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?){_UNIT}")
 _BARE = re.compile(rf"{_NUMBER}|[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?")
-_OPERATOR = re.compile(r"\s*([/*·])\s*")
 
 
 def spellings(dimension: str) -> list[str]:
@@ -264,12 +302,11 @@ def parse(
     if match is None:
         raise ValueError(ErrorMessage("no_quantity", text=_short(text), example=example))
     number, name = match["number"].replace(",", "."), match["unit"]
-    spelling = _spelling(name or "")
+    spelling = known_unit(name or "") or name or ""
     notice = ""
-    if spelling.lower() in _DOUBTFUL:
-        if spelling.lower() != "hp" or not metric_hp:
-            raise ValueError(ErrorMessage(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
+    if spelling.lower() == "hp" and metric_hp:
         spelling, notice = "PS", "metric_horsepower"
+    _ask_which(spelling, dimensions, number, name or "")
     unit = UNITS.get(spelling)
     is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions and "force" not in dimensions
     fits = unit is not None and (unit.dimension in dimensions or is_weight)
@@ -295,6 +332,16 @@ def parse(
         if is_weight
         else ParsedQuantity(value, unit.dimension, spelling, notice)
     )
+
+
+def _ask_which(spelling: str, dimensions: tuple[str, ...], number: str, name: str) -> None:
+    """Raise for a unit of several meanings; those of a speed are radians and revolutions."""
+    if spelling.lower() in _DOUBTFUL:
+        raise ValueError(ErrorMessage(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
+    unit = UNITS.get(spelling)
+    if unit is not None and unit.dimension == "frequency" and "speed" in dimensions and "frequency" not in dimensions:
+        options = (f'"{number} rad/s"', f'"{number} rev/s"')
+        raise ValueError(ErrorMessage("speed_per_second", unit=_short(name), options=options))
 
 
 def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> ErrorMessage:
@@ -326,13 +373,6 @@ def parse_in(text: str, unit: str) -> float:
     text = text.strip()
     text = f"{text} {unit}" if _BARE.fullmatch(text) else text
     return parse(text, (UNITS[unit].dimension,), decimal_comma=True)[0]
-
-
-def _spelling(name: str) -> str:
-    """Return a unit as the table spells it: spaces at an operator are dropped, others are a product or a part."""
-    name = _OPERATOR.sub(r"\1", name)
-    spellings_of_name = (name, name.replace(" ", "*"), name.replace(" ", "_"))
-    return next((spelling for spelling in spellings_of_name if spelling in UNITS), name)
 
 
 def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given

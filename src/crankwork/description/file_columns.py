@@ -12,7 +12,7 @@ from crankwork.description.table_file import FileTable, read_table
 from crankwork.description.value_types import Quantity, Reader, ValueType
 from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage
-from crankwork.units import EXAMPLES, UNITS
+from crankwork.units import EXAMPLES, UNITS, known_unit
 
 _REFERENCE = {"column", "unit"}
 
@@ -94,7 +94,7 @@ def _column(table: FileTable, place: _Place) -> list[Any]:
     numbers: list[float] = table.columns((position,))[:, 0].tolist()
     if not isinstance(place.entry, Quantity):
         return numbers
-    unit = unit or table.units[position]
+    unit = (known_unit(unit) or unit) if unit else table.units[position]
     if unit not in UNITS or UNITS[unit].dimension not in place.entry.dimensions:
         example = EXAMPLES[place.entry.dimensions[0]].split()[1]
         name = f'"{column}"' if isinstance(column, str) else str(column)

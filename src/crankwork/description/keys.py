@@ -11,7 +11,7 @@ from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.load_keys import LOADING, SHEET
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
-from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text, UnitOf
 from crankwork.method import STANDARD_GRAVITY
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -82,8 +82,8 @@ MEASURED = TableSpec("measured", {
     "sheet": SHEET,
     "angle_column": KeySpec(_COLUMN),
     "pressure_column": KeySpec(_COLUMN),
-    "angle_unit": KeySpec(Choice(("deg", "rad"))),
-    "pressure_unit": KeySpec(Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi", "atm", "hPa"))),
+    "angle_unit": KeySpec(UnitOf("angle")),
+    "pressure_unit": KeySpec(UnitOf("pressure")),
     "shift": KeySpec(_ANGLE, default="0 deg"),
     "cycle": KeySpec(WordOr(Choice(("mean", "greatest peak", "least peak")), Number(1, 1e6, whole=True))),
     "rest_pressure": KeySpec(_PRESSURE),

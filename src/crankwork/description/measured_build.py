@@ -12,12 +12,12 @@ import numpy as np
 
 from crankwork.description.schema import Values, no_effect_message
 from crankwork.description.table_file import FileTable, read_table
-from crankwork.description.value_types import Choice, Reader
+from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing
 from crankwork.locale import ErrorMessage
-from crankwork.units import UNITS
+from crankwork.units import UNITS, spellings
 
 # words of headings in the languages of test benches
 _WORDS = {
@@ -66,8 +66,8 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     if not columns.pressure_unit:
         key = "pressure_unit"
         written = table.written[columns.pressures[0]]
-        options = ", ".join(_options(values)[:3])
-        message = ErrorMessage("missing", advice=(f'{key} = "{_options(values)[0]}"',))
+        options = ", ".join(spellings("pressure")[:4])
+        message = ErrorMessage("missing", advice=(f'{key} = "MPa"',))
         if written:
             column = table.label(columns.pressures[0])
             message = ErrorMessage("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
@@ -197,11 +197,6 @@ def _are_thousands(table: FileTable, pressure: Array) -> bool:
         return False
     behind = [len(digits) for row in table.rows for digits in _BEHIND.findall(row)]
     return bool(behind) and set(behind) == {3}
-
-
-def _options(values: Values) -> tuple[str, ...]:
-    kind = values.table.keys["pressure_unit"].kind
-    return tuple(str(option) for option in kind.options) if isinstance(kind, Choice) else ()
 
 
 def _check_angles(angles: Array, unit: str, table: FileTable) -> None:

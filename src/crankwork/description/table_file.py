@@ -18,7 +18,7 @@ from crankwork.description.workbook import START, workbook_text
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
-from crankwork.units import UNITS
+from crankwork.units import UNITS, first_spelling, known_unit
 
 # lines in which the numbers must begin, and characters in a line
 _FIRST_LINES = 2000
@@ -44,7 +44,6 @@ _UNIT_NAMES = {
     **dict.fromkeys(("kg/cm2", "kg/cm²", "кг/см2", "кг/см²"), "kgf/cm2"),
     **dict.fromkeys(("radian", "radians", "радианы"), "rad"),
 }
-_FIRST = {unit: name for name, unit in reversed(UNITS.items())}
 # short units differ by their capitals
 _BY_CASE = {name.casefold(): name for name in reversed(UNITS) if len(name) > 2}
 _CYRILLIC = re.compile(rb"[\xc0-\xff\xa8\xb8]{3}")
@@ -308,8 +307,8 @@ def unit_of(written: str) -> str:
 
 def _known_unit(text: str) -> str:
     name = _UNIT_NAMES.get(text.casefold(), text)
-    name = name if name in UNITS else _BY_CASE.get(name.casefold(), "")
-    return _FIRST[UNITS[name]] if name else ""
+    name = known_unit(name) or _BY_CASE.get(name.casefold(), "")
+    return first_spelling(UNITS[name]) if name else ""
 
 
 def _float(cell: str) -> float | None:

@@ -21,6 +21,7 @@ _DEVIATION = re.compile(
 )
 # smaller numbers become 0, so that nothing is divided by them
 _SMALLEST = 1e-30
+_FRACTION = re.compile(r"\s*([+-]?\d+(?:\.\d+)?)\s*/\s*(\d+(?:\.\d+)?)\s*")
 
 
 def _in_range(limit: float, rounding: str) -> str:
@@ -128,7 +129,7 @@ class Quantity(NamedTuple):
         try:
             parsed = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
-            reader.add_error(key, self._advised(error.args[0], value, reader))
+            reader.add_error(key, self._advised(error.args[0], value, key, reader))
             return None
         if not self._holds(parsed.value):
             reader.add_error(key, self._out_of_range(value.strip(), parsed.dimension))
@@ -159,8 +160,10 @@ class Quantity(NamedTuple):
         low, high = (f'"{end}"' for end in self._range(dimension))
         return ErrorMessage(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
 
-    def _advised(self, message: ErrorMessage, value: str, reader: Reader) -> ErrorMessage:
+    def _advised(self, message: ErrorMessage, value: str, key: str, reader: Reader) -> ErrorMessage:
         """Return the reason why a text is not a quantity, with an example that is in range."""
+        if message.name == "speed_per_second":
+            return self._per_second(message, key)
         if message.name != "decimal_comma":
             number = _float(value) if message.name == "unit_missing" else math.inf
             written = self._written(number, value.strip()) if isinstance(number, float) else self._example()
@@ -168,8 +171,15 @@ class Quantity(NamedTuple):
         try:
             meant = units.parse(value, self.dimensions, decimal_comma=True, metric_hp=reader.metric_hp)
         except ValueError as error:
-            return self._advised(error.args[0], value, reader)
+            return self._advised(error.args[0], value, key, reader)
         return message if self._holds(meant.value) else self._out_of_range(value.strip(), meant.dimension)
+
+    def _per_second(self, message: ErrorMessage, key: str) -> ErrorMessage:
+        """Return the question which speed is meant, as the lines to write, less those out of range."""
+        options: Any = message.values["options"]
+        held = [text for text in options if self._holds(units.parse(text.strip('"'), ("speed",)).value)]
+        name = f"{key.rpartition('.')[2]} = " if not key.endswith("]") else ""
+        return ErrorMessage(message.name, **{**message.values, "options": tuple(f"{name}{text}" for text in held)})
 
     def _written(self, number: float, text: str) -> str:
         """Return a text with the usual unit if it is then in range, else an example in range."""
@@ -227,6 +237,8 @@ class Number(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
         deviation = None
+        if isinstance(value, str) and (fraction := _FRACTION.fullmatch(value)) and float(fraction[2]):
+            value = float(fraction[1]) / float(fraction[2])
         if isinstance(value, str):
             stated, deviation = split_deviation(value)
             is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
@@ -258,6 +270,29 @@ class Number(NamedTuple):
         """Return the schema of a number in range."""
         kind = "integer" if self.whole else "number"
         return {"type": kind, "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
+
+
+class UnitOf(NamedTuple):
+    """A unit of a dimension in any spelling, read as the first of its spellings."""
+
+    dimension: str
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the unit."""
+        unit = units.UNITS.get(units.known_unit(value)) if isinstance(value, str) else None
+        if unit is not None and unit.dimension == self.dimension:
+            return units.first_spelling(unit)
+        reader.add_error(key, ErrorMessage("choice", value=shown(value), options=tuple(map(shown, self.options))))
+        return None
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """The usual spellings."""
+        return tuple(units.spellings(self.dimension))
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a unit, its usual spellings for forms."""
+        return {"anyOf": [{"enum": list(self.options)}, {"type": "string"}]}
 
 
 class Choice(NamedTuple):
