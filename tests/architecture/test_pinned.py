@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "274ffc63bbc6",
     "quantities": "29183f2a7f9e",
-    "defaults": "8ca4806cab4c",
+    "defaults": "d62ec04c05c5",
 }
 
 

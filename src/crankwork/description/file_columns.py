@@ -42,13 +42,14 @@ def resolve_file_columns(values: dict[str, Any], keys: TableSpec, reader: Reader
             read = read_table(folder / file, name=file, sheet=sheet) if places else None
         except CrankworkError as error:
             # consequences of an unreadable file are not reported
-            reader.add_error(f"{path}.file", error.args[0], meant=path)
+            reader.add_error(f"{path}.file", *error.args, meant=path)
             read = None
+        reader.notices += [(code, dict(details)) for code, details in read.notices] if read else []
         for place in places if read else ():
             try:
                 place.holder[place.name] = _column(read, place) if read else []
             except CrankworkError as error:
-                reader.add_error(place.path, error.args[0], meant=path)
+                reader.add_error(place.path, *error.args, meant=path)
                 del place.holder[place.name]
     return values
 

@@ -73,8 +73,8 @@ class Reader:
         self._blamed: set[str] = set()
         self._suspects: set[str] = set()
 
-    def add_error(self, key: str, message: str, *, meant: str = "") -> None:
-        """Add a mistake; only the first mistake of a key is kept.
+    def add_error(self, key: str, message: str, *more: str, meant: str = "") -> None:
+        """Add a mistake, or all mistakes of a file; only those added first to a key are kept.
 
         `meant`: the correct key of a misspelt one, which is then not reported as missing.
         """
@@ -82,10 +82,10 @@ class Reader:
             return
         self._blamed.add(key)
         self._suspects |= {key, meant or key}
-        if len(self.problems) < _MAX_PROBLEMS:
-            self.problems.append(Problem(key, message))
-        else:
-            self.more += 1
+        added = [Problem(key, text) for text in (message, *more)]
+        space = max(_MAX_PROBLEMS - len(self.problems), 0)
+        self.problems += added[:space]
+        self.more += len(added[space:])
 
     @property
     def is_full(self) -> bool:
