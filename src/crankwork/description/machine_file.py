@@ -29,12 +29,13 @@ from crankwork.description.torque_keys import PRESS_FILE, TURNING_FILE
 from crankwork.description.value_types import Reader, is_one_line
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
+from crankwork.loads.pressure_processing import QUESTIONS
 from crankwork.locale import LANGUAGES, ErrorMessage, Language, translate
 from crankwork.resources import read_resource, resource_names
 
 if TYPE_CHECKING:
     from crankwork.loads.measured_pressure import MeasuredPressure
-    from crankwork.machine import Gas, Machine
+    from crankwork.machine import Machine
 
 TEMPLATES = "description/templates"
 _ENGINES = (MACHINE_FILE, SIZED_FILE)
@@ -211,44 +212,31 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
     """Return a crank mechanism; report pressures that cannot be calculated."""
     if machine is None:
         return None
-    reported, tried = set[str](), machine
-    while True:
-        try:
-            solved = prepare(tried, machine.method)
-            if machine.engine is not None and machine.engine.gases:
-                from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415 - few engines have them
+    try:
+        solved = [prepare(machine, machine.method)]
+        if machine.engine is not None and machine.engine.gases:
+            from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415 - few engines have them
 
-                multi_cylinder_engine(solved)
-        except DiagramError as error:
-            if error.key in reported:
-                return machine
-            reported.add(error.key)
-            mistake = error.args[0]
-            if error.key.endswith(".measured"):
-                measured = functools.reduce(dict.__getitem__, error.key.split("."), values)
-                mistake = ErrorMessage("in_file", file=measured["file"], mistake=mistake)
-            reader.add_error(error.key, mistake)
-            tried = _but_placed(tried, error.key)
-        except CrankworkError as error:
-            if "cycle" not in values:
-                raise
-            reader.add_error("cycle", error.args[0])
-            return machine
-        else:
-            return machine
+            solved += multi_cylinder_engine(solved[0]).cylinders[1:]
+        for notice in itertools.chain.from_iterable(cylinder.notices for cylinder in solved):
+            if notice.code in QUESTIONS:
+                key = str(notice.values["name"])
+                reader.add_error(key, _in_file(key, ErrorMessage(f"notices.{notice.code}", **notice.values), values))
+    except DiagramError as error:
+        reader.add_error(error.key, _in_file(error.key, error.args[0], values))
+    except CrankworkError as error:
+        if "cycle" not in values:
+            raise
+        reader.add_error("cycle", error.args[0])
+    return machine
 
 
-def _but_placed(machine: Machine, key: str) -> Machine:
-    """Return a machine whose measured pressure at a key is taken as it stands, so that others are looked at too."""
-
-    def placed(gas: Gas) -> Gas:
-        if gas.measured is None or not key.startswith(f"{gas.path}.measured"):
-            return gas
-        treatment = gas.measured.treatment._replace(is_placed=True)
-        return replace(gas, measured=replace(gas.measured, treatment=treatment))
-
-    engine = machine.engine and replace(machine.engine, gases=tuple(map(placed, machine.engine.gases)))
-    return replace(machine, gas=machine.gas and placed(machine.gas), engine=engine)
+def _in_file(key: str, mistake: ErrorMessage, values: Values) -> ErrorMessage:
+    """Return a mistake with the file that it is about, if it is about one."""
+    if not key.endswith(".measured"):
+        return mistake
+    measured = functools.reduce(dict.__getitem__, key.split("."), values)
+    return ErrorMessage("in_file", file=measured["file"], mistake=mistake)
 
 
 def file_keys(values: Mapping[str, Any]) -> TableSpec:

@@ -24,6 +24,8 @@ from crankwork.loads.measured_pressure import (
 )
 from crankwork.locale import ErrorMessage
 
+# notices that a description has to answer
+QUESTIONS = ("measured_strokes", "measured_reversed")
 # lower than any gauge pressure [Pa]
 _VACUUM = -110e3
 _EVEN = 1e-3
@@ -95,36 +97,31 @@ def measured_diagram(
         notices.append(("wrap", {"step": recorded.wrap}))
     if around.top is not None:
         absolute = pressure if treatment.absolute else pressure + AMBIENT
-        if around.has_strokes and cycle > _TURN:
-            _check_strokes((degrees, absolute), around, measured, shift=shift, key=key)
         against = contradictions((degrees, absolute), around.volume_at, (cycle, around.top), measured, shift=shift)
-        notices += [(code, {**values, "name": key}) for code, values in against]
+        questions = list[NoticeData]()
+        if around.has_strokes and cycle > _TURN and not treatment.is_placed:
+            questions += _other_strokes((degrees, absolute), around, shift)
+        notices += [(code, {**values, "name": key}) for code, values in questions or against]
     return diagram, notices
 
 
-def _check_strokes(
-    samples: tuple[Array, Array], around: PressureReference, measured: MeasuredPressure, *, shift: float, key: str
-) -> None:
-    """Raise for a peak in other strokes than those of compression and expansion, and for angles against the rotation.
-
-    A zero that the description states is not asked about again.
-    """
+def _other_strokes(samples: tuple[Array, Array], around: PressureReference, shift: float) -> Iterator[NoticeData]:
+    """Yield a peak in other strokes than those of compression and expansion, or angles against the rotation."""
     degrees, pressure = samples
-    cycle, firing = 2 * _TURN, (around.top or 0.0) + _TURN
+    cycle, firing, own = 2 * _TURN, (around.top or 0.0) + _TURN, f"{shift:g} deg"
     late = (float(degrees[np.argmax(pressure)]) - firing + _TURN) % cycle - _TURN
     turns = round(late / (_TURN / 2)) * _TURN / 2
-    if abs(late) > _NEAR[cycle] and not measured.treatment.is_placed:
+    if abs(late) > _NEAR[cycle]:
         # counted from another dead centre, or from some other angle
         more = -turns if abs(late - turns) <= _NEAR[cycle] else -round(late)
-        written, own = f"{_wrapped(shift + more):g} deg", f"{shift:g} deg"
-        values = {"angle": (late + firing) % cycle, "firing": firing, "shift": written, "own": own}
-        raise DiagramError(key, ErrorMessage("measured_strokes", **values))
-    swept = float(np.ptp(around.volume_at(np.array([firing, firing + _TURN / 2]) % cycle)))
-    volume = around.volume_at(np.mod(np.append(degrees, degrees[0] + cycle), cycle))
+        angles = {"angle": (late + firing) % cycle, "firing": firing}
+        yield "measured_strokes", {**angles, "turned": f"{_wrapped(shift + more):g} deg", "own": own}
+        return
+    volume = around.volume_at(np.mod(np.append(degrees, degrees[0]), cycle))
     work = float((pressure + np.roll(pressure, -1)) @ np.diff(volume)) / 2
     # one that is driven takes little work beside its peak
-    if work < -_DRIVEN * swept * float(np.max(pressure)) and not measured.treatment.is_placed:
-        raise DiagramError(key, ErrorMessage("measured_reversed", own=f"{shift:g} deg"))
+    if work < -_DRIVEN * float(np.ptp(volume) * np.max(pressure)):
+        yield "measured_reversed", {"own": own}
 
 
 def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
