@@ -182,6 +182,9 @@ def _plain(name: str) -> str:
     return f"1{name}" if name.startswith("/") else name
 
 
+# letters that look alike in both alphabets
+TO_LATIN = str.maketrans("АВЕКМНОРСТУХаеокмрсухі", "ABEKMHOPCTYXaeokmpcyxi")
+_TO_CYRILLIC = {latin: cyrillic for cyrillic, latin in TO_LATIN.items()}
 _PLAIN = {_plain(name): name for name in reversed(UNITS)}
 
 
@@ -349,6 +352,9 @@ def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values:
     all_spellings = [spelling for names in rows for spelling in names.split()]
     # one or two letters are close to anything
     near = difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else []
+    mixed = [spelling for table in (TO_LATIN, _TO_CYRILLIC) if (spelling := name.translate(table)) in all_spellings]
+    if mixed:
+        return ErrorMessage("unit_look_alike", unit=_short(name), nearest=f"{number} {mixed[0]}")
     if near:
         return ErrorMessage("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **values)
     return ErrorMessage("unit_unknown", unit=_short(name), **values)

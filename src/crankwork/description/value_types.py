@@ -122,8 +122,13 @@ class Quantity(NamedTuple):
             reader.add_error(key, ErrorMessage("quantity_as_text", example=self._example()))
             return None
         if not isinstance(value, str):
-            written = self._written(value if _is_moderate(value) else math.inf, shown(value))
-            reader.add_error(key, ErrorMessage("no_unit", value=shown(value), example=f'"{written}"'))
+            number = value if _is_moderate(value) else math.inf
+            # a number of Python may be in the SI unit
+            si = units.coherent_unit(units.EXAMPLES[self.dimensions[0]].split()[1])
+            written = {self._written(number, shown(value)): 0} | (
+                {f"{shown(value)} {si}": 0} if self._holds(number) else {}
+            )
+            reader.add_error(key, ErrorMessage("no_unit", value=shown(value), example=tuple(map(shown, written))))
             return None
         value, deviation = split_deviation(value)
         try:
@@ -363,6 +368,12 @@ def is_one_line(text: str) -> bool:
         or character in "\ufffe\uffff"
         for character in text
     )
+
+
+def look_alikes(text: str) -> str:
+    """Return the Cyrillic letters of a text that looks like a Latin one, empty for other texts."""
+    letters = "".join(dict.fromkeys(letter for letter in text if ord(letter) in units.TO_LATIN))
+    return letters if text.translate(units.TO_LATIN).isascii() else ""
 
 
 def _is_moderate(value: float) -> bool:
