@@ -10,6 +10,7 @@ import pytest
 import crankwork as package
 from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
+from crankwork.studio.session import Session
 from each import for_each
 
 ENGINE = template("engine")
@@ -105,3 +106,11 @@ def test_options_of_other_commands_and_entries_of_lists_are_told(crankwork, mach
     boom = (Path(__file__).parents[2] / "examples" / "excavator-boom.toml").read_text("utf-8")
     answer = crankwork("check", machine_file(text=boom), "--set", "driver.law.0.to=3 deg")
     assert "law is a list in this file; write the number of an entry in brackets, law[1] for the first" in answer.err
+
+
+def test_the_studio_marks_the_lines_of_all_mistakes_of_syntax():
+    text = ENGINE.replace('radius = "45 mm"', "radius = 45 mm").replace('bore = "85 mm"', "bore = “85 mm”")
+    refusals = Session("vi").answer({"do": "show", "text": text})["refusals"]
+    assert [refusal["line"] for refusal in refusals] == [
+        number for number, line in enumerate(text.split("\n"), start=1) if "= 45 mm" in line or "“" in line
+    ]

@@ -188,7 +188,7 @@ def _unknown(error: click.NoSuchOption | click.exceptions.NoSuchCommand) -> str:
             return ErrorMessage("option_unknown_near", option=option, nearest=error.possibilities[0])
         # before the command, or behind one that does not have it
         name = "option_early" if error.ctx is not None and error.ctx.command is commands else "option_elsewhere"
-        values = {"option": option, "commands": having, "command": "".join(having[:1])}
+        values = {"option": option, "commands": having, "command": "run" if "run" in having else "".join(having[:1])}
         return ErrorMessage(name if having else "option_unknown", **values)
     command = error.command_name[:40]
     if command.endswith(".toml"):
