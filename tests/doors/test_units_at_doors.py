@@ -9,6 +9,8 @@ import pytest
 
 import crankwork as package
 from crankwork.description.machine_file import template
+from crankwork.description.schema import NumberOr
+from crankwork.description.value_types import Number, Quantity, Reader
 from crankwork.studio.session import Session
 from each import for_each
 
@@ -86,3 +88,10 @@ def test_a_fraction_is_a_number():
     description["rod.ratio"] = "1/0"
     with pytest.raises(package.InputError, match=r"rod\.ratio"):
         description.machine()
+
+
+def test_a_fraction_is_a_number_beside_quantities_too():
+    kind, reader = NumberOr(Quantity(("time",), 0.0, 1e3), Number(0.0, 1.0)), Reader()
+    assert kind.read("1/4", "over", reader) == kind.read(0.25, "over", reader) == 0.25
+    assert kind.read("3 s", "over", reader).value == 3.0
+    assert reader.problems == []

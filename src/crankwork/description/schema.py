@@ -20,6 +20,7 @@ from crankwork.description.value_types import (
     Reader,
     Text,
     ValueType,
+    is_fraction,
     is_one_line,
     look_alikes,
     shown,
@@ -170,7 +171,8 @@ class NumberOr(NamedTuple):
 
     def read(self, value: object, key: str, reader: Reader) -> MeasuredValue | float | None:
         """Return the quantity of a text and the number of a number."""
-        return (self.quantity if isinstance(value, str) else self.number).read(value, key, reader)
+        is_quantity = isinstance(value, str) and not is_fraction(value)
+        return (self.quantity if is_quantity else self.number).read(value, key, reader)
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""

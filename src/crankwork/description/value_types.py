@@ -242,8 +242,9 @@ class Number(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
         deviation = None
-        if isinstance(value, str) and (fraction := _FRACTION.fullmatch(value)) and float(fraction[2]):
-            value = float(fraction[1]) / float(fraction[2])
+        if isinstance(value, str) and is_fraction(value):
+            above, _, below = value.partition("/")
+            value = float(above) / float(below)
         if isinstance(value, str):
             stated, deviation = split_deviation(value)
             is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
@@ -368,6 +369,11 @@ def is_one_line(text: str) -> bool:
         or character in "\ufffe\uffff"
         for character in text
     )
+
+
+def is_fraction(text: str) -> bool:
+    """Return whether a text is a fraction of numbers, such as 1/30."""
+    return _FRACTION.fullmatch(text) is not None and float(text.partition("/")[2]) > 0
 
 
 def look_alikes(text: str) -> str:
