@@ -80,7 +80,7 @@ def test_spaces_signs_and_exponents_do_not_change_the_number(text: str) -> None:
 
 def test_units_that_begin_with_a_digit_or_are_two_words_are_read() -> None:
     assert parse("2300 1/min", ("speed",))[0] == pytest.approx(2300 * math.pi / 30, rel=1e-15)
-    assert parse("5 1/s", ("speed",))[0] == pytest.approx(10 * math.pi, rel=1e-15)
+    assert parse("5 1/s", ("frequency",))[0] == pytest.approx(10 * math.pi, rel=1e-15)
     assert parse("10 mã lực", ("power",))[0] == pytest.approx(7354.9875, rel=1e-15)
 
 
@@ -186,7 +186,9 @@ def test_any_text_is_a_finite_number_with_a_unit_or_a_value_error(text: str, dim
     number, unit = matched[0], unicodedata.normalize("NFC", text.strip()[matched.end() :].strip())
     assert comma or "," not in number
     unit = re.sub(r"\s*([/*·.])\s*", r"\1", unit)  # spaces around an operator of the unit are harmless
+    marks = {"^": "", "²": "2", "³": "3", "·": "*", ".": "*"}
     candidates = [unit, unit.replace(" ", "_"), unit.replace(" ", "*")]
+    candidates += [re.sub(r"[\^²³·.]", lambda mark: marks[mark[0]], one).rstrip("*") for one in candidates]
     known = [UNITS[one] for one in candidates if one in UNITS]
     assert known, f"{unit!r} accepted, but it is no unit of the table"
     assert known[0].dimension == dimension
@@ -248,9 +250,51 @@ def test_every_quantity_is_shown_in_a_unit_of_its_own_kind_and_of_the_right_size
         for metric, unit in zip(kinds, shown, strict=True):
             assert from_si(1.0, unit) == pytest.approx(1 / SIZES[unit], rel=1e-15), quantity.key
             assert UNITS.get(unit, UNITS["deg"]).dimension == UNITS.get(metric, UNITS["deg"]).dimension, quantity.key
-        if system == "si" and shown[0] not in ("", "deg", "rpm"):
+        if system == "si" and shown[0] not in ("", "deg", "rpm", "Hz"):
             assert SIZES[shown[0]] == 1.0 or "kJ" in shown[0], quantity.key
         assert quantity.unit == quantity.metric
+
+
+# as textbooks and their typesetters print units, with sizes from the definitions
+PRINTED = {
+    "speed": {
+        **dict.fromkeys(
+            ("60 мин⁻¹", "60 об/мин", "60 1/мин", "60 min^-1", "60 min⁻¹", "60 1/min", "60 vòng/phút", "60 min-1",
+             "60 мин^-1", "60 об./мин", "60 r/min"), 2 * math.pi),
+        **dict.fromkeys(("3 рад/с", "3 рад/сек", "3 rad/giây", "3 rad/sec", "3 rad·s⁻¹"), 3.0),
+        **dict.fromkeys(("3 об/с", "3 vòng/giây", "3 rev/s"), 6 * math.pi),
+    },
+    "inertia": dict.fromkeys(("2 кг·м²", "2 кг·м2", "2 кг∙м^2", "2 кг · м²", "2 kg⋅m²", "2 kg×m2", "2 kg.m²"), 2.0),
+    "pressure": {
+        **dict.fromkeys(("2 MN/m2", "2 МН/м²", "2 МН/м^2", "2 MN/m²", "2 MN·m⁻²", "2 Н/мм²"), 2e6),
+        **dict.fromkeys(("1 kG/cm2", "1 кгс/см^2", "1 kgf/cm²"), 98066.5),
+        "3 мм рт. ст.": 3 * 133.322387415,
+    },
+    "length": {"2 мм": 0.002},
+    "force": {"2 кН": 2000.0},
+    "torque": dict.fromkeys(("2 Н·м", "2 Н⋅м", "2 Н.м", "2 N.m"), 2.0),
+    "acceleration": dict.fromkeys(("2 м/с²", "2 м/с^2", "2 m·s⁻²", "2 м/сек²", "2 м/сек2"), 2.0),
+    "power": {"2 л. с.": 1470.9975},
+    "frequency": dict.fromkeys(("50 Hz", "50 Гц", "50 1/s", "50 s⁻¹", "50 с⁻¹", "50 1/с"), 100 * math.pi),
+}  # fmt: skip
+
+
+@for_each("dimension", PRINTED)
+def test_units_are_read_as_books_print_them(dimension: str) -> None:
+    found = {text: parse(text, (dimension,)).value for text in PRINTED[dimension]}
+    assert found == pytest.approx(PRINTED[dimension], rel=1e-15)
+
+
+@for_each("unit", ["1/s", "s-1", "s^-1", "s⁻¹", "с⁻¹", "1/с", "с-1", "Hz", "Гц", "1/сек"])
+def test_a_speed_per_second_is_asked_about_with_both_speeds_that_it_may_be(unit: str) -> None:
+    for number in ("9.42478", "9,42478"):
+        with pytest.raises(ValueError, match="radians or revolutions per second") as refused:
+            parse(f"{number} {unit}", ("speed",), decimal_comma=number == "9,42478")
+        first, second = re.findall(r'write "(.*)" or "(.*)"', str(refused.value.args[0]))[0]
+        assert parse(first, ("speed",)).value == pytest.approx(9.42478, rel=1e-15)
+        assert parse(second, ("speed",)).value == pytest.approx(9.42478 * 2 * math.pi, rel=1e-15)
+    with pytest.raises(ValueError, match="radians or revolutions per second"):
+        parse(f"9,4 {unit}", ("speed",))
 
 
 def test_a_unit_of_many_meanings_is_asked_about() -> None:

@@ -45,70 +45,58 @@ _RPM = math.pi / 30
 _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "angle": [(math.pi / 180, "deg ° градус град độ"), (1.0, "rad рад")],
     "length": [(1e-3, "mm мм"), (1e-2, "cm см"), (1.0, "m м"), (1e-6, "um µm μm мкм"), (_IN, "in inch"), (_FT, "ft")],
-    "area": [
-        (1e-4, "cm2 cm² см2 см²"), (1e-6, "mm2 mm² мм2 мм²"), (1.0, "m2 m² м2 м²"), (_IN**2, "in2 in²"),
-        (_FT**2, "ft2 ft²"),
-    ],
+    "area": [(1e-4, "cm2 см2"), (1e-6, "mm2 мм2"), (1.0, "m2 м2"), (_IN**2, "in2"), (_FT**2, "ft2")],
     "volume": [
-        (1e-6, "cm3 cm³ cc см3 см³"), (1e-3, "l L dm3 dm³ л дм3 дм³"), (1e-9, "mm3 mm³ мм3 мм³"), (1.0, "m3 m³ м3 м³"),
-        (_IN**3, "in3 in³ cu.in"), (_FT**3, "ft3 ft³ cu.ft"),
+        (1e-6, "cm3 cc см3"), (1e-3, "l L dm3 л дм3"), (1e-9, "mm3 мм3"), (1.0, "m3 м3"), (_IN**3, "in3 cu.in"),
+        (_FT**3, "ft3 cu.ft"),
     ],
     "mass": [
         (1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (_LB, "lb lbm"), (_LB / 16, "oz"), (_SLUG, "slug"),
         (2000 * _LB, "ton(US)"), (2240 * _LB, "ton(UK)"),
     ],
     "mass_per_area": [
-        (10.0, "g/cm2 g/cm² г/см2 г/см²"), (1.0, "kg/m2 kg/m² кг/м2 кг/м²"), (1e4, "kg/cm2 kg/cm² кг/см2 кг/см²"),
-        (_LB / _IN**2, "lb/in2 lb/in²"), (_LB / _FT**2, "lb/ft2 lb/ft²"),
+        (10.0, "g/cm2 г/см2"), (1.0, "kg/m2 кг/м2"), (1e4, "kg/cm2 кг/см2"), (_LB / _IN**2, "lb/in2"),
+        (_LB / _FT**2, "lb/ft2"),
     ],
     "inertia": [
-        (1.0, "kg*m2 kg·m² kg.m2 kgm2 кг·м² кг*м2 кг.м2"), (1e-4, "kg*cm2 kg·cm² кг·см² кг*см2"),
-        (1e-6, "kg*mm2 kg·mm² кг·мм² кг*мм2"), (1e-7, "g*cm2 g·cm² г·см²"),
-        (_LB * _FT**2, "lb*ft2 lb·ft² lb.ft2 lbm*ft2"), (_LB * _IN**2, "lb*in2 lb·in² lb.in2 lbm*in2"),
-        (_SLUG * _FT**2, "slug*ft2 slug·ft² lbf*ft*s2 lbf·ft·s²"), (_LBF * _IN, "lbf*in*s2 lbf·in·s²"),
+        (1.0, "kg*m2 kgm2 кг·м²"), (1e-4, "kg*cm2 кг·см²"), (1e-6, "kg*mm2 кг·мм²"), (1e-7, "g*cm2 г·см²"),
+        (_LB * _FT**2, "lb*ft2 lbm*ft2"), (_LB * _IN**2, "lb*in2 lbm*in2"), (_SLUG * _FT**2, "slug*ft2 lbf*ft*s2"),
+        (_LBF * _IN, "lbf*in*s2"),
     ],
     "speed": [
-        (_RPM, "rpm r/min rev/min 1/min min-1 min⁻¹ об/мин vg/ph vòng/phút v/ph v/p"), (1.0, "rad/s рад/с rad/giây"),
-        (2 * math.pi, "rev/s 1/s Hz s-1 об/с vg/s"),
+        (_RPM, "rpm r/min rev/min 1/min об/мин 1/мин vg/ph vòng/phút v/ph v/p"), (1.0, "rad/s рад/с"),
+        (2 * math.pi, "rev/s r/s об/с vg/s vòng/s"),
     ],
-    "angular_acceleration": [(1.0, "rad/s2 rad/s² рад/с2 рад/с²")],
+    "frequency": [(2 * math.pi, "Hz 1/s Гц 1/с")],
+    "angular_acceleration": [(1.0, "rad/s2 рад/с2")],
     "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (_FT, "ft/s"), (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
-    "acceleration": [
-        (1.0, "m/s2 m/s² м/с2 м/с²"), (1e-3, "mm/s2 mm/s² мм/с2 мм/с²"), (_FT, "ft/s2 ft/s²"), (_IN, "in/s2 in/s²"),
-    ],
+    "acceleration": [(1.0, "m/s2 м/с2"), (1e-3, "mm/s2 мм/с2"), (_FT, "ft/s2"), (_IN, "in/s2")],
     "pressure": [
-        (1e6, "MPa МПа MN/m2 MN/m² МН/м2 МН/м² N/mm2 N/mm² Н/мм2 Н/мм²"), (1e3, "kPa кПа kN/m2 kN/m²"),
-        (1.0, "Pa Па N/m2 N/m²"), (1e5, "bar бар"), (1e2, "hPa гПа mbar мбар"),
-        (KGF * 1e4, "kgf/cm2 kgf/cm² кгс/см2 кгс/см² kG/cm2 kG/cm² kp/cm2 kp/cm² at ат"),
-        (133.322387415, "mmHg ммртст"), (101325.0 / 760, "Torr торр"), (101325.0, "atm атм"),
-        (_LBF / _IN**2, "psi lbf/in2 lbf/in²"), (_LBF / _FT**2, "psf lbf/ft2 lbf/ft²"),
+        (1e6, "MPa МПа MN/m2 МН/м2 N/mm2 Н/мм2"), (1e3, "kPa кПа kN/m2"), (1.0, "Pa Па N/m2"), (1e5, "bar бар"),
+        (1e2, "hPa гПа mbar мбар"), (KGF * 1e4, "kgf/cm2 кгс/см2 kG/cm2 kp/cm2 at ат"),
+        (133.322387415, "mmHg ммртст мм_рт.ст."), (101325.0 / 760, "Torr торр"), (101325.0, "atm атм"),
+        (_LBF / _IN**2, "psi lbf/in2"), (_LBF / _FT**2, "psf lbf/ft2"),
     ],
     "time": [(1.0, "s с"), (1e-3, "ms мс"), (60.0, "min мин")],
     "stiffness": [(1.0, "N/m Н/м"), (1e3, "N/mm kN/m Н/мм кН/м"), (_LBF / _IN, "lbf/in"), (_LBF / _FT, "lbf/ft")],
     "damping": [
-        (1.0, "N*s/m N·s/m Н·с/м Н*с/м"), (1e3, "kN*s/m N*s/mm кН·с/м кН*с/м"), (_LBF / _IN, "lbf*s/in lbf·s/in"),
-        (_LBF / _FT, "lbf*s/ft lbf·s/ft"),
+        (1.0, "N*s/m Н·с/м"), (1e3, "kN*s/m N*s/mm кН·с/м"), (_LBF / _IN, "lbf*s/in"), (_LBF / _FT, "lbf*s/ft"),
     ],
-    "angular_damping": [
-        (1.0, "N*m*s/rad N·m·s/rad N*m*s N·m·s Н·м·с/рад Н*м*с/рад Н·м·с Н*м*с"),
-        (_LBF * _FT, "lbf*ft*s/rad lbf·ft·s/rad lbf*ft*s lbf·ft·s"),
-    ],
+    "angular_damping": [(1.0, "N*m*s/rad N*m*s Н·м·с/рад Н·м·с"), (_LBF * _FT, "lbf*ft*s/rad lbf*ft*s")],
     "force": [
         (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (_LBF, "lbf"), (1e3 * _LBF, "kip klbf"),
         (_LBF / 16, "ozf"),
     ],
     "torque": [
-        (1.0, "N*m N·m Nm N.m Н·м Н*м Нм Н.м"), (1e3, "kN*m kN·m kNm кН·м кН*м"), (KGF, "kgf*m kgf·m кгс·м кгс*м"),
-        (_LBF * _FT, "lbf*ft lbf·ft lbf.ft lb-ft"), (_LBF * _IN, "lbf*in lbf·in lbf.in lb-in"),
+        (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
+        (_LBF * _IN, "lbf*in lb-in"),
     ],
     "energy": [
-        (1.0, "J Дж"), (1e3, "kJ кДж"), (1e6, "MJ МДж"), (_LBF * _FT, "ft*lbf ft·lbf ft-lb"),
-        (_LBF * _IN, "in*lbf in·lbf"), (1055.05585262, "Btu"),
+        (1.0, "J Дж"), (1e3, "kJ кДж"), (1e6, "MJ МДж"), (_LBF * _FT, "ft*lbf ft-lb"), (_LBF * _IN, "in*lbf"),
+        (1055.05585262, "Btu"),
     ],
-    "energy_per_area": [
-        (1e6, "J/mm2 J/mm² Дж/мм2 Дж/мм²"), (1e4, "J/cm2 J/cm² Дж/см2 Дж/см²"), (1.0, "J/m2 J/m² Дж/м2 Дж/м²"),
-    ],
-    "torque_per_length": [(1e3, "N*m/mm N·m/mm Н·м/мм Н*м/мм"), (1e2, "N*m/cm N·m/cm Н·м/см"), (1.0, "N*m/m Н·м/м")],
+    "energy_per_area": [(1e6, "J/mm2 Дж/мм2"), (1e4, "J/cm2 Дж/см2"), (1.0, "J/m2 Дж/м2")],
+    "torque_per_length": [(1e3, "N*m/mm Н·м/мм"), (1e2, "N*m/cm Н·м/см"), (1.0, "N*m/m Н·м/м")],
     "angle_per_length": [
         (math.pi / 180 * 1e3, "deg/mm °/mm град/мм °/мм"), (math.pi / 180 * 1e2, "deg/cm °/cm град/см"),
         (1.0, "rad/m рад/м"),
@@ -116,8 +104,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "temperature": [(1.0, "K К")],
     "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb")],
     "mass_moment": [
-        (1.0, "kg*m kg·m кг·м кг*м"), (1e-3, "kg*mm kg·mm кг·мм кг*мм"), (1e-5, "g*cm g·cm г·см г*см"),
-        (_LB * _FT, "lb*ft lb·ft"), (_LB * _IN, "lb*in lb·in"), (_LB / 16 * _IN, "oz*in oz·in"),
+        (1.0, "kg*m кг·м"), (1e-3, "kg*mm кг·мм"), (1e-5, "g*cm г·см"), (_LB * _FT, "lb*ft"), (_LB * _IN, "lb*in"),
+        (_LB / 16 * _IN, "oz*in"),
     ],
     "pressure_rise": [
         (1e6 * 180 / math.pi, "MPa/deg MPa/° МПа/град"), (1e5 * 180 / math.pi, "bar/deg бар/град"),
@@ -126,10 +114,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "pressure_by_velocity": [(1e6, "MPa*s/m МПа*с/м"), (1.0, "Pa*s/m Па*с/м")],
     "heat_transfer": [(1.0, "W/(m2*K) W/m2K Вт/(м2*К)"), (1e3, "kW/(m2*K) кВт/(м2*К)")],
     "specific_heat": [(1.0, "J/(kg*K) Дж/(кг*К)"), (1e3, "kJ/(kg*K) кДж/(кг*К)")],
-    "density": [
-        (1.0, "kg/m3 kg/m³ кг/м3 кг/м³"), (1e3, "g/cm3 g/cm³ г/см3 г/см³"), (_LB / _FT**3, "lb/ft3 lb/ft³"),
-        (_LB / _IN**3, "lb/in3 lb/in³"),
-    ],
+    "density": [(1.0, "kg/m3 кг/м3"), (1e3, "g/cm3 г/см3"), (_LB / _FT**3, "lb/ft3"), (_LB / _IN**3, "lb/in3")],
     "specific_amount": [(1.0, "kmol/kg кмоль/кг")],
     "molar_mass": [(1.0, "kg/kmol кг/кмоль")],
     "molar_energy": [(1.0, "kJ/kmol кДж/кмоль")],
@@ -143,17 +128,16 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (_LB / 60, "lb/min"),
     ],
     "volume_rate": [
-        (1 / 60, "m3/min m³/min м3/мин м³/мин"), (1.0, "m3/s m³/s м3/с м³/с"), (1 / 3600, "m3/h m³/h м3/ч м³/ч"),
-        (1e-3, "l/s L/s л/с"), (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min ft³/min cfm"),
-        (_FT**3, "ft3/s ft³/s cfs"),
+        (1 / 60, "m3/min м3/мин"), (1.0, "m3/s м3/с"), (1 / 3600, "m3/h м3/ч"), (1e-3, "l/s L/s л/с"),
+        (1e-3 / 60, "l/min L/min л/мин"), (_FT**3 / 60, "ft3/min cfm"), (_FT**3, "ft3/s cfs"),
     ],
-    "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 W/m³ Вт/м3 Вт/м³")],
+    "power_density": [(1e6, "kW/l кВт/л"), (1.0, "W/m3 Вт/м3")],
     "per_temperature": [(1.0, "1/K 1/К")],
-    "volume_per_temperature": [(1e-6, "cm3/K cm³/K см3/К см³/К"), (1.0, "m3/K m³/K м3/К м³/К")],
+    "volume_per_temperature": [(1e-6, "cm3/K см3/К"), (1.0, "m3/K м3/К")],
     "speed_per_temperature": [(1.0, "m/(s*K) м/(с*К)")],
     "power": [
         (1e3, "kW кВт"), (1.0, "W Вт"), (1e6, "MW МВт"), (75 * KGF, "PS л.с. лс mã_lực hp(M)"),
-        (550 * _LBF * _FT, "hp(I) bhp"), (_LBF * _FT, "ft*lbf/s ft·lbf/s"),
+        (550 * _LBF * _FT, "hp(I) bhp"), (_LBF * _FT, "ft*lbf/s"),
     ],
 }  # fmt: skip
 
@@ -166,6 +150,47 @@ UNITS: dict[str, Unit] = {
     **{name: Unit("temperature", 1.0, 273.15) for name in ("degC", "°C", "°С")},
     **{name: Unit("temperature", 5 / 9, 459.67 * 5 / 9) for name in ("degF", "°F")},
 }
+
+# signs and words that textbooks print otherwise than the table
+_SIGNS = str.maketrans("²³¹⁻−⋅∙•×·", "231--*****", "^")
+_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min"}
+
+
+def _plain(name: str) -> str:
+    """Return a unit in plain signs: `N·m`, `N.m`, `кг⋅м^2`, `об./мин`, `мин⁻¹` and `m·s⁻²` are the same as others."""
+    name = re.sub(r"\s*([/*])\s*", r"\1", name.translate(_SIGNS)).replace(" ", "*")
+    name = re.sub(r"\.(?=[/*]|\Z)", "", name).replace(".", "*")
+    name = re.sub(r"[^\W\d_]+", lambda word: _WORDS.get(word[0], word[0]), name)
+    name = re.sub(r"(?:\A|\*)([^\W\d]+)-([123])(?=[*/]|\Z)", lambda part: f"/{part[1]}{part[2].replace('1', '')}", name)
+    return f"1{name}" if name.startswith("/") else name
+
+
+# letters that look alike in both alphabets
+TO_LATIN = str.maketrans("АВЕКМНОРСТУХаеокмрсухі", "ABEKMHOPCTYXaeokmpcyxi")
+_TO_CYRILLIC = {latin: cyrillic for cyrillic, latin in TO_LATIN.items()}
+_PLAIN = {_plain(name): name for name in reversed(UNITS)}
+
+
+def known_unit(name: str) -> str:
+    """Return a unit as the table spells it, empty if it is none.
+
+    Examples
+    --------
+    >>> known_unit("кг⋅м^2"), known_unit("min⁻¹"), known_unit("furlong")
+    ('kg*m2', '1/min', '')
+    """
+    name = unicodedata.normalize("NFC", name.strip())
+    spellings_of_name = (name, name.replace(" ", "_"), name.replace(". ", ".").replace(" ", "_"))
+    return next((spelling for spelling in spellings_of_name if spelling in UNITS), "") or _PLAIN.get(_plain(name), "")
+
+
+_FIRST = {unit: name for name, unit in reversed(UNITS.items())}
+
+
+def first_spelling(unit: Unit) -> str:
+    """Return the first spelling of a unit."""
+    return _FIRST[unit]
+
 
 System = Literal["metric", "si", "imperial"]
 # Imperial units by the metric ones that quantities are stated with
@@ -236,7 +261,6 @@ _UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
 _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}){_UNIT}")
 _WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?){_UNIT}")
 _BARE = re.compile(rf"{_NUMBER}|[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?")
-_OPERATOR = re.compile(r"\s*([/*·])\s*")
 
 
 def spellings(dimension: str) -> list[str]:
@@ -264,12 +288,11 @@ def parse(
     if match is None:
         raise ValueError(ErrorMessage("no_quantity", text=_short(text), example=example))
     number, name = match["number"].replace(",", "."), match["unit"]
-    spelling = _spelling(name or "")
+    spelling = known_unit(name or "") or name or ""
     notice = ""
-    if spelling.lower() in _DOUBTFUL:
-        if spelling.lower() != "hp" or not metric_hp:
-            raise ValueError(ErrorMessage(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
+    if spelling.lower() == "hp" and metric_hp:
         spelling, notice = "PS", "metric_horsepower"
+    _ask_which(spelling, dimensions, number, name or "")
     unit = UNITS.get(spelling)
     is_weight = unit is not None and unit.dimension == "force" and "mass" in dimensions and "force" not in dimensions
     fits = unit is not None and (unit.dimension in dimensions or is_weight)
@@ -297,11 +320,24 @@ def parse(
     )
 
 
+def _ask_which(spelling: str, dimensions: tuple[str, ...], number: str, name: str) -> None:
+    """Raise for a unit of several meanings; those of a speed are radians and revolutions."""
+    if spelling.lower() in _DOUBTFUL:
+        raise ValueError(ErrorMessage(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
+    unit = UNITS.get(spelling)
+    if unit is not None and unit.dimension == "frequency" and "speed" in dimensions and "frequency" not in dimensions:
+        options = (f'"{number} rad/s"', f'"{number} rev/s"')
+        raise ValueError(ErrorMessage("speed_per_second", unit=_short(name), options=options))
+
+
 def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> ErrorMessage:
     rows = [names for dimension in dimensions for _, names in _SPELLINGS[dimension]]
     all_spellings = [spelling for names in rows for spelling in names.split()]
     # one or two letters are close to anything
     near = difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else []
+    mixed = [spelling for table in (TO_LATIN, _TO_CYRILLIC) if (spelling := name.translate(table)) in all_spellings]
+    if mixed:
+        return ErrorMessage("unit_look_alike", unit=_short(name), nearest=f"{number} {mixed[0]}")
     if near:
         return ErrorMessage("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **values)
     return ErrorMessage("unit_unknown", unit=_short(name), **values)
@@ -326,13 +362,6 @@ def parse_in(text: str, unit: str) -> float:
     text = text.strip()
     text = f"{text} {unit}" if _BARE.fullmatch(text) else text
     return parse(text, (UNITS[unit].dimension,), decimal_comma=True)[0]
-
-
-def _spelling(name: str) -> str:
-    """Return a unit as the table spells it: spaces at an operator are dropped, others are a product or a part."""
-    name = _OPERATOR.sub(r"\1", name)
-    spellings_of_name = (name, name.replace(" ", "*"), name.replace(" ", "_"))
-    return next((spelling for spelling in spellings_of_name if spelling in UNITS), name)
 
 
 def to_si(value: Any, unit: str) -> Any:  # noqa: ANN401 - a float or an array, as given

@@ -28,8 +28,8 @@ PINNED = {
         "machine": "93e6fd34e1f6",
     },
     "formulas": "274ffc63bbc6",
-    "quantities": "eb8dc364166d",
-    "defaults": "852fd398a2cf",
+    "quantities": "29183f2a7f9e",
+    "defaults": "6b294094b813",
 }
 
 

@@ -109,10 +109,13 @@ def test_units_that_contradict_the_machine_file_are_told(read):
 
 
 @for_each("heading", ["phi [deg]\tp [bar(a)]\n", "phi\tp\ndeg\tbara\n", "phi, deg\tp abs, bar\n"])
-def test_absolute_pressures_taken_for_gauge_are_told(read, heading):
+def test_pressures_are_counted_as_the_heading_says_where_the_machine_file_does_not(read, heading):
     text = heading + table(ANGLES, BAR)
-    assert told(read(text, ""))["measured_reference"] == {"reference": "absolute", "stated": "gauge"}
-    assert "measured_reference" not in told(read(text, "", ABSOLUTE))
+    assert told(read(text, ""))["measured_reference_used"] == {"reference": "absolute"}
+    assert peak(read(text, "")) == pytest.approx(41 - 1.01325, rel=2e-3)
+    assert not {"measured_reference", "measured_reference_used"} & set(told(read(text, "", ABSOLUTE)))
+    gauge = MACHINE.replace('cycle = "720 deg"', 'cycle = "720 deg"\npressures = "gauge"')
+    assert told(read(text, "", gauge))["measured_reference"] == {"reference": "absolute", "stated": "gauge"}
 
 
 @for_each("heading", ["", "phi [deg]\tp [bar]\n"])
@@ -392,13 +395,21 @@ def test_a_compression_line_proposes_a_shift_with_an_honest_uncertainty(read, sh
 
 
 def test_a_peak_far_from_top_dead_centre_is_told(read):
-    values = told(read(table(ANGLES, true_pressure(ANGLES + 187)), MEAN))["peak_far"]
+    text = table(ANGLES, true_pressure(ANGLES + 187))
+    message = refusal(read, text, MEAN)
+    assert (
+        'the greatest pressure stands at 185 deg of the cycle, and firing is at 360 deg; write shift = "180' in message
+    )
+    assert 'or shift = "0 deg" if the angles are right' in message
+    values = told(read(text, f'{MEAN}\nshift = "0 deg"'))["peak_far"]
     assert (values["angle"], values["apart"]) == (pytest.approx(185), pytest.approx(175))
+    assert values["shift"] == 180
 
 
 def test_negative_work_and_odd_exponents_are_told(read):
     early = table(ANGLES, true_pressure(ANGLES + 30))
-    assert "work_negative" in told(read(early, MEAN))
+    assert "write reversed = true if the file counts against the rotation" in refusal(read, early, MEAN)
+    assert "work_negative" in told(read(early, f'{MEAN}\nshift = "0 deg"'))
     odd = table(ANGLES, motored(ANGLES, 1.7))
     assert told(read(odd, MEAN, ABSOLUTE))["exponent_odd"]["exponent"] == pytest.approx(1.7, abs=1e-3)
     right = table(ANGLES, motored(ANGLES) * np.where(ANGLES > 361, 1.5, 1))

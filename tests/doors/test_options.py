@@ -15,7 +15,7 @@ WRONG_SETTINGS = {
     "rod..ratio=1": "--set rod..ratio=1: write --set KEY=VALUE",
     "a.b.c.d.e.f.g.h.i=1": "--set a.b.c.d.e.f.g.h.i=1: write --set KEY=VALUE",
     "crank.radius.x=1": "--set crank.radius.x: radius is not a table in this file",
-    "gas.pieces.law=1": "--set gas.pieces.law: pieces is not a table in this file",
+    "gas.pieces.law=1": "--set gas.pieces.law: pieces is a list in this file; write the number",
     "gas.pieces[9].law=1": "--set gas.pieces[9].law: there is no entry 9",
     "gas.pieces[0].law=1": "--set gas.pieces[0].law: there is no entry 0",
     "crank[1]=1": "--set crank[1]: crank is not a list in this file",

@@ -54,7 +54,7 @@ class TestRossD90:
         radius = 2e3 * swept / (math.pi * bore**2)
         machine = crankwork.read_machine(f"""
             fixed_points.O = ["0 mm", "0 mm"]
-            crank = {{ pivot = "O", pin = "C", radius = "{radius!r} mm", speed = "50 Hz",\
+            crank = {{ pivot = "O", pin = "C", radius = "{radius!r} mm", speed = "50 rev/s",\
                 points.H = ["{radius * math.cos(phase)!r} mm", "{radius * math.sin(phase)!r} mm"] }}
             guides.cold_bore.through = "O"
             guides.hot_bore.through = "O"
@@ -83,7 +83,7 @@ class TestRossD90:
         more = area * (2.28209065544 - 2.17792625716)
         machine = crankwork.read_machine(f"""
             fixed_points.O = ["0 mm", "0 mm"]
-            crank = {{ pivot = "O", pin = "A", radius = "8.5 mm", speed = "50 Hz" }}
+            crank = {{ pivot = "O", pin = "A", radius = "8.5 mm", speed = "50 rev/s" }}
             links.yoke = {{ joins = ["A", "M"], length = "35.4 mm",\
                 points = {{ E = ["35.4 mm", "-35.4 mm"], C = ["35.4 mm", "35.4 mm"] }} }}
             guides.middle = {{ through = "O", angle = "90 deg" }}

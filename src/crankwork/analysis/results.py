@@ -506,9 +506,10 @@ class Results(Mapping[str, Array | float]):
     def _unknown(self, key: str, known: Iterable[str]) -> UnknownKeyError:
         """Return the error of an unknown key, with the nearest keys that exist."""
         known, kind = list(known), key_of(key).quantity
-        if kind in QUANTITIES and not any(key_of(item).quantity == kind for item in known):
-            return UnknownKeyError(ErrorMessage("result_absent", key=_printable(key), method=self.method.name))
         near = difflib.get_close_matches(key, known, n=3, cutoff=0.7) or [item for item in known if key in item][:3]
+        if kind in QUANTITIES and not any(key_of(item).quantity == kind for item in known):
+            values = {"key": _printable(key), "method": self.method.name, "nearest": tuple(near)}
+            return UnknownKeyError(ErrorMessage("result_absent_near" if near else "result_absent", **values))
         if near:
             return UnknownKeyError(ErrorMessage("result_unknown_near", key=_printable(key), nearest=tuple(near)))
         return UnknownKeyError(ErrorMessage("result_unknown", key=_printable(key)))

@@ -182,11 +182,14 @@ def _usage_sentence(error: click.ClickException) -> str:
 def _unknown(error: click.NoSuchOption | click.exceptions.NoSuchCommand) -> str:
     """Return a sentence about an unknown option or command."""
     if isinstance(error, click.NoSuchOption):
-        option = error.option_name
-        if error.possibilities:
+        option, known = error.option_name, commands.commands.items()
+        having = [name for name, command in known if any(option in param.opts for param in command.params)]
+        if not having and error.possibilities:
             return ErrorMessage("option_unknown_near", option=option, nearest=error.possibilities[0])
-        options = {name for command in commands.commands.values() for param in command.params for name in param.opts}
-        return ErrorMessage("option_early" if option in options else "option_unknown", option=option)
+        # before the command, or behind one that does not have it
+        name = "option_early" if error.ctx is not None and error.ctx.command is commands else "option_elsewhere"
+        values = {"option": option, "commands": having, "command": "run" if "run" in having else "".join(having[:1])}
+        return ErrorMessage(name if having else "option_unknown", **values)
     command = error.command_name[:40]
     if command.endswith(".toml"):
         return ErrorMessage("command_first", file=command)

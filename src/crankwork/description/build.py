@@ -54,7 +54,8 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
         from crankwork.description.crankshaft_build import build_engine  # noqa: PLC0415 - most files have one cylinder
 
         engine = build_engine(values, lengths, cycle, reader)
-    if not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]:
+    own = not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]
+    if own or values["gas"]["measured"]["columns"]:
         engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
     speed = crank_speed(crank["speed"], method) if "speed" in crank else 0.0
     drive = read_flywheel(flywheel, Drive(), speed, reader, pi=method.pi)
@@ -87,8 +88,13 @@ def _with_own_gas(
     from crankwork.description.cylinder_gas import with_own_gas  # noqa: PLC0415 - few engines have such cylinders
 
     if engine is None:
-        if "engine" not in values and "cylinders" in values["gas"]:
-            reader.add_error("gas.cylinders", ErrorMessage("cylinders_engine"))
+        keys = (
+            ("gas.cylinders", "cylinders" in values["gas"]),
+            ("gas.measured.columns", values["gas"]["measured"]["columns"]),
+        )
+        for key, is_stated in keys if "engine" not in values else ():
+            if is_stated:
+                reader.add_error(key, ErrorMessage("cylinders_engine"))
         return None, gas
     engine = with_own_gas(values, engine, gas, reader, read_measured)
     return engine, engine.gases[0] if engine.gases else gas

@@ -10,6 +10,7 @@ from crankwork.description.cylinder_pressure_build import (
     build_diagram,
     build_valves,
     check_parts,
+    pressures_of,
     with_valves,
 )
 from crankwork.description.schema import Values, no_effect_message
@@ -57,7 +58,7 @@ def build_chambers(
         if valves is not None:
             volumes = (table.si("clearance_volume"), table["compression_ratio"])
             diagram = with_valves(diagram, valves, has_clearance=any(volumes))
-        is_absolute = table["pressures"] == "absolute" or name in holder or "cycle" in table
+        is_absolute = pressures_of(table, diagram.measured) == "absolute" or name in holder or "cycle" in table
         counted = table.but(pressures="absolute") if is_absolute else table
         chambers[name] = table.made(
             Chamber,

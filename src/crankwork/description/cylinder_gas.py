@@ -29,9 +29,10 @@ def with_own_gas(
             if not reader.has_errors("gas", "cycle", "cylinder"):
                 reader.add_error(key, ErrorMessage("cylinder_gas_none"))
         return engine
-    if not requested and not own:
+    if not requested and not own and not values["gas"]["measured"]["columns"]:
         return engine
     diagrams = _own_diagrams(values["gas"], gas, count, reader, read_measured) if own else {}
+    diagrams = {**_of_columns(values["gas"], gas, engine, reader, read_measured), **diagrams}
     misfires = _misfires(table, own, count, reader)
     factors = _factors(table, misfires, count, reader)
     motored = _motored(values, gas, reader, read_measured) if misfires else None
@@ -63,10 +64,33 @@ def _own_diagrams(table: Values, gas: Gas, count: int, reader: Reader, read_meas
     return gases
 
 
+def _of_columns(table: Values, gas: Gas, engine: Engine, reader: Reader, read_measured: ReadMeasured) -> dict[int, Gas]:
+    """Return the gas of each cylinder from the columns of one file over one crank angle, by number."""
+    measured, places = table["measured"], engine.layout.places
+    columns = measured["columns"]
+    if columns and len(columns) != len(places):
+        reader.add_error("gas.measured.columns", ErrorMessage("entries", count=len(columns), wanted=len(places)))
+        return {}
+    gases = dict[int, Gas]()
+    for place, column in zip(places, columns, strict=False):
+        later = (place.firing_angle + place.top - places[0].firing_angle - places[0].top) % gas.cycle
+        own = Values({**measured, "pressure_column": column}, measured.table)
+        del own["columns"]
+        pressures = "absolute" if gas.is_absolute else "gauge"
+        diagram = build_diagram(
+            Values({"measured": own, "pressures": pressures}, table.table), "gas", reader, read_measured
+        )
+        # what is told of the first is true of all
+        samples = diagram.measured and replace(diagram.measured, notices=() if gases else diagram.measured.notices)
+        gases[place.number] = replace(gas, measured=samples, angle_shift=gas.angle_shift - later)
+    return gases
+
+
 def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Reader, read: ReadMeasured) -> Gas:
     """Return the gas with another diagram; its pressures are absolute or gauge as those of the gas table."""
     check_parts(values, path, reader)
-    diagram = build_diagram(values.but(pressures=table["pressures"]), path, reader, read)
+    pressures = "absolute" if gas.is_absolute else table["pressures"]
+    diagram = build_diagram(values.but(pressures=pressures), path, reader, read)
     return replace(gas, **diagram._asdict(), valves=None, path=path)
 
 

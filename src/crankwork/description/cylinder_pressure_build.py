@@ -32,6 +32,7 @@ def build_gas(
     diagram = build_diagram(values, "gas", reader, read_measured)
     if "cycle" not in values:
         return None
+    is_absolute = pressures_of(values, diagram.measured) == "absolute"
     valves = build_valves(values, "gas", reader)
     if valves is not None:
         volumes = (cylinder.clearance_volume, cylinder.compression_ratio) if cylinder is not None else ()
@@ -40,8 +41,8 @@ def build_gas(
         cycle=float(values["cycle"].split()[0]),
         **diagram._asdict(),
         valves=valves,
-        is_absolute=values["pressures"] == "absolute",
-        ambient=values.si("ambient") or 0.0,
+        is_absolute=is_absolute,
+        ambient=(values.but(pressures="absolute").si("ambient") or 0.0) if is_absolute else 0.0,
         names_ambient="ambient" in values,
         back_pressure=values.si("back_pressure") or 0.0,
     )
@@ -141,12 +142,23 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
     """Return points and laws, or measured samples; report contradictions; `path`: of the diagram in the description."""
     _check_points(values, path, reader)
     measured = read_measured(values["measured"], reader, path) if "measured" in values else None
-    source, absolute = values["measured"], values["pressures"] == "absolute"
+    source, shift = values["measured"], math.degrees(values["measured"].si("shift"))
+    pressures = pressures_of(values, measured)
+    absolute = pressures == "absolute"
     if measured is not None:
         treatment = treatment_of(source, f"{path}.measured", reader, absolute=absolute)
-        read_as: NoticeData = "measured_reference", {"reference": measured.reference, "stated": values["pressures"]}
-        notices = (read_as,) if measured.reference not in ("", values["pressures"]) else ()
-        measured = replace(measured, treatment=treatment, notices=measured.notices + notices)
+        # chambers of a linkage count from where its crank starts
+        is_counted = values.table.name != "gas"
+        notices = list[NoticeData]()
+        if measured.reference not in ("", pressures):
+            notices.append(("measured_reference", {"reference": measured.reference, "stated": pressures}))
+        elif measured.reference and "pressures" not in values:
+            notices.append(("measured_reference_used", {"reference": pressures}))
+        if measured.zero and not (treatment.is_placed or is_counted):
+            shift = measured.zero
+            notices.append(("measured_zero", {"name": f"{path}.measured", "shift": shift}))
+        treatment = treatment._replace(is_placed=treatment.is_placed or is_counted)
+        measured = replace(measured, treatment=treatment, notices=(*measured.notices, *notices))
     resample = source.si("resample")
     if absolute:
         for name, point in values["points"].items():
@@ -165,9 +177,15 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
             if piece and {"law", "points"} <= set(piece)
         ),
         measured=measured,
-        angle_shift=math.degrees(source.si("shift")),
+        angle_shift=shift,
         resample=math.degrees(resample) if resample else None,
     )
+
+
+def pressures_of(values: Values, measured: MeasuredPressure | None) -> str:
+    """Return what pressures are counted from, where no table states it as the file with samples says."""
+    stated: str = values["pressures"]
+    return stated if measured is None or "pressures" in values else measured.reference or stated
 
 
 def _check_points(values: Values, path: str, reader: Reader) -> None:

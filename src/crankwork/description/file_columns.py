@@ -12,7 +12,7 @@ from crankwork.description.table_file import FileTable, read_table
 from crankwork.description.value_types import Quantity, Reader, ValueType
 from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage
-from crankwork.units import EXAMPLES, UNITS
+from crankwork.units import EXAMPLES, UNITS, known_unit
 
 _REFERENCE = {"column", "unit"}
 
@@ -42,13 +42,14 @@ def resolve_file_columns(values: dict[str, Any], keys: TableSpec, reader: Reader
             read = read_table(folder / file, name=file, sheet=sheet) if places else None
         except CrankworkError as error:
             # consequences of an unreadable file are not reported
-            reader.add_error(f"{path}.file", error.args[0], meant=path)
+            reader.add_error(f"{path}.file", *error.args, meant=path)
             read = None
+        reader.notices += [(code, dict(details)) for code, details in read.notices] if read else []
         for place in places if read else ():
             try:
                 place.holder[place.name] = _column(read, place) if read else []
             except CrankworkError as error:
-                reader.add_error(place.path, error.args[0], meant=path)
+                reader.add_error(place.path, *error.args, meant=path)
                 del place.holder[place.name]
     return values
 
@@ -94,7 +95,7 @@ def _column(table: FileTable, place: _Place) -> list[Any]:
     numbers: list[float] = table.columns((position,))[:, 0].tolist()
     if not isinstance(place.entry, Quantity):
         return numbers
-    unit = unit or table.units[position]
+    unit = (known_unit(unit) or unit) if unit else table.units[position]
     if unit not in UNITS or UNITS[unit].dimension not in place.entry.dimensions:
         example = EXAMPLES[place.entry.dimensions[0]].split()[1]
         name = f'"{column}"' if isinstance(column, str) else str(column)

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 
+from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
 from crankwork.description.load_keys import LOADING, SHEET
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
-from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text, UnitOf
 from crankwork.method import STANDARD_GRAVITY
 
 _LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -82,9 +83,10 @@ MEASURED = TableSpec("measured", {
     "sheet": SHEET,
     "angle_column": KeySpec(_COLUMN),
     "pressure_column": KeySpec(_COLUMN),
-    "angle_unit": KeySpec(Choice(("deg", "rad"))),
-    "pressure_unit": KeySpec(Choice(("MPa", "kPa", "Pa", "bar", "kgf/cm2", "psi", "atm", "hPa"))),
+    "angle_unit": KeySpec(UnitOf("angle")),
+    "pressure_unit": KeySpec(UnitOf("pressure")),
     "shift": KeySpec(_ANGLE, default="0 deg"),
+    "reversed": KeySpec(Flag(), default=False),
     "cycle": KeySpec(WordOr(Choice(("mean", "greatest peak", "least peak")), Number(1, 1e6, whole=True))),
     "rest_pressure": KeySpec(_PRESSURE),
     "peg": KeySpec(_PEG),
@@ -92,6 +94,9 @@ MEASURED = TableSpec("measured", {
     "loss_angle": KeySpec(Quantity(("angle",), 0.0, math.radians(10))),
     "resample": KeySpec(Quantity(("angle",), math.radians(0.01), math.radians(30))),
 })  # fmt: skip
+
+_COLUMNS = KeySpec(ListOf(_COLUMN, fewest=2, most=MOST_CYLINDERS), instead_of=("pressure_column",))
+_OF_ALL = MEASURED._replace(keys={**MEASURED.keys, "columns": _COLUMNS})
 
 _OPENING = Quantity(("pressure",), 1.0, 1e10)
 _EXPONENT = Number(0.5, 3.0)
@@ -137,6 +142,7 @@ _GAS = TableSpec("gas", {
     "back_pressure": KeySpec(_PRESSURE),
     "pressures": PRESSURES,
     **DIAGRAM,
+    "measured": DIAGRAM["measured"]._replace(kind=_OF_ALL),
     "valves": KeySpec(VALVES, instead_of=tuple(DIAGRAM), only={"pressures": ("absolute",), "cycle": ("360 deg",)}),
     "cylinders": KeySpec(MapOf(TableSpec("gas", DIAGRAM), most=28)),
     "motored": KeySpec(NameOr(TableSpec("gas", DIAGRAM))),

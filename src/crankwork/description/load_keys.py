@@ -77,7 +77,7 @@ _MOTOR = TableSpec("motor", {
     "rated_speed": KeySpec(SPEED, required=True),
     "overload": KeySpec(Number(1.01, 10.0), required=True),
     "pole_pairs": KeySpec(Number(1, 24, whole=True), required=True),
-    "frequency": KeySpec(SPEED, default="50 Hz"),
+    "frequency": KeySpec(Quantity(("frequency", "speed"), 1e-6, 3e4), default="50 Hz"),
     "ratio": KeySpec(Number(1e-4, 1e4), default=1.0),
     "inertia": INERTIA,
 })  # fmt: skip

@@ -27,11 +27,13 @@ from crankwork.description.measured_build import read_measured
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
 from crankwork.description.toml_positions import locate
 from crankwork.description.torque_keys import PRESS_FILE, TURNING_FILE
-from crankwork.description.value_types import Reader, is_one_line
+from crankwork.description.value_types import Reader, is_one_line, look_alikes
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
+from crankwork.loads.pressure_processing import QUESTIONS
 from crankwork.locale import LANGUAGES, ErrorMessage, Language, translate
 from crankwork.resources import read_resource, resource_names
+from crankwork.units import TO_LATIN
 
 if TYPE_CHECKING:
     from crankwork.loads.measured_pressure import MeasuredPressure
@@ -49,6 +51,9 @@ _STEP = re.compile(r"[^\[\]]+(\[[0-9]{1,4}\])*")
 # a text of a template by its key, and a comment that consists of it
 _WORDS = re.compile(r"\{([a-z][\w.]*)\}")
 _COMMENT = re.compile(rf"^# {_WORDS.pattern}$", re.MULTILINE)
+# decimal commas in a list, without spaces after them, and more mistakes of syntax than are looked for
+_PAIRS = re.compile(r"=\s*(\[\s*(?:\d+,\d+,\s+)*0,\d+(?:,\s+\d+,\d+)*\s*\])")
+_MOST_MISTAKES = 20
 _STRINGS = re.compile(r"""\"(?:\\.|[^\"\\])*\"?|'[^']*'?""")
 
 
@@ -88,14 +93,14 @@ def read_machine(
         If the text is no TOML, or a setting is none.
     """
     folder = folder or Path()
-    values = parse(source, name)
+    source, values, mistakes = _mended(source, name)
     settings = settings_of(overrides)
     for setting in settings:
         apply_override(values, setting)
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
     machine = _build(values, reader, folder)
-    if reader.problems or machine is None:
-        raise input_error(source, name, reader, settings)
+    if mistakes or reader.problems or machine is None:
+        raise input_error(source, name, reader, settings, mistakes)
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     notices = (*machine.notices, *reader.notices)
     return replace(
@@ -221,22 +226,30 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
     if machine is None:
         return None
     try:
-        solved = prepare(machine, machine.method)
+        solved = [prepare(machine, machine.method)]
         if machine.engine is not None and machine.engine.gases:
             from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415 - few engines have them
 
-            multi_cylinder_engine(solved)
+            solved += multi_cylinder_engine(solved[0]).cylinders[1:]
+        for notice in itertools.chain.from_iterable(cylinder.notices for cylinder in solved):
+            if notice.code in QUESTIONS:
+                key = str(notice.values["name"])
+                reader.add_error(key, _in_file(key, ErrorMessage(f"notices.{notice.code}", **notice.values), values))
     except DiagramError as error:
-        mistake = error.args[0]
-        if error.key.endswith(".measured"):
-            measured = functools.reduce(dict.__getitem__, error.key.split("."), values)
-            mistake = ErrorMessage("in_file", file=measured["file"], mistake=mistake)
-        reader.add_error(error.key, mistake)
+        reader.add_error(error.key, _in_file(error.key, error.args[0], values))
     except CrankworkError as error:
         if "cycle" not in values:
             raise
         reader.add_error("cycle", error.args[0])
     return machine
+
+
+def _in_file(key: str, mistake: ErrorMessage, values: Values) -> ErrorMessage:
+    """Return a mistake with the file that it is about, if it is about one."""
+    if not key.endswith(".measured"):
+        return mistake
+    measured = functools.reduce(dict.__getitem__, key.split("."), values)
+    return ErrorMessage("in_file", file=measured["file"], mistake=mistake)
 
 
 def file_keys(values: Mapping[str, Any]) -> TableSpec:
@@ -256,21 +269,68 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
 
 
 def parse(source: str, name: str) -> dict[str, Any]:
-    """Return the values of a TOML text; raise for texts that would take the parser too long."""
-    for number, line in enumerate(source.split("\n"), start=1):
+    """Return the values of a TOML text; raise with all mistakes of its syntax, and for texts that take too long."""
+    _, values, mistakes = _mended(source, name)
+    if mistakes:
+        raise _syntax_error(mistakes)
+    return values
+
+
+def _syntax_error(mistakes: Sequence[ErrorMessage]) -> CrankworkError:
+    """Return the error with all mistakes of syntax."""
+    return InputError([Problem("", message) for message in mistakes], [""] * len(mistakes))
+
+
+def _mended(source: str, name: str) -> tuple[str, dict[str, Any], list[ErrorMessage]]:
+    """Return a TOML text with mistakes of its syntax mended where it is plain how, its values, and the mistakes.
+
+    Raises if one of them cannot be mended, with all of them.
+    """
+    lines = source.split("\n")
+    _check_lines(lines, name)
+    mistakes, is_whole, last = [*_list_commas(lines, name)], True, 0
+    while True:
+        try:
+            values = tomllib.loads("\n".join(lines))
+        except tomllib.TOMLDecodeError as error:
+            match = re.search(r"\(at line (\d+), column \d+\)", str(error))
+            number, mended = int(match[1]) if match else len(lines), ""
+            if number > last:
+                mistakes.append(_syntax_message("\n".join(lines), name, str(error)))
+                mended = str(mistakes[-1].values.get("mended", ""))
+            # without a heading the keys below it belong to another table
+            is_lost = not match or number > len(lines) or not lines[number - 1] or lines[number - 1].startswith("[")
+            if len(mistakes) > _MOST_MISTAKES or (is_lost and not mended):
+                raise _syntax_error(mistakes) from None
+            lines[number - 1], last, is_whole = mended, max(last, number), is_whole and bool(mended)
+        except RecursionError:
+            raise CrankworkError(ErrorMessage("nested", place=f"{name}:{_deepest(source)}")) from None
+        except ValueError:
+            # an integer of thousands of digits, or a date that no calendar has
+            raise CrankworkError(ErrorMessage("cannot_be", place=f"{name}:1")) from None
+        else:
+            break
+    if not is_whole:
+        raise _syntax_error(mistakes)
+    return "\n".join(lines), values, mistakes
+
+
+def _check_lines(lines: Sequence[str], name: str) -> None:
+    """Raise for lines that would take the parser too long."""
+    for number, line in enumerate(lines, start=1):
         if len(line) > files.MAX_LINE:
             raise CrankworkError(ErrorMessage("line_long", place=f"{name}:{number}", most=files.MAX_LINE))
         if line.count(".") >= _MAX_PARTS and _most_parts(line) > _MAX_PARTS:
             raise CrankworkError(ErrorMessage("key_parts", place=f"{name}:{number}", most=_MAX_PARTS))
-    try:
-        return tomllib.loads(source)
-    except tomllib.TOMLDecodeError as error:
-        raise CrankworkError(_syntax_message(source, name, str(error))) from None
-    except RecursionError:
-        raise CrankworkError(ErrorMessage("nested", place=f"{name}:{_deepest(source)}")) from None
-    except ValueError:
-        # an integer of thousands of digits, or a date that no calendar has
-        raise CrankworkError(ErrorMessage("cannot_be", place=f"{name}:1")) from None
+
+
+def _list_commas(lines: list[str], name: str) -> Iterator[ErrorMessage]:
+    """Replace decimal commas in lists of numbers by points; yield a mistake for each list."""
+    for number, line in enumerate(lines, start=1):
+        if pairs := _PAIRS.search(line):
+            written = re.sub(r"(\d),(?=\d)", r"\1.", pairs[1])
+            lines[number - 1] = line.replace(pairs[1], written)
+            yield ErrorMessage("list_commas", place=f"{name}:{number}", line=pairs[1], written=written)
 
 
 def _most_parts(line: str) -> int:
@@ -313,23 +373,31 @@ def _syntax_message(source: str, name: str, text: str) -> ErrorMessage:
         return ErrorMessage("stands_twice", place=place, line=line)
     written = re.sub(f"[{_CURLY}]", '"', line)
     if written != line and _is_toml(written):
-        return ErrorMessage("curly_quotes", place=place, line=line, written=written)
+        return ErrorMessage("curly_quotes", place=place, line=line, written=written, mended=written)
     spaced = re.match(r"(\[{1,2})([^\]\"']*\s[^\]\"']*)\]", line)
     if spaced is not None:
         written = f'{spaced[1]}"{spaced[2].strip()}"{"]" * len(spaced[1])}'
         return ErrorMessage("letters_need_quotes", place=place, line=line, written=written)
     comma = re.match(r"(.*?=\s*\[?(?:.*,\s)?)([+-]?\d+),(\d+)\s*(?:[\],#}]|$)", line)
     key = re.match(r"(\[{0,2})\s*([^=\[\]\"'#.]*[^\x00-\x7f][^=\[\]\"'#.]*)", line)
+    if key is not None and (letters := look_alikes(key[2].strip())):
+        written = key[2].strip().translate(TO_LATIN)
+        # keys of files are in small letters
+        written = written.lower() if written[1:].islower() else written
+        values = {"place": place, "letters": letters, "written": written}
+        return ErrorMessage("letters_look_alike", **values, mended=line.replace(key[2].strip(), written, 1))
     if key is not None:
         written = f'"{key[2].strip()}"'
         written = f"{key[1]}{written}{']' * len(key[1])}" if key[1] else f"{written} = ..."
         return ErrorMessage("letters_need_quotes", place=place, line=line, written=written)
     if comma is not None:
-        return ErrorMessage("number_comma", place=place, line=line, point=f"{comma[2]}.{comma[3]}")
-    bare = re.match(r"([\w.\-]+)\s*=\s*([+-]?[\d.,]+\s*[^\W\d_][^#\"]*)", line)
+        point = f"{comma[2]}.{comma[3]}"
+        mended = line.replace(f"{comma[2]},{comma[3]}", point) if _is_toml(f"{comma[1]}{point}") else ""
+        return ErrorMessage("number_comma", place=place, line=line, point=point, mended=mended)
+    bare = re.match(r"([\w.\-]+)\s*=\s*([+-]?[\d.,]+\s*(?:[^\W\d_]|/\s*\d)[^#\"]*)", line)
     if bare is not None:
         written = f'{bare[1]} = "{bare[2].strip().replace(",", ".")}"'
-        return ErrorMessage("needs_quotes", place=place, line=line, written=written)
+        return ErrorMessage("needs_quotes", place=place, line=line, written=written, mended=written)
     return ErrorMessage("not_toml", place=place, line=line or ErrorMessage("ends_early"))
 
 
@@ -366,6 +434,7 @@ def apply_override(values: dict[str, Any], setting: Setting) -> tuple[str, ...]:
         if not isinstance(table, list if isinstance(following, int) else dict):
             name = step if isinstance(step, str) else f"[{step}]"
             code = "setting_no_list" if isinstance(following, int) else "setting_no_table"
+            code = "setting_of_list" if isinstance(table, list) and isinstance(following, str) else code
             raise CrankworkError(ErrorMessage(code, setting=shown, name=_printable(name[:40])))
     if isinstance(last, int):
         _entry_of(table, last, shown)
@@ -409,10 +478,12 @@ def entry_at(entry: object, step: str | int) -> object:
     return None
 
 
-def input_error(source: str, name: str, reader: Reader, settings: Sequence[Setting] = ()) -> InputError:
-    """Return the error with all problems, in the order of the lines."""
+def input_error(
+    source: str, name: str, reader: Reader, settings: Sequence[Setting] = (), syntax: Sequence[ErrorMessage] = ()
+) -> InputError:
+    """Return the error with all problems, those of the syntax first, in the order of the lines."""
     lines = locate(source)
-    located = []
+    located = [(0, "", Problem("", message)) for message in syntax]
     for problem in reader.problems:
         message = problem.message
         message = message.cleaned(_printable) if isinstance(message, ErrorMessage) else _printable(message)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
@@ -12,12 +13,12 @@ import numpy as np
 
 from crankwork.description.schema import Values, no_effect_message
 from crankwork.description.table_file import FileTable, read_table
-from crankwork.description.value_types import Choice, Reader
+from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing
 from crankwork.locale import ErrorMessage
-from crankwork.units import UNITS
+from crankwork.units import UNITS, spellings
 
 # words of headings in the languages of test benches
 _WORDS = {
@@ -25,9 +26,14 @@ _WORDS = {
     "pressure": re.compile(r"^p(?![a-z]{2}|ow)|press|druck|zyl|давл|р_?ц|áp", re.IGNORECASE),
 }
 _REFERENCES = {
-    "absolute": re.compile(r"\b(?:abs(?:olut\w*)?|bara|psia)\b|\(a\)|абс", re.IGNORECASE),
-    "gauge": re.compile(r"\b(?:gauge|barg|psig)\b|\(g\)|изб", re.IGNORECASE),
+    "absolute": re.compile(r"(?:\b|_)(?:abs(?:olut\w*)?|bara|psia)(?:\b|_)|\(a\)|абс|tuyệt đối", re.IGNORECASE),
+    "gauge": re.compile(r"(?:\b|_)(?:gauge|barg|psig|rel)(?:\b|_)|\(g\)|изб|áp suất dư|überdruck", re.IGNORECASE),
 }
+# angles from the dead centre of firing, and angles before a dead centre
+_FROM_FIRING = re.compile(
+    r"firing|fired|combust|compression|tdcf\b|сгоран|сжат|рабоч|\bнổ|cháy|nén|zünd|\bzot\b", re.IGNORECASE
+)
+_BEFORE = re.compile(r"\bb\.?tdc|before|до\s+вмт|trước|\bvor\b", re.IGNORECASE)
 _RANGE = re.compile(r"(\d+)\s*\.\.\s*(\d+)")
 # text after an angle that is a unit: it has a number or a quotient
 _SOME_UNIT = re.compile(r"\d|/")
@@ -38,6 +44,8 @@ _MOST = 16_384
 _FEWEST = 8
 # span too short for degrees, and too long for radians
 _SHORT, _LONG = 60.0, 100.0
+# share of the rows over which a crank angle rises
+_MOSTLY = 0.9
 
 
 class _Columns(NamedTuple):
@@ -48,6 +56,8 @@ class _Columns(NamedTuple):
     angle_unit: str
     pressure_unit: str
     notices: tuple[NoticeData, ...]
+    zero: float  # Angle of the cycle from which the file counts [deg]
+    is_before: bool  # Whether angles count against time
 
 
 def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
@@ -60,14 +70,17 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
         columns = _columns(table, values)
         samples = table.columns((columns.angle, *columns.pressures))
         _check_angles(samples[:, 0], columns.angle_unit, table)
+        other = next(filter(partial(_rises, table), columns.pressures), -1)
+        if other >= 0 and not _rises(table, columns.angle):
+            raise table.refused("measured_swapped", angle=table.label(columns.angle), other=table.label(other))
     except CrankworkError as error:
-        reader.add_error(f"{path}.measured.file", error.args[0])
+        reader.add_error(f"{path}.measured.file", *error.args)
         return None
     if not columns.pressure_unit:
         key = "pressure_unit"
         written = table.written[columns.pressures[0]]
-        options = ", ".join(_options(values)[:3])
-        message = ErrorMessage("missing", advice=(f'{key} = "{_options(values)[0]}"',))
+        options = ", ".join(spellings("pressure")[:4])
+        message = ErrorMessage("missing", advice=(f'{key} = "MPa"',))
         if written:
             column = table.label(columns.pressures[0])
             message = ErrorMessage("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
@@ -81,14 +94,28 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
             ErrorMessage("in_file", file=file, mistake=ErrorMessage("measured_thousands", line=line)),
         )
         return None
-    degrees = samples[:, 0] if columns.angle_unit == "deg" else np.degrees(samples[:, 0])
+    degrees = samples[:, 0] * UNITS[columns.angle_unit].factor / UNITS["deg"].factor
+    degrees, lines = -degrees if columns.is_before else degrees, table.lines
     pressure = samples[:, 1:] * UNITS[columns.pressure_unit].factor
+    if np.all(np.diff(degrees) < 0):
+        degrees, pressure, lines = degrees[::-1], pressure[::-1], lines[::-1]
+    if values["reversed"]:
+        degrees, pressure, lines = -degrees[::-1], pressure[::-1], lines[::-1]
     # the name in a note does not depend on the separator of folders
     name = PureWindowsPath(file).name
     first = columns.pressures[0]
     spelled = f"{table.names[first]} {table.written[first]}"
     reference = next((kind for kind, words in _REFERENCES.items() if words.search(spelled)), "")
-    return MeasuredPressure(degrees, pressure, table.lines, name, columns.notices, reference=reference)
+    return MeasuredPressure(
+        degrees,
+        pressure,
+        lines,
+        name,
+        table.notices + columns.notices,
+        reference=reference,
+        zero=columns.zero,
+        unit=columns.pressure_unit,
+    )
 
 
 def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Preprocessing:
@@ -109,6 +136,7 @@ def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -
         smooth=None if smooth is None else math.degrees(smooth),
         loss_angle=None if loss is None else math.degrees(loss),
         absolute=absolute,
+        is_placed="shift" in values,
     )
 
 
@@ -125,13 +153,17 @@ def _columns(table: FileTable, values: Values) -> _Columns:
     of_file = [unit for unit, key in zip(units, ("angle_unit", "pressure_unit"), strict=True) if key not in values]
     if pressures and "pressure_unit" not in values and units[1]:
         notices.append(("measured_units_of_file", {"units": ", ".join(of_file)}))
-    return _Columns(angle, pressures, units[0], units[1], tuple(notices))
+    heading = f"{table.names[angle]} {table.written[angle]}"
+    zero, is_before = 360.0 if _FROM_FIRING.search(heading) else 0.0, bool(_BEFORE.search(heading))
+    if is_before:
+        notices.append(("measured_before", {"column": table.label(angle)}))
+    return _Columns(angle, pressures, units[0], units[1], tuple(notices), zero, is_before)
 
 
 def _chosen(table: FileTable, values: Values, kind: str, taken: Sequence[int]) -> tuple[int, ...]:
     """Return the columns of angle or pressure: as stated, or the only possible ones."""
     key = f"{kind}_column"
-    stated = values.get(key)
+    stated = values["columns"][0] if kind == "pressure" and "columns" in values else values.get(key)
     if stated is not None:
         return _stated(table, stated, key, taken)
     count, words = len(table.names), _WORDS[kind]
@@ -140,8 +172,8 @@ def _chosen(table: FileTable, values: Values, kind: str, taken: Sequence[int]) -
     able = [index for index in free if dimensions[index] == kind]
     able = able or [index for index in free if not dimensions[index] and words.search(table.names[index])]
     if count == 2 and not able:
-        # the first of two columns is the angle, unless its unit says otherwise
-        able = free[:1]
+        # the first of two columns is the angle, unless its unit or its numbers say otherwise
+        able = free[:1] if any(table.names) or _rises(table, free[0]) or not _rises(table, free[-1]) else free[-1:]
         if dimensions[able[0]] not in ("", kind):
             raise table.refused("measured_foreign", line=table.heading, column=table.label(able[0]),
                                 unit=table.units[able[0]], key=key)  # fmt: skip
@@ -158,6 +190,15 @@ def _chosen(table: FileTable, values: Values, kind: str, taken: Sequence[int]) -
     if kind == "pressure" and able and able[-1] - able[0] == len(able) - 1:
         raise table.refused("measured_which_cycles", **requested, cycles=f"{able[0] + 1}..{able[-1] + 1}")
     raise table.refused("measured_which", **requested)
+
+
+def _rises(table: FileTable, column: int) -> bool:
+    """Return whether the numbers of a column rise over most rows, as a crank angle does."""
+    try:
+        steps = np.diff(table.columns((column,))[:, 0])
+    except CrankworkError:
+        return False
+    return bool(len(steps)) and float(np.mean(steps > 0)) > _MOSTLY
 
 
 def _stated(table: FileTable, stated: str | float, key: str, taken: Sequence[int]) -> tuple[int, ...]:
@@ -197,11 +238,6 @@ def _are_thousands(table: FileTable, pressure: Array) -> bool:
         return False
     behind = [len(digits) for row in table.rows for digits in _BEHIND.findall(row)]
     return bool(behind) and set(behind) == {3}
-
-
-def _options(values: Values) -> tuple[str, ...]:
-    kind = values.table.keys["pressure_unit"].kind
-    return tuple(str(option) for option in kind.options) if isinstance(kind, Choice) else ()
 
 
 def _check_angles(angles: Array, unit: str, table: FileTable) -> None:

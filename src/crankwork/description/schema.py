@@ -6,6 +6,7 @@ import difflib
 import functools
 import inspect
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
@@ -19,7 +20,9 @@ from crankwork.description.value_types import (
     Reader,
     Text,
     ValueType,
+    is_fraction,
     is_one_line,
+    look_alikes,
     shown,
 )
 from crankwork.locale import ErrorMessage, Language, texts, translate
@@ -48,7 +51,7 @@ class ListOf(NamedTuple):
         if not isinstance(value, list):
             # the missing content of an unreadable file is not reported
             if not (self.from_file and reader.has_errors(key)):
-                reader.add_error(key, self._advice(key))
+                reader.add_error(key, self._advice(key, value))
             return None
         if not self.fewest <= len(value) <= self.most:
             wanted: object = self.fewest
@@ -58,12 +61,14 @@ class ListOf(NamedTuple):
             return None
         return [self.entry.read(entry, f"{key}[{i}]", reader) for i, entry in enumerate(value, start=1)]
 
-    def _advice(self, key: str) -> ErrorMessage:
+    def _advice(self, key: str, value: object) -> ErrorMessage:
         if isinstance(self.entry, TableSpec):
             return ErrorMessage("list_of_tables", key=key)
         match self.entry:
             case Quantity(dimensions=(first, *_)):
                 example = f'"{units.EXAMPLES[first]}"'
+            case Number(whole=True) if isinstance(value, str) and (numbers := re.findall(r"\d+", value)):
+                example = ", ".join(numbers)
             case Number():
                 example = self.entry.example()
             case _:
@@ -166,7 +171,8 @@ class NumberOr(NamedTuple):
 
     def read(self, value: object, key: str, reader: Reader) -> MeasuredValue | float | None:
         """Return the quantity of a text and the number of a number."""
-        return (self.quantity if isinstance(value, str) else self.number).read(value, key, reader)
+        is_quantity = isinstance(value, str) and not is_fraction(value)
+        return (self.quantity if is_quantity else self.number).read(value, key, reader)
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""
@@ -315,6 +321,10 @@ class TableSpec(NamedTuple):
             reader.add_error(path, "")
             return
         what = "table" if isinstance(value, dict) else "key"
+        latin = name.translate(units.TO_LATIN)
+        if (letters := look_alikes(name)) and latin in self.keys:
+            reader.add_error(path, ErrorMessage("key_look_alike", letters=letters, written=latin), meant=latin)
+            return
         nearest = nearest_name(name, tuple(self.keys))
         if nearest:
             meant = f"{path.removesuffix(name)}{nearest}"

@@ -279,7 +279,7 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
         # that of a cylinder with ports is calculated from the stated one
         space["compression_ratio"] = values["cylinder"].get("compression_ratio", cylinder.compression_ratio)
     space |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
-    stated = _calculated(values["cycle"], gas) if gas.calculated else _stated(values["gas"], gas)
+    stated = _calculated(values["cycle"], gas) if gas.calculated else _stated(values["gas"], gas, gear.place.number)
     plain: dict[str, Any] = {key: value for key, value in stated.items() if isinstance(value, str)}
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
     if "pressure" not in stated:
@@ -295,12 +295,20 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
         yield f"chambers.crank_end{gear.own}", {**face, "rod_diameter": rod, "sense": -1, "pressure": back}
 
 
-def _stated(table: Mapping[str, Any], gas: Gas) -> dict[str, Any]:
+def _stated(table: Mapping[str, Any], gas: Gas, number: int) -> dict[str, Any]:
     """Return the diagram of a cylinder as stated, or the pressure of a cylinder that stays open."""
     counted = {key: table[key] for key in _COUNTED if key in table}
     diagram: Any = functools.reduce(lambda inner, name: inner[name], gas.path.split(".")[1:], table)
     if isinstance(diagram, str):
         return counted | {"pressure": _unit(gas.points["o"].pressure or 0.0, "Pa")}
+    if gas.measured is not None:
+        counted["pressures"] = "absolute" if gas.is_absolute else "gauge"
+        samples = {key: value for key, value in diagram["measured"].items() if key != "columns"}
+        if "columns" in diagram["measured"]:
+            samples["pressure_column"] = diagram["measured"]["columns"][number - 1]
+        if gas.angle_shift or "shift" in samples:
+            samples["shift"] = f"{gas.angle_shift:.15g} deg"
+        diagram = {"measured": samples}
     return counted | {key: value for key, value in diagram.items() if key in _DIAGRAM}
 
 

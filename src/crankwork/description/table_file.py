@@ -7,8 +7,8 @@ import contextlib
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,12 +18,13 @@ from crankwork.description.workbook import START, workbook_text
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
-from crankwork.units import UNITS
+from crankwork.units import UNITS, first_spelling, known_unit
 
 # lines in which the numbers must begin, and characters in a line
 _FIRST_LINES = 2000
 _LONGEST_LINE = 131_072
 _LARGEST = 1e12
+_FEWEST_ROWS = 3
 _MARKS = ("#", "%", "!", "//")
 _BLANKS = re.compile(r"\s{2,}|\t")
 # separators in order of preference; None: blanks
@@ -33,8 +34,12 @@ _DIVIDING = re.compile(r"\s*[,/]\s*|\s+|_")
 _IN_BRACKETS = re.compile(r"[\[(](.*)[\])]")
 _NUMBER_LAST = re.compile(r"(?:^|[\s_,/=@])\d[\d.,]*$")
 # suffixes of units of crank angle, and of pressure
-_OF_CRANK = re.compile(r"(?:^ca|^пкв|(?<=.)[\s.]*(?:ca|kw|пкв|п\.к\.в|atdc|abdc|btdc))\.?$", re.IGNORECASE)
-_OF_REFERENCE = re.compile(r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс|изб)\.?\)?$", re.IGNORECASE)
+_OF_CRANK = re.compile(
+    r"(?:^ca|^пкв|(?<=.)[\s.]*(?:ca|kw|пкв|п\.к\.в|[ab]\.?tdc|abdc|(?:после|до|от|sau|trước|nach|vor)\s*(?:вмт|đct|ot))f?)"
+    r"(?:[\s,(]+[^\d/]*)?\.?$",
+    re.IGNORECASE,
+)
+_OF_REFERENCE = re.compile(r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс\w*|изб\w*|dư|tuyệt đối)\.?\)?$", re.IGNORECASE)
 # unknown units of derivatives by the angle and of other quantities
 _QUOTIENT = re.compile(r"[\w°³²·*^%]{1,8}(?:/[\w°³²·*^]{1,8}){1,3}")
 _UNITLESS = ("", "-", "–", "1", "[-]", "[]", "(-)", "%")
@@ -44,9 +49,17 @@ _UNIT_NAMES = {
     **dict.fromkeys(("kg/cm2", "kg/cm²", "кг/см2", "кг/см²"), "kgf/cm2"),
     **dict.fromkeys(("radian", "radians", "радианы"), "rad"),
 }
-_FIRST = {unit: name for name, unit in reversed(UNITS.items())}
 # short units differ by their capitals
 _BY_CASE = {name.casefold(): name for name in reversed(UNITS) if len(name) > 2}
+# numbers with marks between thousands, by the mark between them: 1.013,1 and 1,013.1
+_THOUSANDS = {
+    mark: re.compile(rf"[+-]?\d{{1,3}}(?:{re.escape(mark)}\d{{3}})*(?:{re.escape(other)}\d+)?")
+    for mark, other in ((".", ","), (",", "."))
+}
+_WITH_THOUSANDS = {
+    mark: re.compile(rf"(?<![\d.,])\d{{1,3}}(?:[{mark}]\d{{3}})+[{other}]\d")
+    for mark, other in ((".", ","), (",", "."))
+}
 _CYRILLIC = re.compile(rb"[\xc0-\xff\xa8\xb8]{3}")
 
 
@@ -62,6 +75,8 @@ class FileTable:
     lines: Sequence[int] = field(repr=False)  # Line of every row
     rows: Sequence[str] = field(repr=False)
     separator: str | None
+    thousands: str = ""  # Mark between thousands
+    notices: tuple[tuple[str, Mapping[str, float | str]], ...] = ()  # How the file was read
 
     def position(self, column: str | float) -> int:
         """Return the index of a column by its heading, with or without its unit, or by its number."""
@@ -86,7 +101,7 @@ class FileTable:
         return f'{position + 1} ("{name[:60]}")' if name else str(position + 1)
 
     def columns(self, positions: Sequence[int]) -> Array:
-        """Return the numbers of some columns, shape (rows, columns); raise with the line of an invalid cell."""
+        """Return the numbers of some columns, shape (rows, columns); raise with the line of every invalid cell."""
         text = self.rows
         has_commas = self.separator != "," and any("," in row for row in text)
         has_both = has_commas and any("." in row for row in text)
@@ -94,12 +109,20 @@ class FileTable:
             text = [row.replace(",", ".") for row in text]
         # uneven rows are read cell by cell
         with contextlib.suppress(ValueError):
-            if not has_both and not any('"' in row for row in text) and self._is_even(text):
+            if not (has_both or self.thousands) and not any('"' in row for row in text) and self._is_even(text):
                 numbers = np.loadtxt(text, delimiter=self.separator, usecols=positions, comments=None, ndmin=2)
                 if np.all(np.abs(numbers) < _LARGEST):
                     return numbers
         marks: set[str] = set()
-        return np.array([self._numbers(*row, positions, marks) for row in zip(self.lines, self.rows, strict=True)])
+        mistakes, cells = list[str](), list[list[float]]()
+        for line, row in zip(self.lines, self.rows, strict=True):
+            try:
+                cells.append(self._numbers(line, row, positions, marks))
+            except CrankworkError as error:
+                mistakes += error.args
+        if mistakes:
+            raise CrankworkError(*mistakes)
+        return np.array(cells)
 
     def _is_even(self, rows: Iterable[str]) -> bool:
         """Return whether every row has as many cells as there are columns."""
@@ -115,11 +138,14 @@ class FileTable:
     def _numbers(self, line: int, row: str, positions: Sequence[int], marks: set[str]) -> list[float]:
         """Return the numbers of a row; `marks`: the decimal marks so far, only one is allowed."""
         cells = _cells(row, self.separator)
-        if len(cells) == len(self.names) + 1 and not cells[-1].strip():
+        while len(cells) > len(self.names) and not cells[-1].strip():
             cells.pop()
         if len(cells) != len(self.names):
             values = {"line": line, "count": len(cells), "first": self.lines[0], "wanted": len(self.names)}
             raise self.refused("measured_columns", **values)
+        if self.thousands:
+            pattern = _THOUSANDS[self.thousands]
+            cells = [cell.replace(self.thousands, "") if pattern.fullmatch(cell.strip()) else cell for cell in cells]
         numbers = [_float(cells[position]) for position in positions]
         for number, position in zip(numbers, positions, strict=True):
             if number is None or not abs(number) < _LARGEST:
@@ -153,26 +179,87 @@ def _table(text: str, name: str) -> FileTable:
     if max(map(len, lines)) > _LONGEST_LINE:
         line = next(number for number, content in enumerate(lines, start=1) if len(content) > _LONGEST_LINE)
         raise ValueError(ErrorMessage("measured_cell", line=line))
-    filled = [
-        number
-        for number, content in enumerate(lines, start=1)
-        if content.strip(" \t;,\ufeff") and not content.lstrip().startswith(_MARKS)
-    ]
+    lines = [_unframed(content) for content in lines]
+    filled = _filled(lines)
     if not filled:
         raise ValueError(ErrorMessage("measured_empty"))
     separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
+    notices = list[tuple[str, Mapping[str, float | str]]]()
+    if start < 0 and _row_by_row(lines, filled):
+        notices.append(("table_one_a_line", {"file": name}))
+        filled = _filled(lines)
+        separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
     if start < 0:
         single = next((number for number in filled if _float(lines[number - 1].strip(" \t;")) is not None), 0)
         raise ValueError(
             ErrorMessage("measured_one_column" if single else "measured_heading", line=single or filled[0])
         )
     numbers = filled[start:]
+
+    def begins_with_number(line: int) -> bool:
+        return _float(next((cell for cell in _cells(lines[line - 1], separator) if cell.strip()), "")) is not None
+
+    while begins_with_number(numbers[0]) and not begins_with_number(numbers[-1]):
+        numbers.pop()
+    if len(numbers) < len(filled) - start:
+        notices.append(("table_footer", {"file": name, "line": str(filled[start + len(numbers)])}))
     if separator == "," and count > 2 and lines[numbers[0] - 2].count(",") + 1 == count / 2:
         raise ValueError(ErrorMessage("table_commas", line=numbers[0]))
-    heading, names, written = _headings(lines[: numbers[0] - 1], separator, count)
     rows = [lines[number - 1] for number in numbers]
+    width = len(_cells(rows[0], separator))
+    heading, names, written = _headings(lines[: numbers[0] - 1], separator, (count, width))
     units = tuple(unit_of(unit) for unit in written)
-    return FileTable(name, names, units, written, heading or numbers[0], numbers, rows, separator)
+    # between commas only cells in quotes have thousands
+    quoted = rows if separator != "," else [part for row in rows for part in row.split('"')[1::2]]
+    thousands = next((mark for mark, pattern in _WITH_THOUSANDS.items() if any(map(pattern.search, quoted))), "")
+    if thousands:
+        notices.append(("table_thousands", {"file": name, "mark": thousands}))
+    table = FileTable(name, names, units, written, heading or numbers[0], numbers, rows, separator)
+    return replace(table, thousands=thousands, notices=tuple(notices))
+
+
+def _filled(lines: Sequence[str]) -> list[int]:
+    """Return the numbers of the lines that hold something other than marks and comments."""
+    return [
+        number
+        for number, content in enumerate(lines, start=1)
+        if content.strip(" \t;,\ufeff") and not content.lstrip().startswith(_MARKS)
+    ]
+
+
+def _unframed(line: str) -> str:
+    """Return a line of a table drawn with bars, as Markdown has it, between tabs; other lines are unchanged."""
+    content = line.strip(" \ufeff")
+    if content and set(content) <= set("|+-:= "):
+        return ""
+    return (
+        content[1:-1].replace("|", "\t")
+        if content.startswith("|") and content.endswith("|") and content != "|"
+        else line
+    )
+
+
+def _row_by_row(lines: list[str], filled: Sequence[int]) -> bool:
+    """Join the rows of a table whose cells stand one below the other; return whether it is one.
+
+    The first number of each row rises evenly, as a crank angle does.
+    """
+    cells = [lines[number - 1].strip(" \t;,\ufeff") for number in filled]
+    values = [_float(cell) for cell in cells]
+    first = next((index for index, value in enumerate(values) if value is not None), len(values))
+    numbers = np.array([value for value in values[first:] if value is not None])
+    if len(numbers) < len(values) - first:
+        return False
+    for count in range(2, 7):
+        steps = np.diff(numbers[::count])
+        if len(numbers) % count or len(steps) < _FEWEST_ROWS or not 0 < steps.max() < 1.5 * steps.min():
+            continue
+        begins = first - count if first >= count else first
+        for index in range(begins, len(filled)):
+            is_first = (index - begins) % count == 0
+            lines[filled[index] - 1] = "\t".join(cells[index : index + count]) if is_first else ""
+        return True
+    return False
 
 
 def _block(lines: Sequence[str]) -> tuple[str | None, int, int]:
@@ -205,8 +292,9 @@ def _share(cells: Sequence[str]) -> float:
 
 
 def _without_end(cells: list[str]) -> list[str]:
-    """Return cells without an empty last cell."""
-    return cells[:-1] if len(cells) > 1 and not cells[-1].strip() else cells
+    """Return cells without empty last cells."""
+    last = max((index for index, cell in enumerate(cells) if cell.strip()), default=0)
+    return cells[: last + 1]
 
 
 def _cells(line: str, separator: str | None) -> list[str]:
@@ -217,15 +305,26 @@ def _cells(line: str, separator: str | None) -> list[str]:
     return next(csv.reader([line], delimiter=separator, skipinitialspace=True))
 
 
-def _headings(above: Sequence[str], separator: str | None, count: int) -> tuple[int, tuple[str, ...], tuple[str, ...]]:
-    """Return the line of the headings, 0 for none, the headings, and the unit of each column as written."""
-    nearest = list(_divided(above, separator, count))
+def _headings(
+    above: Sequence[str], separator: str | None, counts: tuple[int, int]
+) -> tuple[int, tuple[str, ...], tuple[str, ...]]:
+    """Return the line of the headings, 0 for none, the headings, and the unit of each column as written.
+
+    `counts`: of the columns with numbers, and with empty ones after them.
+    """
+    nearest = list(_divided(above, separator, counts))
     of_units = next((cells for _, cells in nearest if _are_units(cells)), None)
-    line, names = next(((number, cells) for number, cells in nearest if cells is not of_units), (0, ("",) * count))
+    named = [(number, cells) for number, cells in nearest if cells is not of_units]
+    line, names = named[0] if named else (0, ("",) * counts[0])
+    for _, cells in named[1:]:
+        # a heading of two lines names some columns in the upper one
+        names = tuple(name or upper for name, upper in zip(names, cells, strict=True))
     return line, names, of_units or tuple(_split_unit(name)[1] for name in names)
 
 
-def _divided(above: Sequence[str], separator: str | None, count: int) -> Iterator[tuple[int, tuple[str, ...]]]:
+def _divided(
+    above: Sequence[str], separator: str | None, counts: tuple[int, int]
+) -> Iterator[tuple[int, tuple[str, ...]]]:
     """Yield the last two lines above the numbers, the nearest first, while they have as many cells as the numbers."""
     written = [(number, content) for number, content in enumerate(above, start=1) if content.strip(" \t;,-=+|_#%")]
     for number, content in written[:-3:-1]:
@@ -233,10 +332,10 @@ def _divided(above: Sequence[str], separator: str | None, count: int) -> Iterato
         for mark in _MARKS:
             line = line.removeprefix(mark)
         splits = _splits(line, separator) if "=" not in line else ()
-        cells = next((cells for cells in splits if len(cells) == count and any(cell.strip() for cell in cells)), None)
+        cells = next((cells for cells in splits if len(cells) in counts and any(cell.strip() for cell in cells)), None)
         if cells is None:
             return
-        yield number, tuple(_plain(cell) for cell in cells)
+        yield number, tuple(_plain(cell) for cell in cells[: counts[0]])
 
 
 def _plain(cell: str) -> str:
@@ -308,13 +407,17 @@ def unit_of(written: str) -> str:
 
 def _known_unit(text: str) -> str:
     name = _UNIT_NAMES.get(text.casefold(), text)
-    name = name if name in UNITS else _BY_CASE.get(name.casefold(), "")
-    return _FIRST[UNITS[name]] if name else ""
+    name = known_unit(name) or _BY_CASE.get(name.casefold(), "")
+    return first_spelling(UNITS[name]) if name else ""
 
 
 def _float(cell: str) -> float | None:
+    cell = cell.strip()
+    for mark, pattern in _THOUSANDS.items():
+        if "." in cell and "," in cell and pattern.fullmatch(cell):
+            cell = cell.replace(mark, "")
     try:
-        return None if "_" in cell else float(cell.strip().replace(",", "."))
+        return None if "_" in cell else float(cell.replace(",", "."))
     except ValueError:
         return None
 

@@ -21,6 +21,7 @@ _DEVIATION = re.compile(
 )
 # smaller numbers become 0, so that nothing is divided by them
 _SMALLEST = 1e-30
+_FRACTION = re.compile(r"\s*([+-]?\d+(?:\.\d+)?)\s*/\s*(\d+(?:\.\d+)?)\s*")
 
 
 def _in_range(limit: float, rounding: str) -> str:
@@ -72,8 +73,8 @@ class Reader:
         self._blamed: set[str] = set()
         self._suspects: set[str] = set()
 
-    def add_error(self, key: str, message: str, *, meant: str = "") -> None:
-        """Add a mistake; only the first mistake of a key is kept.
+    def add_error(self, key: str, message: str, *more: str, meant: str = "") -> None:
+        """Add a mistake, or all mistakes of a file; only those added first to a key are kept.
 
         `meant`: the correct key of a misspelt one, which is then not reported as missing.
         """
@@ -81,10 +82,10 @@ class Reader:
             return
         self._blamed.add(key)
         self._suspects |= {key, meant or key}
-        if len(self.problems) < _MAX_PROBLEMS:
-            self.problems.append(Problem(key, message))
-        else:
-            self.more += 1
+        added = [Problem(key, text) for text in (message, *more)]
+        space = max(_MAX_PROBLEMS - len(self.problems), 0)
+        self.problems += added[:space]
+        self.more += len(added[space:])
 
     @property
     def is_full(self) -> bool:
@@ -121,14 +122,19 @@ class Quantity(NamedTuple):
             reader.add_error(key, ErrorMessage("quantity_as_text", example=self._example()))
             return None
         if not isinstance(value, str):
-            written = self._written(value if _is_moderate(value) else math.inf, shown(value))
-            reader.add_error(key, ErrorMessage("no_unit", value=shown(value), example=f'"{written}"'))
+            number = value if _is_moderate(value) else math.inf
+            # a number of Python may be in the SI unit
+            si = units.coherent_unit(units.EXAMPLES[self.dimensions[0]].split()[1])
+            written = {self._written(number, shown(value)): 0} | (
+                {f"{shown(value)} {si}": 0} if self._holds(number) else {}
+            )
+            reader.add_error(key, ErrorMessage("no_unit", value=shown(value), example=tuple(map(shown, written))))
             return None
         value, deviation = split_deviation(value)
         try:
             parsed = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
-            reader.add_error(key, self._advised(error.args[0], value, reader))
+            reader.add_error(key, self._advised(error.args[0], value, key, reader))
             return None
         if not self._holds(parsed.value):
             reader.add_error(key, self._out_of_range(value.strip(), parsed.dimension))
@@ -159,8 +165,10 @@ class Quantity(NamedTuple):
         low, high = (f'"{end}"' for end in self._range(dimension))
         return ErrorMessage(f"quantity_range{'_above' * self.above}", value=value, low=low, high=high)
 
-    def _advised(self, message: ErrorMessage, value: str, reader: Reader) -> ErrorMessage:
+    def _advised(self, message: ErrorMessage, value: str, key: str, reader: Reader) -> ErrorMessage:
         """Return the reason why a text is not a quantity, with an example that is in range."""
+        if message.name == "speed_per_second":
+            return self._per_second(message, key)
         if message.name != "decimal_comma":
             number = _float(value) if message.name == "unit_missing" else math.inf
             written = self._written(number, value.strip()) if isinstance(number, float) else self._example()
@@ -168,8 +176,15 @@ class Quantity(NamedTuple):
         try:
             meant = units.parse(value, self.dimensions, decimal_comma=True, metric_hp=reader.metric_hp)
         except ValueError as error:
-            return self._advised(error.args[0], value, reader)
+            return self._advised(error.args[0], value, key, reader)
         return message if self._holds(meant.value) else self._out_of_range(value.strip(), meant.dimension)
+
+    def _per_second(self, message: ErrorMessage, key: str) -> ErrorMessage:
+        """Return the question which speed is meant, as the lines to write, less those out of range."""
+        options: Any = message.values["options"]
+        held = [text for text in options if self._holds(units.parse(text.strip('"'), ("speed",)).value)]
+        name = f"{key.rpartition('.')[2]} = " if not key.endswith("]") else ""
+        return ErrorMessage(message.name, **{**message.values, "options": tuple(f"{name}{text}" for text in held)})
 
     def _written(self, number: float, text: str) -> str:
         """Return a text with the usual unit if it is then in range, else an example in range."""
@@ -227,6 +242,9 @@ class Number(NamedTuple):
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
         deviation = None
+        if isinstance(value, str) and is_fraction(value):
+            above, _, below = value.partition("/")
+            value = float(above) / float(below)
         if isinstance(value, str):
             stated, deviation = split_deviation(value)
             is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
@@ -258,6 +276,29 @@ class Number(NamedTuple):
         """Return the schema of a number in range."""
         kind = "integer" if self.whole else "number"
         return {"type": kind, "exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
+
+
+class UnitOf(NamedTuple):
+    """A unit of a dimension in any spelling, read as the first of its spellings."""
+
+    dimension: str
+
+    def read(self, value: object, key: str, reader: Reader) -> str | None:
+        """Return the unit."""
+        unit = units.UNITS.get(units.known_unit(value)) if isinstance(value, str) else None
+        if unit is not None and unit.dimension == self.dimension:
+            return units.first_spelling(unit)
+        reader.add_error(key, ErrorMessage("choice", value=shown(value), options=tuple(map(shown, self.options))))
+        return None
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """The usual spellings."""
+        return tuple(units.spellings(self.dimension))
+
+    def schema(self, _: Language, /) -> dict[str, Any]:
+        """Return the schema of a unit, its usual spellings for forms."""
+        return {"anyOf": [{"enum": list(self.options)}, {"type": "string"}]}
 
 
 class Choice(NamedTuple):
@@ -328,6 +369,17 @@ def is_one_line(text: str) -> bool:
         or character in "\ufffe\uffff"
         for character in text
     )
+
+
+def is_fraction(text: str) -> bool:
+    """Return whether a text is a fraction of numbers, such as 1/30."""
+    return _FRACTION.fullmatch(text) is not None and float(text.partition("/")[2]) > 0
+
+
+def look_alikes(text: str) -> str:
+    """Return the Cyrillic letters of a text that looks like a Latin one, empty for other texts."""
+    letters = "".join(dict.fromkeys(letter for letter in text if ord(letter) in units.TO_LATIN))
+    return letters if text.translate(units.TO_LATIN).isascii() else ""
 
 
 def _is_moderate(value: float) -> bool:

@@ -13,6 +13,7 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, Segment
 from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 from crankwork.locale import ErrorMessage
+from crankwork.units import UNITS
 
 _GAP_FACTOR = 4.0
 _SAME_ANGLE = 1e-6
@@ -27,6 +28,7 @@ _FEWEST, _MOST = 8, 50_000
 _CLOSED = 60.0
 # larger than any gas pressure [Pa]
 _HIGHEST = 1e9
+AMBIENT = 101325.0
 
 # code of a notice and its values
 NoticeData = tuple[str, Mapping[str, float | str]]
@@ -51,6 +53,7 @@ class Preprocessing(NamedTuple):
     smooth: float | None = None
     loss_angle: float | None = None  # Of a motored cycle, from its peak to top dead centre
     absolute: bool = False  # Whether pressures are absolute
+    is_placed: bool = False  # Whether the angle from which they count is stated
 
 
 AS_RECORDED = Preprocessing()
@@ -69,6 +72,8 @@ class MeasuredPressure:
     notices: tuple[NoticeData, ...] = ()  # How the file was read
     treatment: Preprocessing = AS_RECORDED
     reference: str = ""  # Whether the file says that its pressures are absolute, or gauge
+    unit: str = ""  # Unit in which the pressures were read
+    zero: float = 0.0  # Angle of the cycle from which the file says that it counts [deg]
 
 
 class RecordedCycles(NamedTuple):
@@ -128,7 +133,15 @@ def _check_size(measured: MeasuredPressure, columns: Array, key: str) -> None:
     worst = int(np.argmax(np.max(np.abs(columns), axis=1)))
     largest = float(np.max(np.abs(columns[worst])))
     if largest > _HIGHEST:
-        raise DiagramError(key, ErrorMessage("samples_no_gas", line=measured.rows[worst], pressure=largest / 1e6))
+        unit = likely_unit(largest / 60, measured.unit or "Pa")
+        values = {"line": measured.rows[worst], "pressure": largest / 1e6, "unit": unit}
+        raise DiagramError(key, ErrorMessage("samples_no_gas", **values))
+
+
+def likely_unit(level: float, unit: str) -> str:
+    """Return the unit that brings a level of pressures, read in another one, nearest to the surroundings. [Pa]"""
+    number = level / UNITS[unit].factor
+    return min(("MPa", "bar", "kPa", "Pa", "psi"), key=lambda name: abs(np.log(number * UNITS[name].factor / AMBIENT)))
 
 
 def _running_on(measured: MeasuredPressure, cycle: float, key: str) -> MeasuredPressure:

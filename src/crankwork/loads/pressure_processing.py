@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
@@ -11,15 +12,20 @@ from numpy.polynomial.polynomial import polyder, polyfit, polyval
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, VolumeAt
 from crankwork.loads.measured_pressure import (
+    AMBIENT,
     MeasuredPressure,
     NoticeData,
     Pegging,
+    Preprocessing,
     closed_diagram,
+    likely_unit,
     recorded_cycles,
     wrap_is_rough,
 )
 from crankwork.locale import ErrorMessage
 
+# notices that a description has to answer
+QUESTIONS = ("measured_strokes", "measured_reversed")
 # lower than any gauge pressure [Pa]
 _VACUUM = -110e3
 _EVEN = 1e-3
@@ -42,7 +48,11 @@ _FEWEST_POINTS = 8
 # search range of the dead centre [deg]
 _FARTHEST = 6.0
 # errors that bend a compression line too: offset of the pressure [Pa], change of the exponent
-_OFF, _CHANGE = 5e3, 0.05
+_OFF, _CHANGE = 5e3, 0.045
+# offset that is told, over the pressure at the start, and distance from that of the surroundings that is theirs [Pa]
+_LEVEL, _SURE = 0.3, 40e3
+# most work of a driven cylinder over its stroke and greatest pressure
+_DRIVEN = 0.04
 
 
 class PressureReference(NamedTuple):
@@ -50,6 +60,7 @@ class PressureReference(NamedTuple):
 
     volume_at: VolumeAt  # [deg] -> [m3]
     top: float | None = None  # [deg]
+    has_strokes: bool = False  # Whether a cycle of 720 degrees begins at the top dead centre before intake
 
 
 def measured_diagram(
@@ -85,12 +96,32 @@ def measured_diagram(
     if treatment.rest is None and wrap_is_rough(diagram, recorded.wrap):
         notices.append(("wrap", {"step": recorded.wrap}))
     if around.top is not None:
-        absolute = pressure if treatment.absolute else pressure + 101325.0
-        against = contradictions(
-            (degrees, absolute), around.volume_at, (cycle, around.top), shift=shift, loss_angle=treatment.loss_angle
-        )
-        notices += [(code, {**values, "name": key}) for code, values in against]
+        absolute = pressure if treatment.absolute else pressure + AMBIENT
+        against = contradictions((degrees, absolute), around.volume_at, (cycle, around.top), measured, shift=shift)
+        questions = list[NoticeData]()
+        if around.has_strokes and cycle > _TURN and not treatment.is_placed:
+            questions += _other_strokes((degrees, absolute), around, shift)
+        notices += [(code, {**values, "name": key}) for code, values in questions or against]
     return diagram, notices
+
+
+def _other_strokes(samples: tuple[Array, Array], around: PressureReference, shift: float) -> Iterator[NoticeData]:
+    """Yield a peak in other strokes than those of compression and expansion, or angles against the rotation."""
+    degrees, pressure = samples
+    cycle, firing, own = 2 * _TURN, (around.top or 0.0) + _TURN, f"{shift:g} deg"
+    late = (float(degrees[np.argmax(pressure)]) - firing + _TURN) % cycle - _TURN
+    turns = round(late / (_TURN / 2)) * _TURN / 2
+    if abs(late) > _NEAR[cycle]:
+        # counted from another dead centre, or from some other angle
+        more = -turns if abs(late - turns) <= _NEAR[cycle] else -round(late)
+        angles = {"angle": (late + firing) % cycle, "firing": firing}
+        yield "measured_strokes", {**angles, "turned": f"{_wrapped(shift + more):g} deg", "own": own}
+        return
+    volume = around.volume_at(np.mod(np.append(degrees, degrees[0]), cycle))
+    work = float((pressure + np.roll(pressure, -1)) @ np.diff(volume)) / 2
+    # one that is driven takes little work beside its peak
+    if work < -_DRIVEN * float(np.ptp(volume) * np.max(pressure)):
+        yield "measured_reversed", {"own": own}
 
 
 def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
@@ -181,6 +212,9 @@ def _check_vacuum(pressure: Array, measured: MeasuredPressure, key: str) -> None
         return
     columns = measured.pressure.reshape(len(measured.degrees), -1)
     line = measured.rows[int(np.argmin(columns.min(axis=1)))]
+    if measured.treatment.peg is not None:
+        peg = _peg_line(_TURN, absolute=measured.treatment.absolute)
+        raise DiagramError(f"{key}.peg", ErrorMessage("peg_vacuum", line=line, pressure=least / 1e6, peg=peg))
     name = "measured_vacuum" if measured.treatment.absolute else "measured_vacuum_gauge"
     raise DiagramError(key, ErrorMessage(name, line=line, pressure=least / 1e6))
 
@@ -189,32 +223,35 @@ def contradictions(
     samples: tuple[Array, Array],
     volume_at: VolumeAt,
     where: tuple[float, float],
+    measured: MeasuredPressure,
     *,
     shift: float,
-    loss_angle: float | None,
 ) -> Iterator[NoticeData]:
-    """Yield notices on peak, work and compression line that contradict the dead centre. [deg], [Pa]
+    """Yield notices on peak, work and compression line that contradict what is stated. [deg], [Pa]
 
-    `samples`: crank angles and absolute pressures; `where`: cycle and top dead centre; `shift`: added already;
-    `loss_angle`: from the peak of a motored cycle to top dead centre.
+    `samples`: crank angles and absolute pressures; `where`: cycle and top dead centre; `shift`: added already.
     """
     degrees, pressure = samples
+    loss_angle = measured.treatment.loss_angle
     cycle, top = where
     peak = float(degrees[np.argmax(pressure)])
     distance = (peak - top + _TURN / 2) % _TURN - _TURN / 2
     if abs(distance) > _NEAR[cycle]:
-        yield "peak_far", {"angle": peak % cycle, "apart": abs(distance)}
+        turns = round(distance / (_TURN / 2)) * _TURN / 2
+        yield "peak_far", {"angle": peak % cycle, "apart": abs(distance), "shift": _wrapped(shift - turns)}
         return
     centre = peak - distance
     if loss_angle is not None:
         yield from _by_peak(samples, cycle, (centre - loss_angle, peak), shift)
         return
     if cycle < 2 * _TURN:
+        # the greatest pressure of a compressor is some ten times the least
+        yield from _unit_of(float(np.max(pressure)) / 10, measured.unit, spread=50.0)
         return
     volume = volume_at(np.mod(np.append(degrees, degrees[0]), cycle))
     if float((pressure + np.roll(pressure, -1)) @ np.diff(volume)) < 0:
         yield "work_negative", {}
-    yield from _by_compression(samples, volume_at, (cycle, centre), shift)
+    yield from _by_compression(samples, volume_at, (cycle, centre), measured, shift=shift)
 
 
 def _by_peak(
@@ -249,13 +286,20 @@ def _by_peak(
 
 
 def _by_compression(
-    samples: tuple[Array, Array], volume_at: VolumeAt, where: tuple[float, float], shift: float
+    samples: tuple[Array, Array],
+    volume_at: VolumeAt,
+    where: tuple[float, float],
+    measured: MeasuredPressure,
+    *,
+    shift: float,
 ) -> Iterator[NoticeData]:
-    """Yield an unusual exponent of the compression, and the shift that makes its line straight. [deg]"""
+    """Yield what makes the line of compression straight: another unit or reference of pressures, or a shift. [deg]"""
     cycle, centre = where
     x, y = _between(samples, cycle, centre - _COMPRESSION[0], centre - _COMPRESSION[1])
     ends = volume_at(np.array([centre, centre + _TURN / 2]) % cycle)
     if len(x) < _FEWEST_POINTS or float(y.min()) <= 2 * _OFF or ends[0] < _NO_CLEARANCE * ends[1]:
+        # the greatest pressure of an engine is some sixty times that before compression
+        yield from _unit_of(float(np.max(samples[1])) / 60, measured.unit, spread=15.0)
         return
 
     def line(offset: float, off: float = 0.0) -> tuple[float, float, float, float]:
@@ -269,25 +313,64 @@ def _by_compression(
         return -float(curve[1]), float(curve[2]), float(np.sqrt(noise) * np.linalg.norm(inverse[2])), half
 
     exponent, _, error, half = line(0.0)
+    correction = _zero(lambda offset: line(offset)[1], -_FARTHEST, _FARTHEST)
+    offset = _zero(lambda off: line(0.0, off)[1], -0.99 * float(y.min()), 0.5 * float(y.max()))
+    # the straighter line tells which of them is wrong
+    by_shift = math.inf if correction is None else line(correction)[2]
+    by_offset = math.inf if offset is None else line(0.0, offset)[2]
+    is_known, is_offset = by_shift < by_offset / 2, by_offset < by_shift / 2
+    offset = 0.0 if offset is None or is_known else offset
+    own = line(0.0, offset)[0]
+    start = (float(y[0]) + offset) * float(volume_at(np.mod(x[:1], cycle))[0] / ends[1]) ** own
+    odd = [*_unit_of(start, measured.unit, spread=4.0)]
+    if not odd and abs(offset) > _LEVEL * start and _EXPONENTS[0] <= own <= _EXPONENTS[1]:
+        odd = [_level_of(offset, measured.treatment, centre)]
+    if odd:
+        yield from odd
+        return
     if not _EXPONENTS[0] <= exponent <= _EXPONENTS[1]:
         yield "exponent_odd", {"exponent": exponent, "low": _EXPONENTS[0], "high": _EXPONENTS[1]}
-    correction = _straight(lambda offset: line(offset)[1])
-    if correction is None:
+    if correction is None or is_offset:
         return
     rate = (line(correction + 0.1)[1] - line(correction - 0.1)[1]) / 0.2
-    offs = [abs(line(correction, off)[1] - line(correction)[1]) for off in (-_OFF, _OFF)]
+    offs = [abs(line(correction, off)[1] - line(correction)[1]) for off in (-_OFF, _OFF) if not is_known] or [0.0]
     yield from _proposed(
         "dead_centre_compression", correction, (2 * error + max(offs) + _CHANGE / 4 / half) / abs(rate), shift
     )
 
 
-def _straight(bend: Callable[[float], float]) -> float | None:
-    """Return the zero of a function by bisection, None if there is none nearby. [deg]"""
-    low, high = -_FARTHEST, _FARTHEST
-    at_low = bend(low)
+def _unit_of(level: float, unit: str, *, spread: float) -> Iterator[NoticeData]:
+    """Yield another unit for pressures whose level is far from that of the surroundings. [Pa]"""
+    if unit and not 1 / spread < level / AMBIENT < spread:
+        yield "pressure_unit_odd", {"step": level, "unit": likely_unit(level, unit)}
+
+
+def _level_of(offset: float, treatment: Preprocessing, centre: float) -> NoticeData:
+    """Return the notice of pressures that count from elsewhere than stated. [Pa]"""
+    stated, other = ("absolute", "gauge") if treatment.absolute else ("gauge", "absolute")
+    if treatment.peg is None and abs(offset - (AMBIENT if treatment.absolute else -AMBIENT)) < _SURE:
+        return "pressures_other", {"stated": stated, "other": other}
+    return "pressure_level", {"step": offset, "peg": _peg_line(centre, absolute=treatment.absolute)}
+
+
+def _peg_line(centre: float, *, absolute: bool) -> str:
+    """Return the usual pegging, to the line of compression or to the pressure at its beginning; `centre`: its end."""
+    if absolute:
+        return f'peg = {{ exponent = 1.32, from = "{centre - 90:g} deg", to = "{centre - 30:g} deg" }}'
+    return f'peg = {{ angle = "{centre - 180:g} deg", pressure = "0 bar" }}'
+
+
+def _wrapped(degrees: float) -> float:
+    """Return an angle between minus one and one turn. [deg]"""
+    return _TURN - (_TURN - degrees) % (2 * _TURN) or 0.0
+
+
+def _zero(bend: Callable[[float], float], low: float, high: float) -> float | None:
+    """Return the zero of a function by bisection, None if there is none between two ends."""
+    at_low, least = bend(low), 1e-5 * (high - low)
     if at_low * bend(high) > 0:
         return None
-    while high - low > 1e-4:
+    while high - low > least:
         middle = (low + high) / 2
         if bend(middle) * at_low > 0:
             low = middle

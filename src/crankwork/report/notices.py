@@ -30,6 +30,9 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
             shown[key] = symbol(str(value), language)
         elif key == "angles":
             shown[key] = decimal(str(value), language).replace("-", "−")
+        elif key == "shift":
+            # to be written in the machine file
+            shown[key] = f"{value:g}"
         elif isinstance(value, str):
             shown[key] = in_language(value, language)
         else:

@@ -310,7 +310,11 @@ class Session:
             lines = error.lines(lambda message: in_language(message, self.language))
             entries = zip(lines, error.places, error.problems, strict=True)
             return [
-                {"text": line, "key": problem.key, "line": int(match[1]) if (match := _LINE.search(place)) else 0}
+                {
+                    "text": line,
+                    "key": problem.key,
+                    "line": int(match[1]) if (match := _LINE.search(place) or _PLACE.match(line)) else 0,
+                }
                 for line, place, problem in entries
             ]
         text = in_language(error.args[0], self.language)

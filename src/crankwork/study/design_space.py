@@ -141,7 +141,7 @@ class DesignSpace:
             try:
                 return around(design), (design - self.low) / (self.high - self.low)
             except UnknownKeyError as error:
-                if getattr(error.args[0], "name", "") != "result_absent":
+                if getattr(error.args[0], "name", "") not in ("result_absent", "result_absent_near"):
                     raise
                 reason = error.args[0]
             except CrankworkError as error:

@@ -11,7 +11,7 @@ from crankwork import units
 from crankwork.description.document import stated_value
 from crankwork.description.machine_file import entry_at, file_keys, steps_of
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, nearest_name
-from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, shown
+from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, is_fraction, shown
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
@@ -91,7 +91,7 @@ def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has 
     if isinstance(kind, ListOf) and kind.may_be_one and isinstance(now, str):
         kind = kind.entry
     if isinstance(kind, NumberOr):
-        return kind.quantity if isinstance(now, str) else kind.number
+        return kind.quantity if isinstance(now, str) and not is_fraction(now) else kind.number
     return kind
 
 

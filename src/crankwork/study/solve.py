@@ -19,7 +19,7 @@ from crankwork.units import System
 STEPS = 400
 _MIN_STEPS, _MAX_STEPS = 10, 100_000
 # errors of a value that other machines in the range may have
-_LOCAL_ERRORS = ("result_absent", "angle_unreached")
+_LOCAL_ERRORS = ("result_absent", "result_absent_near", "angle_unreached")
 
 
 @dataclass(frozen=True)

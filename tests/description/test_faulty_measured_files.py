@@ -1,0 +1,314 @@
+"""Three measured files and what people do to them: each of the faulty ones is read rightly, or asked about.
+
+The pressures are worked out here, of a gas that is compressed, burns by Wiebe's law and expands, and the mean torque by
+a sum over a fine grid. A question has the line that answers it, and with that line the torque is right.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+import crankwork
+from crankwork.errors import InputError
+from crankwork.kinematics.crank_grid import Array
+from crankwork.report.notices import notice_text
+from each import for_each
+
+MACHINE = """
+[crank]
+radius = "45 mm"
+speed = "3000 rpm"
+[rod]
+length = "150 mm"
+[cylinder]
+bore = "86 mm"
+compression_ratio = {ratio}
+[gas]
+cycle = "720 deg"
+{pressures}
+[gas.measured]
+file = "p.txt"
+{keys}
+"""
+ABSOLUTE = 'pressures = "absolute"\nambient = "1.01325 bar"'
+BAR = 'pressure_unit = "bar"'
+AMBIENT = 1.01325
+# what a question is: a refusal, or one of these notices
+QUESTIONS = {
+    "peak_far", "work_negative", "exponent_odd", "dead_centre_compression", "pressure_unit_odd", "pressures_other",
+    "pressure_level", "measured_reference", "measured_other_unit",
+}  # fmt: skip
+
+
+class Engine(NamedTuple):
+    """An engine: compression ratio, pressures of intake and exhaust, pressure that the heat would add at dead centre.
+
+    Start and duration of the burning by Wiebe's law [deg], exponents of compression and expansion, step [deg]; [bar]
+    """
+
+    ratio: float
+    intake: float
+    exhaust: float
+    heat: float
+    start: float
+    duration: float
+    exponent: float
+    step: float
+
+
+ENGINES = {
+    "petrol": Engine(9.0, 0.95, 1.08, 42.0, 348.0, 50.0, 1.32, 1.0),
+    "supercharged diesel": Engine(16.5, 2.3, 2.4, 70.0, 355.0, 60.0, 1.35, 0.5),
+    "petrol at part load": Engine(10.0, 0.45, 1.05, 20.0, 345.0, 45.0, 1.3, 1.0),
+}
+
+
+def volume(degrees: Array, engine: Engine) -> Array:
+    """Return the volume over the swept one."""
+    angle, share = np.radians(degrees), 45 / 150
+    moved = 1 - np.cos(angle) + (1 - np.sqrt(1 - (share * np.sin(angle)) ** 2)) / share
+    return np.asarray(1 / (engine.ratio - 1) + moved / 2)
+
+
+@cache
+def cycle_of(name: str) -> tuple[Array, Array]:
+    """Return crank angles, and absolute pressures by steps of the first law of a burning gas. [deg], [bar]"""
+    engine, count = ENGINES[name], 8
+    fine = np.linspace(180, 540, round(360 / engine.step) * count + 1)
+    size, n = volume(fine, engine), engine.exponent
+    burnt = 1 - np.exp(-6.908 * (np.clip(fine - engine.start, 0, None) / engine.duration) ** 3)
+    # p V^n rises by what is burnt, so that without burning it is constant
+    least = float(volume(np.array([360.0]), engine)[0])
+    constant = engine.intake * size[0] ** n + np.concatenate(
+        [[0.0], np.cumsum(engine.heat * least * np.diff(burnt) * ((size[1:] + size[:-1]) / 2) ** (n - 1))]
+    )
+    closed = (constant / size**n)[::count]
+    degrees = np.arange(0.0, 720.0, engine.step)
+    pressure = np.where(degrees < 180, engine.intake, engine.exhaust)
+    pressure = np.asarray(pressure, float)
+    pressure[(degrees >= 180) & (degrees < 540)] = closed[:-1]
+    # the gas blows down after the dead centre, and the intake follows the exhaust within twenty degrees
+    down = (degrees >= 540) & (degrees < 600)
+    pressure[down] = engine.exhaust + (closed[-1] - engine.exhaust) * (1 - (degrees[down] - 540) / 60) ** 2
+    change = degrees < 20
+    pressure[change] = engine.intake + (engine.exhaust - engine.intake) * (1 - degrees[change] / 20) ** 2
+    return degrees, pressure
+
+
+@cache
+def torque_of(name: str) -> float:
+    """Return the mean torque: work of the polygon of pressure over volume, by the angle of a cycle. [N m]"""
+    degrees, pressure = cycle_of(name)
+    size = volume(np.append(degrees, 720.0), ENGINES[name]) * 0.09 * math.pi / 4 * 0.086**2
+    closed = np.append(pressure, pressure[0]) * 1e5
+    return float((closed[1:] + closed[:-1]) @ np.diff(size)) / 2 / (4 * math.pi)
+
+
+def rows(degrees: Array, pressure: Array, separator: str = ";", mark: str = ".", digits: int = 6) -> str:
+    """Return rows of numbers as a program writes them."""
+    lines = [f"{angle:g}{separator}{value:.{digits}f}" for angle, value in zip(degrees, pressure, strict=True)]
+    return "\n".join(lines).replace(".", mark) + "\n"
+
+
+def later(pressure: Array, degrees: Array, by: float) -> Array:
+    """Return the pressures as a recorder has them whose angles are smaller by a shift."""
+    return np.asarray(np.interp((degrees + by) % 720, np.append(degrees, 720), np.append(pressure, pressure[0])))
+
+
+def thousands(value: float, mark: str = ".") -> str:
+    """Return a number with thousands apart."""
+    whole, part = f"{value:,.4f}".split(".")
+    return whole.replace(",", mark) + ("," if mark == "." else ".") + part
+
+
+Fault = Callable[[Array, Array], str]
+# fault: the file, the keys of its table, and how pressures are counted
+ASKED: dict[str, tuple[Fault, str, str]] = {
+    "firing at 0, from -360": (lambda a, p: rows(a - 360, p), BAR, ABSOLUTE),
+    "firing at 0": (lambda a, p: rows(a, later(p, a, 360)), BAR, ABSOLUTE),
+    "180 early": (lambda a, p: rows(a, later(p, a, 180)), BAR, ABSOLUTE),
+    "180 late": (lambda a, p: rows(a, later(p, a, -180)), BAR, ABSOLUTE),
+    "3 early": (lambda a, p: rows(a, later(p, a, 3)), BAR, ABSOLUTE),
+    "3 late": (lambda a, p: rows(a, later(p, a, -3)), BAR, ABSOLUTE),
+    "against the rotation": (lambda a, p: rows(a, p[-np.arange(len(p)) % len(p)]), BAR, ABSOLUTE),
+    "gauge, read as absolute": (lambda a, p: rows(a, p - AMBIENT), BAR, ABSOLUTE),
+    "gauge and never below 0, read as absolute": (lambda a, p: rows(a, p - p.min()), BAR, ABSOLUTE),
+    "absolute, read as gauge": (rows, BAR, 'pressures = "gauge"'),
+    "kPa, read as bar": (lambda a, p: rows(a, 100 * p), BAR, ABSOLUTE),
+    "MPa, read as bar": (lambda a, p: rows(a, p / 10), BAR, ABSOLUTE),
+    "bar, read as MPa": (rows, 'pressure_unit = "MPa"', ABSOLUTE),
+    "pegged in the exhaust": (rows, BAR + '\npeg = { angle = "450 deg", pressure = "1 bar" }', ABSOLUTE),
+    "pegged at the peak": (rows, BAR + '\npeg = { angle = "370 deg", pressure = "1 bar" }', ABSOLUTE),
+    "columns named the wrong way round": (
+        lambda a, p: "phi;p\n" + rows(a, p), BAR + '\nangle_column = "p"\npressure_column = "phi"', ABSOLUTE),
+}  # fmt: skip
+READ: dict[str, tuple[Fault, str, str]] = {
+    "columns the other way round": (lambda a, p: rows(p, a), BAR, ABSOLUTE),
+    "a heading says where zero is": (lambda a, p: "CA [deg ATDC firing];p [bar]\n" + rows(a - 360, p), "", ABSOLUTE),
+    "aTDC of combustion": (lambda a, p: "CA (deg aTDC combustion);p (bar)\n" + rows(a - 360, p), "", ABSOLUTE),
+    "a Russian heading": (
+        lambda a, p: "φ, °ПКВ после ВМТ сгорания;p, кПа\n" + rows(a - 360, 100 * p, mark=","), "", ABSOLUTE),
+    "a Russian heading, gauge": (
+        lambda a, p: "Угол, °ПКВ;Давление избыточное, МПа\n" + rows(a, (p - AMBIENT) / 10, mark=",", digits=8), "", ""),
+    "a Vietnamese heading, gauge": (
+        lambda a, p: "Góc quay [độ];Áp suất dư [bar]\n" + rows(a, p - AMBIENT), "", ""),
+    "a German heading": (lambda a, p: "Kurbelwinkel [°KW];Zylinderdruck [bar]\n" + rows(a, p, mark=","), "", ABSOLUTE),
+    "absolute by its heading": (lambda a, p: "CA [deg];p_abs [bar]\n" + rows(a, p), "", ""),
+    "a unit in the heading": (lambda a, p: "CA, deg;p, kPa\n" + rows(a, 100 * p), "", ABSOLUTE),
+    "words below": (lambda a, p: rows(a, p) + "\nMean;1.23\nend of file\n", BAR, ABSOLUTE),
+    "a heading of two lines": (lambda a, p: "Crank angle;Pressure\n[deg];Cyl 1 [bar]\n" + rows(a, p), "", ABSOLUTE),
+    "Markdown": (
+        lambda a, p: "| CA [deg] | p [bar] |\n|---|:--:|\n" + "".join(
+            f"| {line.replace(';', ' | ')} |\n" for line in rows(a, p).splitlines()), "", ABSOLUTE),
+    "thousands with dots": (
+        lambda a, p: "".join(f"{x:g};{thousands(1000 * y)}\n" for x, y in zip(a, p, strict=True)).replace(".5;", ",5;"),
+        'pressure_unit = "hPa"', ABSOLUTE),
+    "thousands with commas": (
+        lambda a, p: "".join(f"{x:g}\t{thousands(1000 * y, ',')}\n" for x, y in zip(a, p, strict=True)),
+        'pressure_unit = "mbar"', ABSOLUTE),
+    "one number on each line": (
+        lambda a, p: "CA [deg]\np [bar]\n" + rows(a, p).replace(";", "\n"), "", ABSOLUTE),
+    "an empty last column": (
+        lambda a, p: "CA [deg];p [bar];note\n" + rows(a, p).replace("\n", ";\n"), "", ABSOLUTE),
+    "two empty columns": (lambda a, p: rows(a, p).replace("\n", ";;\n"), BAR, ABSOLUTE),
+    "comments and a mark of order": (lambda a, p: "\ufeff# bench 3\n% deg, bar\n" + rows(a, p), BAR, ABSOLUTE),
+    "from the last row to the first": (lambda a, p: rows(a[::-1], p[::-1]), BAR, ABSOLUTE),
+    "before the dead centre": (lambda a, p: "CA [deg BTDC];p [bar]\n" + rows(-a, p), "", ABSOLUTE),
+}  # fmt: skip
+
+
+class Reading(NamedTuple):
+    """What a machine file says about a pressure file: its mean torque, questions, and all that is told. [N m]"""
+
+    torque: float
+    questions: set[str]
+    words: str
+
+
+@pytest.fixture
+def reading(tmp_path):
+    def read(content: str, name: str, keys: str, pressures: str) -> Reading:
+        (tmp_path / "p.txt").write_text(content, encoding="utf-8")
+        text = MACHINE.format(ratio=ENGINES[name].ratio, pressures=pressures, keys=keys)
+        try:
+            results = crankwork.analyse(crankwork.read_machine(text, folder=tmp_path))
+        except InputError as error:
+            return Reading(math.nan, {"refusal"}, str(error))
+        codes = {notice.code for notice in results.notices}
+        words = "\n".join(
+            notice_text(notice.code, notice.values, "en") for notice in results.notices if notice.code in QUESTIONS
+        )
+        return Reading(results.summary["mean_torque"], codes & QUESTIONS, words)
+
+    return read
+
+
+def with_advice(words: str, keys: str, pressures: str) -> tuple[str, str]:
+    """Return the keys with the first line written into them that is advised."""
+    if advised := re.search(r'pressures = "(absolute|gauge)"', words):
+        return keys, ABSOLUTE if advised[1] == "absolute" else 'pressures = "gauge"'
+    if "the other way round" in words:
+        return keys.replace(
+            'angle_column = "p"\npressure_column = "phi"', 'angle_column = "phi"\npressure_column = "p"'
+        ), pressures
+    line = re.search(r'(shift|reversed|pressure_unit) = ("[^"]*"|true)|(peg) = \{.*?\}', words)
+    assert line, f"no line to write in: {words}"
+    key = line[1] or line[3]
+    return "\n".join([*(own for own in keys.splitlines() if not own.startswith(key)), line[0]]), pressures
+
+
+@for_each("name", ENGINES)
+def test_the_right_file_is_read_without_a_question(reading, name):
+    found = reading(rows(*cycle_of(name)), name, BAR, ABSOLUTE)
+    assert found.questions == set()
+    # a smooth curve through the samples instead of a polygon
+    assert found.torque == pytest.approx(torque_of(name), rel=1e-3)
+
+
+@for_each("name", ENGINES)
+@for_each("fault", READ)
+def test_an_awkward_file_is_the_right_one(reading, name, fault):
+    degrees, pressure = cycle_of(name)
+    write, keys, pressures = READ[fault]
+    found = reading(write(degrees, pressure), name, keys, pressures)
+    assert found.questions == set(), found.words
+    assert found.torque == pytest.approx(reading(rows(degrees, pressure), name, BAR, ABSOLUTE).torque, rel=2e-6)
+
+
+@for_each("name", ENGINES)
+@for_each("fault", ASKED)
+def test_a_wrong_file_is_asked_about_with_the_line_that_makes_it_right(reading, name, fault):
+    degrees, pressure = cycle_of(name)
+    write, keys, pressures = ASKED[fault]
+    content, right = write(degrees, pressure), reading(rows(degrees, pressure), name, BAR, ABSOLUTE).torque
+    found = reading(content, name, keys, pressures)
+    assert found.questions, "nothing was asked"
+    for _ in range(2):
+        keys, pressures = with_advice(found.words, keys, pressures)
+        found = reading(content, name, keys, pressures)
+        if not found.questions:
+            break
+    assert found.questions == set(), found.words
+    # resampling at another angle, and two digits of the shift
+    assert found.torque == pytest.approx(right, rel=2e-3)
+
+
+ENGINE = """
+[engine]
+layout = "inline"
+cylinders = 4
+firing_order = [1, 3, 4, 2]
+"""
+# later than cylinder 1, by the firing order
+LATER = {1: 0, 2: 540, 3: 180, 4: 360}
+
+
+def four(name: str) -> str:
+    """Return four cylinders over one crank angle."""
+    degrees, pressure = cycle_of(name)
+    columns = [degrees, *(later(pressure, degrees, -angle) for angle in LATER.values())]
+    lines = (";".join(f"{value:.6f}" for value in row) for row in zip(*columns, strict=True))
+    return "CA [deg];p1 [bar];p2 [bar];p3 [bar];p4 [bar]\n" + "\n".join(lines)
+
+
+def test_four_cylinders_over_one_crank_angle_are_one_entry(tmp_path):
+    (tmp_path / "p.txt").write_text(four("petrol"), encoding="utf-8")
+    text = MACHINE.format(ratio=9.0, pressures=ABSOLUTE, keys='columns = ["p1", "p2", "p3 [bar]", 5]') + ENGINE
+    machine = crankwork.read_machine(text, folder=tmp_path)
+    results = crankwork.analyse(machine)
+    assert results.summary["mean_torque"] == pytest.approx(4 * torque_of("petrol"), rel=1e-3)
+    assert results.other is not None
+    assert results.other.summary["mean_torque"] == pytest.approx(results.summary["mean_torque"], rel=1e-9)
+    with pytest.raises(InputError, match=r"gas\.measured\.columns: has 3 entries; write 4 of them"):
+        crankwork.read_machine(text.replace(', "p2"', ""), folder=tmp_path)
+    with pytest.raises(InputError, match=r"gas\.measured\.columns: there is one crank gear only; add \[engine\]"):
+        crankwork.read_machine(text.removesuffix(ENGINE), folder=tmp_path)
+
+
+def test_four_cylinders_counted_from_the_first_are_asked_about_all_at_once(tmp_path):
+    (tmp_path / "p.txt").write_text(four("petrol"), encoding="utf-8")
+    own = '[gas.cylinders.{0}.measured]\nfile = "p.txt"\npressure_column = "p{0}"\n'
+    text = MACHINE.format(ratio=9.0, pressures=ABSOLUTE, keys='pressure_column = "p1"') + ENGINE
+    with pytest.raises(InputError) as caught:
+        crankwork.read_machine(text + "".join(own.format(number) for number in (2, 3, 4)), folder=tmp_path)
+    shifts = {
+        problem.key[14]: re.search(r'write (shift = ".*?")', problem.message)[1] for problem in caught.value.problems
+    }
+    assert shifts == {"2": 'shift = "180 deg"', "3": 'shift = "-180 deg"', "4": 'shift = "360 deg"'}
+    answered = "".join(f"{own.format(number)}{shifts.get(str(number), '')}\n" for number in (2, 3, 4))
+    results = crankwork.analyse(crankwork.read_machine(text + answered, folder=tmp_path))
+    assert results.summary["mean_torque"] == pytest.approx(4 * torque_of("petrol"), rel=1e-3)
+
+
+def test_every_wrong_row_of_a_file_is_told_with_its_line(reading):
+    lines = rows(*cycle_of("petrol")).splitlines()
+    lines[7], lines[20], lines[99] = "7;n/a", "20;1,0,1", "99;1;2;3"
+    words = reading("\n".join(lines), "petrol", BAR, ABSOLUTE).words
+    assert [re.findall(r"line (\d+)", line)[0] for line in words.splitlines()] == ["8", "21", "100"]

@@ -1,0 +1,97 @@
+"""Speeds per second at every door, files, options, studies, Python and the studio; units of the text, and fractions."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+import crankwork as package
+from crankwork.description.machine_file import template
+from crankwork.description.schema import NumberOr
+from crankwork.description.value_types import Number, Quantity, Reader
+from crankwork.studio.session import Session
+from each import for_each
+
+SPEED = 'speed = "3000 rpm"'
+LINES = 'write speed = "9.42478 rad/s" or speed = "9.42478 rev/s"'
+WORDS = {
+    "en": LINES,
+    "ru": LINES.replace("write", "запишите").replace(" or ", " или "),
+    "vi": LINES.replace("write", "hãy ghi").replace(" or ", " hoặc "),
+}
+STUDY = """
+machine = "my.toml"
+[vary]
+crank.speed = { from = "9.42478 Hz", to = "900 rpm" }
+[objectives]
+side_force_max = "minimise"
+"""
+
+
+@for_each("unit", ["1/s", "с⁻¹", "Hz", "s^-1"])
+@for_each("form", ["1", "2"])
+def test_a_speed_per_second_is_asked_about_in_files_and_options(crankwork, check_mistakes, unit, form):
+    source = template("engine").replace("format = 2", f"format = {form}")
+    Path("my.toml").write_text(source.replace(SPEED, f'speed = "9.42478 {unit}"'), encoding="utf-8")
+    for language, words in WORDS.items():
+        answer = crankwork("check", "my.toml", "--lang", language)
+        check_mistakes(answer)
+        assert words in answer.mistakes[0]
+    Path("my.toml").write_text(source, encoding="utf-8")
+    setting = crankwork("check", "my.toml", "--set", f"crank.speed=9.42478 {unit}").err
+    assert setting.startswith("--set crank.speed: ")
+    assert LINES in setting
+    search = crankwork("solve", "my.toml", "piston_force@33deg = 0", "--for", "crank.speed", "--from", f"9 {unit}")
+    assert 'write "9 rad/s" or "9 rev/s"' in search.err
+    Path("study.toml").write_text(STUDY, encoding="utf-8")
+    assert LINES.replace("speed =", "from =") in crankwork("optimise", "study.toml", "-o", "out").err
+
+
+@for_each(("written", "factor"), [("rad/s", 1.0), ("rev/s", 2 * math.pi)])
+def test_either_line_that_is_offered_is_accepted(machine_file, written, factor):
+    machine = package.load(machine_file((SPEED, f'speed = "9.42478 {written}"'))).machine()
+    assert machine.speed == pytest.approx(9.42478 * factor)
+
+
+def test_a_line_out_of_range_is_not_offered():
+    description = package.Description(template("engine"))
+    description["crank.speed"] = "9000 1/s"
+    with pytest.raises(package.InputError, match=r'write speed = "9000 rad/s"$'):
+        description.machine()
+
+
+def test_python_and_the_studio_ask_too(machine_file):
+    description = package.load(machine_file())
+    description["crank.speed"] = "9.42478 Гц"
+    with pytest.raises(package.InputError, match="radians or revolutions"):
+        description.machine()
+    answer = Session("ru").answer({"do": "show", "text": description.dump()})
+    assert WORDS["ru"] in str(answer["refusals"])
+
+
+def test_the_frequency_of_the_mains_is_per_second():
+    press = package.load(Path(__file__).parents[2] / "examples" / "press-start.toml")
+    motors = [
+        press.machine([f"motor.frequency={text}"]).drive.motor
+        for text in ("60 Hz", "60 Гц", "60 1/s", "60 с⁻¹", "3600 мин⁻¹")
+    ]
+    # three pairs of poles
+    assert [motor.motor.synchronous_speed for motor in motors] == pytest.approx([2 * math.pi * 60 / 3] * 5)
+
+
+def test_a_fraction_is_a_number():
+    description = package.Description(template("engine"))
+    description["rod.ratio"] = "1/4"
+    assert package.analyse(description.machine()).summary["rod_ratio"] == 0.25
+    description["rod.ratio"] = "1/0"
+    with pytest.raises(package.InputError, match=r"rod\.ratio"):
+        description.machine()
+
+
+def test_a_fraction_is_a_number_beside_quantities_too():
+    kind, reader = NumberOr(Quantity(("time",), 0.0, 1e3), Number(0.0, 1.0)), Reader()
+    assert kind.read("1/4", "over", reader) == kind.read(0.25, "over", reader) == 0.25
+    assert kind.read("3 s", "over", reader).value == 3.0
+    assert reader.problems == []
