@@ -397,7 +397,8 @@ def coherent_unit(unit: str) -> str:
     """
     if unit not in UNITS:
         return unit
-    dimension = UNITS[unit].dimension
+    # the mains too are held in radians per second
+    dimension = {"frequency": "speed"}.get(UNITS[unit].dimension, UNITS[unit].dimension)
     return next((name for name, other in UNITS.items() if other.dimension == dimension and other.factor == 1.0), unit)
 
 

@@ -214,14 +214,14 @@ def _end_row(matrix: Array, right: Array, end: int, rate: float | None, inwards:
     if rate is not None:
         right[end] = rate
         return
-    (first, *more), (slope, *others) = inwards
+    (first, *more), (slope, *next_slopes) = inwards
     if len(more) < 2:
         # three points have one parabola, two a straight line
         matrix[end, next_to], right[end] = (1.0, 2 * slope) if more else (0.0, slope)
         return
     span = first + more[0]
     matrix[end, next_to] = span / more[0]
-    right[end] = ((first + 2 * span) * more[0] * slope + first**2 * others[0]) / (span * more[0])
+    right[end] = ((first + 2 * span) * more[0] * slope + first**2 * next_slopes[0]) / (span * more[0])
 
 
 _TRIED, _HALVINGS = np.linspace(0.0, 1.0, 2001), 52
@@ -327,9 +327,9 @@ def _shape_of(
         is_closed = is_alone and segment.to == origin and segment.rates == (0.0, 0.0)
         return travel, smooth_shape(shares, ways, is_closed=is_closed, rates=(first, last))
     if segment.kind == "constant-acceleration":
-        way, first = segment.to - origin, (segment.rates[0] or 0.0) * duration
-        travel = max(abs(way), abs(first)) or 1.0
-        return travel, (LawPiece(1.0, (0.0, first / travel, (way - first) / travel)),)
+        distance, first = segment.to - origin, (segment.rates[0] or 0.0) * duration
+        travel = max(abs(distance), abs(first)) or 1.0
+        return travel, (LawPiece(1.0, (0.0, first / travel, (distance - first) / travel)),)
     if segment.kind == "dwell" or segment.to == origin:
         return 0.0, ()
     return segment.to - origin, shape(segment.kind, segment.ramp)
