@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis import traced_inputs
+from crankwork.analysis.bearings import ON_CRANKPIN, BearingCycle
 from crankwork.analysis.counterweight_balance import counterweight_balance
 from crankwork.analysis.deferred import Deferred
 from crankwork.analysis.equal_cells import with_equal_columns
@@ -19,8 +20,7 @@ from crankwork.analysis.gas_chambers import gas_check, gas_summary, traced_linka
 from crankwork.analysis.given_motion import DYNAMICS
 from crankwork.analysis.harmonics import delivered_harmonics, listed_harmonics
 from crankwork.analysis.joint_bearings import FOLLOWED as BEARING_COLUMNS
-from crankwork.analysis.joint_bearings import FORCES as ON_CRANKPINS
-from crankwork.analysis.joint_bearings import BearingCycle, JointBearings, bearings_of
+from crankwork.analysis.joint_bearings import JointBearings, bearings_of
 from crankwork.analysis.joint_friction import COLUMNS as FRICTION
 from crankwork.analysis.joint_friction import FOLLOWED as FOLLOWED_FRICTION
 from crankwork.analysis.joint_friction import FrictionColumns, add_friction, mean_values
@@ -131,7 +131,15 @@ def analyse_linkage(
     if moved.has_steady_crank and "shaking_force" in trace:
         balance = counterweight_balance(mechanism.crank, trace | summary, mechanism.period)
         summary |= {key: known.named(key) for key, known in balance}
-    cycle = BearingCycle(machine, moved.bearings, over, program)
+    components = moved.bearings.of_journals
+    cycle = BearingCycle(
+        moved.bearings.loaded(machine, over),
+        components,
+        over,
+        lambda grid: dict(zip(components, program.rows(grid, components), strict=True)),
+        machine.cycle,
+        machine.bearings.rays,
+    )
     summary |= cycle.summary()
     ran = simulate_transient(solved, motion, result, summary, progress)
     summary, checks = summary | ran.summary, checks | ran.checks
@@ -146,7 +154,7 @@ def analyse_linkage(
     values = {key: value.value for key, value in summary.items()}
     trace |= {**summary, **between}
     harmonics = cache(partial(_harmonics, moved, over))
-    deferred = Deferred(trace, lambda: cycle.trace() | harmonics())
+    deferred = Deferred(trace, lambda: {**moved.bearings.between, **cycle.values} | harmonics())
     listings = Deferred(ran.listings, lambda: cycle.listings() | listed_harmonics(harmonics()))
     return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, deferred)
 
@@ -497,7 +505,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
                          "axial_force", "normal_force",
                          "normal_moment"),
-        "bearings": ON_CRANKPINS,
+        "bearings": ON_CRANKPIN,
         "main_journals": ("main_journal_load",),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key_of(key).quantity in keys) for name, keys in kinds.items()}
