@@ -10,13 +10,13 @@ import numpy as np
 
 from crankwork.analysis import traced_inputs
 from crankwork.analysis.bearings import Bearing, bearing_size, loads_on_crankpin
+from crankwork.analysis.cylinder_forces import inertia_at_big_end, on_piston_pin
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.dynamics.piston_forces import transverse_weight, weight_force
 from crankwork.formula.traced_value import Delayed, FormulaCall, Node, TracedValue, absent, given, in_order, total
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import RodSwing
@@ -33,10 +33,7 @@ def bearing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     Source: kolchin_demidov_2008, ch. 9.
     """
     master = engine.master.trace
-    inertia = absent("big_end_inertia_force")
-    if engine.machine.masses is not None:
-        mass, r, w = master["rod_big_end_mass"], master["crank_radius"], master["speed"]
-        inertia = formulas.big_end_inertia_force(mass, r, w)
+    inertia = inertia_at_big_end(engine.master, master)
     forces = {place.number: _of_rod(engine, place, inertia) for place in engine.layout.places}
     values = {crankpin.key: crankpin for crankpin in (inertia, *_crankpins(engine, forces, inertia))}
     rods = [BearingLoad(-along, across) for along, across in forces.values()]
@@ -102,20 +99,10 @@ def _of_one_rod(engine: MultiCylinderEngine, number: int, rod: BearingLoad, iner
 
 def _small_end(engine: MultiCylinderEngine) -> Iterator[TracedValue]:
     """Yield the force of piston 1 on its pin, its side force with that of articulated rods, and the load."""
-    trace, machine = engine.master.trace, engine.machine
-    # that of the inertia force, where a document has its own
-    acceleration = trace.get("inertia_acceleration", trace["piston_acceleration"])
-    mass, along, across = absent("piston_mass"), absent("weight_force.piston"), [trace["side_force"]]
-    across += [engine.of(number, "knuckle_side_force") for number in engine.has("knuckle_side_force")]
-    if machine.masses is not None:
-        mass = trace["piston_mass"]
-        if machine.has_gravity:
-            g = given("gravity", engine.master.method.gravity, "method.gravity")
-            cos, sin = traced_inputs.inclination(machine, engine.master.lean)
-            along = weight_force(mass, g, cos).named("weight_force.piston")
-            transverse = transverse_weight(mass, g, sin).named("transverse_weight.piston")
-            across += [transverse] if transverse.value else []
-    force = formulas.piston_pin_force(trace.get("gas_force", absent("gas_force")), mass, acceleration, along)
+    trace = engine.master.trace
+    force, *transverse = on_piston_pin(engine.master, trace)
+    articulated = [engine.of(number, "knuckle_side_force") for number in engine.has("knuckle_side_force")]
+    across = [trace["side_force"], *articulated, *transverse]
     yield force
     side = total("side_force.small_end", across) if len(across) > 1 else across[0]
     swing = RodSwing(*(trace[key] for key in _SWING))
@@ -181,7 +168,7 @@ def _held(engine: MultiCylinderEngine, mass: Unbalance) -> Unbalance:
     machine, moving = engine.machine, engine.master.moving
     if not (machine.has_gravity or machine.angular_acceleration):
         return mass
-    g = given("gravity", engine.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
+    g = traced_inputs.gravity(machine, engine.master.method)
     cos, sin = traced_inputs.inclination(machine, engine.master.lean)
     angle, r = moving.angle.shifted(mass.angle), moving.lengths.crank_radius
     along = unbalance_weight(mass.mass_moment, r, g, angle.cos, cos, angle.sin, sin)

@@ -24,7 +24,7 @@ from crankwork.analysis.joint_bearings import JointBearings, bearings_of
 from crankwork.analysis.joint_friction import COLUMNS as FRICTION
 from crankwork.analysis.joint_friction import FOLLOWED as FOLLOWED_FRICTION
 from crankwork.analysis.joint_friction import FrictionColumns, add_friction, mean_values
-from crankwork.analysis.mechanism_trace import efficiency_of, linkage_trace, speed_of, traced_state
+from crankwork.analysis.mechanism_trace import linkage_trace, speed_of, traced_state
 from crankwork.analysis.motion_range import (
     ReachableMotion,
     SingularColumns,
@@ -43,10 +43,8 @@ from crankwork.analysis.speed import (
     analyse_speed,
     balance_of,
     driven_by_motor,
-    excess_of,
     has_flywheel,
     has_friction,
-    work_of,
 )
 from crankwork.analysis.transient import simulate_transient
 from crankwork.analysis.transmission_quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
@@ -173,10 +171,8 @@ def _turns(machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedV
     added = 0.0
     if has_flywheel(drive):
         balance = balance_of(machine, over, trace)
-        turn, excess = analyse_speed(machine, balance, w), excess_of(balance)
-        cycle = given("cycle_angle", math.radians(machine.cycle))
-        summary = {"excess_work": excess, **turn.summary}
-        yield turn._replace(summary=summary, between=turn.between | work_of(excess, mean, cycle))
+        turn = analyse_speed(machine, balance, w, mean)
+        yield turn
         added = turn.added
     if drive.motor is not None:
         # the motor drives through the efficiency
@@ -195,7 +191,12 @@ def _power_of_valves(machine: Machine, values: Mapping[str, TracedValue]) -> dic
     has_valves = any(chamber.valves is not None for chamber in machine.chambers.values())
     if not has_valves or "motor_power" in values or not _is_needed(values.get("mean_torque")):
         return {}
-    operands = absent("power_reserve", 1.0), values["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
+    operands = (
+        absent("power_reserve", 1.0),
+        values["mean_torque"],
+        speed_of(machine),
+        traced_inputs.efficiency_of(machine.drive),
+    )
     return {"motor_power": needed_power(*operands)}
 
 
@@ -404,12 +405,9 @@ def _given_values(machine: Machine) -> dict[str, TracedValue]:
     law = machine.mechanism.driver.law
     if law is not None:
         return {"period": given("period", law.period, "driver.period")}
-    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
-    if machine.angular_acceleration:
-        result["angular_acceleration"] = traced_inputs.acceleration(machine)
-    if machine.drive.efficiency != 1:
-        result["efficiency"] = efficiency_of(machine.drive)
-    return result
+    eps = traced_inputs.acceleration(machine)
+    changing = {} if eps.is_absent else {eps.key: eps}
+    return traced_inputs.speeds(machine, speed_of(machine)) | changing | traced_inputs.efficiency(machine.drive)
 
 
 def _at_time(extreme: str, angle: TracedValue, law: Law) -> dict[str, TracedValue]:

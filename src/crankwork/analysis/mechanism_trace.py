@@ -11,7 +11,7 @@ from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.operating_state import is_shared, traced_joint_forces
 from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.analysis.transmission_quality import transmissions
-from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, traced_efficiency
+from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
 from crankwork.dynamics.link_loads import link_angular_acceleration
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reduction import (
@@ -23,7 +23,7 @@ from crankwork.dynamics.reduction import (
     static_torque,
 )
 from crankwork.dynamics.torque_formulas import balancing_torque_of_parts
-from crankwork.formula.traced_value import Piecewise, ProcedureValue, TracedValue, absent, given
+from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given
 from crankwork.kinematics import kinematic_coefficients as rates
 from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.instant_centres import instant_centres
@@ -93,18 +93,6 @@ def speed_of(machine: Machine) -> TracedValue:
     if machine.method.pi == math.pi and not machine.stated:
         return given("speed", machine.speed, "crank.speed")
     return traced_inputs.speed(machine, machine.method)
-
-
-def efficiency_of(drive: Drive) -> TracedValue:
-    """Return the efficiency of the joints between motor and process, the product over a chain if one is given."""
-    if drive.efficiency == 1:
-        return absent("efficiency", 1.0)
-    if drive.chain is None:
-        return given("efficiency", drive.efficiency, "efficiency.chain")
-    if drive.exact_efficiency is None:
-        return traced_efficiency(drive.chain)
-    exact = traced_efficiency(drive.chain).named("efficiency.exact")
-    return TracedValue(ProcedureValue(drive.efficiency, "rounded", (exact,)), "efficiency")
 
 
 def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) -> Iterator[tuple[str, TracedValue]]:
@@ -184,7 +172,7 @@ def _driving(
     static: TracedValue, dynamic: TracedValue, balancing: TracedValue, drive: Drive, motion: Motion
 ) -> TracedValue:
     """Return the torque of the motor, which drives where it is positive and brakes where it is negative."""
-    eta = efficiency_of(drive)
+    eta = traced_inputs.efficiency_of(drive)
     motor: TracedValue = driving_torque_as_motor(static, dynamic, eta)
     if eta.is_absent or not balancing.varies:
         return motor

@@ -14,7 +14,7 @@ from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.harmonics import curve_of, order_count, traced_harmonics
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.reduction import MOVING, REDUCTION
-from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed, excess_of, work_of
+from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import (
@@ -33,7 +33,7 @@ from crankwork.formula.replay import Samples
 from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, absent, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import TrueSpeed, excess_work
+from crankwork.shaft.fluctuation import Mean, TrueSpeed, excess_work
 
 _SAMPLES = 1440
 # share of the largest torque of a cylinder below which a mean is rounding
@@ -120,15 +120,14 @@ def engine_torque(
     mean = delivered_or_needed(mean)
     summary = {"mean_torque": mean}
     summary |= {key: value for key, value in extremes.items() if key.startswith("total_torque_")}
-    excess = summary["excess_work"] = excess_of(balance)
-    between = work_of(excess, mean, traced_inputs.cycle_angle(engine.machine))
     # textbooks draw the extremes as far above the mean as below it
-    turn = analyse_speed(
-        engine.machine, balance, w, "extremes" if engine.master.method.kinematics == "textbook" else "time"
-    )
-    summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
+    kind: Mean = "extremes" if engine.master.method.kinematics == "textbook" else "time"
+    turn = analyse_speed(engine.machine, balance, w, mean, kind)
+    between = dict(turn.between)
+    shown = {**turn.summary, **between}
+    summary |= {key: shown[key] for key in ("excess_work", "energy_fluctuation") if key in shown} | turn.summary
     named = {key: known if known is mean else known.named(key) for key, known in summary.items()}
-    between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
+    between |= {} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque}
     return EngineTorque(cylinder, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
 
 
