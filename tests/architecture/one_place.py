@@ -119,7 +119,7 @@ class _Module:
 
 def _own_nodes(node: ast.FunctionDef) -> Iterator[ast.AST]:
     """Yield the nodes of a function without those of functions inside it."""
-    rest: list[ast.AST] = [node.args, *node.body]
+    rest: list[ast.AST] = [part for part in node.body if not isinstance(part, ast.FunctionDef | ast.ClassDef)]
     yield from rest
     while rest:
         for child in ast.iter_child_nodes(rest.pop()):
@@ -236,7 +236,7 @@ class _Reader:
                 return of(value)
             case ast.Subscript(value=value, slice=ast.Constant(value=int(index))):
                 return of(value, (index, *path))
-            case ast.Subscript(value=value) if isinstance(value, ast.Name | ast.Dict):
+            case ast.Subscript(value=value) if isinstance(value, ast.Name | ast.Dict | ast.Subscript):
                 return of(value, ("values", *path))
             case ast.Call(func=ast.Attribute(attr="derived", value=value), args=[suffix]) if not path:
                 return self._joined([of(value), of(suffix)], place)
@@ -346,7 +346,10 @@ class _Reader:
                     for target in targets:
                         if isinstance(target, ast.Subscript) and not _is_selected(target.slice, value):
                             yield self.texts(target.slice, function, ())
-                case ast.Yield(value=ast.Tuple(elts=[key, *_])) | ast.Return(value=ast.Tuple(elts=[key, *_])):
+                case (
+                    ast.Yield(value=ast.Tuple(elts=[key, value, *_]))
+                    | ast.Return(value=ast.Tuple(elts=[key, value, *_]))
+                ) if not _is_selected(key, value):
                     yield self.texts(key, function, ())
 
 
@@ -359,6 +362,8 @@ def _name_of(function: ast.expr) -> str:
 def _is_selected(key: ast.expr, value: ast.expr) -> bool:
     """Return whether a value is taken from others under the key that it had there, or is a text or several."""
     match value:
+        case ast.Name() if ast.dump(value) == ast.dump(key):
+            return True
         case ast.Constant(value=str()) | ast.JoinedStr() | ast.Tuple() | ast.Call(func=ast.Name(id="own_key")):
             return True
         case ast.Call(func=ast.Attribute(attr="named", value=selected), args=[own]) if ast.dump(own) == ast.dump(key):

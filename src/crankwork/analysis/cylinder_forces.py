@@ -31,7 +31,7 @@ from crankwork.cylinders.bearings import (
 )
 from crankwork.dynamics import piston_forces as forces
 from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
-from crankwork.dynamics.reaction import joint_force
+from crankwork.dynamics.reaction import joint_force, pin_columns
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value
 from crankwork.formula.replay import Program
@@ -154,19 +154,17 @@ def _in_joints(solved: PreparedCylinder, moving: CylinderKinematics) -> Iterator
     for weight in transverse:
         side = side - weight
     if solved.articulated_rod is None:
-        radial, tangential = _on_crankpin(solved, moving)
-        yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}")
-        yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}")
-        yield joint_force(tangential, radial).named(f"joint_force.{pin}")
+        yield from force_on_rod(pin, *_on_crankpin(solved, moving), angle).values()
     else:
-        x, y = (-trace[f"knuckle_force_{axis}"] for axis in "yx")
-        yield x.named(f"joint_force_x.{pin}")
-        yield y.named(f"joint_force_y.{pin}")
-        yield joint_force(x, y).named(f"joint_force.{pin}")
-    yield side.named(f"joint_force_x.{piston}")
-    yield pressed.named(f"joint_force_y.{piston}")
-    yield joint_force(side, pressed).named(f"joint_force.{piston}")
+        yield from pin_columns(pin, *(-trace[f"knuckle_force_{axis}"] for axis in "yx")).values()
+    yield from pin_columns(piston, side, pressed).values()
     yield (-trace["side_force"]).named(f"normal_force.{piston}")
+
+
+def force_on_rod(name: str, radial: TracedValue, tangential: TracedValue, angle: Value) -> dict[str, TracedValue]:
+    """Return the force of a crankpin on its rods by key, from the load of the crankpin at a crank angle."""
+    x, y = radial * angle.sin - tangential * angle.cos, radial * angle.cos + tangential * angle.sin
+    return pin_columns(name, x, y, joint_force(tangential, radial))
 
 
 def on_piston_pin(solved: PreparedCylinder, trace: Mapping[str, TracedValue]) -> list[TracedValue]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from crankwork.analysis.crankshaft_bearings import distinct_crankpins
-from crankwork.analysis.cylinder_forces import joint_names
+from crankwork.analysis.cylinder_forces import force_on_rod, joint_names
 from crankwork.analysis.cylinders import MultiCylinderEngine
-from crankwork.dynamics.reaction import joint_force
+from crankwork.dynamics.reaction import pin_columns
 from crankwork.formula.traced_value import TracedAngle, TracedValue, total
 
 
@@ -25,12 +25,9 @@ def master_joints(engine: MultiCylinderEngine, loads: Mapping[str, TracedValue])
         number, own = place.number, "" if place.number == 1 else f".{place.number}"
         angle = TracedAngle().shifted(-place.firing_angle)
         radial, tangential = (loads[f"crankpin_{axis}_force.{crankpin}"] for axis in ("radial", "tangential"))
-        yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}{own}")
-        yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}{own}")
-        yield joint_force(tangential, radial).named(f"joint_force.{pin}{own}")
+        yield from force_on_rod(f"{pin}{own}", radial, tangential, angle).values()
         side = total(f"knuckle_side_force{own}", passed)
         x, y = (engine.of(number, f"joint_force_{axis}.{piston}") for axis in "xy")
         across = (x - side).named(f"joint_force_x.{piston}{own}")
-        yield across
-        yield joint_force(across, y).named(f"joint_force.{piston}{own}")
+        yield from pin_columns(f"{piston}{own}", across, y).values()
         yield (engine.of(number, f"normal_force.{piston}") - side).named(f"normal_force.{piston}{own}")

@@ -12,8 +12,10 @@ from crankwork.analysis.operating_state import is_shared, traced_joint_forces
 from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.analysis.transmission_quality import transmissions
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
+from crankwork.dynamics.joint_forces import JointForces
 from crankwork.dynamics.link_loads import link_angular_acceleration
 from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.reaction import pin_columns
 from crankwork.dynamics.reduction import (
     driver_power,
     dynamic_torque,
@@ -189,17 +191,17 @@ def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedVal
     values, along = traced_joint_forces(solved, running)
     if not is_shared(solved.machine.redundant):
         return values.balancing_torque, {}
-    pivots = names_of_pivots(solved.machine.mechanism)
-    columns: dict[str, TracedValue] = {}
-    for joint, pin in values.pins.items():
-        name = pivots.get(joint, joint)
-        columns |= {
-            f"joint_force_x.{name}": pin.x,
-            f"joint_force_y.{name}": pin.y,
-            f"joint_force.{name}": pin.resultant,
-        }
+    columns = joint_columns(solved.machine, values)
     for name, (across, separating) in values.teeth.items():
         columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": separating}
-    for name, guide in values.guides.items():
-        columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
     return values.balancing_torque, columns | along
+
+
+def joint_columns(machine: Machine, forces: JointForces, suffix: str = "") -> dict[str, TracedValue]:
+    """Return the forces in joints and guides; `suffix`: of their quantities."""
+    pivots, columns = names_of_pivots(machine.mechanism), dict[str, TracedValue]()
+    for joint, pin in forces.pins.items():
+        columns |= pin_columns(pivots.get(joint, joint), pin.x, pin.y, kind=f"joint_force{suffix}")
+    for name, guide in forces.guides.items():
+        columns |= {f"normal_force{suffix}.{name}": guide.normal, f"normal_moment{suffix}.{name}": guide.moment}
+    return columns

@@ -11,14 +11,13 @@ from crankwork.analysis import traced_inputs
 from crankwork.analysis.crankshaft_bearings import rotating_mass_of
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.analysis.flywheel import turning_inertia
-from crankwork.analysis.harmonics import curve_of, order_count, traced_harmonics
+from crankwork.analysis.harmonics import amplitude_of_order, curve_of, order_count, traced_harmonics
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.reduction import MOVING, REDUCTION
 from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import (
-    amplitude_of_harmonic,
     amplitude_of_total,
     curve_harmonics,
     phase_sums,
@@ -30,7 +29,7 @@ from crankwork.dynamics.reduction import dynamic_torque
 from crankwork.dynamics.torque_formulas import static_torque_of_balancing
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Samples
-from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, absent, total
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
 from crankwork.shaft.fluctuation import Mean, TrueSpeed, excess_work
@@ -175,13 +174,8 @@ def harmonics_trace(
             amplitude = amplitude_of_total(values[f"harmonic_amplitude.{order:g}"], star)
         else:
             total = trace["total_torque"]
-            parts = (
-                TracedValue(HarmonicCoefficient(float(getattr(all_, part)[index]), total, part, order))
-                for part in ("cosine", "sine")
-            )
-            amplitude = TracedValue(
-                ProcedureValue(float(all_.amplitude[index]), "fourier", (total,), None, amplitude_of_harmonic(*parts))
-            )
+            waves = amplitude_of_order(total, order, float(all_.cosine[index]), float(all_.sine[index]))
+            amplitude = TracedValue(ProcedureValue(float(all_.amplitude[index]), "fourier", (total,), None, waves))
         amplitude = amplitude.named(f"total_harmonic_amplitude.{order:g}")
         values |= {known.key: known for known in (star, amplitude)}
     return values
