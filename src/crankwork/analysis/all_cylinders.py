@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from crankwork.analysis.bearings import Bearing, BearingCycle
-from crankwork.analysis.crankshaft_bearings import bearing_trace, engine_bearings
+from crankwork.analysis.crankshaft_bearings import bearing_trace, engine_bearings, master_joints
 from crankwork.analysis.cylinder_balance import (
     balance_checks,
     balance_listing,
@@ -168,7 +168,6 @@ def with_whole_engine(results: Results, traced: EngineTrace | None) -> Results:
     summary = {key: value.value for key, value in single.items()}
     thrown, joints = dict[str, float](), dict[str, TracedValue]()
     if any(engine.engine.articulated_rods):
-        from crankwork.analysis.master_joints import master_joints  # noqa: PLC0415 - few engines have such rods
         from crankwork.analysis.second_routes import throw_residuals  # noqa: PLC0415 - few engines have such rods
 
         thrown = throw_residuals(engine, trace)

@@ -10,14 +10,25 @@ import numpy as np
 
 from crankwork.analysis import traced_inputs
 from crankwork.analysis.bearings import Bearing, bearing_size, loads_on_crankpin
-from crankwork.analysis.cylinder_forces import inertia_at_big_end, on_piston_pin
+from crankwork.analysis.cylinder_forces import force_on_rod, inertia_at_big_end, joint_names, on_piston_pin
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.formula.traced_value import Delayed, FormulaCall, Node, TracedValue, absent, given, in_order, total
+from crankwork.dynamics.reaction import pin_columns
+from crankwork.formula.traced_value import (
+    Delayed,
+    FormulaCall,
+    Node,
+    TracedAngle,
+    TracedValue,
+    absent,
+    given,
+    in_order,
+    total,
+)
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import RodSwing
 from crankwork.quantities.key import key_of
@@ -243,6 +254,28 @@ _COLUMNS = (
     "crankpin_radial_force.", "crankpin_tangential_force.", "crankpin_load.", "big_end_load", "small_end_load",
     "main_journal_load.",
 )  # fmt: skip
+
+
+def master_joints(engine: MultiCylinderEngine, loads: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
+    """Yield the forces in the joints of every distinct master rod, under the keys of a single rod.
+
+    Its crankpin, piston pin and wall also carry forces of articulated rods. `loads`: those of the crankpins.
+    """
+    pin, piston = joint_names(engine.master)
+    for crankpin in distinct_crankpins(engine):
+        passed = [engine.of(item.number, "knuckle_side_force") for item in engine.on_pin[crankpin - 1] if item.master]
+        if not passed:
+            continue
+        place = next(item for item in engine.on_pin[crankpin - 1] if not item.master)
+        number, own = place.number, "" if place.number == 1 else f".{place.number}"
+        angle = TracedAngle().shifted(-place.firing_angle)
+        radial, tangential = (loads[f"crankpin_{axis}_force.{crankpin}"] for axis in ("radial", "tangential"))
+        yield from force_on_rod(f"{pin}{own}", radial, tangential, angle).values()
+        side = total(f"knuckle_side_force{own}", passed)
+        x, y = (engine.of(number, f"joint_force_{axis}.{piston}") for axis in "xy")
+        across = (x - side).named(f"joint_force_x.{piston}{own}")
+        yield from pin_columns(f"{piston}{own}", across, y).values()
+        yield (engine.of(number, f"normal_force.{piston}") - side).named(f"normal_force.{piston}{own}")
 
 
 def engine_bearings(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> Iterator[Bearing]:
