@@ -156,7 +156,7 @@ def _in_joints(solved: PreparedCylinder, moving: CylinderKinematics) -> Iterator
     if solved.articulated_rod is None:
         yield from force_on_rod(pin, *_on_crankpin(solved, moving), angle).values()
     else:
-        yield from pin_columns(pin, *(-trace[f"knuckle_force_{axis}"] for axis in "yx")).values()
+        yield from pin_columns(pin, -trace["knuckle_force_y"], -trace["knuckle_force_x"]).values()
     yield from pin_columns(piston, side, pressed).values()
     yield (-trace["side_force"]).named(f"normal_force.{piston}")
 

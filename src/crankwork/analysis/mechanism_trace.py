@@ -12,10 +12,9 @@ from crankwork.analysis.operating_state import is_shared, traced_joint_forces
 from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.analysis.transmission_quality import transmissions
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
-from crankwork.dynamics.joint_forces import JointForces
 from crankwork.dynamics.link_loads import link_angular_acceleration
 from crankwork.dynamics.operating_state import OperatingState
-from crankwork.dynamics.reaction import pin_columns
+from crankwork.dynamics.reaction import JointForces, pin_columns
 from crankwork.dynamics.reduction import (
     driver_power,
     dynamic_torque,
