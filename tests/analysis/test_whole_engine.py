@@ -12,14 +12,12 @@ import pytest
 import crankwork
 from crankwork.analysis import columns
 from crankwork.analysis.all_cylinders import EngineTrace
-from crankwork.analysis.crankshaft_bearings import bearing_components, bearing_loads
 from crankwork.analysis.cylinder_balance import engine_balance
 from crankwork.analysis.cylinders import multi_cylinder_engine
 from crankwork.analysis.one_cylinder import own_key
 from crankwork.analysis.shaft_torque import engine_torque
 from crankwork.cylinders.articulated import articulated_motion
 from crankwork.cylinders.engines import boxer, inline, radial, vee
-from crankwork.formula.replay import Program
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Bearings, Drive, Engine, Machine
 from crankwork.report.summary import summary_data
@@ -93,7 +91,8 @@ def test_the_torque_curve_is_the_torque_and_loads_of_a_shaft_are_in_equilibrium(
     assert torque.cylinder(np.radians(degrees)) == pytest.approx(found[0], abs=1e-8 * scale)
     assert torque.total(np.radians(degrees)) == pytest.approx(found.sum(axis=0), abs=1e-8 * scale)
     degrees = np.arange(0.0, 720.0, 15.0)
-    loads = bearing_loads(whole, Program(bearing_components(whole, results.trace))(CrankGrid.from_degrees(degrees)))
+    mains = [name for name in results.listings["bearing_loads"].names if name.startswith("main_journal.")]
+    loads = results.columns_at(degrees, [f"bearing_force_{axis}.{name}" for name in mains for axis in "xy"])
     radial, tangential = whole.each("radial_force", degrees), whole.each("tangential_force", degrees)
     r, w = whole.master.lengths.crank_radius, whole.master.speed
     total = np.zeros(len(degrees), dtype=complex)
@@ -103,7 +102,7 @@ def test_the_torque_curve_is_the_torque_and_loads_of_a_shaft_are_in_equilibrium(
         total += (outward + 1j * tangential[at]) * np.exp(1j * np.radians(place.pin_angle))
     for place in throws.values():
         total += machine.masses.crank * r * w**2 * np.exp(1j * np.radians(place.pin_angle))
-    held = sum(load.x + 1j * load.y for load in loads.mains)
+    held = sum(loads[f"bearing_force_x.{name}"] + 1j * loads[f"bearing_force_y.{name}"] for name in mains)
     assert np.max(np.abs(held + total)) < 1e-10 * np.max(np.abs(radial))
 
 

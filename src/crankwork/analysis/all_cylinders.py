@@ -3,21 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
-from crankwork.analysis.crankshaft_bearings import (
-    bearing_columns,
-    bearing_components,
-    bearing_listings,
-    bearing_summary,
-    bearing_trace,
-    bearing_values,
-    load_columns,
-    wear_trace,
-)
+from crankwork.analysis.bearings import Bearing, BearingCycle
+from crankwork.analysis.crankshaft_bearings import bearing_trace, engine_bearings, master_joints
 from crankwork.analysis.cylinder_balance import (
     balance_checks,
     balance_listing,
@@ -66,6 +58,14 @@ class EngineTrace(NamedTuple):
     over: CycleInterpolant
     extremes: Mapping[str, TracedValue]
     samples: Samples
+    bearings: tuple[Bearing, ...]
+
+    @property
+    def bearing_cycle(self) -> BearingCycle:
+        """The loads of the bearings over the cycle."""
+        components = {key: self.trace[key] for key in _components(self.bearings)}
+        cycle, rays = self.engine.layout.cycle, self.engine.engine.bearings.rays
+        return BearingCycle(self.bearings, components, self.over, self.samples, cycle, rays)
 
     @classmethod
     def of(
@@ -79,7 +79,9 @@ class EngineTrace(NamedTuple):
         engine = multi_cylinder_engine(solved)
         trace = torque_trace(engine) | bearing_trace(engine) | engine_reduction(engine)
         first = engine.of(1, "crank_torque")
-        keys = ("total_torque", *load_columns(trace).values(), "bearing_force_x.small_end")
+        bearings = tuple(engine_bearings(engine, trace))
+        reversing = [bearing.reversing for bearing in bearings if bearing.reversing]
+        keys = ("total_torque", *(bearing.load for bearing in bearings), *reversing)
         inertias = REDUCTION if has_own_inertia(engine) else ()
         followed = {
             first.key: first,
@@ -88,17 +90,23 @@ class EngineTrace(NamedTuple):
             **followed_too,
         }
         inertia = [engine.of(number, "inertia_force") for number in engine.has("inertia_force")]
-        sampled = {key: trace[key] for key in (*_table_keys(trace), *bearing_components(engine, trace))}
+        sampled = {key: trace[key] for key in (*_table_keys(trace, bearings), *_components(bearings))}
         program = Program({**own, **sampled, **{item.key: item for item in inertia}, **followed})
         over = CycleInterpolant(followed, CrankGrid.from_degrees, engine.layout.cycle, size_of=size_of, program=program)
         samples = Samples(program, CrankGrid.from_degrees, engine.layout.cycle)
-        return cls(engine, trace, over, over.extremes(*keys), samples)
+        return cls(engine, trace, over, over.extremes(*keys), samples, bearings)
 
 
-def _table_keys(trace: Mapping[str, TracedValue]) -> tuple[str, ...]:
+def _components(bearings: Iterable[Bearing]) -> list[str]:
+    """Return the columns of the loads of crankpins and main journals along and across the arms of their cranks."""
+    return [key for bearing in bearings if bearing.is_crankpin or bearing.is_journal for key in bearing.components]
+
+
+def _table_keys(trace: Mapping[str, TracedValue], bearings: Iterable[Bearing]) -> tuple[str, ...]:
     """Return the keys of the torques, loads and inertias in the tables of an engine."""
     torques = [key for key in trace if key.startswith(_TORQUES)]
-    return (*torques, *bearing_columns(trace), *(key for key in REDUCTION if key in trace))
+    loads = [key for bearing in bearings for key in (*bearing.components * bearing.is_crankpin, bearing.load)]
+    return (*torques, *loads, *(key for key in REDUCTION if key in trace))
 
 
 def with_whole_engine(results: Results, traced: EngineTrace | None) -> Results:
@@ -128,13 +136,17 @@ def with_whole_engine(results: Results, traced: EngineTrace | None) -> Results:
     if traced is None:
         notices.append(Notice("motion_only", {}))
         return replace(results, notices=(*results.notices, *notices), trace={**results.trace, **firing})
-    _, trace, over, extremes, samples = traced
+    _, trace, over, extremes, samples, _ = traced
     torque = engine_torque(engine, trace, over, extremes)
-    loads = bearing_values(engine, trace, over, extremes) | wear_trace(engine, trace, samples)
+    bearings = traced.bearing_cycle
+    # what has no owner is shown in the summary
+    loads, reversal = bearings.values, {key: known for key, known in bearings.values.items() if "." not in key}
     works, harmonics = work_trace(engine, firing), harmonics_trace(engine, torque, trace)
     delivered = delivery_trace(engine, firing, works)
     sampled = samples(results.grid)
-    columns = {key: sampled[key].copy() for key in _table_keys(trace)} | Program(torque.columns)(results.grid)
+    columns = {key: sampled[key].copy() for key in _table_keys(trace, traced.bearings)} | Program(torque.columns)(
+        results.grid
+    )
     trace |= torque.columns
     groups = {
         name: tuple(key for key in columns if key.startswith(starts) and _belongs(name, key))
@@ -143,7 +155,7 @@ def with_whole_engine(results: Results, traced: EngineTrace | None) -> Results:
     listings: dict[str, Listing] = {
         "firing": firing_listing(engine, firing | works),
         "torque_harmonics": harmonics_listing(harmonics),
-        **bearing_listings(engine, loads),
+        **bearings.listings(),
     }
     balance, balanced, left = engine_balance(engine), dict[str, TracedValue](), dict[str, TracedValue]()
     if engine.machine.masses is not None:
@@ -152,11 +164,10 @@ def with_whole_engine(results: Results, traced: EngineTrace | None) -> Results:
         left = balance_summary(engine, balance, balanced)
         balanced |= left
     whole_values = {key: value for key, value in {**firing, **works}.items() if key in _WHOLE_VALUES}
-    single = {**whole_values, **delivered, **torque.summary, **bearing_summary(engine, loads), **left}
+    single = {**whole_values, **delivered, **torque.summary, **bearings.summary(), **reversal, **left}
     summary = {key: value.value for key, value in single.items()}
     thrown, joints = dict[str, float](), dict[str, TracedValue]()
     if any(engine.engine.articulated_rods):
-        from crankwork.analysis.master_joints import master_joints  # noqa: PLC0415 - few engines have such rods
         from crankwork.analysis.second_routes import throw_residuals  # noqa: PLC0415 - few engines have such rods
 
         thrown = throw_residuals(engine, trace)

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
+from crankwork.analysis.harmonics import amplitude_of_order
 from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import shaking_force
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, Sum, TracedValue, absent, total
+from crankwork.formula.traced_value import ProcedureValue, Sum, TracedValue, absent, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.mechanism.mechanism import Crank
 
@@ -92,8 +92,4 @@ def _moment_orders(
     """Yield the amplitude of each order of the shaking moment."""
     for count in counts:
         order, both = count / turns, 2 * complex(coefficients[count])
-        parts = (
-            TracedValue(HarmonicCoefficient(both.real, moment, "cosine", order)),
-            TracedValue(HarmonicCoefficient(-both.imag, moment, "sine", order)),
-        )
-        yield f"shaking_moment_amplitude.{order:g}", amplitude_of_harmonic(*parts)
+        yield f"shaking_moment_amplitude.{order:g}", amplitude_of_order(moment, order, both.real, -both.imag)

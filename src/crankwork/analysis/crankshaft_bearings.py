@@ -5,52 +5,37 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
 from crankwork.analysis import traced_inputs
-from crankwork.analysis.bearing_loads import (
-    WEAR_STEP,
-    hole_of,
-    load_values,
-    loads_listing,
-    reversal_values,
-    wear_listing,
-    wear_table,
-)
+from crankwork.analysis.bearings import Bearing, bearing_size, loads_on_crankpin
+from crankwork.analysis.cylinder_forces import force_on_rod, inertia_at_big_end, joint_names, on_piston_pin
 from crankwork.analysis.cylinders import MultiCylinderEngine
-from crankwork.analysis.results import Listing
 from crankwork.cylinders import bearings as formulas
 from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, throw_counterweights
 from crankwork.cylinders.journal_loads import main_journal_loads, unbalance_tangential_force, unbalance_weight
 from crankwork.cylinders.layout import CylinderPlace, Layout
 from crankwork.cylinders.load_vectors import BearingLoad
-from crankwork.dynamics.piston_forces import transverse_weight, weight_force
-from crankwork.formula.cycle_interpolant import CycleInterpolant
-from crankwork.formula.replay import Samples
-from crankwork.formula.traced_value import Delayed, FormulaCall, Node, TracedValue, absent, given, in_order, total
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.dynamics.reaction import pin_columns
+from crankwork.formula.traced_value import (
+    Delayed,
+    FormulaCall,
+    Node,
+    TracedAngle,
+    TracedValue,
+    absent,
+    given,
+    in_order,
+    total,
+)
+from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.slider_crank import RodSwing
 from crankwork.quantities.key import key_of
 
-_X, _Y = "bearing_force_x", "bearing_force_y"
 _ON_SHAFT = ("shaft_unbalance", "counterweight_moment", "unbalance_", "journal_share", "bearing_force_")
 _OF_ROD = ("crankpin_radial_force", "crankpin_tangential_force", "tangential_force")
 _SWING = ("rod_sine", "rod_cosine", "crank_rod_sine", "crank_rod_cosine")
-
-
-class BearingLoads(NamedTuple):
-    """Loads of the bearings over the crank angle."""
-
-    # Force of the rods on each distinct crankpin, by its number, in the frame of
-    # its crank, shape (n,) [N]
-    crankpins: Mapping[int, BearingLoad]
-    # Of the rod of cylinder 1, in the frame of the rod, shape (n,) [N]
-    big_end: BearingLoad
-    small_end: BearingLoad
-    # Force of the bearing on each main journal, in the frame of the crankshaft, shape (n,) [N]
-    mains: tuple[BearingLoad, ...]
 
 
 def bearing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
@@ -59,10 +44,7 @@ def bearing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     Source: kolchin_demidov_2008, ch. 9.
     """
     master = engine.master.trace
-    inertia = absent("big_end_inertia_force")
-    if engine.machine.masses is not None:
-        mass, r, w = master["rod_big_end_mass"], master["crank_radius"], master["speed"]
-        inertia = formulas.big_end_inertia_force(mass, r, w)
+    inertia = inertia_at_big_end(engine.master, master)
     forces = {place.number: _of_rod(engine, place, inertia) for place in engine.layout.places}
     values = {crankpin.key: crankpin for crankpin in (inertia, *_crankpins(engine, forces, inertia))}
     rods = [BearingLoad(-along, across) for along, across in forces.values()]
@@ -109,14 +91,12 @@ def _of_rod(engine: MultiCylinderEngine, place: CylinderPlace, inertia: TracedVa
 def _crankpins(
     engine: MultiCylinderEngine, rods: Mapping[int, tuple[TracedValue, TracedValue]], inertia: TracedValue
 ) -> Iterator[TracedValue]:
-    """Yield radial and tangential force on every distinct crankpin and their resultant; of several rods, the sums."""
+    """Yield radial and tangential force on every distinct crankpin and their resultant."""
     for pin in distinct_crankpins(engine):
         numbers = [item.number for item in engine.on_pin[pin - 1]]
-        along = total(f"crankpin_radial_force.{pin}", [rods[number][0] for number in numbers])
-        across = total(f"crankpin_tangential_force.{pin}", [rods[number][1] for number in numbers])
-        load = BearingLoad(-along, across)
-        size = load.resultant if len(numbers) > 1 else _of_one_rod(engine, numbers[0], load, inertia)
-        yield from (along, across, size.named(f"crankpin_load.{pin}"))
+        along, across = rods[numbers[0]]
+        of_one = _of_one_rod(engine, numbers[0], BearingLoad(-along, across), inertia) if len(numbers) == 1 else None
+        yield from loads_on_crankpin(str(pin), [rods[number] for number in numbers], of_one)
 
 
 def _of_one_rod(engine: MultiCylinderEngine, number: int, rod: BearingLoad, inertia: TracedValue) -> TracedValue:
@@ -130,49 +110,16 @@ def _of_one_rod(engine: MultiCylinderEngine, number: int, rod: BearingLoad, iner
 
 def _small_end(engine: MultiCylinderEngine) -> Iterator[TracedValue]:
     """Yield the force of piston 1 on its pin, its side force with that of articulated rods, and the load."""
-    trace, machine = engine.master.trace, engine.machine
-    # that of the inertia force, where a document has its own
-    acceleration = trace.get("inertia_acceleration", trace["piston_acceleration"])
-    mass, along, across = absent("piston_mass"), absent("weight_force.piston"), [trace["side_force"]]
-    across += [engine.of(number, "knuckle_side_force") for number in engine.has("knuckle_side_force")]
-    if machine.masses is not None:
-        mass = trace["piston_mass"]
-        if machine.has_gravity:
-            g = given("gravity", engine.master.method.gravity, "method.gravity")
-            cos, sin = traced_inputs.inclination(machine, engine.master.lean)
-            along = weight_force(mass, g, cos).named("weight_force.piston")
-            transverse = transverse_weight(mass, g, sin).named("transverse_weight.piston")
-            across += [transverse] if transverse.value else []
-    force = formulas.piston_pin_force(trace.get("gas_force", absent("gas_force")), mass, acceleration, along)
+    trace = engine.master.trace
+    force, *transverse = on_piston_pin(engine.master, trace)
+    articulated = [engine.of(number, "knuckle_side_force") for number in engine.has("knuckle_side_force")]
+    across = [trace["side_force"], *articulated, *transverse]
     yield force
     side = total("side_force.small_end", across) if len(across) > 1 else across[0]
     swing = RodSwing(*(trace[key] for key in _SWING))
     yield from formulas.small_end_bearing_load(force, side, swing).named("small_end")
     size: TracedValue = formulas.small_end_load(force, side)
     yield size
-
-
-def bearing_components(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the components of the loads of all bearings."""
-    keys = [f"crankpin_{axis}_force.{pin}" for pin in distinct_crankpins(engine) for axis in ("radial", "tangential")]
-    keys += [f"{kind}.{name}" for name in _framed(engine) for kind in (_X, _Y)]
-    return {key: trace[key] for key in keys}
-
-
-def _framed(engine: MultiCylinderEngine) -> list[str]:
-    """Return the bearings whose loads have components in a frame of their own."""
-    journals = max(place.throw for place in engine.layout.places) + 2
-    return ["big_end", "small_end", *(f"main_journal.{number}" for number in range(1, journals + 1))]
-
-
-def bearing_loads(engine: MultiCylinderEngine, columns: Mapping[str, Array]) -> BearingLoads:
-    """Return the loads of the bearings from columns at crank angles of cylinder 1."""
-    crankpins = {
-        pin: BearingLoad(-columns[f"crankpin_radial_force.{pin}"], columns[f"crankpin_tangential_force.{pin}"])
-        for pin in distinct_crankpins(engine)
-    }
-    big, small, *mains = (BearingLoad(columns[f"{_X}.{name}"], columns[f"{_Y}.{name}"]) for name in _framed(engine))
-    return BearingLoads(crankpins, big, small, tuple(mains))
 
 
 def distinct_crankpins(engine: MultiCylinderEngine) -> tuple[int, ...]:
@@ -232,7 +179,7 @@ def _held(engine: MultiCylinderEngine, mass: Unbalance) -> Unbalance:
     machine, moving = engine.machine, engine.master.moving
     if not (machine.has_gravity or machine.angular_acceleration):
         return mass
-    g = given("gravity", engine.master.method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
+    g = traced_inputs.gravity(machine, engine.master.method)
     cos, sin = traced_inputs.inclination(machine, engine.master.lean)
     angle, r = moving.angle.shifted(mass.angle), moving.lengths.crank_radius
     along = unbalance_weight(mass.mass_moment, r, g, angle.cos, cos, angle.sin, sin)
@@ -309,80 +256,47 @@ _COLUMNS = (
 )  # fmt: skip
 
 
-def load_columns(trace: Mapping[str, TracedValue]) -> dict[str, str]:
-    """Return the column of the load of each bearing by its name: `crankpin.1`, `big_end`, `main_journal.3`."""
-    sizes = [key for key in trace if key_of(key).quantity.endswith("_load")]
-    return {key.replace("_load", "", 1): key for key in sizes}
+def master_joints(engine: MultiCylinderEngine, loads: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
+    """Yield the forces in the joints of every distinct master rod, under the keys of a single rod.
+
+    Its crankpin, piston pin and wall also carry forces of articulated rods. `loads`: those of the crankpins.
+    """
+    pin, piston = joint_names(engine.master)
+    for crankpin in distinct_crankpins(engine):
+        passed = [engine.of(item.number, "knuckle_side_force") for item in engine.on_pin[crankpin - 1] if item.master]
+        if not passed:
+            continue
+        place = next(item for item in engine.on_pin[crankpin - 1] if not item.master)
+        number, own = place.number, "" if place.number == 1 else f".{place.number}"
+        angle = TracedAngle().shifted(-place.firing_angle)
+        radial, tangential = (loads[f"crankpin_{axis}_force.{crankpin}"] for axis in ("radial", "tangential"))
+        yield from force_on_rod(f"{pin}{own}", radial, tangential, angle).values()
+        side = total(f"knuckle_side_force{own}", passed)
+        x, y = (engine.of(number, f"joint_force_{axis}.{piston}") for axis in "xy")
+        across = (x - side).named(f"joint_force_x.{piston}{own}")
+        yield from pin_columns(f"{piston}{own}", across, y).values()
+        yield (engine.of(number, f"normal_force.{piston}") - side).named(f"normal_force.{piston}{own}")
 
 
-def bearing_values(
-    engine: MultiCylinderEngine,
-    trace: Mapping[str, TracedValue],
-    over: CycleInterpolant,
-    extremes: Mapping[str, TracedValue],
-) -> dict[str, TracedValue]:
-    """Return the summary of the loads over the cycle: mean, extremes, their ratio, pressures, and how they reverse."""
-    values = dict[str, TracedValue]()
-    for name, key in load_columns(trace).items():
-        kind = key_of(name).quantity
+def engine_bearings(engine: MultiCylinderEngine, trace: Mapping[str, TracedValue]) -> Iterator[Bearing]:
+    """Yield the bearings of an engine: distinct crankpins, both ends of the rod of cylinder 1, main journals."""
+    sizes, pins = engine.engine.bearings, distinct_crankpins(engine)
+    for load in [key for key in trace if key_of(key).quantity.endswith("_load")]:
+        name = load.replace("_load", "", 1)
+        kind, number = key_of(name)
         part = _SIZES.get(kind, "crankpin")
-        diameter, length = (getattr(engine.engine.bearings, f"{part}_{size}") for size in ("diameter", "length"))
-        size = None
-        if diameter is not None and length is not None:
-            size = (
-                given(f"bearing_diameter.{kind}", diameter, f"bearings.{part}_diameter"),
-                given(f"bearing_length.{kind}", length, f"bearings.{part}_length"),
-            )
-        values |= load_values(name, key, over, extremes, size)
-    return values | reversal_values("bearing_force_x.small_end", over, extremes)
+        diameter, length = (getattr(sizes, f"{part}_{size}") for size in ("diameter", "length"))
+        yield Bearing(
+            name,
+            load,
+            number,
+            number if kind == "crankpin" and len(pins) > 1 else "",
+            bearing_size(kind, diameter, length, f"bearings.{part}_"),
+            is_crankpin=kind == "crankpin",
+            is_journal=kind == "main_journal",
+            reversing="bearing_force_x.small_end" if name == "small_end" else "",
+        )
 
 
 # prefix of the sizes of a bearing in a description; `crankpin` of the others
 _SIZES = {"small_end": "pin", "main_journal": "main"}
-
-
-def wear_trace(
-    engine: MultiCylinderEngine, trace: Mapping[str, TracedValue], samples: Samples
-) -> dict[str, TracedValue]:
-    """Return the wear of crankpins and main journals, over the directions of their rays, and the oil holes.
-
-    `samples`: the components of the loads.
-    """
-    rays, values = engine.engine.bearings.rays, dict[str, TracedValue]()
-    loads = bearing_loads(engine, samples(CrankGrid.from_degrees(np.arange(0.0, engine.layout.cycle, WEAR_STEP))))
-    for pin, load in loads.crankpins.items():
-        components = trace[f"crankpin_radial_force.{pin}"], trace[f"crankpin_tangential_force.{pin}"]
-        table = wear_table(f"wear_sum.crankpin.{pin}", load, components, rays)
-        name = f"oil_hole_angle.{pin}" if len(loads.crankpins) > 1 else "oil_hole_angle"
-        values |= {table.key: table, name: hole_of(name, table, components, rays)}
-    for number, load in enumerate(loads.mains, start=1):
-        components = trace[f"{_X}.main_journal.{number}"], trace[f"{_Y}.main_journal.{number}"]
-        key = f"wear_sum.main_journal.{number}"
-        values[key] = wear_table(key, load, components, rays)
-    return values
-
-
-def bearing_listings(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, Listing]:
-    """Return the summary of the loads over the cycle, and the wear of crankpins and main journals."""
-    result = {"bearing_loads": loads_listing(values)}
-    for listing, owner in (("crankpin_wear", "crankpin"), ("main_wear", "main_journal")):
-        tables = {
-            key.rpartition(".")[2]: value for key, value in values.items() if key.startswith(f"wear_sum.{owner}.")
-        }
-        result[listing] = wear_listing(tables, engine.engine.bearings.rays)
-    return result
-
-
-def bearing_summary(engine: MultiCylinderEngine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return mean and largest crankpin load, where the oil hole should be, and the reversal of the small-end load."""
-    pins, result = distinct_crankpins(engine), dict[str, TracedValue]()
-    for pin in pins:
-        name = f".{pin}" if len(pins) > 1 else ""
-        for key, source in (
-            ("mean_crankpin_load", "mean_bearing_load"),
-            ("crankpin_load_max", "bearing_load_max"),
-            ("crankpin_load_max_angle", "bearing_load_max_angle"),
-        ):
-            result[f"{key}{name}"] = values[f"{source}.crankpin.{pin}"].named(f"{key}{name}")
-        result[f"oil_hole_angle{name}"] = values[f"oil_hole_angle{name}"]
-    return result | {key: values[key] for key in ("reversal_duration", "reversal_ratio")}

@@ -16,6 +16,7 @@ from crankwork.analysis.crankshaft_bearings import (
     rotating_masses,
 )
 from crankwork.analysis.cylinders import MultiCylinderEngine
+from crankwork.analysis.harmonics import amplitude_of_order
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.balance import (
     ALL_ORDERS,
@@ -36,7 +37,7 @@ from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
 from crankwork.formula.replay import Samples, replay
-from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, given, in_order, total
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, given, in_order, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.quantities.key import key_of
 
@@ -274,14 +275,7 @@ def _order_forces(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[s
 def _coefficient(trace: Mapping[str, TracedValue], order: int, value: complex) -> TracedValue:
     """Return the amplitude of an order of the acceleration, over the crank radius, of its waves."""
     transfer, r = trace["piston_transfer_2"], trace["crank_radius"]
-    waves = {"cosine": value.real * r.value, "sine": -value.imag * r.value}
-    result: TracedValue = (
-        amplitude_of_harmonic(
-            *(TracedValue(HarmonicCoefficient(value, transfer, part, order)) for part, value in waves.items())
-        )
-        / r
-    )
-    return result
+    return amplitude_of_order(transfer, order, value.real * r.value, -value.imag * r.value) / r
 
 
 def _freed(row: str, name: str, factor: OrderBalance, pitch: float, force: TracedValue) -> dict[str, TracedValue]:

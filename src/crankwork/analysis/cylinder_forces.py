@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from crankwork.analysis import traced_inputs
 from crankwork.analysis.cylinder_gas import gas_trace, space_trace
@@ -31,11 +31,11 @@ from crankwork.cylinders.bearings import (
 )
 from crankwork.dynamics import piston_forces as forces
 from crankwork.dynamics.masses import CrankGearMasses, reciprocating_mass, rotating_mass
-from crankwork.dynamics.reaction import joint_force
+from crankwork.dynamics.reaction import joint_force, pin_columns
 from crankwork.errors import MethodError
 from crankwork.formula.expression import Value
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import TracedValue, absent, given
+from crankwork.formula.traced_value import TracedValue, absent
 from crankwork.kinematics import slider_crank
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.piston import only_rod
@@ -111,8 +111,8 @@ def _axial_forces(solved: PreparedCylinder, moving: CylinderKinematics) -> Itera
         inertia = forces.inertia_force(mass, acceleration)
         yield inertia
         if machine.has_gravity:
-            g = given("gravity", solved.method.gravity, "method.gravity")
-            cos, sin = traced_inputs.inclination(solved.machine, solved.lean)
+            g = traced_inputs.gravity(machine, solved.method)
+            cos, sin = traced_inputs.inclination(machine, solved.lean)
             weight = forces.weight_force(mass, g, cos)
             yield weight
             across = forces.transverse_weight(mass, g, sin)
@@ -149,32 +149,46 @@ def _in_joints(solved: PreparedCylinder, moving: CylinderKinematics) -> Iterator
     """
     trace, angle = moving.trace, moving.angle
     pin, piston = joint_names(solved)
-    mass, along = absent("piston_mass"), absent("weight_force.piston")
+    pressed, *transverse = on_piston_pin(solved, trace)
     side = -trace["side_force"]
+    for weight in transverse:
+        side = side - weight
+    if solved.articulated_rod is None:
+        yield from force_on_rod(pin, *_on_crankpin(solved, moving), angle).values()
+    else:
+        yield from pin_columns(pin, -trace["knuckle_force_y"], -trace["knuckle_force_x"]).values()
+    yield from pin_columns(piston, side, pressed).values()
+    yield (-trace["side_force"]).named(f"normal_force.{piston}")
+
+
+def force_on_rod(name: str, radial: TracedValue, tangential: TracedValue, angle: Value) -> dict[str, TracedValue]:
+    """Return the force of a crankpin on its rods by key, from the load of the crankpin at a crank angle."""
+    x, y = radial * angle.sin - tangential * angle.cos, radial * angle.cos + tangential * angle.sin
+    return pin_columns(name, x, y, joint_force(tangential, radial))
+
+
+def on_piston_pin(solved: PreparedCylinder, trace: Mapping[str, TracedValue]) -> list[TracedValue]:
+    """Return the force of the piston on its pin along the axis, and the weight of the piston across it if it leans."""
+    mass, along, across = absent("piston_mass"), absent("weight_force.piston"), list[TracedValue]()
     if solved.machine.masses is not None:
         mass = trace["piston_mass"]
         if solved.machine.has_gravity:
-            g = given("gravity", solved.method.gravity, "method.gravity")
+            g = traced_inputs.gravity(solved.machine, solved.method)
             cos, sin = traced_inputs.inclination(solved.machine, solved.lean)
             along = forces.weight_force(mass, g, cos).named("weight_force.piston")
             transverse = forces.transverse_weight(mass, g, sin).named("transverse_weight.piston")
-            side = side - transverse if transverse.value else side
-    if solved.articulated_rod is None:
-        radial, tangential = _on_crankpin(solved, moving)
-        yield (radial * angle.sin - tangential * angle.cos).named(f"joint_force_x.{pin}")
-        yield (radial * angle.cos + tangential * angle.sin).named(f"joint_force_y.{pin}")
-        yield joint_force(tangential, radial).named(f"joint_force.{pin}")
-    else:
-        x, y = (-trace[f"knuckle_force_{axis}"] for axis in "yx")
-        yield x.named(f"joint_force_x.{pin}")
-        yield y.named(f"joint_force_y.{pin}")
-        yield joint_force(x, y).named(f"joint_force.{pin}")
+            across = [transverse] if transverse.value else []
+    # that of the inertia force, where a document has its own
     acceleration = trace.get("inertia_acceleration", trace["piston_acceleration"])
-    pressed = piston_pin_force(trace.get("gas_force", absent("gas_force")), mass, acceleration, along)
-    yield side.named(f"joint_force_x.{piston}")
-    yield pressed.named(f"joint_force_y.{piston}")
-    yield joint_force(side, pressed).named(f"joint_force.{piston}")
-    yield (-trace["side_force"]).named(f"normal_force.{piston}")
+    return [piston_pin_force(trace.get("gas_force", absent("gas_force")), mass, acceleration, along), *across]
+
+
+def inertia_at_big_end(solved: PreparedCylinder, trace: Mapping[str, TracedValue]) -> TracedValue:
+    """Return the inertia force of the mass of the rod at the crankpin, absent if its masses are unknown."""
+    if solved.machine.masses is None:
+        return absent("big_end_inertia_force")
+    force: TracedValue = big_end_inertia_force(trace["rod_big_end_mass"], trace["crank_radius"], trace["speed"])
+    return force
 
 
 def _on_crankpin(solved: PreparedCylinder, moving: CylinderKinematics) -> tuple[TracedValue, TracedValue]:
@@ -182,9 +196,8 @@ def _on_crankpin(solved: PreparedCylinder, moving: CylinderKinematics) -> tuple[
     trace = moving.trace
     radial, tangential = trace["radial_force"], trace["tangential_force"]
     if solved.machine.masses is not None:
-        inertia = big_end_inertia_force(trace["rod_big_end_mass"], moving.lengths.crank_radius, moving.speed)
         weight = trace.get("big_end_weight", absent("big_end_weight"))
-        radial = crankpin_radial_force(radial, inertia, weight)
+        radial = crankpin_radial_force(radial, inertia_at_big_end(solved, trace), weight)
         if "big_end_tangential_force" in trace:
             tangential = crankpin_tangential_force(tangential, trace["big_end_tangential_force"])
     return radial, tangential
@@ -215,7 +228,7 @@ def _rotating(solved: PreparedCylinder, moving: CylinderKinematics) -> Iterator[
     mass, r = trace["rotating_mass"], moving.lengths.crank_radius
     yield forces.rotating_inertia_force(mass, r, moving.speed)
     if machine.has_gravity or machine.angular_acceleration:
-        g = given("gravity", solved.method.gravity, "method.gravity") if machine.has_gravity else absent("")
+        g = traced_inputs.gravity(machine, solved.method)
         cos, sin = traced_inputs.inclination(machine, solved.lean)
         eps, big = moving.angular_acceleration, trace["rod_big_end_mass"]
         yield forces.rotating_torque(mass, r, g, angle.sin, cos, angle.cos, sin, eps)
@@ -239,7 +252,7 @@ def _articulated_forces(solved: PreparedCylinder, moving: CylinderKinematics) ->
             knuckle_acceleration_across(y.position_2, w, y.position_1, eps),
         ]
         yield from accelerations
-    g = given("gravity", solved.method.gravity, "method.gravity") if solved.machine.has_gravity else absent("gravity")
+    g = traced_inputs.gravity(solved.machine, solved.method)
     lean_cos, lean_sin = traced_inputs.inclination(solved.machine, solved.lean)
     dN, across = couple[-1] if couple else absent("side_force.couple"), trace.get("transverse_weight", absent(""))
     held = KnuckleMass(mass, accelerations[0], accelerations[1], g, lean_cos, lean_sin, dN, across)

@@ -14,8 +14,7 @@ from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, delayed, given
 from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
-from crankwork.loads.gas import gauge_pressure
-from crankwork.loads.pressure import at_angle, polytrope_origin, traced_pressure
+from crankwork.loads.pressure import at_angle, polytrope_origin, pressure_on_piston, traced_pressure
 from crankwork.loads.traced_diagram import DiagramInput
 from crankwork.loads.valves import StatedValves
 
@@ -61,12 +60,8 @@ def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKin
     if stated_gas is not None and stated_gas.calculated is not None:
         # a calculated cycle begins at 0, whole turns earlier than its chamber
         read = delayed(of_cycle, stated_gas.delay, stated_gas.cycle, of_cycle.key)
-    pressure = read.named("gas_pressure")
-    if space.ambient:
-        pressure = gauge_pressure(read, given("ambient_pressure", space.ambient, _ambient(solved)))
-    if space.factor != 1:
-        path = solved.machine.gas.factor_path if solved.machine.gas is not None else ""
-        pressure = (pressure * given("pressure_factor", space.factor, path)).named("gas_pressure")
+    path = stated_gas.factor_path if stated_gas is not None else ""
+    pressure = pressure_on_piston(read, (space.ambient, _ambient(solved)), (space.factor, path))
     back, rod_area = absent(""), absent("")
     if space.rod_area:
         diameter = given("piston_rod_diameter", _rod_diameter(solved), "cylinder.piston_rod_diameter")

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.analysis.mechanism_trace import efficiency_of, speed_of
+from crankwork.analysis import traced_inputs
+from crankwork.analysis.mechanism_trace import speed_of
 from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Results
 from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
@@ -110,7 +111,7 @@ def _trace(machine: Machine, table: TransferTable, grid: CrankGrid) -> dict[str,
     if static is None:
         return trace
     balancing: TracedValue = balancing_torque_of_parts(static, trace["dynamic_torque"])
-    torques = static, trace["dynamic_torque"], efficiency_of(machine.drive)
+    torques = static, trace["dynamic_torque"], traced_inputs.efficiency_of(machine.drive)
     drives = replay(balancing, grid) > 0
     # each position has its own law: no values are defined between positions
     laws = tuple((driving_torque_as_motor if drive else driving_torque_as_brake)(*torques) for drive in drives)
@@ -152,9 +153,7 @@ def _static(table: TransferTable, dynamic: TracedValue, row: Callable[..., Trace
 def _summary(
     machine: Machine, columns: Mapping[str, Array], trace: Mapping[str, TracedValue]
 ) -> dict[str, TracedValue]:
-    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
-    if machine.drive.efficiency != 1:
-        result["efficiency"] = efficiency_of(machine.drive)
+    result = traced_inputs.speeds(machine, speed_of(machine)) | traced_inputs.efficiency(machine.drive)
     for key in ("reduced_inertia", "dynamic_torque", "driving_torque"):
         for word, find in (("max", np.argmax), ("min", np.argmin)) if key in columns else ():
             row, operands = int(find(columns[key])), (trace[key],)

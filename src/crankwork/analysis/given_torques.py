@@ -16,10 +16,9 @@ from crankwork.analysis.flywheel import (
     turning_inertia,
 )
 from crankwork.analysis.given_torques_trace import torque_trace, work_scale, works_at_once
-from crankwork.analysis.mechanism_trace import efficiency_of
 from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Listing, Results
-from crankwork.analysis.speed import Balance, analyse_speed, excess_of, wheels_of
+from crankwork.analysis.speed import Balance, analyse_speed, excess_of, wheels_of, work_of
 from crankwork.errors import MethodError
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
@@ -42,9 +41,7 @@ from crankwork.shaft.fluctuation import (
     acceleration_of_crank,
     excess_work,
     fluctuation_of_inertia,
-    share_of_work,
 )
-from crankwork.shaft.flywheel import work_of_mean_torque
 from crankwork.shaft.motor_selection import needed_power
 from crankwork.shaft.torque_diagram import ShaftTorques, TorqueDiagram
 
@@ -108,30 +105,24 @@ def _speed(machine: Machine) -> TracedValue:
 
 
 def _given_values(machine: Machine, w: TracedValue) -> dict[str, TracedValue]:
-    turns = given("rotational_speed", machine.speed, "crank.speed")
-    result = {"rotational_speed": turns} if "crank.speed" in machine.stated else {}
-    result["speed"] = w
-    if machine.drive.efficiency != 1:
-        result["efficiency"] = efficiency_of(machine.drive)
-    return result
+    speeds = traced_inputs.speeds(machine, w) if "crank.speed" in machine.stated else {w.key: w}
+    return speeds | traced_inputs.efficiency(machine.drive)
 
 
 def _power(machine: Machine, turning: ShaftTorques, mean: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
     """Return the mean power: of the shaft, and of the motor that drives a load."""
     result = {"shaft_power": mean * w}
     if turning.torque is None:
-        result["motor_power"] = needed_power(absent("power_reserve", 1.0), mean, w, efficiency_of(machine.drive))
+        result["motor_power"] = needed_power(
+            absent("power_reserve", 1.0), mean, w, traced_inputs.efficiency_of(machine.drive)
+        )
     return result
 
 
 def _per_cycle(machine: Machine, mean: TracedValue, excess: TracedValue) -> dict[str, TracedValue]:
     """Return the work of a cycle, the excess work and their ratio."""
-    if not mean.value:
-        return {"excess_work": excess}
-    cycle = given("cycle_angle", math.radians(machine.cycle))
-    work: TracedValue = work_of_mean_torque(mean, cycle)
-    ratio = share_of_work(excess, work.named("work_per_cycle"))
-    return {"work_per_cycle": work, "excess_work": excess, "energy_fluctuation": ratio}
+    of_cycle = work_of(excess, mean, traced_inputs.cycle_angle(machine))
+    return {key: of_cycle[key] for key in of_cycle if key == "work_per_cycle"} | {"excess_work": excess} | of_cycle
 
 
 def _of_torque_curves(machine: Machine, turning: ShaftTorques, w: TracedValue) -> _Turned:
@@ -147,7 +138,7 @@ def _of_torque_curves(machine: Machine, turning: ShaftTorques, w: TracedValue) -
     torque, result = _excess(turning, over)
     own = turning_inertia(machine, "whole_inertia")
     balance = Balance(net, torque, own, Curve.constant(own.value, turning.cycle), result, sign=1.0)
-    excess, turn = excess_of(balance), analyse_speed(machine, balance, w, "extremes")
+    excess, turn = excess_of(balance), analyse_speed(machine, balance, w, mean, "extremes")
     columns |= turn.columns
     summary = {**_given_values(machine, w), "mean_torque": mean, **_power(machine, turning, mean, w)}
     summary |= _extremes_of(traced, over) | _per_cycle(machine, mean, excess) | turn.summary

@@ -33,6 +33,14 @@ def curve_of(over: CycleInterpolant, key: str) -> Curve:
     return Curve.legendre(np.radians(over.edges), series[:, : last + 1])
 
 
+def amplitude_of_order(column: TracedValue, order: float, cosine: float, sine: float) -> TracedValue:
+    """Return the amplitude of a harmonic of a column from its coefficients."""
+    waves = {"cosine": cosine, "sine": sine}
+    parts = (TracedValue(HarmonicCoefficient(value, column, part, order)) for part, value in waves.items())
+    amplitude: TracedValue = amplitude_of_harmonic(*parts)
+    return amplitude
+
+
 def traced_harmonics(harmonics: TorqueHarmonics, torque: TracedValue, kind: str = "harmonic") -> Iterator[TracedValue]:
     """Yield coefficients, amplitude and phase of every harmonic of a torque.
 

@@ -73,29 +73,14 @@ def stated_friction(machine: Machine) -> tuple[FrictionInput, ...]:
     if not machine.friction:
         return ()
     # linkages without friction do not load it
+    from crankwork.analysis.joint_friction import STATED  # noqa: PLC0415
     from crankwork.dynamics.friction import PinFriction  # noqa: PLC0415
 
     shown = names_of_pivots(machine.mechanism)
     result = []
     for item in machine.friction:
-        if isinstance(item, PinFriction):
-            name = shown.get(item.joint, item.joint)
-            amounts = {
-                "pin_friction": (item.coefficient, ""),
-                "pin_radius": (item.radius, "mm"),
-                "constant_moment": (item.moment, "N*m"),
-                "angular_damping": (item.damping, "N*m*s/rad"),
-            }
-        else:
-            name = item.slider
-            amounts = {
-                "guide_friction": (item.coefficient, ""),
-                "piece_length": (item.length, "mm"),
-                "piece_middle_x": (item.middle[0], "mm"),
-                "piece_middle_y": (item.middle[1], "mm"),
-                "constant_force": (item.force, "N"),
-                "damping": (item.damping, "N*s/m"),
-            }
+        amounts = {key: (getattr(item, field), unit) for field, (key, unit) in STATED[type(item)].items()}
+        name = shown.get(item.joint, item.joint) if isinstance(item, PinFriction) else item.slider
         result.append(FrictionInput(name, {key: value for key, value in amounts.items() if value[0]}))
     return tuple(result)
 

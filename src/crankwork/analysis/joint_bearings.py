@@ -2,45 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.bearing_loads import (
-    WEAR_STEP,
-    hole_of,
-    load_values,
-    loads_listing,
-    reversal_values,
-    wear_listing,
-    wear_table,
-)
-from crankwork.analysis.results import Listing
+from crankwork.analysis.bearings import IN_FRAME, ON_CRANKPIN, Bearing, bearing_size, loads_on_crankpin
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.dynamics.dyad_forces import force_across, force_along
 from crankwork.dynamics.link_loads import arm
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import TracedValue, given, total
-from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.motion import Motion
 from crankwork.machine import Machine
 from crankwork.mechanism.joints import Pin, SlidingJoint, joints, names_of_pivots
 from crankwork.mechanism.linkage import GROUND
 from crankwork.mechanism.mechanism import Crank
 
-FORCES = ("crankpin_radial_force", "crankpin_tangential_force", "crankpin_load")
 # columns whose extremes have other keys
-FOLLOWED = ("bearing_force_x", "crankpin_load")
-_X, _Y = "bearing_force_x", "bearing_force_y"
-_OF_CRANKPIN = {
-    "mean_crankpin_load": "mean_bearing_load", "crankpin_load_max": "bearing_load_max",
-    "crankpin_load_max_angle": "bearing_load_max_angle",
-}  # fmt: skip
+FOLLOWED = (IN_FRAME[0], ON_CRANKPIN[2])
 
 
 @formula("link_cos", "artobolevsky_1988, ch. 13")
@@ -89,7 +71,27 @@ class JointBearings:
     def of_journals(self) -> dict[str, TracedValue]:
         """Components of the loads of crankpins and main journals, each in the frame of its crank."""
         components = {**self.columns, **self.between}
-        return {key: components[key] for name in (*self.crankpins, *self.journals) for key in _keys(self, name)}
+        keys = [f"{kind}.{name}" for name in self.crankpins for kind in ON_CRANKPIN[:2]]
+        keys += [f"{kind}.{name}" for name in self.journals for kind in IN_FRAME]
+        return {key: components[key] for key in keys}
+
+    def loaded(self, machine: Machine, over: CycleInterpolant) -> Iterator[Bearing]:
+        """Yield the bearings that are loaded. `over`: their loads over the cycle."""
+        for name, load in self.loads.items():
+            if load not in over.columns or over.is_zero(load):
+                continue
+            stated = machine.bearings.pins.get(name)
+            sizes = (None, None) if stated is None else (stated.diameter, stated.length)
+            yield Bearing(
+                name,
+                load,
+                name,
+                name,
+                bearing_size(name, *sizes, f"bearings.pins.{name}."),
+                is_crankpin=name in self.crankpins,
+                is_journal=name in self.journals,
+                reversing=f"{IN_FRAME[0]}.{name}" if name in self.reversing else "",
+            )
 
     def followed(self, kept: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
         """Return further columns that single values are taken from, of the bearings whose joint forces are kept."""
@@ -99,7 +101,8 @@ class JointBearings:
             if all(f"joint_force.{joint}" in kept for joint in self.crankpins.get(name, (name,)))
         ]
         values = {key: self.columns[key] for name in usable if (key := self.loads[name]) not in kept}
-        return values | {f"{_X}.{name}": self.between[f"{_X}.{name}"] for name in usable if name in self.reversing}
+        reversing = (f"{IN_FRAME[0]}.{name}" for name in usable if name in self.reversing)
+        return values | {key: self.between[key] for key in reversing}
 
 
 def bearings_of(machine: Machine, motion: Motion, trace: Mapping[str, TracedValue]) -> JointBearings:
@@ -126,11 +129,11 @@ def bearings_of(machine: Machine, motion: Motion, trace: Mapping[str, TracedValu
     for point, names in crankpins.items():
         carrier = pins[names[0]].other
         frame = _arm(motion, carrier, point, crank)._replace(side=sides[carrier])
-        columns |= _on_crankpin(point, names, frame, forces)
-        if len(names) == 1:
-            columns[f"crankpin_load.{point}"] = trace[f"joint_force.{names[0]}"]
-        else:
-            loads[point] = f"crankpin_load.{point}"
+        size = trace[f"joint_force.{names[0]}"] if len(names) == 1 else None
+        on_pin = {force.key: force for force in _on_crankpin(point, names, frame, forces, size)}
+        columns |= on_pin
+        if size is None:
+            loads[point] = [*on_pin][-1]
     for name, joint in pins.items():
         if joint.link in sides and joint.other == GROUND:
             journals.append(name)
@@ -179,19 +182,24 @@ def _of_link(motion: Motion, link: str, side: int) -> _Frame:
 
 
 def _on_crankpin(
-    point: str, names: Sequence[str], frame: _Frame, forces: Mapping[str, tuple[TracedValue, TracedValue]]
-) -> Iterator[tuple[str, TracedValue]]:
-    """Yield radial and tangential force of the rods on a crankpin, and of several rods the size of their sum."""
-    radial, tangential = "crankpin_radial_force", "crankpin_tangential_force"
+    point: str,
+    names: Sequence[str],
+    frame: _Frame,
+    forces: Mapping[str, tuple[TracedValue, TracedValue]],
+    size: TracedValue | None,
+) -> Iterator[TracedValue]:
+    """Yield radial and tangential force of the rods on a crankpin and the load; `size`: that of a rod that is alone."""
+    radial, tangential, _ = ON_CRANKPIN
     own = {name: f".{name}" if len(names) > 1 else "" for name in names}
     # a joint force is that on the rod, and the pin has the opposite one
-    along = [frame.along(*forces[name]).named(f"{radial}.{point}{own[name]}") for name in names]
-    across = [frame.opposite.across(*forces[name]).named(f"{tangential}.{point}{own[name]}") for name in names]
-    load = BearingLoad(-total(f"{radial}.{point}", along), total(f"{tangential}.{point}", across))
-    yield f"{radial}.{point}", total(f"{radial}.{point}", along)
-    yield f"{tangential}.{point}", load.y
-    if len(names) > 1:
-        yield f"crankpin_load.{point}", load.resultant
+    rods = [
+        (
+            frame.along(*forces[name]).named(f"{radial}.{point}{own[name]}"),
+            frame.opposite.across(*forces[name]).named(f"{tangential}.{point}{own[name]}"),
+        )
+        for name in names
+    ]
+    yield from loads_on_crankpin(point, rods, size)
 
 
 def _components(name: str, frame: _Frame, x: TracedValue, y: TracedValue) -> dict[str, TracedValue]:
@@ -203,109 +211,3 @@ def _components(name: str, frame: _Frame, x: TracedValue, y: TracedValue) -> dic
 def _rod(joint: Pin, excluded: set[str]) -> str:
     """Return the link of a joint along whose axis its load reverses, of two rods the one that drives; none if none."""
     return next((link for link in (joint.other, joint.link) if link not in excluded), "")
-
-
-class BearingCycle:
-    """What the loads of the bearings of a linkage come to over its cycle, computed when it is asked for.
-
-    `program`: replays, among others, the components of `JointBearings.of_journals`.
-    """
-
-    def __init__(self, machine: Machine, bearings: JointBearings, over: CycleInterpolant, program: Program) -> None:
-        self._machine, self._bearings, self._over, self._program = machine, bearings, over, program
-        # bearings that are loaded, with the column of the size of the load
-        self._loads = {
-            name: key for name, key in bearings.loads.items() if key in over.columns and not over.is_zero(key)
-        }
-        self._components = bearings.of_journals
-
-    @cached_property
-    def crankpins(self) -> dict[str, TracedValue]:
-        """Mean, extremes, pressures, wear and oil hole of each loaded crankpin."""
-        names = [name for name in self._bearings.crankpins if name in self._loads]
-        values = self._statistics(names)
-        for name in names:
-            table = self._wear(name)
-            values |= {table.key: table}
-            hole = hole_of(f"oil_hole_angle.{name}", table, self._traced(name), self._machine.bearings.rays)
-            values[hole.key] = hole
-        return values
-
-    @cached_property
-    def all_bearings(self) -> dict[str, TracedValue]:
-        """Mean, extremes, pressures and reversal of every loaded bearing, wear of crankpins and main journals."""
-        values = self._statistics(self._loads) | self.crankpins
-        for name in self._bearings.reversing:
-            if name in self._loads:
-                key = f"{_X}.{name}"
-                values |= reversal_values(key, self._over, self._over.extremes(key), name)
-        tables = (self._wear(name) for name in self._bearings.journals if name in self._loads)
-        return values | {table.key: table for table in tables}
-
-    def summary(self) -> dict[str, TracedValue]:
-        """Return mean and largest load of each crankpin, and where its oil hole should be."""
-        result = dict[str, TracedValue]()
-        for name in self._bearings.crankpins:
-            if name in self._loads:
-                result |= {
-                    f"{key}.{name}": self.crankpins[f"{statistic}.{name}"].named(f"{key}.{name}")
-                    for key, statistic in _OF_CRANKPIN.items()
-                }
-                result[f"oil_hole_angle.{name}"] = self.crankpins[f"oil_hole_angle.{name}"]
-        return result
-
-    def trace(self) -> dict[str, TracedValue]:
-        """Return all of it, with the components that loads are made of."""
-        return {**self._bearings.between, **self.all_bearings}
-
-    def listings(self) -> dict[str, Listing]:
-        """Return the summary of the loads over the cycle, and the wear of crankpins and main journals."""
-        if not self._loads:
-            return {}
-        result = {"bearing_loads": loads_listing(self.all_bearings, with_reversal=True)}
-        owners = {"crankpin_wear": self._bearings.crankpins, "main_wear": self._bearings.journals}
-        for listing, names in owners.items():
-            tables = {name: self.all_bearings[f"wear_sum.{name}"] for name in names if name in self._loads}
-            if tables:
-                result[listing] = wear_listing(tables, self._machine.bearings.rays)
-        return result
-
-    def _statistics(self, names: Iterable[str]) -> dict[str, TracedValue]:
-        keys = {name: self._loads[name] for name in names}
-        extremes, values = self._over.extremes(*keys.values()), dict[str, TracedValue]()
-        for name, key in keys.items():
-            values |= load_values(name, key, self._over, extremes, _size(self._machine, name))
-        return values
-
-    @cached_property
-    def _at_steps(self) -> dict[str, Array]:
-        """The components of loads at the steps of wear diagrams. [N]"""
-        steps = CrankGrid.from_degrees(np.arange(0.0, self._machine.cycle, WEAR_STEP))
-        return dict(zip(self._components, self._program.rows(steps, self._components), strict=True))
-
-    def _traced(self, name: str) -> tuple[TracedValue, TracedValue]:
-        along, across = _keys(self._bearings, name)
-        return self._components[along], self._components[across]
-
-    def _wear(self, name: str) -> TracedValue:
-        along, across = (self._at_steps[key] for key in _keys(self._bearings, name))
-        load = BearingLoad(along if name in self._bearings.journals else -along, across)
-        return wear_table(f"wear_sum.{name}", load, self._traced(name), self._machine.bearings.rays)
-
-
-def _size(machine: Machine, name: str) -> tuple[TracedValue, TracedValue] | None:
-    """Return diameter and length of a bearing, if both are stated."""
-    stated = machine.bearings.pins.get(name)
-    if stated is None or stated.diameter is None or stated.length is None:
-        return None
-    path = f"bearings.pins.{name}"
-    return (
-        given(f"bearing_diameter.{name}", stated.diameter, f"{path}.diameter"),
-        given(f"bearing_length.{name}", stated.length, f"{path}.length"),
-    )
-
-
-def _keys(bearings: JointBearings, name: str) -> tuple[str, str]:
-    """Return the keys of the components of the load of a crankpin or a main journal."""
-    kinds = (_X, _Y) if name in bearings.journals else FORCES[:2]
-    return f"{kinds[0]}.{name}", f"{kinds[1]}.{name}"

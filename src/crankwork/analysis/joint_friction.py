@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis.friction_regimes import FrictionEquilibrium, FrictionRegimes, StepFunction
+from crankwork.analysis.mechanism_trace import joint_columns
 from crankwork.analysis.prepared import Notice, PreparedLinkage, relative_difference
 from crankwork.dynamics.force_system import all_links_and_joints
 from crankwork.dynamics.friction import (
@@ -69,6 +70,19 @@ class FrictionColumns(NamedTuple):
     is_free: bool
 
 
+# quantities of the numbers that are stated of a joint with friction by field, and the units of their display
+STATED = {
+    PinFriction: {
+        "coefficient": ("pin_friction", ""), "radius": ("pin_radius", "mm"), "moment": ("constant_moment", "N*m"),
+        "damping": ("angular_damping", "N*m*s/rad"),
+    },
+    GuideFriction: {
+        "coefficient": ("guide_friction", ""), "length": ("piece_length", "mm"), "middle_x": ("piece_middle_x", "mm"),
+        "middle_y": ("piece_middle_y", "mm"), "force": ("constant_force", "N"), "damping": ("damping", "N*s/m"),
+    },
+}  # fmt: skip
+
+
 class _Place(NamedTuple):
     """A joint with friction, its law, its name in columns, and where the description states the law."""
 
@@ -95,7 +109,7 @@ def add_friction(solved: PreparedLinkage, running: OperatingState, trace: Mappin
     columns = {value.key: value for value in friction.values()}
     powers = [_power(place, friction[place.law], velocities[place.law]) for place in places]
     columns |= {power.key: power for power in powers} | {"friction_power": total("friction_power", powers)}
-    columns |= _forces(solved, forces)
+    columns |= joint_columns(solved.machine, forces, "_with_friction")
     notices, standing, is_free = [*regimes.notices(solved, _OF_MOTION)], regimes, regimes.is_free
     if solved.machine.mechanism.driver.law is not None:
         kind = "driver_torque" if solved.machine.mechanism.driver.turns else "driver_force"
@@ -212,27 +226,30 @@ def _sense(steps: StepFunction, velocity: TracedValue, name: str) -> TracedValue
     )
 
 
-def _stated(key: str, place: _Place, name: str, value: float) -> TracedValue:
-    return given(f"{key}.{place.name}", value, f"{place.path}.{name}") if value else absent(key)
+def _stated(place: _Place, name: str) -> TracedValue:
+    """Return a number of the friction in a joint; `name`: of its field."""
+    value, (key, _) = getattr(place.law, name), STATED[type(place.law)][name]
+    path = f"sliders.{place.name}.points" if name.startswith("middle") else f"{place.path}.{name}"
+    return given(f"{key}.{place.name}", value, path) if value else absent(key)
 
 
 def _law(place: _Place, sense: TracedValue, pressing: TracedValue, velocity: TracedValue) -> TracedValue:
     """Return the friction moment or force on the link that a joint holds."""
     law, name = place.law, place.name
     if isinstance(law, GuideFriction):
-        coefficient = _stated("guide_friction", place, "coefficient", law.coefficient)
-        constant = _stated("constant_force", place, "force", law.force)
-        damping = _stated("damping", place, "damping", law.damping)
+        coefficient = _stated(place, "coefficient")
+        constant = _stated(place, "force")
+        damping = _stated(place, "damping")
         force: TracedValue = friction_force(sense, coefficient, pressing, constant, damping, velocity)
         return force.named(f"friction_force.{name}")
     circle = friction_radius if law.circle == "tangent" else friction_radius_of_angle
     radius: TracedValue = absent("friction_radius")
     if law.coefficient:
-        coefficient = _stated("pin_friction", place, "coefficient", law.coefficient)
-        radius = circle(coefficient, _stated("pin_radius", place, "radius", law.radius))
+        coefficient = _stated(place, "coefficient")
+        radius = circle(coefficient, _stated(place, "radius"))
         radius = radius.named(f"friction_radius.{name}")
-    constant = _stated("constant_moment", place, "moment", law.moment)
-    damping = _stated("angular_damping", place, "damping", law.damping)
+    constant = _stated(place, "moment")
+    damping = _stated(place, "damping")
     moment: TracedValue = friction_torque(sense, radius, pressing, constant, damping, velocity)
     return moment.named(f"friction_torque.{name}")
 
@@ -245,7 +262,7 @@ def _on_links(running: OperatingState, place: _Place, value: TracedValue) -> App
     force = force_on_slider(running.mechanism, running.motion, joint.link, value, ".friction")
     if not law.middle[1]:
         return force
-    couple: TracedValue = friction_couple(value, _middle(place, 1)).named(f"friction_couple.{place.name}")
+    couple: TracedValue = friction_couple(value, _stated(place, "middle_y")).named(f"friction_couple.{place.name}")
     return force.also(_torque_between(running, joint, couple))
 
 
@@ -253,13 +270,6 @@ def _torque_between(running: OperatingState, joint: Joint, torque: TracedValue) 
     """Return a torque on the link that a joint holds, and its reaction on the other."""
     own = torque_on(running.motion, joint.link, torque)
     return own if joint.other == GROUND else own.also(torque_on(running.motion, joint.other, -torque))
-
-
-def _middle(place: _Place, axis: int) -> TracedValue:
-    """Return where the middle of a sliding piece is from its pin, along its guide or to the left of that."""
-    if isinstance(place.law, PinFriction) or not place.law.middle[axis]:
-        return absent("piece_middle")
-    return given(f"piece_middle_{'xy'[axis]}.{place.name}", place.law.middle[axis], f"sliders.{place.name}.points")
 
 
 def _missing(place: _Place, pressing: TracedValue, forces: JointForces) -> TracedValue:
@@ -271,8 +281,8 @@ def _missing(place: _Place, pressing: TracedValue, forces: JointForces) -> Trace
     guide = forces.guides[name]
     tilting: TracedValue = absent("tilting_force")
     if isinstance(law, GuideFriction) and law.length:
-        length = _stated("piece_length", place, "length", law.length)
-        tilting = tilting_force(guide.moment, guide.normal, _middle(place, 0), length).named(
+        length = _stated(place, "length")
+        tilting = tilting_force(guide.moment, guide.normal, _stated(place, "middle_x"), length).named(
             f"tilting_force.{place.name}"
         )
     pressed: TracedValue = pressing_force(guide.normal, tilting)
@@ -283,24 +293,6 @@ def _power(place: _Place, friction: TracedValue, velocity: TracedValue) -> Trace
     formula = friction_power_of_guide if isinstance(place.law, GuideFriction) else friction_power_of_pin
     power: TracedValue = formula(friction, velocity)
     return power.named(f"friction_power.{place.name}")
-
-
-def _forces(solved: PreparedLinkage, forces: JointForces) -> dict[str, TracedValue]:
-    """Return the forces in joints and guides with friction."""
-    pivots, columns = names_of_pivots(solved.machine.mechanism), dict[str, TracedValue]()
-    for joint, pin in forces.pins.items():
-        name = pivots.get(joint, joint)
-        columns |= {
-            f"joint_force_with_friction_x.{name}": pin.x,
-            f"joint_force_with_friction_y.{name}": pin.y,
-            f"joint_force_with_friction.{name}": pin.resultant,
-        }
-    for name, guide in forces.guides.items():
-        columns |= {
-            f"normal_force_with_friction.{name}": guide.normal,
-            f"normal_moment_with_friction.{name}": guide.moment,
-        }
-    return columns
 
 
 def _efficiency(ideal: TracedValue, actual: TracedValue, regimes: FrictionRegimes) -> dict[str, TracedValue]:

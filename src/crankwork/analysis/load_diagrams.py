@@ -10,15 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis.all_cylinders import EngineTrace
-from crankwork.analysis.bearing_diagrams import AFTER, CrankpinLoad, load_extremes
-from crankwork.analysis.crankshaft_bearings import BearingLoads, bearing_components, bearing_loads
+from crankwork.analysis.bearings import AFTER, CrankpinLoad
 from crankwork.analysis.cylinder_balance import EngineBalance, engine_balance
 from crankwork.analysis.cylinders import MultiCylinderEngine, multi_cylinder_engine
 from crankwork.analysis.results import Results
 from crankwork.analysis.shaft_torque import EngineTorque, engine_torque
 from crankwork.cylinders.bearings import big_end_inertia_force
 from crankwork.cylinders.ellipse import Ellipse, balance_sum
-from crankwork.cylinders.load_statistics import PolarDiagram, polar_diagram
+from crankwork.cylinders.load_statistics import polar_diagram
 from crankwork.cylinders.load_vectors import BearingLoad
 from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import PhaseStar, phase_star
@@ -114,17 +113,6 @@ class EngineDiagrams:
         """Torque on every main journal that carries some, from the second on, at `degrees`. [N m]"""
         return np.asarray(torques_along_shaft(list(self.torques), self.engine.layout).journals[1:])
 
-    @cached_property
-    def loads(self) -> tuple[Array, BearingLoads]:
-        """Crank angles of the loads, those of the extremes and of corners among them [deg], and the loads there. [N]"""
-        extremes = load_extremes(self.results.trace)
-        degrees = np.unique(np.concatenate([self.degrees[:-1], np.mod(extremes, self.cycle)]))
-        return degrees, self._loads_at(degrees)
-
-    def _loads_at(self, degrees: Array) -> BearingLoads:
-        parts = Program(bearing_components(self.engine, self.results.trace))
-        return bearing_loads(self.engine, parts(CrankGrid.from_degrees(degrees)))
-
     def other_pressures(self, degrees: Array) -> dict[int, Array]:
         """Return the gas pressure of the first cylinder of every gas that is not that of cylinder 1, by number. [Pa]
 
@@ -134,37 +122,6 @@ class EngineDiagrams:
         firsts = [index for index, gas in enumerate(gases) if index and all(gas is not gase for gase in gases[:index])]
         values = Program({str(index): self.engine.cylinders[index].trace["gas_pressure"] for index in firsts})
         return {int(index) + 1: value for index, value in values(CrankGrid.from_degrees(degrees)).items()}
-
-    @property
-    def pin_sizes(self) -> tuple[Array, Mapping[str, Array]]:
-        """Crank angles over the cycle without its end [deg], and the load on every distinct crankpin. [N]"""
-        degrees, loads = self.loads
-        return degrees, {str(pin): load.resultant for pin, load in loads.crankpins.items()}
-
-    def crankpin(self, pin: str | int, degrees: Array | None = None) -> CrankpinLoad:
-        """Return the load of all rods on a crankpin.
-
-        `pin`: its number, one of those in `loads`; `degrees`: crank angles over the cycle; those of `loads` otherwise
-        [deg].
-        """
-        degrees, loads = self.loads if degrees is None else (degrees, self._loads_at(degrees))
-        load, rods = loads.crankpins[int(pin)], len(self.engine.on_pin[int(pin) - 1])
-        inertia = rods * _rod_inertia(self.results)
-        return CrankpinLoad(load.resultant, polar_diagram(load, degrees, self.cycle, inertia), inertia, rods)
-
-    @property
-    def rod_bearings(self) -> dict[str, PolarDiagram]:
-        """Polar diagrams of `big_end_load` and `small_end_load`, in the frame of the rod. [N]"""
-        degrees, loads = self.loads
-        ends = {"big_end_load": loads.big_end, "small_end_load": loads.small_end}
-        return {key: polar_diagram(load, degrees, self.cycle) for key, load in ends.items()}
-
-    @property
-    def journals(self) -> Mapping[str, PolarDiagram]:
-        """Polar diagrams of all main journals, in the frame of the shaft. [N]"""
-        degrees, loads = self.loads
-        diagrams = (polar_diagram(load, degrees, self.cycle, 0.0, 90.0) for load in loads.mains)
-        return {str(number): diagram for number, diagram in enumerate(diagrams, start=1)}
 
     @cached_property
     def balance(self) -> EngineBalance:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crankwork.analysis import traced_inputs
+from crankwork.analysis.bearings import ON_CRANKPIN, BearingCycle
 from crankwork.analysis.counterweight_balance import counterweight_balance
 from crankwork.analysis.deferred import Deferred
 from crankwork.analysis.equal_cells import with_equal_columns
@@ -19,12 +20,11 @@ from crankwork.analysis.gas_chambers import gas_check, gas_summary, traced_linka
 from crankwork.analysis.given_motion import DYNAMICS
 from crankwork.analysis.harmonics import delivered_harmonics, listed_harmonics
 from crankwork.analysis.joint_bearings import FOLLOWED as BEARING_COLUMNS
-from crankwork.analysis.joint_bearings import FORCES as ON_CRANKPINS
-from crankwork.analysis.joint_bearings import BearingCycle, JointBearings, bearings_of
+from crankwork.analysis.joint_bearings import JointBearings, bearings_of
 from crankwork.analysis.joint_friction import COLUMNS as FRICTION
 from crankwork.analysis.joint_friction import FOLLOWED as FOLLOWED_FRICTION
 from crankwork.analysis.joint_friction import FrictionColumns, add_friction, mean_values
-from crankwork.analysis.mechanism_trace import efficiency_of, linkage_trace, speed_of, traced_state
+from crankwork.analysis.mechanism_trace import linkage_trace, speed_of, traced_state
 from crankwork.analysis.motion_range import (
     ReachableMotion,
     SingularColumns,
@@ -43,10 +43,8 @@ from crankwork.analysis.speed import (
     analyse_speed,
     balance_of,
     driven_by_motor,
-    excess_of,
     has_flywheel,
     has_friction,
-    work_of,
 )
 from crankwork.analysis.transient import simulate_transient
 from crankwork.analysis.transmission_quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
@@ -131,7 +129,15 @@ def analyse_linkage(
     if moved.has_steady_crank and "shaking_force" in trace:
         balance = counterweight_balance(mechanism.crank, trace | summary, mechanism.period)
         summary |= {key: known.named(key) for key, known in balance}
-    cycle = BearingCycle(machine, moved.bearings, over, program)
+    components = moved.bearings.of_journals
+    cycle = BearingCycle(
+        moved.bearings.loaded(machine, over),
+        components,
+        over,
+        lambda grid: dict(zip(components, program.rows(grid, components), strict=True)),
+        machine.cycle,
+        machine.bearings.rays,
+    )
     summary |= cycle.summary()
     ran = simulate_transient(solved, motion, result, summary, progress)
     summary, checks = summary | ran.summary, checks | ran.checks
@@ -146,7 +152,7 @@ def analyse_linkage(
     values = {key: value.value for key, value in summary.items()}
     trace |= {**summary, **between}
     harmonics = cache(partial(_harmonics, moved, over))
-    deferred = Deferred(trace, lambda: cycle.trace() | harmonics())
+    deferred = Deferred(trace, lambda: {**moved.bearings.between, **cycle.values} | harmonics())
     listings = Deferred(ran.listings, lambda: cycle.listings() | listed_harmonics(harmonics()))
     return Results(solved, table, columns, values, checks, notices, _groups(columns), listings, ran.allowed, deferred)
 
@@ -165,10 +171,8 @@ def _turns(machine: Machine, over: CycleInterpolant, trace: Mapping[str, TracedV
     added = 0.0
     if has_flywheel(drive):
         balance = balance_of(machine, over, trace)
-        turn, excess = analyse_speed(machine, balance, w), excess_of(balance)
-        cycle = given("cycle_angle", math.radians(machine.cycle))
-        summary = {"excess_work": excess, **turn.summary}
-        yield turn._replace(summary=summary, between=turn.between | work_of(excess, mean, cycle))
+        turn = analyse_speed(machine, balance, w, mean)
+        yield turn
         added = turn.added
     if drive.motor is not None:
         # the motor drives through the efficiency
@@ -187,7 +191,12 @@ def _power_of_valves(machine: Machine, values: Mapping[str, TracedValue]) -> dic
     has_valves = any(chamber.valves is not None for chamber in machine.chambers.values())
     if not has_valves or "motor_power" in values or not _is_needed(values.get("mean_torque")):
         return {}
-    operands = absent("power_reserve", 1.0), values["mean_torque"], speed_of(machine), efficiency_of(machine.drive)
+    operands = (
+        absent("power_reserve", 1.0),
+        values["mean_torque"],
+        speed_of(machine),
+        traced_inputs.efficiency_of(machine.drive),
+    )
     return {"motor_power": needed_power(*operands)}
 
 
@@ -396,12 +405,9 @@ def _given_values(machine: Machine) -> dict[str, TracedValue]:
     law = machine.mechanism.driver.law
     if law is not None:
         return {"period": given("period", law.period, "driver.period")}
-    result = {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": speed_of(machine)}
-    if machine.angular_acceleration:
-        result["angular_acceleration"] = traced_inputs.acceleration(machine)
-    if machine.drive.efficiency != 1:
-        result["efficiency"] = efficiency_of(machine.drive)
-    return result
+    eps = traced_inputs.acceleration(machine)
+    changing = {} if eps.is_absent else {eps.key: eps}
+    return traced_inputs.speeds(machine, speed_of(machine)) | changing | traced_inputs.efficiency(machine.drive)
 
 
 def _at_time(extreme: str, angle: TracedValue, law: Law) -> dict[str, TracedValue]:
@@ -497,7 +503,7 @@ def _groups(columns: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
         "joint_forces": ("joint_force_x", "joint_force_y", "joint_force", "tooth_force", "separating_force",
                          "axial_force", "normal_force",
                          "normal_moment"),
-        "bearings": ON_CRANKPINS,
+        "bearings": ON_CRANKPIN,
         "main_journals": ("main_journal_load",),
     }  # fmt: skip
     groups = {name: tuple(key for key in columns if key_of(key).quantity in keys) for name, keys in kinds.items()}

@@ -11,9 +11,10 @@ from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.operating_state import is_shared, traced_joint_forces
 from crankwork.analysis.prepared import PreparedLinkage
 from crankwork.analysis.transmission_quality import transmissions
-from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor, traced_efficiency
+from crankwork.dynamics.efficiency import driving_torque_as_brake, driving_torque_as_motor
 from crankwork.dynamics.link_loads import link_angular_acceleration
 from crankwork.dynamics.operating_state import OperatingState
+from crankwork.dynamics.reaction import JointForces, pin_columns
 from crankwork.dynamics.reduction import (
     driver_power,
     dynamic_torque,
@@ -23,7 +24,7 @@ from crankwork.dynamics.reduction import (
     static_torque,
 )
 from crankwork.dynamics.torque_formulas import balancing_torque_of_parts
-from crankwork.formula.traced_value import Piecewise, ProcedureValue, TracedValue, absent, given
+from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given
 from crankwork.kinematics import kinematic_coefficients as rates
 from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.instant_centres import instant_centres
@@ -93,18 +94,6 @@ def speed_of(machine: Machine) -> TracedValue:
     if machine.method.pi == math.pi and not machine.stated:
         return given("speed", machine.speed, "crank.speed")
     return traced_inputs.speed(machine, machine.method)
-
-
-def efficiency_of(drive: Drive) -> TracedValue:
-    """Return the efficiency of the joints between motor and process, the product over a chain if one is given."""
-    if drive.efficiency == 1:
-        return absent("efficiency", 1.0)
-    if drive.chain is None:
-        return given("efficiency", drive.efficiency, "efficiency.chain")
-    if drive.exact_efficiency is None:
-        return traced_efficiency(drive.chain)
-    exact = traced_efficiency(drive.chain).named("efficiency.exact")
-    return TracedValue(ProcedureValue(drive.efficiency, "rounded", (exact,)), "efficiency")
 
 
 def _moving(machine: Machine, motion: Motion, w: TracedValue, eps: TracedValue) -> Iterator[tuple[str, TracedValue]]:
@@ -184,7 +173,7 @@ def _driving(
     static: TracedValue, dynamic: TracedValue, balancing: TracedValue, drive: Drive, motion: Motion
 ) -> TracedValue:
     """Return the torque of the motor, which drives where it is positive and brakes where it is negative."""
-    eta = efficiency_of(drive)
+    eta = traced_inputs.efficiency_of(drive)
     motor: TracedValue = driving_torque_as_motor(static, dynamic, eta)
     if eta.is_absent or not balancing.varies:
         return motor
@@ -201,17 +190,17 @@ def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedVal
     values, along = traced_joint_forces(solved, running)
     if not is_shared(solved.machine.redundant):
         return values.balancing_torque, {}
-    pivots = names_of_pivots(solved.machine.mechanism)
-    columns: dict[str, TracedValue] = {}
-    for joint, pin in values.pins.items():
-        name = pivots.get(joint, joint)
-        columns |= {
-            f"joint_force_x.{name}": pin.x,
-            f"joint_force_y.{name}": pin.y,
-            f"joint_force.{name}": pin.resultant,
-        }
+    columns = joint_columns(solved.machine, values)
     for name, (across, separating) in values.teeth.items():
         columns |= {f"tooth_force.{name}": across, f"separating_force.{name}": separating}
-    for name, guide in values.guides.items():
-        columns |= {f"normal_force.{name}": guide.normal, f"normal_moment.{name}": guide.moment}
     return values.balancing_torque, columns | along
+
+
+def joint_columns(machine: Machine, forces: JointForces, suffix: str = "") -> dict[str, TracedValue]:
+    """Return the forces in joints and guides; `suffix`: of their quantities."""
+    pivots, columns = names_of_pivots(machine.mechanism), dict[str, TracedValue]()
+    for joint, pin in forces.pins.items():
+        columns |= pin_columns(pivots.get(joint, joint), pin.x, pin.y, kind=f"joint_force{suffix}")
+    for name, guide in forces.guides.items():
+        columns |= {f"normal_force{suffix}.{name}": guide.normal, f"normal_moment{suffix}.{name}": guide.moment}
+    return columns

@@ -18,7 +18,7 @@ from crankwork.analysis.results import Results
 from crankwork.analysis.speed import delivered_or_needed
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program, Samples
-from crankwork.formula.traced_value import TracedValue, given
+from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import (
     bottom_dead_centre_angle,
@@ -143,14 +143,11 @@ def _motion(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
     trace = solved.trace
     n = traced_inputs.revolutions(solved.machine)
     stroke = traced_inputs.stroke(solved.moving.lengths)
-    values = {
-        "rotational_speed": given("rotational_speed", solved.machine.speed, "crank.speed"),
-        "speed": trace["speed"],
-        "mean_piston_speed": mean_piston_speed(stroke, n),
-    }
+    values = traced_inputs.speeds(solved.machine, trace["speed"])
+    values["mean_piston_speed"] = mean_piston_speed(stroke, n)
     values |= over.extremes(*_MOVING)
-    if solved.machine.angular_acceleration:
-        values["angular_acceleration"] = traced_inputs.acceleration(solved.machine)
+    eps = traced_inputs.acceleration(solved.machine)
+    values |= {} if eps.is_absent else {eps.key: eps}
     if not solved.method.is_exact:
         values |= over.errors(*(f"{key}_error" for key in ("piston_displacement", *_MOVING)))
     return values

@@ -11,14 +11,13 @@ from crankwork.analysis import traced_inputs
 from crankwork.analysis.crankshaft_bearings import rotating_mass_of
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.analysis.flywheel import turning_inertia
-from crankwork.analysis.harmonics import curve_of, order_count, traced_harmonics
+from crankwork.analysis.harmonics import amplitude_of_order, curve_of, order_count, traced_harmonics
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.reduction import MOVING, REDUCTION
-from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed, excess_of, work_of
+from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed
 from crankwork.cylinders.layout import Layout
 from crankwork.cylinders.torque import torques_along_shaft
 from crankwork.cylinders.torque_harmonics import (
-    amplitude_of_harmonic,
     amplitude_of_total,
     curve_harmonics,
     phase_sums,
@@ -30,10 +29,10 @@ from crankwork.dynamics.reduction import dynamic_torque
 from crankwork.dynamics.torque_formulas import static_torque_of_balancing
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Samples
-from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, absent, total
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, total
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.shaft.curve import Curve
-from crankwork.shaft.fluctuation import TrueSpeed, excess_work
+from crankwork.shaft.fluctuation import Mean, TrueSpeed, excess_work
 
 _SAMPLES = 1440
 # share of the largest torque of a cylinder below which a mean is rounding
@@ -120,15 +119,14 @@ def engine_torque(
     mean = delivered_or_needed(mean)
     summary = {"mean_torque": mean}
     summary |= {key: value for key, value in extremes.items() if key.startswith("total_torque_")}
-    excess = summary["excess_work"] = excess_of(balance)
-    between = work_of(excess, mean, traced_inputs.cycle_angle(engine.machine))
     # textbooks draw the extremes as far above the mean as below it
-    turn = analyse_speed(
-        engine.machine, balance, w, "extremes" if engine.master.method.kinematics == "textbook" else "time"
-    )
-    summary |= {key: between[key] for key in between if key == "energy_fluctuation"} | turn.summary
+    kind: Mean = "extremes" if engine.master.method.kinematics == "textbook" else "time"
+    turn = analyse_speed(engine.machine, balance, w, mean, kind)
+    between = dict(turn.between)
+    shown = {**turn.summary, **between}
+    summary |= {key: shown[key] for key in ("excess_work", "energy_fluctuation") if key in shown} | turn.summary
     named = {key: known if known is mean else known.named(key) for key, known in summary.items()}
-    between |= turn.between | ({} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque})
+    between |= {} if balance.torque.key == "total_torque" else {balance.torque.key: balance.torque}
     return EngineTorque(cylinder, all_, turn.speed, turn.columns, named, between, turn.checks, turn.notices)
 
 
@@ -176,13 +174,8 @@ def harmonics_trace(
             amplitude = amplitude_of_total(values[f"harmonic_amplitude.{order:g}"], star)
         else:
             total = trace["total_torque"]
-            parts = (
-                TracedValue(HarmonicCoefficient(float(getattr(all_, part)[index]), total, part, order))
-                for part in ("cosine", "sine")
-            )
-            amplitude = TracedValue(
-                ProcedureValue(float(all_.amplitude[index]), "fourier", (total,), None, amplitude_of_harmonic(*parts))
-            )
+            waves = amplitude_of_order(total, order, float(all_.cosine[index]), float(all_.sine[index]))
+            amplitude = TracedValue(ProcedureValue(float(all_.amplitude[index]), "fourier", (total,), None, waves))
         amplitude = amplitude.named(f"total_harmonic_amplitude.{order:g}")
         values |= {known.key: known for known in (star, amplitude)}
     return values

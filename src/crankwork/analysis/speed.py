@@ -9,13 +9,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from crankwork.analysis import traced_inputs
 from crankwork.analysis.flywheel import (
     flywheel_dimensions,
     given_flywheel_dimensions,
     recovery_torque_values,
     target_fluctuation,
 )
-from crankwork.analysis.mechanism_trace import efficiency_of
 from crankwork.analysis.prepared import Notice
 from crankwork.errors import MethodError
 from crankwork.formula.cycle_interpolant import CycleInterpolant
@@ -135,18 +135,28 @@ def work_of(excess: TracedValue, mean: TracedValue | None, cycle: TracedValue) -
     return {"work_per_cycle": work, "energy_fluctuation": share_of_work(excess, work)}
 
 
-def analyse_speed(machine: Machine, balance: Balance, w: TracedValue, mean: Mean = "time") -> SpeedResults:
-    """Return flywheel, fluctuation and speed of a machine, as far as its inertia is known.
+def analyse_speed(
+    machine: Machine, balance: Balance, w: TracedValue, mean_torque: TracedValue | None, mean: Mean = "time"
+) -> SpeedResults:
+    """Return excess work, flywheel, fluctuation and speed of a machine, as far as its inertia is known.
 
     `mean`: kind of mean that its stated speed is.
     """
+    excess = excess_of(balance)
+    turn = _speed(machine, balance, w, excess, mean)
+    between = turn.between | work_of(excess, mean_torque, traced_inputs.cycle_angle(machine))
+    return turn._replace(summary={excess.key: excess, **turn.summary}, between=between)
+
+
+def _speed(machine: Machine, balance: Balance, w: TracedValue, excess: TracedValue, mean: Mean) -> SpeedResults:
+    """Return flywheel, fluctuation and speed."""
     change = TracedValue(
         Tabulated(
             AtDegrees(balance.excess.curve), "integral", np.degrees(balance.excess.curve.angle), (balance.torque,)
         ),
         "kinetic_energy_change",
     )
-    columns, wanted, excess = {"kinetic_energy_change": change}, target_fluctuation(machine, w), excess_of(balance)
+    columns, wanted = {"kinetic_energy_change": change}, target_fluctuation(machine, w)
     works = _works(balance, w, wanted) if balance.inertia.varies else {}
     mertsalov = {value.key: value for method, value in works.items() if method == "mertsalov"}
     if not (has_flywheel(machine.drive) or machine.drive.inertia):
@@ -311,7 +321,7 @@ def driven_by_motor(
     drive, inertia, load = machine.drive, balance.inertia_curve, balance.curve
     if not balance.inertia.varies and not balance.inertia.value and not added + motor.reduced_inertia:
         return SpeedResults({}, {}, {}, (Notice("no_steady_speed", {"message": ErrorMessage("masses_missing")}),), {})
-    mean, eta, notices = (-load).mean, efficiency_of(drive), tuple[Notice, ...]()
+    mean, eta, notices = (-load).mean, traced_inputs.efficiency_of(drive), tuple[Notice, ...]()
     if mean > 0 and mean_torque is not None:
         power: TracedValue = needed_power(absent("power_reserve", 1.0), mean_torque, w, eta)
     else:

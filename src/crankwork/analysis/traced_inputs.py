@@ -15,7 +15,7 @@ from crankwork.dynamics.piston_forces import angular_speed
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
 from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, stroke_offset
-from crankwork.machine import InputNumber, Machine
+from crankwork.machine import Drive, InputNumber, Machine
 from crankwork.method import Method
 from crankwork.units import UNITS
 
@@ -101,6 +101,36 @@ def acceleration(machine: Machine) -> TracedValue:
     return given(key, value, f"crank.{key}") if value else absent(key)
 
 
+def speeds(machine: Machine, w: TracedValue) -> dict[str, TracedValue]:
+    """Return the stated speed of the crank, and its angular speed."""
+    return {"rotational_speed": given("rotational_speed", machine.speed, "crank.speed"), "speed": w}
+
+
+def gravity(machine: Machine, method: Method) -> TracedValue:
+    """Return the acceleration of gravity, absent where weights do not count."""
+    return given("gravity", method.gravity, "method.gravity") if machine.has_gravity else absent("gravity")
+
+
+def efficiency(drive: Drive) -> dict[str, TracedValue]:
+    """Return the efficiency of a drive if it has one."""
+    return {} if drive.efficiency == 1 else {"efficiency": efficiency_of(drive)}
+
+
+def efficiency_of(drive: Drive) -> TracedValue:
+    """Return the efficiency of the joints between motor and process, the product over a chain if one is given."""
+    if drive.efficiency == 1:
+        return absent("efficiency", 1.0)
+    if drive.chain is None:
+        return given("efficiency", drive.efficiency, "efficiency.chain")
+    # few machines have one
+    from crankwork.dynamics.efficiency import traced_efficiency  # noqa: PLC0415 - loaded where it is needed
+
+    if drive.exact_efficiency is None:
+        return traced_efficiency(drive.chain)
+    exact = traced_efficiency(drive.chain).named("efficiency.exact")
+    return TracedValue(ProcedureValue(drive.efficiency, "rounded", (exact,)), "efficiency")
+
+
 def inclination(machine: Machine, lean: float) -> tuple[TracedValue, TracedValue]:
     """Return cosine and sine of the angle by which a cylinder leans that is so far ahead of cylinder 1. [deg]"""
     angle = given("inclination", machine.inclination, "cylinder.inclination")
@@ -115,6 +145,8 @@ def inclination(machine: Machine, lean: float) -> tuple[TracedValue, TracedValue
 def cycle_angle(machine: Machine) -> TracedValue:
     """Return the length of the cycle."""
     path = "engine.strokes" if machine.gas is None else "gas.cycle" if machine.gas.calculated is None else "cycle.cycle"
+    # that of a linkage follows from its parts
+    path = path if machine.lengths is not None else ""
     return given("cycle_angle", math.radians(machine.cycle), path)
 
 

@@ -68,6 +68,16 @@ class GuideFriction:
     # the left of that [m]
     middle: tuple[float, float] = (0.0, 0.0)
 
+    @property
+    def middle_x(self) -> float:
+        """Where the middle is along the guide. [m]"""
+        return self.middle[0]
+
+    @property
+    def middle_y(self) -> float:
+        """Where the middle is to the left of the guide. [m]"""
+        return self.middle[1]
+
     def tilting(self, normal: Array, moment: Array) -> Array:
         """Return the difference of the forces that press at both ends. [N]"""
         if not self.length:

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.dynamics.link_loads import Wrench, arm, moment_of
 from crankwork.formula.expression import Value, formula
-from crankwork.formula.traced_value import is_traced, named
+from crankwork.formula.traced_value import TracedValue, is_traced, named
 from crankwork.kinematics.bodies import zero_column
 from crankwork.kinematics.kinematic_coefficients import PointMotion
 from crankwork.kinematics.motion import Motion
@@ -40,6 +40,15 @@ class PinForce(NamedTuple):
     def resultant(self) -> Value:
         """Magnitude of the force. [N]"""
         return joint_force(self.x, self.y)
+
+
+def pin_columns(
+    name: str, x: TracedValue, y: TracedValue, size: TracedValue | None = None, kind: str = "joint_force"
+) -> dict[str, TracedValue]:
+    """Return the force in a joint by key: along the fixed axes, and its size, where that is not taken of these."""
+    size = joint_force(x, y) if size is None else size
+    values = {f"{kind}_x.{name}": x, f"{kind}_y.{name}": y, f"{kind}.{name}": size}
+    return {key: value.named(key) for key, value in values.items()}
 
 
 class GuideForce(NamedTuple):

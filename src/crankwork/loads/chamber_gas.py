@@ -34,7 +34,7 @@ from crankwork.loads.chamber import (
 )
 from crankwork.loads.indicator import DeadCentres, DiagramError, IndicatorDiagram, Segment, VolumeAt, solve_diagram
 from crankwork.loads.measured_pressure import NoticeData
-from crankwork.loads.pressure import at_angle, traced_pressure
+from crankwork.loads.pressure import at_angle, pressure_on_piston, traced_pressure
 from crankwork.loads.pressure_processing import PressureReference, measured_diagram
 from crankwork.loads.traced_diagram import DiagramInput
 from crankwork.loads.valves import Flow, StatedValves
@@ -156,14 +156,11 @@ def solve_chambers(  # noqa: PLR0913 - inputs of gas and of motion
                 all_notices += notices
     columns, forces = list[TracedValue](), list[GasForce]()
     for name, space in spaces.items():
-        ambient, above = chambers[name].ambient, pressures[name].named(f"gas_pressure.{name}")
-        if ambient:
-            around = given(f"ambient_pressure.{name}", ambient, f"chambers.{name}.ambient")
-            above = gas.gauge_pressure(pressures[name], around).named(above.key)
-            all_notices += [("ambient", {"pressure": ambient / 1e6})] * (not chambers[name].names_ambient)
-        if chambers[name].factor != 1:
-            factor = given(f"pressure_factor.{name}", chambers[name].factor, f"chambers.{name}.pressure_factor")
-            above = (above * factor).named(above.key)
+        ambient, path = chambers[name].ambient, f"chambers.{name}"
+        if ambient and not chambers[name].names_ambient:
+            all_notices.append(("ambient", {"pressure": ambient / 1e6}))
+        around, factor = (ambient, f"{path}.ambient"), (chambers[name].factor, f"{path}.pressure_factor")
+        above = pressure_on_piston(pressures[name], around, factor, f".{name}")
         columns += [space.volume, pressures[name], above]
         for wall in space.walls:
             key = wall.area.key.replace("piston_area", "gas_force", 1)

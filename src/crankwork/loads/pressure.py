@@ -11,12 +11,28 @@ import numpy as np
 from crankwork.formula.replay import replay
 from crankwork.formula.traced_value import FormulaCall, Piecewise, ProcedureValue, Tabulated, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.loads.gas import polytropic_pressure
+from crankwork.loads.gas import gauge_pressure, polytropic_pressure
 from crankwork.loads.indicator import IndicatorDiagram, Segment
 from crankwork.loads.interpolation import CurvePoint, curve_between
 
 # A stated volume within this tolerance is the computed volume.
 _SAME_VOLUME = 1e-12
+
+
+def pressure_on_piston(
+    pressure: TracedValue, ambient: tuple[float, str], factor: tuple[float, str], owner: str = ""
+) -> TracedValue:
+    """Return the pressure of gas above that on the other side, and what of it is taken.
+
+    `ambient`, `factor`: pressure on the other side [Pa] and share, each with where it is stated; `owner`: what follows
+    each key.
+    """
+    above = pressure.named(f"gas_pressure{owner}")
+    if ambient[0]:
+        above = gauge_pressure(pressure, given(f"ambient_pressure{owner}", *ambient)).named(above.key)
+    if factor[0] != 1:
+        above = (above * given(f"pressure_factor{owner}", *factor)).named(above.key)
+    return above
 
 
 def traced_pressure(

@@ -9,7 +9,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from crankwork.analysis import Array
-from crankwork.analysis.bearing_diagrams import CrankpinLoad, PolarDiagram, WearRing, wear_rings
+from crankwork.analysis.bearings import CrankpinLoad, PolarDiagram, WearRing, wear_rings
 from crankwork.analysis.load_diagrams import crankpin_of_one
 from crankwork.analysis.results import Listing
 from crankwork.locale import translate
@@ -104,7 +104,7 @@ def _rod_polar(engine: Drawn, key: str) -> tuple[Canvas, Mapping[str, Graph]]:
         f"{engine.symbol(key)} {translate('drawing.across_rod', engine.language)}, {unit}",
         f"{engine.symbol(key)} {translate('drawing.along_rod', engine.language)}, {unit}",
     )
-    return _polar(engine, key, engine.diagrams.rod_bearings[key], [], titles)
+    return _polar(engine, key, engine.bearings.rod_ends[key.removesuffix("_load")], [], titles)
 
 
 def _polar(

@@ -275,11 +275,11 @@ def _plan(order: int) -> Callable[[Drawn], Drawing]:
 def _crankpins(machine: Drawn) -> Iterable[Diagram]:
     """Yield the polar diagram of every unlike crankpin; the first has no number in its name."""
     if not machine.has_piston:
-        for number, pin in enumerate(machine.bearings.pins, start=1):  # type: ignore[attr-defined]
+        for number, pin in enumerate(machine.bearings.pins, start=1):
             name = f"crankpin_polar_{number}" if number > 1 else "crankpin_polar"
             yield Diagram(name, partial(crankpin_polar, pin=pin), _drawn, "crank_up", owner=plain(pin))
         return
-    pins = list(machine.diagrams.pin_sizes[1]) if _engine(machine) else []
+    pins = machine.bearings.pins if _engine(machine) else ()
     for index, pin in enumerate(pins):
         name = f"crankpin_polar_{pin}" if index else "crankpin_polar"
         # of several crankpins the first has a number too

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array, Results
-from crankwork.analysis.bearing_diagrams import BearingDiagrams, JointDiagrams
+from crankwork.analysis.bearings import BearingDiagrams
 from crankwork.analysis.constructions import fine_columns
 from crankwork.analysis.load_diagrams import EngineDiagrams
 from crankwork.analysis.rounding_noise import without_rounding
@@ -299,7 +299,7 @@ class Drawn:
     @cached_property
     def bearings(self) -> BearingDiagrams:
         """The loads of its bearings."""
-        return self.diagrams if self.has_piston else JointDiagrams(self.results)
+        return BearingDiagrams(self.results)
 
     @property
     def cylinders(self) -> int:
