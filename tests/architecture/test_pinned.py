@@ -28,7 +28,7 @@ PINNED = {
         "machine": "93e6fd34e1f6",
     },
     "formulas": "274ffc63bbc6",
-    "quantities": "29183f2a7f9e",
+    "quantities": "eb8dc364166d",
     "defaults": "6b294094b813",
 }
 
