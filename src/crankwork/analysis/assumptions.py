@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -57,7 +58,7 @@ class IdleInput(NamedTuple):
 
     key: str
     reason: str
-    values: Mapping[str, float | str] = {}
+    values: Mapping[str, float] = MappingProxyType({})
 
 
 def assumptions(results: Results) -> tuple[Assumption, ...]:
@@ -134,12 +135,12 @@ def _taken(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assump
     if engine is not None and len(engine.layout.places) > 1 and not any(map(_FIRING.match, stated)):
         order = "-".join(str(number) for number in engine.layout.firing_order)
         yield Assumption("firing_order", ("engine.firing_order",), order)
-    calculated = getattr(getattr(results.machine.gas, "calculated", None), "cycle", None)
-    if getattr(calculated, "kind", "") not in FUELS:
+    kind = getattr(getattr(getattr(results.machine.gas, "calculated", None), "cycle", None), "kind", "")
+    if kind not in FUELS:
         return
     fuel = next((path for path in stated if re.fullmatch(r"(.*\.)?cycle\.fuel\b.*", path)), "")
     if not fuel:
-        yield Assumption(f"fuel_{calculated.kind}", ("cycle.fuel",))
+        yield Assumption(f"fuel_{kind}", ("cycle.fuel",))
     for path, (node, quantity) in leaves(results).items():
         table = path.partition("[")[0]
         if re.fullmatch(r"(chambers\.[^.]+\.)?cycle\.\w+(\[\d\])?", path) and not any(
@@ -179,8 +180,8 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"transient\.until", lambda *_: False),
     (r"transfer\.bodies\..*\.mass", lambda _, stated, path: f"{path.removesuffix('mass')}velocity[1]" in stated),
     (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
-    (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path[:-5], "peak", stated, results)),
-    (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing", "peak", stated, results)),
+    (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path, stated, results)),
+    (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing.peak", stated, results)),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, {})),
 )
 
@@ -254,14 +255,14 @@ def _idle_mass(results: Results, stated: Mapping[str, FileInput], path: str) -> 
 
 
 def _idle_point(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
-    gas, _, point = path.removesuffix(".angle").rpartition(".points.")
+    gas, __, point = path.removesuffix(".angle").rpartition(".points.")
     return "" if _bounds_pieces(gas, point, stated) else "only_volume"
 
 
 # why an input may have no effect although it is in the trace, or need not be in it
 _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str]], ...] = (
     (r"motor\.\w+", _idle_motor),
-    (r".*\.timing\.\w+", lambda results, stated, path: _idle_event(*path.rsplit(".", 1), stated, results)),
+    (r".*\.timing\.\w+", lambda results, stated, path: _idle_event(path, stated, results)),
     (r"engine\.spacing", _idle_spacing),
     (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
     (r"flywheel\.(fluctuation|percent)", _idle_wheel),
@@ -280,8 +281,9 @@ def _bounds_pieces(gas: str, point: str, stated: Mapping[str, FileInput]) -> boo
     )
 
 
-def _idle_event(table: str, name: str, stated: Mapping[str, FileInput], results: Results) -> str:
+def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) -> str:
     """Return why an event of the valves has no effect in a calculated cycle; empty if it has."""
+    table, _, name = path.rpartition(".")
     cycle = table.removesuffix(".timing")
     kind, corners = (stated.get(f"{cycle}.{key}", FileInput(None)).value for key in ("kind", "corners"))
     is_rounded = corners == "rounded" or (corners is None and any(path.startswith(f"{table}.") for path in stated))
@@ -304,10 +306,10 @@ def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iter
         travel = _travel(results, load)
         acting = load.force(travel)
         values = {"begins": load.force.at[0] * 1e3, "from": float(travel[0]) * 1e3, "to": float(travel[-1]) * 1e3}
-        for key, numbers in (("at", load.force.at), ("values", load.force.values)):
-            for index in range(len(numbers)):
-                path = f"loads[{number}].{'at' if key == 'at' else 'force'}[{index + 1}]"
-                if path in stated and not _acts(load.force, key, index, travel, acting):
+        for key, name in (("at", "at"), ("force", "values")):
+            for index in range(len(load.force.at)):
+                path = f"loads[{number}].{key}[{index + 1}]"
+                if path in stated and not _acts(load.force, name, index, travel):
                     yield IdleInput(path, "beyond_stroke" if np.any(acting) else "never_acts", values)
 
 
@@ -315,18 +317,20 @@ def _travel(results: Results, load: ProcessForce) -> Array:
     """Return distances from the start of the working stroke that the piece comes to. [m]"""
     key = f"slider_displacement.{load.slider}"
     positions = results.columns_at(np.linspace(0.0, results.machine.cycle, _SAMPLES), [key])[key] - load.start
-    ends = sorted((load.forward * float(np.min(positions)), load.forward * float(np.max(positions))))
-    return np.linspace(*ends, 4 * _SAMPLES)
+    low, high = sorted((load.forward * float(np.min(positions)), load.forward * float(np.max(positions))))
+    return np.linspace(low, high, 4 * _SAMPLES, dtype=np.float64)
 
 
-def _acts(curve: LoadCurve, key: Literal["at", "values"], index: int, travel: Array, acting: Array) -> bool:
-    """Return whether a force that is met changes with an entry of its table."""
-    numbers = getattr(curve, key)
-    for factor in (1.01, 0.99):
-        other = list(numbers)
-        other[index] = other[index] * factor or (factor - 1.0) * max(map(abs, numbers))
+def _acts(curve: LoadCurve, name: str, index: int, travel: Array) -> bool:
+    """Return whether a force that is met changes with an entry of its table, `at` or `values`."""
+    columns = {"at": curve.at, "values": curve.values}
+    largest, acting = max(map(abs, columns[name])), curve(travel)
+    for share in (0.01, -0.01):
+        other = list(columns[name])
+        other[index] += share * (other[index] or largest)
+        at, values = ({**columns, name: tuple(other)}[column] for column in columns)
         try:
-            changed = replace(curve, **{key: tuple(other)})(travel)
+            changed = replace(curve, at=at, values=values)(travel)
         except ValueError:
             return True
         if np.max(np.abs(changed - acting)) > _ROUNDING * max(map(abs, curve.values)):

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from crankwork.analysis import Results
-from crankwork.analysis.assumptions import Assumption
+from crankwork.analysis.assumptions import Assumption, IdleInput
 from crankwork.locale import Language, decimal, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.report.display import displayed, in_own_units, key_unit, label
@@ -32,18 +32,16 @@ def plain_assumptions(results: Results, language: Language) -> list[str]:
 
 def idle_texts(results: Results, language: Language) -> list[str]:
     """Return a sentence for each reason why inputs are without effect."""
-    groups: dict[tuple[str, tuple[object, ...]], list[str]] = {}
+    groups: dict[tuple[object, ...], list[IdleInput]] = {}
     for item in results.without_effect:
-        groups.setdefault((item.reason, tuple(item.values.items())), []).append(item.key)
-    return [
-        translate(
-            f"assumptions.{reason}",
-            language,
-            keys=_keys(keys, language),
-            **{name: number(value, language) for name, value in values},  # type: ignore[misc]
-        )
-        for (reason, values), keys in groups.items()
-    ]
+        groups.setdefault((item.reason, *item.values.values()), []).append(item)
+    return [_idle(items, language) for items in groups.values()]
+
+
+def _idle(items: Sequence[IdleInput], language: Language) -> str:
+    values = {name: number(value, language) for name, value in items[0].values.items()}
+    keys = _keys([item.key for item in items], language)
+    return translate(f"assumptions.{items[0].reason}", language, keys=keys, **values)
 
 
 def sentence_lists(results: Results, language: Language) -> Iterator[tuple[str, list[str]]]:
