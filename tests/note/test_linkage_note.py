@@ -300,7 +300,9 @@ def test_russian_and_vietnamese_say_nothing_in_english():
     for room in ("headings", "captions", "columns", "sentences", "seen", "note", "figures", "tables", "notices"):
         for key, said in texts(room, "ru").items():
             # what is to be written into a file is in its own words
-            russian = re.sub(r'[\w{}.]+ = (?:"[^"]*"|true)|\{\w+\}(?:\.\w+)?|[\w.]+\.\w+|p–V|CO₂|const|true|rigid', "", said)
+            russian = re.sub(
+                r'[\w{}.]+ = (?:"[^"]*"|true)|\{\w+\}(?:\.\w+)?|[\w.]+\.\w+|p–V|CO₂|const|true|rigid', "", said
+            )
             assert not re.findall(r"[A-Za-z]{3,}", russian), (room, key)
         for key, said in texts(room, "vi").items():
             spelled = re.findall(r"[a-z]+(?![^\W\d_])", re.sub(r"\{\w+\}", "", said).lower())

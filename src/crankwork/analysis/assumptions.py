@@ -168,7 +168,7 @@ _Rule = Callable[["Results", Mapping[str, FileInput], str], bool]
 _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     # the summary says the method, and pi is a constant of mathematics
     (r"method\.(pi|kinematics)", lambda *_: False),
-    (r"method\.gravity", lambda results, *_: "method.gravity" in leaves(results)),
+    (r"method\.gravity", lambda results, *_: "method.gravity" in leaves(results) and _has_mass(results)),
     (r"method\.weights", lambda results, *_: _has_mass(results)),
     (r"rod\.ratio_definition", lambda _, stated, __: "rod.ratio" in stated),
     (r"engine\.strokes", lambda results, *_: results.machine.gas is None),
