@@ -26,8 +26,10 @@ def assumption_texts(results: Results, language: Language) -> list[str]:
 @in_own_units
 def plain_assumptions(results: Results, language: Language) -> list[str]:
     """Return the assumptions that are no defaults, without the keys of the file, for a note."""
-    plain = (item._replace(keys=()) for item in results.assumptions if item.code != "default")
-    return [_assumption(item, language).replace(" ()", "") for item in plain]
+    plain = [item._replace(keys=()) for item in results.assumptions if item.code != "default"]
+    taken = "; ".join(_taken(item, language) for item in plain if item.code == "taken")
+    texts = [_assumption(item, language).replace(" ()", "") for item in plain if item.code != "taken"]
+    return [*texts, translate("assumptions.taken_plain", language, values=taken)] if taken else texts
 
 
 def idle_texts(results: Results, language: Language) -> list[str]:
@@ -65,14 +67,18 @@ def screen_lines(texts: Sequence[str], language: Language) -> Iterator[str]:
 def _assumption(item: Assumption, language: Language) -> str:
     keys = _keys(item.keys, language)
     if item.code == "taken":
-        unit = unit_name(key_unit(item.quantity), language)
-        value = f"{number(displayed(item.quantity, item.value), language)} {unit}".rstrip()
-        return translate("assumptions.taken", language, name=label(item.quantity, language), value=value, keys=keys)
+        return translate("assumptions.taken", language, value=_taken(item, language), keys=keys)
     name = translate(item.meaning, language) if item.meaning else ""
     names = ", ".join(part.partition(".")[2] or part for part in item.names)
     return translate(
         f"assumptions.{item.code}", language, keys=keys, name=name, names=names, value=_written(item.value, language)
     )
+
+
+def _taken(item: Assumption, language: Language) -> str:
+    unit = unit_name(key_unit(item.quantity), language)
+    value = number(displayed(item.quantity, item.value), language)
+    return f"{label(item.quantity, language)} {value} {unit}".rstrip()
 
 
 def _written(value: object, language: Language) -> str:
