@@ -315,8 +315,8 @@ def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iter
 
 def _travel(results: Results, load: ProcessForce) -> Array:
     """Return distances from the start of the working stroke that the piece comes to. [m]"""
-    key = f"slider_displacement.{load.slider}"
-    positions = results.columns_at(np.linspace(0.0, results.machine.cycle, _SAMPLES), [key])[key] - load.start
+    key, degrees = f"slider_displacement.{load.slider}", results.grid.degrees
+    positions = results.columns_at(np.linspace(degrees[0], degrees[-1], _SAMPLES), [key])[key] - load.start
     low, high = sorted((load.forward * float(np.min(positions)), load.forward * float(np.max(positions))))
     return np.linspace(low, high, 4 * _SAMPLES, dtype=np.float64)
 
