@@ -104,8 +104,9 @@ def read_machine(
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     notices = (*machine.notices, *reader.notices)
     return replace(
-        machine, notices=notices, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations
-    )
+        machine, notices=notices, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations,
+        tolerances=reader.tolerances,
+    )  # fmt: skip
 
 
 def are_readable(values: dict[str, Any]) -> bool:
