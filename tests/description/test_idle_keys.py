@@ -12,7 +12,7 @@ from each import for_each
 from expansions import ROOT
 
 TORQUES = template("turning-moment")
-PRESS = f"{(ROOT / 'tests' / 'machines' / 'turning-strokes.toml').read_text('utf-8')}\n"
+PRESS = (ROOT / "tests" / "machines" / "turning-shears.toml").read_text("utf-8")
 TRANSFER = (ROOT / "examples" / "press.toml").read_text("utf-8")
 CRANK = template("slider-crank")
 NO_MECHANISM = "has no mechanism"
