@@ -16,7 +16,7 @@ from crankwork.analysis import Results, analyse
 from crankwork.analysis.assumptions import is_display
 from crankwork.description.machine_file import Setting, apply_override, entry_at, file_keys, read_machine
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
-from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader
+from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader, split_deviation
 from crankwork.errors import CrankworkError
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.units import UNITS, parse
@@ -95,7 +95,7 @@ def alternatives(value: Any, kind: object) -> Iterator[Any]:
 
 
 def _other_quantities(value: str, kind: Quantity) -> Iterator[str]:
-    parsed = parse(value.partition("±")[0], kind.dimensions, metric_hp=True, decimal_comma="," in value)
+    parsed = parse(split_deviation(value)[0], kind.dimensions, metric_hp=True, decimal_comma="," in value)
     unit = UNITS[parsed.unit]
     size = (parsed.value - unit.zero) / unit.factor
     step = _SCALES.get(parsed.dimension, 1.0) / unit.factor

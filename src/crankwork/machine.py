@@ -339,7 +339,9 @@ class Machine:
     document : Document
         Title data of its note and sheets.
     deviations : mapping of str to float
-        Standard deviations stated in the file, by key. [SI]
+        Standard deviations stated in the file, by key; a third of a stated tolerance. [SI]
+    tolerances : mapping of str to float
+        Tolerances stated in the file, the largest distance to either side, by key. [SI]
     digest : str
         SHA-256 of the machine file and its overrides; empty for a machine made without a file.
     units : str
@@ -390,6 +392,7 @@ class Machine:
     units: System = "metric"
     digest: str = field(default="", compare=False)
     deviations: Mapping[str, float] = field(default_factory=dict, compare=False)
+    tolerances: Mapping[str, float] = field(default_factory=dict, compare=False)
     linkage: Linkage | None = None
     transfer: TransferTable | None = None
     turning: ShaftTorques | None = None

@@ -344,7 +344,7 @@ def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values:
 
 
 def deviation_in_si(quantity: ParsedQuantity, deviation: str) -> float:
-    """Return a standard deviation in SI, given in the unit of the value or as a percentage of it, `2%`."""
+    """Return a tolerance or standard deviation in SI, given in the unit of the value or as a percentage of it, `2%`."""
     size = float(deviation.rstrip("%").replace(",", "."))
     if deviation.endswith("%"):
         return abs(quantity.value) * size / 100

@@ -59,7 +59,7 @@ def test_an_inclination_without_weights_is_told():
 
 def test_a_compression_ratio_without_gas_is_told():
     description = Description(template("slider-crank"))
-    description.replace({"cylinder.bore": "80 mm", "cylinder.compression_ratio": 9.0})
+    description.replace({"format": 1, "cylinder.bore": "80 mm", "cylinder.compression_ratio": 9.0})
     assert "cylinder.compression_ratio" in idle(analyse(description))
 
 

@@ -74,8 +74,9 @@ def test_every_number_of_the_calculation_is_from_a_line_of_the_file_or_a_default
 
 
 def test_numbers_and_deviations_are_those_that_the_file_states() -> None:
-    machine = crankwork.read_machine(GEAR.replace('"1.2 kg"', '"1.2 ± 0.01 kg"'))
+    machine = crankwork.read_machine(GEAR.replace('"1.2 kg"', '"1.2 ± 0.03 kg"'))
     assert machine.deviations == {"rod.mass": pytest.approx(0.01)}
+    assert machine.tolerances == {"rod.mass": pytest.approx(0.03)}
     assert machine.stated["rod.ratio"].value == 0.25
     assert not any(path.startswith("links") for path in machine.stated)
 

@@ -35,6 +35,10 @@ WRONG = {
     "range outside": ('to = "50 mm"', 'to = "500 m"', ':7: vary.crank.radius.to: "500 m" is out of range; write at'),
     "steps of a draw": (', to = "50 mm"', ', to = "50 mm", steps = 4', ":7: vary.crank.radius: a range says nothing"),
     "no deviation": ("0.25 ± 0.01", "0.25", ':8: vary.rod.ratio: "0.25" must be a plain number'),
+    "limits of a deviation": (
+        '"0.25 ± 0.01"', '{ uniform = "0.25 sd 0.01" }',
+        ':8: vary.rod.ratio.uniform: "0.25 sd 0.01" states no limits, between which all is as likely; write { uniform',
+    ),
     "no list of words": (
         '"0.25 ± 0.01"', '0.25\nrod.ratio_definition = "r/l"',
         ":9: vary.rod.ratio_definition: holds words or counts, and there is nothing between them; write a list",

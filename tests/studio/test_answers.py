@@ -83,6 +83,7 @@ def test_a_field_changes_in_the_text_and_keeps_what_is_said_beside_it():
         ("45 mm", "1,700 mm", "en", "1,700 mm"),
         ("45 ± 0.1 mm", "47", "vi", "47 ± 0.1 mm"),
         ("45 mm ± 1 %", "47", "en", "47 mm ± 1 %"),
+        ("45 sd 0.1 mm", "47", "ru", "47 sd 0.1 mm"),
     ],
 )
 def test_a_number_typed_keeps_unit_and_tolerance(stated, value, language, comes):

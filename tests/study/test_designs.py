@@ -29,7 +29,7 @@ def study(tmp_path):
 FIELDS = """
 crank.radius = { from = "40 mm", to = "50 mm" }
 crank.speed = { from = "100 rad/s", to = "10000 rad/s", spacing = "ratios" }
-rod.ratio = "0.25 ± 0.01"
+rod.ratio = "0.25 sd 0.01"
 """
 
 
@@ -81,7 +81,7 @@ def test_lists_may_stand_side_by_side(study):
 
 def test_words_are_drawn_as_often_as_each_other(study):
     one = study(
-        'drawing = "sobol"\ncount = 512', 'method.kinematics = ["exact", "textbook"]\ncrank.radius = "45 ± 1 mm"'
+        'drawing = "sobol"\ncount = 512', 'method.kinematics = ["exact", "textbook"]\ncrank.radius = "45 sd 1 mm"'
     )
     words, _ = designs_of(one, 512, 0)
     assert np.bincount(words.astype(int)).tolist() == [256, 256]

@@ -32,7 +32,7 @@ angles = 72
 [vary]
 crank.radius = { from = "40 mm", to = "50 mm" }
 crank.speed = { from = "1000 rpm", to = "2000 rpm" }
-"rod.ratio" = "0.25 ± 0.01"
+"rod.ratio" = "0.25 sd 0.01"
 [objectives]
 piston_velocity_max = "minimise"
 stroke = "maximise"

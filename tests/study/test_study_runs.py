@@ -50,7 +50,7 @@ angles = 72
 rows = true
 [vary]
 crank.radius = { from = "40 mm", to = "50 mm" }
-rod.ratio = "0.25 ± 0.01"
+rod.ratio = "0.25 sd 0.01"
 [objectives]
 piston_velocity_max = "minimise"
 piston_acceleration_max = "maximise"
@@ -355,12 +355,21 @@ def test_what_cannot_be_assembled_is_counted_by_reason(write, tmp_path):
 
 def test_draws_outside_what_a_field_may_be_are_counted(write, tmp_path):
     found = run_study(
-        load_study(write(COMPILED.replace("0.25 ± 0.01", "0.25 ± 0.2"))), tmp_path / "out", ExecutionOptions(1)
+        load_study(write(COMPILED.replace("0.25 sd 0.01", "0.25 sd 0.2"))), tmp_path / "out", ExecutionOptions(1)
     )
     count, reason = found.refused["vary_outside"]
     # below zero is what lies 1.25 deviations below the mean
     assert count / 3000 == pytest.approx(0.10565, abs=2e-3)
     assert reason == "rod.ratio is drawn outside what the field may be"
+
+
+@pytest.mark.elsewhere
+def test_a_tolerance_is_drawn_as_three_deviations_of_a_normal_distribution(write):
+    texts = (COMPILED, COMPILED.replace("0.25 sd 0.01", "0.25 ± 0.03"))
+    fields = [load_study(write(text)).varied[-1] for text in texts]
+    # 0.135 % lie below three deviations and 15.87 % below one
+    for field in fields:
+        np.testing.assert_allclose(field.of_shares(np.array([0.0013498980316, 0.1586552539])), [0.22, 0.24], rtol=1e-8)
 
 
 def test_words_have_designs_of_their_own(write, tmp_path):

@@ -121,12 +121,12 @@ def _has_weights(results: Results) -> bool:
 
 
 def _conventions(results: Results) -> Iterator[Assumption]:
-    """Yield conventions of angles and of deviations."""
+    """Yield conventions of angles and of tolerances."""
     machine = results.machine
     if machine.lengths is not None and machine.gas is not None:
         yield Assumption("angle_of_cycle" if machine.cycle > 360.0 else "angle_of_turn", ())
-    if machine.deviations:
-        yield Assumption("deviation", tuple(machine.deviations))
+    if machine.tolerances:
+        yield Assumption("deviation", tuple(machine.tolerances))
 
 
 def _taken(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assumption]:

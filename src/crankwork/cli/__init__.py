@@ -401,7 +401,7 @@ def solve(options: CommonOptions, equation: str, field: str, start: str | None, 
 @JSON
 @with_common_options
 def spread(options: CommonOptions, keys: tuple[str, ...], samples: str, within: str) -> None:
-    """Tell how far results spread where the file states numbers with a deviation: "75 ± 0.1 mm"."""
+    """Tell how far results spread where the file states numbers with a tolerance or a deviation."""
     from crankwork.description.document import load
     from crankwork.study.spread import spread as found_spread
     from crankwork.study.spread_text import spread_data, spread_text

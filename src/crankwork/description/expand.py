@@ -9,7 +9,7 @@ from typing import Any
 from crankwork.description.document import Description, load
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.load_keys import LOADING
-from crankwork.description.machine_file import file_keys, read, settings_of
+from crankwork.description.machine_file import file_keys, idle_keys, read, settings_of
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.shorthand import given_motion_tables, linkage_tables, linkage_values
 from crankwork.description.toml_edit import key_text, toml, with_value
@@ -72,6 +72,7 @@ def _with_defaults(description: Description, mark: str) -> str:
         if isinstance(kind, TableSpec) and name not in values:
             values[name] = Values({}, kind)
     sealed = {name for charge in values.get("charges", {}).values() for name in charge["chambers"]}
+    idle = idle_keys(keys, values)
     for path, table in _stated_tables("", values):
         is_sealed = path.removeprefix("chambers.") in sealed
         for name in table.table.keys:
@@ -79,7 +80,7 @@ def _with_defaults(description: Description, mark: str) -> str:
             if name in table or written is None or (is_sealed and name in ("pressures", "period", "pressure_factor")):
                 continue
             key = f"{path}.{name}".lstrip(".")
-            text = _marked(with_value(text, key, written), key, mark)
+            text = text if key in idle else _marked(with_value(text, key, written), key, mark)
     return text
 
 

@@ -20,7 +20,7 @@ from crankwork.description.build import build_machine
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.file_inputs import file_inputs
-from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, SIZED_FILE
+from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, METHOD, SIZED_FILE
 from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.load_keys import LOADING
 from crankwork.description.measured_build import read_measured
@@ -104,8 +104,9 @@ def read_machine(
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     notices = (*machine.notices, *reader.notices)
     return replace(
-        machine, notices=notices, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations
-    )
+        machine, notices=notices, units=values.get("units", "metric"), digest=digest, deviations=reader.deviations,
+        tolerances=reader.tolerances,
+    )  # fmt: skip
 
 
 def are_readable(values: dict[str, Any]) -> bool:
@@ -123,6 +124,10 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     keys = file_keys(values)
     read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader, folder)
+    for key, reason in idle_keys(keys, read_values).items():
+        table, _, name = key.partition(".")
+        if name in (read_values[table] or ()):
+            reader.add_error(key, reason)
     if machine is not None and not reader.problems and keys in _LOADED:
         machine = _loaded(machine, values, reader, folder)
     elif machine is not None and keys in _ENGINES:
@@ -131,6 +136,22 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     if machine is None:
         return None
     return replace(machine, document=stated_document(read_values), inputs=functools.partial(_inputs, values))
+
+
+def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
+    """Return the keys that can never have an effect beside the others, with the reason; none in files of format 1."""
+    if values["format"] == 1:
+        return {}
+    if keys in (*_TABULATED, TURNING_FILE, PRESS_FILE):
+        return {f"method.{name}": ErrorMessage("idle_method") for name in METHOD.keys if name != "pi"}
+    idle = dict[str, ErrorMessage]()
+    if keys in _LINKAGES:
+        return idle
+    if "gas" not in values and "cycle" not in values:
+        idle |= {f"cylinder.{name}": ErrorMessage("idle_volume") for name in ("compression_ratio", "clearance_volume")}
+    if "ratio" not in (values["rod"] or ()):
+        idle["rod.ratio_definition"] = ErrorMessage("only_beside", key="ratio", advice="ratio = 0.25")
+    return idle
 
 
 def _inputs(values: dict[str, Any]) -> FileInputs:

@@ -13,10 +13,12 @@ from crankwork.errors import Problem
 from crankwork.locale import ErrorMessage, Language, translate
 
 _MAX_PROBLEMS = 50
-# text of a value with a standard deviation, the unit after either number
+# text of a value with a tolerance or a standard deviation, the unit after either number
 _LONG = 100
+# standard deviations to a limit of a tolerance: 99.7 % of a normal distribution lie within
+DEVIATIONS_OF_TOLERANCE = 3.0
 _DEVIATION = re.compile(
-    r"\s*([+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*([^\s±+\d][^±+]*)?(?:±|\+-|\+/-)"
+    r"\s*([+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*((?:[^\s±+\d]|(?<=\s)1/)[^±+]*)?(±|\+-|\+/-|(?i:\bsd\b)|σ)"
     r"\s*([0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*(\S.*)?"
 )
 # smaller numbers become 0, so that nothing is divided by them
@@ -32,21 +34,32 @@ def _in_range(limit: float, rounding: str) -> str:
     return f"{float(Context(prec=6, rounding=rounding).create_decimal(limit)):.6g}"
 
 
-def split_deviation(text: str) -> tuple[str, str | None]:
-    """Return a stated value and its standard deviation: absolute, in percent, or with a unit of its own.
+class Deviation(NamedTuple):
+    """Text of a tolerance or a standard deviation: absolute, in percent, or with a unit of its own."""
+
+    size: str
+    is_tolerance: bool
+
+
+def split_deviation(text: str) -> tuple[str, Deviation | None]:
+    """Return a stated value and its tolerance, `±`, or standard deviation, `sd`.
 
     Examples
     --------
-    >>> [split_deviation(text) for text in ("75 ± 0.1 mm", "0.25 ± 2 %", "75 mm +- 1%", "75 mm", "2 kg ± 5 g")]
-    [('75 mm', '0.1'), ('0.25', '2%'), ('75 mm', '1%'), ('75 mm', None), ('2 kg', '5 g')]
+    >>> texts = ("75 ± 0.1 mm", "0.25 sd 2 %", "75 mm +- 1%", "2 kg σ 5 g")
+    >>> [(value, *deviation) for value, deviation in map(split_deviation, texts)]
+    [('75 mm', '0.1', True), ('0.25', '2%', False), ('75 mm', '1%', True), ('2 kg', '5 g', False)]
+    >>> split_deviation("75 mm")
+    ('75 mm', None)
     """
     match = _DEVIATION.fullmatch(text) if len(text) < _LONG else None
     if match is None:
         return text, None
-    value, first, size, last = (part.strip() for part in match.groups(""))
+    value, first, mark, size, last = (part.strip() for part in match.groups(""))
+    is_tolerance = mark[0] in "±+"
     if last == "%":
-        return f"{value} {first}".strip(), f"{size}%"
-    return f"{value} {first or last}".strip(), f"{size} {last}" if first and last else size
+        return f"{value} {first}".strip(), Deviation(f"{size}%", is_tolerance)
+    return f"{value} {first or last}".strip(), Deviation(f"{size} {last}" if first and last else size, is_tolerance)
 
 
 class MeasuredValue(NamedTuple):
@@ -66,8 +79,9 @@ class Reader:
     def __init__(self, *, decimal_comma: bool = False, metric_hp: bool = False) -> None:
         self.problems: list[Problem] = []
         self.notices: list[tuple[str, dict[str, float | str]]] = []
-        # standard deviations of values stated with them, by key [SI]
+        # standard deviations of values, and the tolerances from which they follow, by key [SI]
         self.deviations: dict[str, float] = {}
+        self.tolerances: dict[str, float] = {}
         self.more = 0
         self.decimal_comma, self.metric_hp = decimal_comma, metric_hp
         self._blamed: set[str] = set()
@@ -86,6 +100,12 @@ class Reader:
         space = max(_MAX_PROBLEMS - len(self.problems), 0)
         self.problems += added[:space]
         self.more += len(added[space:])
+
+    def add_deviation(self, key: str, size: float, *, is_tolerance: bool) -> None:
+        """Store the standard deviation of a value, or its tolerance and the part of it that counts as one. [SI]"""
+        self.deviations[key] = size / DEVIATIONS_OF_TOLERANCE if is_tolerance else size
+        if is_tolerance:
+            self.tolerances[key] = size
 
     @property
     def is_full(self) -> bool:
@@ -145,15 +165,16 @@ class Quantity(NamedTuple):
             reader.notices.append((parsed.notice, {"path": key, "text": value.strip(), "value": parsed.value}))
         return MeasuredValue(parsed.value if abs(parsed.value) > _SMALLEST else 0.0, parsed.dimension, parsed.unit)
 
-    def _deviates(self, parsed: units.ParsedQuantity, deviation: str, key: str, reader: Reader) -> bool:
-        """Store a standard deviation, in the unit of the value or in its own; return whether it is valid."""
-        size, _, own = deviation.partition(" ")
+    def _deviates(self, parsed: units.ParsedQuantity, deviation: Deviation, key: str, reader: Reader) -> bool:
+        """Store a tolerance or standard deviation, in the unit of the value or its own; return whether it is valid."""
+        stated, is_tolerance = deviation
+        size, _, own = stated.partition(" ")
         try:
-            unit = units.parse(deviation, (parsed.dimension,), decimal_comma=reader.decimal_comma) if own else parsed
+            unit = units.parse(stated, (parsed.dimension,), decimal_comma=reader.decimal_comma) if own else parsed
         except ValueError as error:
             reader.add_error(key, error.args[0])
             return False
-        reader.deviations[key] = units.deviation_in_si(unit, size)
+        reader.add_deviation(key, units.deviation_in_si(unit, size), is_tolerance=is_tolerance)
         return True
 
     def _holds(self, number: float) -> bool:
@@ -260,7 +281,8 @@ class Number(NamedTuple):
             reader.add_error(key, self._out_of_range("whole", value))
             return None
         if deviation is not None:
-            reader.deviations[key] = units.deviation_in_si(units.ParsedQuantity(number, "", ""), deviation)
+            size = units.deviation_in_si(units.ParsedQuantity(number, "", ""), deviation.size)
+            reader.add_deviation(key, size, is_tolerance=deviation.is_tolerance)
         return number if abs(number) > _SMALLEST else 0.0
 
     def _out_of_range(self, kind: str, value: object) -> ErrorMessage:

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from crankwork.description.document import Description
-from crankwork.description.machine_file import entry_at, file_keys, steps_of
-from crankwork.description.schema import DefaultBy, KeySpec, ListOf, NameOr, NumberOr, TableSpec, WordOr
+from crankwork.description.machine_file import entry_at, file_keys, idle_keys, steps_of
+from crankwork.description.schema import DefaultBy, KeySpec, ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
 from crankwork.description.toml_edit import toml
 from crankwork.description.value_types import Choice, Flag, MeasuredValue, Number, Quantity, Reader, Text
 from crankwork.errors import CrankworkError
@@ -35,10 +35,12 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
         fresh = {"path": path, "means": means, "label": _label(path, means, language), "rows": [], "more": []}
         group = groups.setdefault(path, fresh)
         group["rows"].append(_row(description, key, table, entry, language))
+    idle = idle_keys(kinds, kinds.read(values, "", Reader()) or Values({}, kinds))
     for path, group in groups.items():
         table, stated = _kind(kinds, path), _stated(values, path)
         if isinstance(table, TableSpec):
-            group["more"] = list(_more(table, path, stated, language))
+            more = _more(table, path, stated, language)
+            group["more"] = [row for row in more if row["key"] not in idle]
     return list(groups.values())
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.value_types import DEVIATIONS_OF_TOLERANCE
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
@@ -26,7 +27,7 @@ from crankwork.study.variants import MachineVariants
 
 SAMPLES = 2000
 _MIN_SAMPLES, _MAX_SAMPLES = 100, 1_000_000
-# deviations of the worst case, by default and at most
+# standard deviations of the worst case, by default and at most
 WITHIN, _MAX_WITHIN = 3.0, 10.0
 # number of uncertain numbers up to which all corners of the worst case are analysed
 _CORNERS = 8
@@ -60,7 +61,7 @@ class Spread(NamedTuple):
     value: float
     deviation: float
     causes: tuple[Cause, ...]
-    worst: tuple[float, float]  # Least and largest value with every number within so many deviations
+    worst: tuple[float, float]  # Least and largest value with every number within its tolerance or so many deviations
     is_sampled: bool = False  # From draws, because the numbers interact
     mean: float | None = None  # Of the draws, if it differs significantly from the stated value
 
@@ -80,7 +81,7 @@ class Spreads(Mapping[str, Spread]):
     samples : int
         Number of draws of the sampled spreads.
     within : float
-        Largest deviation of a number in the worst case, in standard deviations.
+        Largest deviation in the worst case of a number without tolerance, in standard deviations.
     refused : mapping of str to int
         Number of draws without a machine, by reason.
     """
@@ -112,14 +113,16 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
     overrides: Sequence[str | Setting] = (),
     told: Callable[[float], None] | None = None,
 ) -> Spreads:
-    """Return the spread of single values from the numbers that a machine file states with a deviation, `75 ± 0.1 mm`.
+    """Return the spread of single values from the uncertain numbers of a machine file, `75 ± 0.1 mm` or `75 sd 0.1 mm`.
 
-    Deviations are standard deviations of independent normal distributions. The effect of each number is taken to second
+    The numbers have independent normal distributions: after `sd` stands the standard deviation, after `±` a tolerance,
+    a third of which counts as one, so that 99.7 % lie within its limits. The effect of each number is taken to second
     order from analyses close to the stated machine; if draws of all numbers show that this is not accurate, as when
     another of two peaks becomes the largest, the spread comes from more draws, many of them calculated at once.
 
-    The worst case of a value has each number at the deviation, up to `within`, that changes the value most by itself:
-    exact if the value is monotone in each number. If the numbers interact, all corners and the draws within count too.
+    The worst case of a value has each number where it changes the value most by itself, within the limits of its
+    tolerance or `within` standard deviations: exact if the value is monotone in each number. If the numbers interact,
+    all corners and the draws within count too.
 
     Parameters
     ----------
@@ -130,7 +133,7 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
     samples, seed : int
         Number of draws, and seed of the generator.
     within : float
-        Largest deviation of a number in the worst case, in standard deviations. [-]
+        Largest deviation in the worst case of a number without tolerance, in standard deviations. [-]
     overrides : sequence of str
         Settings that replace those of the file, `KEY=VALUE`.
     told : callable, optional
@@ -144,13 +147,13 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
     Raises
     ------
     CrankworkError
-        If the file states no deviation, or a machine close to the stated one cannot be analysed.
+        If the file states no uncertain number, or a machine close to the stated one cannot be analysed.
 
     Examples
     --------
     >>> import crankwork
     >>> d = crankwork.Description(crankwork.template("slider-crank"))
-    >>> d["crank.radius"] = "50 ± 0.1 mm"
+    >>> d["crank.radius"] = "50 sd 0.1 mm"
     >>> round(crankwork.spread(d)["stroke"].deviation * 1e3, 6)
     0.2
     """
@@ -177,7 +180,8 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
     missed = np.sqrt(np.nanmean((drawn - middle - model) ** 2, axis=0))
     size = _ZERO_TOLERANCE * np.maximum(np.abs(middle), np.max(np.abs(middle), initial=0.0) * _ZERO_TOLERANCE)
     is_odd = ~(missed <= np.maximum(_MISSED * deviations, size))
-    worst = _Worst(neighbours, first, second, within)
+    ends = neighbours.ends(within)
+    worst = _Worst(neighbours, first, second, ends)
     if is_odd.any():
         odd = np.flatnonzero(is_odd)
         neighbours.compile(odd, samples)
@@ -187,7 +191,8 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
         centred = drawn[:, is_odd] - np.nanmean(drawn[:, is_odd], axis=0)
         deviations[is_odd] = np.sqrt(np.nanmean(centred**2, axis=0))
         variances[:, is_odd] = _by_cause(draws, centred)
-        worst.look_at(draws[(np.abs(draws) <= within).all(axis=1)], drawn[(np.abs(draws) <= within).all(axis=1)])
+        is_within = (np.abs(draws) <= ends).all(axis=1)
+        worst.look_at(draws[is_within], drawn[is_within])
         worst.look_at_corners(odd)
     with np.errstate(invalid="ignore", divide="ignore"):
         shares = variances / variances.sum(axis=0)
@@ -222,18 +227,23 @@ class _Neighbours:
 
     def __init__(self, description: Description, overrides: Sequence[str | Setting], seed: int) -> None:
         self._description, self._overrides = description, list(overrides)
-        deviations = description.machine(overrides).deviations
+        machine = description.machine(overrides)
+        deviations, self._tolerances = machine.deviations, machine.tolerances
         if not deviations:
             raise CrankworkError(ErrorMessage("no_deviation"))
         values = description.values_with(overrides)
         self._numbers: dict[str, NumericField] = {key: numeric_field(values, key) for key in deviations}
         self.given = {key: (number.now or 0.0, deviations[key]) for key, number in self._numbers.items()}
         self._middle, self._sizes = np.array(list(self.given.values())).T
-        self.stated = analyse(description.machine(overrides))
+        self.stated = analyse(machine)
         self.near = _Near((), np.zeros(0), 0.0)
         self._compiled: list[tuple[NDArray[np.intp], MachineVariants]] = []
         self._generator = np.random.default_rng(seed)
         self.refused: dict[int, str] = {}
+
+    def ends(self, within: float) -> Array:
+        """Return how far each number may be off, in standard deviations: its tolerance, or `within` of them."""
+        return np.array([DEVIATIONS_OF_TOLERANCE if key in self._tolerances else within for key in self.given])
 
     def draws(self, count: int) -> Array:
         """Return draws of all uncertain numbers, shape (count, numbers)."""
@@ -327,16 +337,17 @@ class _Neighbours:
 
 
 class _Worst:
-    """Least and largest of each value among variants within so many deviations."""
+    """Least and largest of each value among variants with each number within its own end, in deviations."""
 
-    def __init__(self, neighbours: _Neighbours, first: Array, second: Array, within: float) -> None:
-        self._neighbours, self._within = neighbours, within
+    def __init__(self, neighbours: _Neighbours, first: Array, second: Array, ends: Array) -> None:
+        self._neighbours, self._ends = neighbours, ends
         self._low, self._high = neighbours.near.middle.copy(), neighbours.near.middle.copy()
         wanted: dict[bytes, Array] = {}
+        high = np.broadcast_to(ends[:, None], first.shape)
         for sign in (-1.0, 1.0):
             with np.errstate(invalid="ignore", divide="ignore"):
-                between = np.clip(np.nan_to_num(-first / second), -within, within)
-            places = np.stack([np.full(first.shape, -within), np.full(first.shape, within), between])
+                between = np.clip(np.nan_to_num(-first / second), -high, high)
+            places = np.stack([-high, high, between])
             change = sign * (first * places + second * places**2 / 2)
             best = np.take_along_axis(places, np.argmax(change, axis=0)[None], axis=0)[0]
             # ignore effects below rounding
@@ -358,7 +369,7 @@ class _Worst:
         count = len(self._neighbours.given)
         if count <= _CORNERS:
             signs = (np.arange(2**count)[:, None] >> np.arange(count) & 1) * 2 - 1
-            self._look_through(np.asarray(self._within * signs), names)
+            self._look_through(np.asarray(self._ends * signs), names)
 
     def of(self, index: int) -> tuple[float, float]:
         """Return the least and the largest of a value."""

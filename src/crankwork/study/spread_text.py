@@ -40,7 +40,7 @@ def _text(spreads: Spreads, language: Language) -> str:
         size = number(displayed_size(key, spread.deviation), language, digits=3 if spread.is_sampled else 6)
         shown = [number(displayed(key, spread.value), language), size]
         worst = " … ".join(number(displayed(key, end), language) for end in spread.worst)
-        rows.append((label(key, language), " ± ".join(shown), worst, unit_name(key_unit(key), language), causes, sign))
+        rows.append((label(key, language), " σ ".join(shown), worst, unit_name(key_unit(key), language), causes, sign))
     wide = [max((len(row[column]) for row in rows), default=0) for column in range(5)]
     lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
     if spreads.samples:

@@ -371,18 +371,21 @@ class _Field:
         return VariedField(self._key, read["spacing"], self._number, (low, high), steps=int(read["steps"] or 0))
 
     def _spread(self, law: Any, written: object, suffix: str, drawing: object) -> VariedField | None:  # noqa: ANN401
-        """Return a distribution from a value with its deviation."""
+        """Return a distribution from a value with its tolerance or standard deviation."""
         value = self._read(written, suffix)
         if value is None:
             return None
-        deviation = self._reader.deviations.get(self._path + suffix)
-        if not deviation:
-            self._add_error(suffix, ErrorMessage("vary_form", value=shown(written)))
+        deviation, tolerance = (
+            sizes.get(self._path + suffix, 0.0) for sizes in (self._reader.deviations, self._reader.tolerances)
+        )
+        if not (tolerance if law == "uniform" else deviation):
+            name = "vary_uniform" if deviation else "vary_form"
+            self._add_error(suffix, ErrorMessage(name, value=shown(written)))
             return None
         if drawing in (GRID, LIST):
             self._add_error(suffix, ErrorMessage("vary_distribution", drawing=shown(drawing)))
             return None
-        ends = (value, deviation) if law == "normal" else (value - deviation, value + deviation)
+        ends = (value, deviation) if law == "normal" else (value - tolerance, value + tolerance)
         return VariedField(self._key, law, self._number, ends)
 
     def _read(self, value: object, suffix: str) -> Any:  # noqa: ANN401 - any TOML value

@@ -99,7 +99,7 @@ def _moments(key: str, moments: Moments, language: Language) -> tuple[str, ...]:
 
     size = number(displayed_size(key, moments.deviation), language, digits=4) if moments.count > 1 else "-"
     ends = f"{shown(moments.low)} … {shown(moments.high)}" if moments.count else "-"
-    return label(key, language), f"{shown(moments.mean)} ± {size}", ends, unit_name(key_unit(key), language)
+    return label(key, language), f"{shown(moments.mean)} σ {size}", ends, unit_name(key_unit(key), language)
 
 
 def _design(study: Study, aggregate: StudyAggregate, design: int, key: str, language: Language) -> tuple[str, ...]:
