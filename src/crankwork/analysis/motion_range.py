@@ -10,15 +10,17 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval, polyvander
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.prepared import Notice
+from crankwork.analysis.transmission_quality import limits_of_transmissions
 from crankwork.errors import GeometryError
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import ProcedureValue, TracedValue
 from crankwork.kinematics.circuits import Extent
 from crankwork.kinematics.configuration_coordinates import link_angle
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.crank_range import CrankRange, find_crank_range, has_steady_crank, near_changes
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.position_analysis import assembled, place
@@ -27,6 +29,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
+from crankwork.quantities.key import key_of
 
 # how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
 _NEAREST, _AT_MOST = 0.005, 0.25
@@ -37,6 +40,10 @@ _OFFSETS = (1e-4, 1e-7)
 # distance that counts as the angle itself [deg]
 _ITSELF = 1e-7
 _GROWS = 10.0
+# how far from a dead position its row stands [deg], and from where limits in it are found
+_INSIDE = 1e-8
+_REACH, _NOISE = 1e-3, 1e-9
+_ROOTS = (1 - np.cos(np.pi * (np.arange(10) + 0.5) / 10)) / 2
 _NEARLY_SINGULAR = 1e-3
 _TURN = 360.0
 # most dyads whose branches are all tried: each doubles the combinations
@@ -137,12 +144,50 @@ def _change_notices(mechanism: Mechanism, travel: CrankRange | None) -> Iterator
 
 
 def rows_inside(travel: CrankRange, degrees: ArrayLike) -> CrankGrid:
-    """Return the angles of a table that lie between dead positions, up to whole turns. [deg]"""
+    """Return the angles of a table that lie between dead positions, up to whole turns, and in these. [deg]"""
     angles = np.asarray(degrees, dtype=float)
     first, last = math.floor((travel.start - angles.max()) / 360.0), math.ceil((travel.end - angles.min()) / 360.0)
     shifted = np.unique(np.round(np.concatenate([angles + 360.0 * turn for turn in range(first, last + 1)]), 9))
     edge = _EDGE * (travel.end - travel.start)
-    return CrankGrid.from_degrees(shifted[(shifted > travel.start + edge) & (shifted < travel.end - edge)])
+    inside = shifted[(shifted > travel.start + edge) & (shifted < travel.end - edge)]
+    dead = [row for end, row in _dead_rows(travel) if np.any(np.abs(shifted - end) <= edge)]
+    return CrankGrid.from_degrees(np.sort([*inside, *dead]))
+
+
+def _dead_rows(travel: CrankRange) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return both dead positions, each with the angle of its row, so little inside that formulas hold there. [deg]"""
+    return (travel.start, travel.start + _INSIDE), (travel.end, travel.end - _INSIDE)
+
+
+def with_limits(
+    columns: Mapping[str, Array], trace: Mapping[str, TracedValue], travel: CrankRange, table: CrankGrid
+) -> dict[str, Array]:
+    """Return the columns of a table with their limits in dead positions, and without a value where they have none.
+
+    A column goes there with the square root of the distance, in which it is followed by a polynomial.
+    """
+    result, width = {key: values.copy() for key, values in columns.items()}, travel.end - travel.start
+    cosines = limits_of_transmissions(travel)
+    varying = {key: trace[key] for key in columns if trace[key].varies}
+    for index, (end, row) in enumerate(_dead_rows(travel)):
+        rows = np.flatnonzero(table.degrees == row)
+        if not rows.size:
+            continue
+        side = 1.0 if index == 0 else -1.0
+        without = find_singular_columns(varying, [end], [side], width)
+        angles = CrankGrid.from_degrees(end + side * _REACH * width * _ROOTS**2)
+        for key, values in Program(varying)(angles).items():
+            kind, name = key_of(key)
+            if any(key in part for part in without):
+                limit = math.nan
+            elif kind == "transmission_angle":
+                cosine = cosines[f"transmission_cosine.{name}"][index]
+                limit = math.acos(max(-1.0, min(1.0, cosine)))
+            else:
+                limit = float(polyval(0.0, np.linalg.solve(polyvander(_ROOTS, _ROOTS.size - 1), values)))
+                limit = 0.0 if abs(limit) <= _NOISE * np.max(np.abs(values)) else limit
+            result[key][rows] = limit
+    return result
 
 
 def open_range(travel: CrankRange) -> tuple[float, float]:
