@@ -298,4 +298,50 @@ def test_a_row_in_a_dead_position_has_limits_and_no_value_where_there_is_none():
     # B leaves by u along the line square to both links, u² = v t / 3 where A comes by v t, and sinks by u² / 0.5 m
     assert columns["point_velocity_y.B"][0] == pytest.approx(-2 / 3 * 0.2 * results.summary["speed"], rel=1e-8)
     for key in ("link_angular_velocity.rocker", "point_velocity_x.B", "point_acceleration.B"):
-        assert np.isnan(columns[key][[0, -1]]).all() and np.isfinite(columns[key][1:-1]).all(), key
+        assert np.flatnonzero(np.isnan(columns[key])).tolist() == [0, len(results.grid) - 1], key
+
+
+def test_each_end_of_a_range_names_what_stops_there():
+    # a four-bar ABCD that would fail at C elsewhere, and a dyad EFG whose links come into line before: Stephenson III
+    text = """
+format = 2
+[fixed_points]
+A = ["7 m", "4 m"]
+D = ["23 m", "10 m"]
+G = ["45 m", "17 m"]
+[crank]
+pivot = "A"
+pin = "B"
+radius = "12.165525060596439 m"
+start = "1.7359450042095235 rad"
+speed = "10 rpm"
+[links]
+CD = { joins = ["D", "C"], length = "15.132745950421556 m" }
+EF = { joins = ["E", "F"], length = "25.179356624028344 m" }
+FG = { joins = ["G", "F"], length = "15.132745950421556 m" }
+[links.BCE]
+joins = ["B", "C", "E"]
+length = "21.93171219946131 m"
+points = { E = ["19.65190843652354 m", "11.991767793052649 m"] }
+[positions]
+C = ["25 m", "25 m"]
+F = ["43 m", "32 m"]
+"""
+    results = analyse(read_machine(text))
+    notice = next(item for item in results.notices if item.code == "partial")
+    assert notice.values["message"] == "at both ends links EF and FG are in line at F"
+    assert results.summary["transmission_angle_min.F"] == 0.0
+    assert results.summary["transmission_angle_max.F"] == math.pi
+    # with longer links F stops the crank at one end only; at the other C does, where BD is BC - CD
+    longer = text.replace("25.179356624028344", "30").replace(
+        '["G", "F"], length = "15.132745950421556', '["G", "F"], length = "20'
+    )
+    longer = longer.replace('F = ["43 m", "32 m"]', "[branch]\nF = 1")
+    results = analyse(read_machine(longer))
+    notice = next(item for item in results.notices if item.code == "partial")
+    radius, fixed, apart = 12.165525060596439, math.hypot(16, 6), 21.93171219946131 - 15.132745950421556
+    between = math.acos((radius**2 + fixed**2 - apart**2) / (2 * radius * fixed))
+    last = deg(math.atan2(6, 16) - between - 1.7359450042095235) + 360
+    assert notice.values["to"] == pytest.approx(last, abs=1e-9)
+    told = r"at -58\.9304 deg links EF and FG are in line at F, at 262\.374 deg links CD and BCE are in line at C"
+    assert re.fullmatch(told, notice.values["message"])

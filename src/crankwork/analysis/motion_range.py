@@ -18,6 +18,7 @@ from crankwork.analysis.transmission_quality import limits_of_transmissions
 from crankwork.errors import GeometryError
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import ProcedureValue, TracedValue
+from crankwork.kinematics.assembly import dead_position, first_failure
 from crankwork.kinematics.circuits import Extent
 from crankwork.kinematics.configuration_coordinates import link_angle
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -69,18 +70,22 @@ def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
     try:
         moved = linkage_motion(mechanism, engine)
     except GeometryError as error:
-        message = _branch_first(mechanism, engine, error.args[0])
+        reason = error.args[0]
+        message = _branch_first(mechanism, engine, reason)
         # a law beyond the range of its linkage has to be changed
         if not has_steady_crank(mechanism):
             raise GeometryError(message) from None
         try:
             result = find_crank_range(mechanism, machine.way)
         except GeometryError:
-            if message is error.args[0]:
+            if message is reason:
                 raise
             raise GeometryError(message) from None
         if result.is_whole:
             raise
+        ends = _reasons_of_ends(mechanism, engine, result)
+        if ends:
+            message = ends if message is reason else ErrorMessage(message.name, **{**message.values, "mistake": ends})
         notices = [Notice("partial", {"message": message, "from": result.start, "to": result.end})]
         if any(isinstance(group, Chain) for group in mechanism.dyads):
             notices.append(Notice("circuit_of_chain", {}))
@@ -93,7 +98,23 @@ def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
     )
 
 
-def _branch_first(mechanism: Mechanism, grid: CrankGrid, message: str) -> str:
+def _reasons_of_ends(mechanism: Mechanism, grid: CrankGrid, travel: CrankRange) -> ErrorMessage | None:
+    """Return what stops a crank at each end, unless the group that is told to fail over a grid does so at both."""
+    inside = place(mechanism, CrankGrid.from_degrees(open_range(travel)))
+    margins = [np.broadcast_to(closure.value, 2) / closure.scale for closure in inside.closures]
+    first, last = (mechanism.dyads[int(index)] for index in np.argmin(margins, axis=0))
+    with suppress(GeometryError):
+        closures = zip(mechanism.dyads, place(mechanism, grid).closures, strict=True)
+        told = next((group for group, closure in closures if first_failure(closure) is not None), None)
+        if first is last is told:
+            return None
+    if first is last:
+        return ErrorMessage("both_ends", reason=dead_position(first))
+    reasons = {"start_reason": dead_position(first), "end_reason": dead_position(last)}
+    return ErrorMessage("range_ends", start=travel.start, end=travel.end, **reasons)
+
+
+def _branch_first(mechanism: Mechanism, grid: CrankGrid, message: ErrorMessage) -> ErrorMessage:
     """Return why a linkage does not move over a grid, headed by the fewest other branches with which it does."""
     # no later dyad depends on the branch of the last one
     before = enumerate(mechanism.dyads[:-1])

@@ -85,9 +85,7 @@ def _or_limit(extreme: TracedValue, column: TracedValue, ends: Array, sign: floa
     return TracedValue(ProcedureValue(limit, "branch", (column,)), extreme.key)
 
 
-def quality_of(
-    over: CycleInterpolant, ends: Mapping[str, Array]
-) -> tuple[dict[str, TracedValue], tuple[Notice, ...]]:
+def quality_of(over: CycleInterpolant, ends: Mapping[str, Array]) -> tuple[dict[str, TracedValue], tuple[Notice, ...]]:
     """Return the extreme transmission and pressure angles, and notices of those that are unusual.
 
     `ends`: limits of the columns in dead positions.
