@@ -236,6 +236,9 @@ def shown_values(step: Line) -> list[tuple[float, str]]:
         stated = own if own not in UNITS or UNITS[own].factor == 1.0 else stated
     if stated is None:
         return [(float(from_si(step.value, shown)), shown)]
+    if stated in UNITS and shown in UNITS and not _same_dimension(stated, shown):
+        # one formula for drivers that slide and that turn
+        stated = coherent_unit(shown)
     if stated == shown or not _same_dimension(stated, shown):
         return [(step.value, stated)]
     si = step.value if UNITS[stated].factor == 1.0 else to_si(step.value, stated)
