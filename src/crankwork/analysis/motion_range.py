@@ -105,8 +105,8 @@ def _reasons_of_ends(mechanism: Mechanism, grid: CrankGrid, travel: CrankRange) 
     first, last = (mechanism.dyads[int(index)] for index in np.argmin(margins, axis=0))
     with suppress(GeometryError):
         closures = zip(mechanism.dyads, place(mechanism, grid).closures, strict=True)
-        told = next((group for group, closure in closures if first_failure(closure) is not None), None)
-        if first is last is told:
+        failing = next((group for group, closure in closures if first_failure(closure) is not None), None)
+        if first is last is failing:
             return None
     if first is last:
         return ErrorMessage("both_ends", reason=dead_position(first))
