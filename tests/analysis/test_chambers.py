@@ -337,3 +337,45 @@ def test_a_cylinder_needs_a_clearance_only_where_its_pressure_follows_from_the_v
     assert not results.unmet
     with pytest.raises(crankwork.InputError, match="cylinder: gas needs its smallest volume"):
         crankwork.read_machine(text.replace('"constant"', '"polytropic"\n        exponent = 1.2', 1))
+
+
+ISOTHERMAL = """
+format = 2
+[fixed_points]
+O = ["0 cm", "0 cm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "25 cm"
+speed = "300 rpm"
+[links]
+rod = {{ joins = ["A", "B"], length = "100 cm" }}
+[guides]
+bed = {{ through = "O", angle = "180 deg" }}
+[sliders]
+piston = {{ guide = "bed", pin = "B" }}
+[positions]
+B = ["{x} cm", "0 cm"]
+[chambers.gas]
+slider = "piston"
+bore = "40 cm"
+sense = {sense}
+clearance_volume = "{clearance} cm3"
+pressures = "absolute"
+ambient = "1 bar"
+valves = {{ suction = "1 bar", discharge = "7.5 bar", compression_exponent = 1.0 }}
+"""
+
+
+@pytest.mark.parametrize("clearance", ["0", "1e-6", "1e-4"])
+@pytest.mark.parametrize(("x", "sense"), [(125, -1), (125, 1), (-125, -1)])
+def test_a_compressor_with_hardly_a_clearance_takes_the_isothermal_work(clearance, x, sense):
+    results = crankwork.analyse(crankwork.read_machine(ISOTHERMAL.format(clearance=clearance, x=x, sense=sense)))
+    swept = math.pi / 4 * 0.4**2 * 0.5
+    # the clearance gives back 6.5 times its share of the stroke at most
+    assert results["indicated_work.gas"] == pytest.approx(-1e5 * swept * math.log(7.5), rel=2e-8)
+
+
+def test_a_clearance_that_is_none_is_blamed_itself():
+    with pytest.raises(crankwork.InputError, match=r"chambers\.gas\.clearance_volume: .* the volume is zero"):
+        crankwork.analyse(crankwork.read_machine(ISOTHERMAL.format(clearance="1e-9", x=125, sense=-1)))

@@ -255,3 +255,93 @@ def test_beside_a_working_range_the_dead_positions_are_told():
 
 def test_a_partial_motion_has_its_plans():
     assert {"position_plans", "velocity_plan", "joint_forces"} <= figures(analyse(four_bar(150, 80, 150, 200))).keys()
+
+
+# Chebyshev's straight line 200 : 250 : 100, crossed,, after Artobolevsky
+def crossed(special=""):
+    return read_machine(f"""
+format = 2
+[fixed_points]
+O2 = ["0 mm", "0 mm"]
+O4 = ["200 mm", "0 mm"]
+[crank]
+pivot = "O2"
+pin = "A"
+radius = "250 mm"
+speed = "10 rpm"
+[links]
+coupler = {{ joins = ["A", "B"], length = "100 mm" }}
+rocker = {{ joins = ["O4", "B"], length = "250 mm" }}
+[branch]
+B = -1
+[table]
+step = "5 deg"
+special_angles = [{special}]
+""")
+
+
+def test_transmission_angles_reach_their_limits_in_dead_positions():
+    # at one end the coupler lies on the rocker, at the other they are in line
+    summary = analyse(crossed()).summary
+    assert (summary["transmission_angle_min.B"], summary["transmission_angle_max.B"]) == (0.0, math.pi)
+
+
+def test_a_row_in_a_dead_position_has_limits_and_no_value_where_there_is_none():
+    # sides 200, 250 and 250 - 100 or 250 + 100 between the pivots and A
+    first, last = deg(math.acos(0.8)), deg(math.acos(-0.2))
+    results = analyse(crossed(f'"{first:.12f} deg", "{last:.9f} deg"'))
+    assert results.grid.degrees[[0, 1, -1]] == pytest.approx([first, 40.0, last], abs=1e-7)
+    columns = results.columns
+    assert columns["transmission_angle.B"][[0, -1]].tolist() == [0.0, math.pi]
+    assert columns["link_angle.rocker"][0] == pytest.approx(math.pi / 2, abs=1e-9)
+    assert [columns[f"point_{axis}.B"][0] for axis in "xy"] == pytest.approx([0.2, 0.25], abs=1e-9)
+    # B leaves by u along the line square to both links, u² = v t / 3 where A comes by v t, and sinks by u² / 0.5 m
+    assert columns["point_velocity_y.B"][0] == pytest.approx(-2 / 3 * 0.2 * results.summary["speed"], rel=1e-8)
+    for key in ("link_angular_velocity.rocker", "point_velocity_x.B", "point_acceleration.B"):
+        assert np.flatnonzero(np.isnan(columns[key])).tolist() == [0, len(results.grid) - 1], key
+
+
+def test_each_end_of_a_range_names_what_stops_there():
+    # a four-bar ABCD that would fail at C elsewhere, and a dyad EFG whose links come into line before: Stephenson III
+    text = """
+format = 2
+[fixed_points]
+A = ["7 m", "4 m"]
+D = ["23 m", "10 m"]
+G = ["45 m", "17 m"]
+[crank]
+pivot = "A"
+pin = "B"
+radius = "12.165525060596439 m"
+start = "1.7359450042095235 rad"
+speed = "10 rpm"
+[links]
+CD = { joins = ["D", "C"], length = "15.132745950421556 m" }
+EF = { joins = ["E", "F"], length = "25.179356624028344 m" }
+FG = { joins = ["G", "F"], length = "15.132745950421556 m" }
+[links.BCE]
+joins = ["B", "C", "E"]
+length = "21.93171219946131 m"
+points = { E = ["19.65190843652354 m", "11.991767793052649 m"] }
+[positions]
+C = ["25 m", "25 m"]
+F = ["43 m", "32 m"]
+"""
+    results = analyse(read_machine(text))
+    notice = next(item for item in results.notices if item.code == "partial")
+    assert notice.values["message"] == "at both ends links EF and FG are in line at F"
+    assert results.summary["transmission_angle_min.F"] == 0.0
+    assert results.summary["transmission_angle_max.F"] == math.pi
+    # with longer links F stops the crank at one end only; at the other C does, where BD is BC - CD
+    longer = text.replace("25.179356624028344", "30").replace(
+        '["G", "F"], length = "15.132745950421556', '["G", "F"], length = "20'
+    )
+    longer = longer.replace('F = ["43 m", "32 m"]', "[branch]\nF = 1")
+    results = analyse(read_machine(longer))
+    notice = next(item for item in results.notices if item.code == "partial")
+    radius, fixed, apart = 12.165525060596439, math.hypot(16, 6), 21.93171219946131 - 15.132745950421556
+    between = math.acos((radius**2 + fixed**2 - apart**2) / (2 * radius * fixed))
+    last = deg(math.atan2(6, 16) - between - 1.7359450042095235) + 360
+    assert notice.values["to"] == pytest.approx(last, abs=1e-9)
+    told = r"at -58\.9304 deg links EF and FG are in line at F, at 262\.374 deg links CD and BCE are in line at C"
+    assert re.fullmatch(told, notice.values["message"])

@@ -394,6 +394,12 @@ def test_a_compression_line_proposes_a_shift_with_an_honest_uncertainty(read, sh
     assert "dead_centre_compression" not in told(read(table(angles, fired), f'{MEAN}\nshift = "{shift} deg"', ABSOLUTE))
 
 
+def test_a_peak_at_zero_is_said_to_be_there(read):
+    rows = table(np.arange(720.0), np.full(720, 0.1)).split("\n")
+    message = refusal(read, "\n".join([rows[0], "1e-8\t0.5", *rows[1:]]), MEAN)
+    assert "the greatest pressure stands at 0 deg of the cycle, and firing is at 360 deg" in message
+
+
 def test_a_peak_far_from_top_dead_centre_is_told(read):
     text = table(ANGLES, true_pressure(ANGLES + 187))
     message = refusal(read, text, MEAN)

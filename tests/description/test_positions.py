@@ -71,11 +71,9 @@ def test_a_position_that_settles_nothing_and_is_wrong_is_a_notice_in_files_of_0_
     ("positions", "told"),
     [
         (WRONG, "has no effect there"),
-        ('D = ["255 mm", "82 mm"]', "settles nothing"),
-        ('Q = ["1 m", "0 m"]', "settles nothing"),
     ],
 )
-def test_a_position_that_settles_nothing_is_refused_in_format_2(positions, told):
+def test_a_position_that_settles_nothing_and_is_wrong_is_refused_in_format_2(positions, told):
     text = with_position(positions)
     with pytest.raises(InputError) as refusal:
         read_machine(text, "my.toml")
@@ -83,6 +81,13 @@ def test_a_position_that_settles_nothing_is_refused_in_format_2(positions, told)
     assert problem.key == f"positions.{positions[0]}"
     assert told in problem.message
     assert text.split("\n")[int(line) - 1].startswith(f"{positions[0]} = ")
+
+
+def test_all_positions_that_settle_nothing_are_notices():
+    results = analyse(read_machine(with_position('D = ["255 mm", "82 mm"]\nQ = ["1 m", "0 m"]')))
+    told = [notice_text(item.code, item.values, "en") for item in results.notices if item.code == "position_unused"]
+    ending = "settles nothing: without it everything stays the same"
+    assert told == [f"the position stated for {name} {ending}" for name in "DQ"]
 
 
 def test_a_position_that_settles_a_branch_or_gives_a_length_may_stand_in_format_2():

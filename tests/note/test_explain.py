@@ -13,6 +13,7 @@ import crankwork
 from crankwork.cli import commands
 from crankwork.errors import CrankworkError
 from crankwork.locale import texts
+from crankwork.report.display import label
 from note.built import EXAMPLES, LINKAGES, SOME, broken, looked_at, results, source
 
 LATE = ("two-stroke", "v8-diesel")
@@ -270,3 +271,29 @@ def test_keys_are_listed_once_and_mistakes_refused():
             CliRunner().invoke(
                 commands, ["explain", str(EXAMPLES / "spark-engine.toml"), *arguments], catch_exceptions=False
             )
+
+
+def test_a_driver_that_turns_has_an_angle_in_radians():
+    told = explained(Path(__file__).parents[1] / "machines" / "elbow.toml", "driver_angle --at 0.5")
+    assert any(line.startswith("φ_q = φ_q,1 + h_φ,1·f") and "rad = " in line and " m " not in line for line in told)
+
+
+def test_terms_of_a_sum_have_symbols_of_their_own():
+    # a torque stated on a link, and the torque of its inertia
+    told = explained(Path(__file__).parents[1] / "machines" / "driven-slider.toml", "driver_force --at 0.4")
+    line = next(line for line in told if line.startswith("ΣM_arm = "))
+    terms = line.split(" = ")[1].split(" + ")
+    assert len(set(terms)) == len(terms) == 4, line
+
+
+def test_a_force_in_a_joint_says_on_which_link_it_acts():
+    keys = ("joint_force.O", "joint_force_x.B")
+    told = [
+        explained(Path(__file__).parents[1] / "machines" / "driven-slider.toml", f"{key} --at 0.4")[1] for key in keys
+    ]
+    assert told == ["on link arm, from the frame", "on link rod, from link piston"]
+
+
+def test_the_least_of_a_column_is_called_so():
+    words = [label("reduced_inertia.min", language) for language in ("en", "ru")]
+    assert words == ["smallest reduced moment of inertia", "приведённый момент инерции: наименьшее значение"]

@@ -34,6 +34,7 @@ from crankwork.analysis.motion_range import (
     limits_of,
     open_range,
     rows_inside,
+    with_limits,
 )
 from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.prepared import Notice, PreparedLinkage
@@ -47,7 +48,14 @@ from crankwork.analysis.speed import (
     has_friction,
 )
 from crankwork.analysis.transient import simulate_transient
-from crankwork.analysis.transmission_quality import FOLLOWED, quality_of, rocks, smooth_transmissions, time_ratios
+from crankwork.analysis.transmission_quality import (
+    FOLLOWED,
+    limits_of_transmissions,
+    quality_of,
+    rocks,
+    smooth_transmissions,
+    time_ratios,
+)
 from crankwork.dynamics.joint_forces import joint_forces
 from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
 from crankwork.errors import CrankworkError
@@ -145,6 +153,8 @@ def analyse_linkage(
     # change points have a notice of their own
     notices += () if machine.mechanism.passages else unusual
     columns = absent_where_still(Program(trace)(table))
+    if result is not None:
+        columns = with_limits(columns, trace, result, table)
     # instant centres of links that never turn
     none = {key for key, value in columns.items() if key.startswith("instant_centre_") and np.isnan(value).all()}
     columns = {key: value for key, value in columns.items() if key not in none}
@@ -227,7 +237,7 @@ class _Singles(NamedTuple):
 def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None = None) -> _Singles:
     """Return the single values that follow from traced columns; `name`: of one link, joint or point only."""
     machine, result = moved.machine, moved.reached.travel
-    quality = dict(smooth_transmissions(machine.mechanism, moved.motion))
+    quality = dict(smooth_transmissions(machine.mechanism, moved.motion.bar, moved.motion.frames))
     quality = with_equal_columns(quality, machine.mechanism, moved.motion.equal_parts)
     quality = {key: value for key, value in quality.items() if name is None or key_of(key).owner == name}
     pivoted = pivoted_links(machine.mechanism)
@@ -245,7 +255,8 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
         followed |= moved.bearings.followed(followed)
     program = Program({**followed, **moved.bearings.of_journals})
     over = CycleInterpolant(followed, CrankGrid.from_degrees, end - start, start, program=program)
-    extremes, unusual = quality_of(over)
+    limits = limits_of_transmissions(result) if result is not None and machine.working_range is None else {}
+    extremes, unusual = quality_of(over, limits)
     summary = _summary(moved.solved, over, extremes, is_whole=result is None)
     if result is not None:
         summary |= limits_of(result, trace)

@@ -10,15 +10,18 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval, polyvander
 from numpy.typing import ArrayLike
 
 from crankwork.analysis.prepared import Notice
+from crankwork.analysis.transmission_quality import limits_of_transmissions
 from crankwork.errors import GeometryError
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import ProcedureValue, TracedValue
+from crankwork.kinematics.assembly import dead_position, first_failure
 from crankwork.kinematics.circuits import Extent
 from crankwork.kinematics.configuration_coordinates import link_angle
-from crankwork.kinematics.crank_grid import CrankGrid
+from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.crank_range import CrankRange, find_crank_range, has_steady_crank, near_changes
 from crankwork.kinematics.motion import Motion, linkage_motion
 from crankwork.kinematics.position_analysis import assembled, place
@@ -27,6 +30,7 @@ from crankwork.machine import Machine
 from crankwork.mechanism.chain import Chain
 from crankwork.mechanism.dyads import RPR, RRP, RRR
 from crankwork.mechanism.mechanism import Crank, Mechanism, period_in_turns
+from crankwork.quantities.key import key_of
 
 # how near to a dead position motions and forces are drawn and checked: a part of the range, at most some degrees
 _NEAREST, _AT_MOST = 0.005, 0.25
@@ -37,6 +41,10 @@ _OFFSETS = (1e-4, 1e-7)
 # distance that counts as the angle itself [deg]
 _ITSELF = 1e-7
 _GROWS = 10.0
+# how far from a dead position its row stands [deg], and from where limits in it are found
+_INSIDE = 1e-8
+_REACH, _NOISE = 1e-3, 1e-9
+_ROOTS = (1 - np.cos(np.pi * (np.arange(10) + 0.5) / 10)) / 2
 _NEARLY_SINGULAR = 1e-3
 _TURN = 360.0
 # most dyads whose branches are all tried: each doubles the combinations
@@ -62,18 +70,22 @@ def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
     try:
         moved = linkage_motion(mechanism, engine)
     except GeometryError as error:
-        message = _branch_first(mechanism, engine, error.args[0])
+        reason = error.args[0]
+        message = _branch_first(mechanism, engine, reason)
         # a law beyond the range of its linkage has to be changed
         if not has_steady_crank(mechanism):
             raise GeometryError(message) from None
         try:
             result = find_crank_range(mechanism, machine.way)
         except GeometryError:
-            if message is error.args[0]:
+            if message is reason:
                 raise
             raise GeometryError(message) from None
         if result.is_whole:
             raise
+        ends = _reasons_of_ends(mechanism, engine, result)
+        if ends:
+            message = ends if message is reason else ErrorMessage(message.name, **{**message.values, "mistake": ends})
         notices = [Notice("partial", {"message": message, "from": result.start, "to": result.end})]
         if any(isinstance(group, Chain) for group in mechanism.dyads):
             notices.append(Notice("circuit_of_chain", {}))
@@ -86,7 +98,23 @@ def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
     )
 
 
-def _branch_first(mechanism: Mechanism, grid: CrankGrid, message: str) -> str:
+def _reasons_of_ends(mechanism: Mechanism, grid: CrankGrid, travel: CrankRange) -> ErrorMessage | None:
+    """Return what stops a crank at each end, unless the group that is told to fail over a grid does so at both."""
+    inside = place(mechanism, CrankGrid.from_degrees(open_range(travel)))
+    margins = [np.broadcast_to(closure.value, 2) / closure.scale for closure in inside.closures]
+    first, last = (mechanism.dyads[int(index)] for index in np.argmin(margins, axis=0))
+    with suppress(GeometryError):
+        closures = zip(mechanism.dyads, place(mechanism, grid).closures, strict=True)
+        failing = next((group for group, closure in closures if first_failure(closure) is not None), None)
+        if first is last is failing:
+            return None
+    if first is last:
+        return ErrorMessage("both_ends", reason=dead_position(first))
+    reasons = {"start_reason": dead_position(first), "end_reason": dead_position(last)}
+    return ErrorMessage("range_ends", start=travel.start, end=travel.end, **reasons)
+
+
+def _branch_first(mechanism: Mechanism, grid: CrankGrid, message: ErrorMessage) -> ErrorMessage:
     """Return why a linkage does not move over a grid, headed by the fewest other branches with which it does."""
     # no later dyad depends on the branch of the last one
     before = enumerate(mechanism.dyads[:-1])
@@ -137,12 +165,50 @@ def _change_notices(mechanism: Mechanism, travel: CrankRange | None) -> Iterator
 
 
 def rows_inside(travel: CrankRange, degrees: ArrayLike) -> CrankGrid:
-    """Return the angles of a table that lie between dead positions, up to whole turns. [deg]"""
+    """Return the angles of a table that lie between dead positions, up to whole turns, and in these. [deg]"""
     angles = np.asarray(degrees, dtype=float)
     first, last = math.floor((travel.start - angles.max()) / 360.0), math.ceil((travel.end - angles.min()) / 360.0)
     shifted = np.unique(np.round(np.concatenate([angles + 360.0 * turn for turn in range(first, last + 1)]), 9))
     edge = _EDGE * (travel.end - travel.start)
-    return CrankGrid.from_degrees(shifted[(shifted > travel.start + edge) & (shifted < travel.end - edge)])
+    inside = shifted[(shifted > travel.start + edge) & (shifted < travel.end - edge)]
+    dead = [row for end, row in _dead_rows(travel) if np.any(np.abs(shifted - end) <= edge)]
+    return CrankGrid.from_degrees(np.sort([*inside, *dead]))
+
+
+def _dead_rows(travel: CrankRange) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return both dead positions, each with the angle of its row, so little inside that formulas hold there. [deg]"""
+    return (travel.start, travel.start + _INSIDE), (travel.end, travel.end - _INSIDE)
+
+
+def with_limits(
+    columns: Mapping[str, Array], trace: Mapping[str, TracedValue], travel: CrankRange, table: CrankGrid
+) -> dict[str, Array]:
+    """Return the columns of a table with their limits in dead positions, and without a value where they have none.
+
+    A column goes there with the square root of the distance, in which it is followed by a polynomial.
+    """
+    result, width = {key: values.copy() for key, values in columns.items()}, travel.end - travel.start
+    cosines = limits_of_transmissions(travel)
+    varying = {key: trace[key] for key in columns if trace[key].varies}
+    for index, (end, row) in enumerate(_dead_rows(travel)):
+        rows = np.flatnonzero(table.degrees == row)
+        if not rows.size:
+            continue
+        side = 1.0 if index == 0 else -1.0
+        without = find_singular_columns(varying, [end], [side], width)
+        angles = CrankGrid.from_degrees(end + side * _REACH * width * _ROOTS**2)
+        for key, values in Program(varying)(angles).items():
+            kind, name = key_of(key)
+            if any(key in part for part in without):
+                limit = math.nan
+            elif kind == "transmission_angle":
+                cosine = cosines[f"transmission_cosine.{name}"][index]
+                limit = math.acos(max(-1.0, min(1.0, cosine)))
+            else:
+                limit = float(polyval(0.0, np.linalg.solve(polyvander(_ROOTS, _ROOTS.size - 1), values)))
+                limit = 0.0 if abs(limit) <= _NOISE * np.max(np.abs(values)) else limit
+            result[key][rows] = limit
+    return result
 
 
 def open_range(travel: CrankRange) -> tuple[float, float]:

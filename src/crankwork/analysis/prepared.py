@@ -21,7 +21,7 @@ from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads import gas as gas_formulas
 from crankwork.loads.chamber_gas import NO_GAS, ChamberGas
-from crankwork.loads.indicator import IndicatorDiagram, solve_diagram
+from crankwork.loads.indicator import DeadCentres, IndicatorDiagram, solve_diagram
 from crankwork.loads.pressure_processing import PressureReference, measured_diagram
 from crankwork.loads.valves import StatedValves
 from crankwork.machine import Cylinder, Gas, Machine
@@ -221,8 +221,10 @@ def _given_diagram(
         )
         notices += [Notice(*item) for item in messages]
         return diagram
-    diagram = solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
-    return diagram if gas.valves is None else StatedValves(gas.valves, "gas.valves").traced(diagram)
+    if gas.valves is not None:
+        valves = StatedValves(gas.valves, "gas.valves")
+        return valves.solved(gas.points, gas.pieces, volume_at, DeadCentres(centres), "cylinder.clearance_volume")
+    return solve_diagram(gas.points, gas.pieces, gas.cycle, volume_at, dead_centres=centres, path=gas.path)
 
 
 def _clearance(cylinder: Cylinder, swept: float) -> float:

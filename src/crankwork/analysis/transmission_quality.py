@@ -10,9 +10,11 @@ from numpy.polynomial import legendre
 
 from crankwork.analysis.prepared import Notice
 from crankwork.formula.cycle_interpolant import CycleInterpolant
+from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import FormulaCall, ProcedureValue, TracedValue, select
 from crankwork.kinematics import transmission as angles
 from crankwork.kinematics.crank_grid import Array
+from crankwork.kinematics.crank_range import CrankRange, line_of
 from crankwork.kinematics.dyads import LinkMotion
 from crankwork.kinematics.motion import Motion
 from crankwork.mechanism.dyads import RRP, RRR
@@ -31,31 +33,41 @@ _LOOK, _STILL = np.linspace(-1.0, 1.0, 17), 1e-9
 
 def transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
     """Yield the transmission angle of every RRR dyad and the pressure angle of every RRP dyad; `motion` is traced."""
-    for kind, name, item, other in _pairs(mechanism, motion):
+    for kind, name, item, other in _pairs(mechanism, motion.bar, motion.frames):
         if kind == "transmission":
             yield f"transmission_angle.{name}", angles.transmission_angle(item.cos, other.cos, item.sin, other.sin)
         else:
             yield f"pressure_angle.{name}", angles.pressure_angle(item.sin, other.cos, item.cos, other.sin)
 
 
-def smooth_transmissions(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, TracedValue]]:
+def smooth_transmissions(
+    mechanism: Mechanism, bar: Callable[[str], LinkMotion], frames: Mapping[str, LinkMotion]
+) -> Iterator[tuple[str, Value]]:
     """Yield functions with the extremes of these angles, and without corners where links come into line."""
-    for kind, name, item, other in _pairs(mechanism, motion):
+    for kind, name, item, other in _pairs(mechanism, bar, frames):
         if kind == "transmission":
             yield f"transmission_cosine.{name}", angles.transmission_cosine(item.cos, other.cos, item.sin, other.sin)
         else:
             yield f"pressure_sine.{name}", angles.pressure_sine(item.sin, other.cos, item.cos, other.sin)
 
 
-def _pairs(mechanism: Mechanism, motion: Motion) -> Iterator[tuple[str, str, LinkMotion, LinkMotion]]:
+def limits_of_transmissions(travel: CrankRange) -> dict[str, Array]:
+    """Return these functions in the dead positions of a crank, taken from the closed curve of positions."""
+    mechanism, frames = travel.circuit.mechanism, travel.circuit.stretch(np.array(travel.branch)).frames
+    return dict(smooth_transmissions(mechanism, lambda link: line_of(link, frames, mechanism), frames))
+
+
+def _pairs(
+    mechanism: Mechanism, bar: Callable[[str], LinkMotion], frames: Mapping[str, LinkMotion]
+) -> Iterator[tuple[str, str, LinkMotion, LinkMotion]]:
     """Yield the two links of RRR dyads, link and guide of RRP dyads, with the point between them."""
     for dyad in mechanism.dyads:
         match dyad:
             # the third side of a triangle that a motor deforms is no link
             case RRR() if mechanism.driver.link not in (dyad.link_a, dyad.link_b):
-                yield "transmission", dyad.point, motion.bar(dyad.link_a), motion.bar(dyad.link_b)
+                yield "transmission", dyad.point, bar(dyad.link_a), bar(dyad.link_b)
             case RRP():
-                yield "pressure", dyad.slider, motion.bar(dyad.link), motion.frames[dyad.piece]
+                yield "pressure", dyad.slider, bar(dyad.link), frames[dyad.piece]
 
 
 def _in_line(value: TracedValue, formula: Callable[[TracedValue], TracedValue], limit: float) -> TracedValue:
@@ -65,15 +77,29 @@ def _in_line(value: TracedValue, formula: Callable[[TracedValue], TracedValue], 
     return TracedValue(ProcedureValue(limit, "in_line", (value,)))
 
 
-def quality_of(over: CycleInterpolant) -> tuple[dict[str, TracedValue], tuple[Notice, ...]]:
-    """Return the extreme transmission and pressure angles, and notices of those that are unusual."""
+def _or_limit(extreme: TracedValue, column: TracedValue, ends: Array, sign: float) -> TracedValue:
+    """Return an extreme, or the limit in a dead position that is beyond it; `sign`: 1 of a largest, -1 of a least."""
+    limit = sign * float(np.max(sign * ends, initial=-np.inf))
+    if sign * limit <= sign * extreme.value:
+        return extreme
+    return TracedValue(ProcedureValue(limit, "branch", (column,)), extreme.key)
+
+
+def quality_of(over: CycleInterpolant, ends: Mapping[str, Array]) -> tuple[dict[str, TracedValue], tuple[Notice, ...]]:
+    """Return the extreme transmission and pressure angles, and notices of those that are unusual.
+
+    `ends`: limits of the columns in dead positions.
+    """
     result: dict[str, TracedValue] = {}
     notices: list[Notice] = []
     keys = [key for key in over.columns if key_of(key).quantity in ("transmission_cosine", "pressure_sine")]
     extremes = over.extremes(*keys)
     for key in keys:
         kind, name = key_of(key)
-        largest, least = extremes[f"{kind}_max.{name}"], extremes[f"{kind}_min.{name}"]
+        largest, least = (
+            _or_limit(extremes[f"{kind}_{word}.{name}"], over.columns[key], ends.get(key, np.empty(0)), sign)
+            for word, sign in (("max", 1.0), ("min", -1.0))
+        )
         if kind == "transmission_cosine":
             values = {
                 "min": _in_line(largest, angles.transmission_of_cosine, 0.0),

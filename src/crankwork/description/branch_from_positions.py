@@ -90,7 +90,7 @@ def position_notices(
             else:
                 yield code, values
         elif is_new and name not in starts and _is_idle(tables, linkage, branched.mechanism, name):
-            reader.add_error(f"positions.{name}", ErrorMessage("position_unused"))
+            yield "position_unused", {"name": name}
 
 
 def _is_idle(tables: Mapping[str, Any], linkage: Linkage, mechanism: Mechanism, name: str) -> bool:

@@ -55,6 +55,23 @@ def _singular(group: Dyad | Chain, angle: float) -> ErrorMessage:
             return ErrorMessage("chain_singular", links=_names(group), angle=angle)
 
 
+def dead_position(group: Dyad | Chain) -> ErrorMessage:
+    """Return the message that a group stops a crank in a dead position."""
+    match group:
+        case RRR():
+            return ErrorMessage("rrr_dead", first=group.link_a, second=group.link_b, point=group.point)
+        case RRP():
+            return ErrorMessage("rrp_dead", link=group.link, slider=group.slider)
+        case RPR():
+            return ErrorMessage("rpr_dead", pin=group.joint, link=group.link)
+        case PRP():
+            return ErrorMessage("prp_dead", first=group.block_a, second=group.block_b)
+        case RPP():
+            return ErrorMessage("rpp_dead", link=group.link)
+        case Chain():
+            return ErrorMessage("chain_dead", links=_names(group))
+
+
 def _missing(group: Dyad | Chain, measure: float, angle: float) -> ErrorMessage:
     """Return the message that a group does not meet at a crank angle, by how much, with advice. [deg]"""
     match group:

@@ -164,19 +164,20 @@ def _crank_at_change(circuit: Circuit, dyad: RRR | RRP | RPR, near: float) -> fl
     return degrees
 
 
+def line_of(link: str, frames: Mapping[str, LinkMotion], mechanism: Mechanism) -> LinkMotion:
+    """Return the line between the joints of a link from its frame."""
+    bar = mechanism.bars.get(link)
+    return rotated_frame(frames[link], bar.angle) if bar else frames[link]
+
+
 def _side(dyad: RRR | RRP | RPR, frames: Mapping[str, LinkMotion], mechanism: Mechanism) -> Array:
     """Return a quantity with the sign of the branch of a dyad."""
-
-    def line(link: str) -> LinkMotion:
-        bar = mechanism.bars.get(link)
-        return rotated_frame(frames[link], bar.angle) if bar else frames[link]
-
     match dyad:
         case RRR():
-            a, b = line(dyad.link_a), line(dyad.link_b)
+            a, b = (line_of(link, frames, mechanism) for link in (dyad.link_a, dyad.link_b))
             return np.asarray(a.cos * b.sin - a.sin * b.cos)
         case RRP():
-            a, b = line(dyad.link), frames[dyad.piece]
+            a, b = line_of(dyad.link, frames, mechanism), frames[dyad.piece]
             return np.asarray(a.cos * b.cos + a.sin * b.sin)
         case RPR():
             a, b = frames[dyad.link], frames[dyad.block]

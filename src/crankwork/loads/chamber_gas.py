@@ -405,8 +405,8 @@ def _solved(chamber: Chamber, space: _Space, start: float, path: str) -> Indicat
         if len(space.dead_centres) != 2 or space.period != chamber.cycle:
             raise DiagramError(valves.path, ErrorMessage("valves_strokes", count=len(space.dead_centres)))
         valves.check(space.clearance.value, space.swept.value)
-    diagram = solve_diagram(chamber.points, chamber.pieces, chamber.cycle, volume_at, dead_centres=centres, path=path)
-    return diagram if valves is None else valves.traced(diagram)
+        return valves.solved(chamber.points, chamber.pieces, volume_at, centres, f"{path}.clearance_volume")
+    return solve_diagram(chamber.points, chamber.pieces, chamber.cycle, volume_at, dead_centres=centres, path=path)
 
 
 def stated_valves(path: str, chamber: Chamber) -> StatedValves | None:

@@ -35,7 +35,7 @@ _SAME_PLACE = 1e-12
 # samples of a volume that may be constant
 _SAMPLES = 5
 # share of the largest volume that counts as zero
-_EMPTY = 1e-7
+_EMPTY = 1e-12
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 # Longest interval that gets one set of eight nodes. [deg]
 _WIDTH = 15.0
@@ -232,7 +232,8 @@ class _Solver:
         path: str,
     ) -> None:
         self.points = points
-        self.volume_at = volume_at
+        # rounding leaves less than nothing of a volume without clearance
+        self.volume_at: VolumeAt = lambda degrees: np.maximum(volume_at(degrees), 0.0)
         self.dead_centres, self.period = dead_centres
         self.cycle = cycle
         self.path = path

@@ -114,7 +114,7 @@ def _other_strokes(samples: tuple[Array, Array], around: PressureReference, shif
     if abs(late) > _NEAR[cycle]:
         # counted from another dead centre, or from some other angle
         more = -turns if abs(late - turns) <= _NEAR[cycle] else -round(late)
-        angles = {"angle": (late + firing) % cycle, "firing": firing}
+        angles = {"angle": _in_cycle(late + firing, cycle), "firing": firing}
         yield "measured_strokes", {**angles, "turned": f"{_wrapped(shift + more):g} deg", "own": own}
         return
     volume = around.volume_at(np.mod(np.append(degrees, degrees[0]), cycle))
@@ -122,6 +122,11 @@ def _other_strokes(samples: tuple[Array, Array], around: PressureReference, shif
     # one that is driven takes little work beside its peak
     if work < -_DRIVEN * float(np.ptp(volume) * np.max(pressure)):
         yield "measured_reversed", {"own": own}
+
+
+def _in_cycle(degrees: float, cycle: float) -> float:
+    """Return a crank angle within the cycle, without what rounding leaves of zero. [deg]"""
+    return round(degrees % cycle, 6) % cycle
 
 
 def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
@@ -238,7 +243,7 @@ def contradictions(
     distance = (peak - top + _TURN / 2) % _TURN - _TURN / 2
     if abs(distance) > _NEAR[cycle]:
         turns = round(distance / (_TURN / 2)) * _TURN / 2
-        yield "peak_far", {"angle": peak % cycle, "apart": abs(distance), "shift": _wrapped(shift - turns)}
+        yield "peak_far", {"angle": _in_cycle(peak, cycle), "apart": abs(distance), "shift": _wrapped(shift - turns)}
         return
     centre = peak - distance
     if loss_angle is not None:

@@ -12,9 +12,18 @@ import numpy as np
 from crankwork.formula.expression import Value, formula
 from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given
 from crankwork.loads.gas import piston_area
-from crankwork.loads.indicator import DiagramError, DiagramPoint, IndicatorDiagram, Piece
+from crankwork.loads.indicator import (
+    DeadCentres,
+    DiagramError,
+    DiagramPoint,
+    IndicatorDiagram,
+    Piece,
+    VolumeAt,
+    solve_diagram,
+)
 from crankwork.locale import ErrorMessage
 
+_TURN = 360.0
 _TEXT = "eastop_mcconkey_1993, ch. 12"
 
 
@@ -243,6 +252,21 @@ class StatedValves:
         most = self.valves.suction * min((1 + swept / clearance) ** exponent for exponent in exponents)
         if self.valves.discharge >= most:
             raise DiagramError(f"{self.path}.discharge", ErrorMessage("valves_closed", most=most / 1e6))
+
+    def solved(
+        self,
+        points: Mapping[str, DiagramPoint],
+        pieces: tuple[Piece, ...],
+        volume_at: VolumeAt,
+        centres: DeadCentres,
+        clearance: str,
+    ) -> IndicatorDiagram:
+        """Return the diagram of a turn; its pieces are in no file, so that `clearance`, a path, is blamed for them."""
+        try:
+            diagram = solve_diagram(points, pieces, _TURN, volume_at, dead_centres=centres)
+        except DiagramError as error:
+            raise DiagramError(clearance, error.args[0]) from None
+        return self.traced(diagram)
 
     def traced(self, diagram: IndicatorDiagram) -> IndicatorDiagram:
         """Return the diagram with traced pressures and exponents as operands of its laws."""

@@ -236,6 +236,9 @@ def shown_values(step: Line) -> list[tuple[float, str]]:
         stated = own if own not in UNITS or UNITS[own].factor == 1.0 else stated
     if stated is None:
         return [(float(from_si(step.value, shown)), shown)]
+    if stated in UNITS and shown in UNITS and not _same_dimension(stated, shown):
+        # one formula for drivers that slide and that turn
+        stated = coherent_unit(shown)
     if stated == shown or not _same_dimension(stated, shown):
         return [(step.value, stated)]
     si = step.value if UNITS[stated].factor == 1.0 else to_si(step.value, stated)
@@ -285,7 +288,7 @@ def _plain(block: Equation, language: Language) -> str:
 def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = MappingProxyType({})) -> list[str]:
     """Return the parts of a line between the equal signs, as text: symbols, numbers, values with units.
 
-    `symbols`: those that stand for some operands here, by argument name.
+    `symbols`: those that stand for some operands here, by argument name, or by key in a sum.
     """
     parts, digits = [], enough_digits(step)
     if isinstance(step, FormulaLine):
@@ -297,7 +300,7 @@ def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = Mapp
     elif isinstance(step, DelayedLine):
         parts = [f"{value_symbol(step.of, language)}({value_text(step.degrees, 'deg', language)})"]
     elif isinstance(step, SumLine) and step.terms:
-        names = [value_symbol(term.key, language) for term in step.terms]
+        names = [symbols.get(term.key) or value_symbol(term.key, language) for term in step.terms]
         numbers = [number(term.value, language, digits=digits) for term in step.terms]
         parts = [" + ".join(names), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
     while parts and parts[-1] == number(step.value, language):

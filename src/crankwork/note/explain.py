@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from crankwork.analysis.results import Results
 from crankwork.description.source_locations import Origin
-from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine, without_noise
+from crankwork.formula.calculation_lines import FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.formula.explanation import ExplainedValue, Explanation, has_argument_symbol, is_given
 from crankwork.formula.expression import symbol
 from crankwork.formula.traced_value import (
@@ -27,6 +27,8 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.locale import capital, has_text, texts, translate
 from crankwork.locale.numbers import number
+from crankwork.mechanism.joints import joints, names_of_pivots
+from crankwork.mechanism.linkage import GROUND
 from crankwork.notation import ARGUMENTS, argument_unit
 from crankwork.note.definitions import definition_text, integral_text
 from crankwork.note.equations import OF_LINKS, distinct_values, line_parts, shown_values, value_symbol, value_text
@@ -35,7 +37,7 @@ from crankwork.note.numbering import Numbering
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key, cycle
 from crankwork.quantities.key import key_of
-from crankwork.report.display import display_key, in_own_units, label
+from crankwork.report.display import display_key, in_own_units, label, link_label
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 
@@ -43,6 +45,7 @@ _OF_ANGLE = re.compile(r"^(sin|cos|tan) ?")
 _OF_CYCLE = frozenset(row.key for row in cycle.ROWS)
 _OWNERS = {"stroke": "of_piston"}
 # what is found of the whole course of a column, and how many rows of that are told at most [deg]
+_IN_JOINTS = ("joint_force", "joint_force_x", "joint_force_y")
 _OVER_CYCLE = ("mean", "harmonic_mean", "integral", "fourier", "range")
 _COARSE, _FEWEST, _MOST = 30.0, 5, 25
 _FENCES = re.compile(r"[() ]")
@@ -76,9 +79,24 @@ def explanation(
     where = "" if at is None or is_constant else f"({places(degrees)})"
     shown = " = ".join([f"{value_symbol(display_key(key, results), language)}{where}", *_values(key, value, language)])
     head = [f"{capital(label(display_key(key, results), language)) if _has_label(key) else key}: {shown}"]
+    head += list(_acting(key, results, language))
     if explained is None:
         return "\n".join([*head, "", translate("explain.no_memory", language)]) + "\n"
     return "\n".join([*head, *_Printed(explained, places, place, _shown_rows(results))]) + "\n"
+
+
+def _acting(key: str, results: Results, language: Language) -> Iterator[str]:
+    """Yield on which link a force in a joint acts, and from which one."""
+    kind, name = key_of(key)
+    if kind not in _IN_JOINTS or results.machine.linkage is None:
+        return
+    mechanism = results.machine.mechanism
+    pivots = names_of_pivots(mechanism)
+    joint = next((item for item in joints(mechanism) if pivots.get(item.name, item.name) == name), None)
+    if joint is not None:
+        link, other = (link_label(item, language) for item in (joint.link, joint.other))
+        text = "explain.acts_from_frame" if joint.other == GROUND else "explain.acts_from_link"
+        yield translate(text, language, link=link, other=other)
 
 
 @in_own_units
@@ -156,6 +174,7 @@ class _Printed:
     def __iter__(self) -> Iterator[str]:
         explained = list(self._explanation)
         self._own = distinct_symbols([item.known.key for item in explained], self._language)
+        self._own |= numbered_terms([item.known for item in explained], self._own, self._language)
         made = [item for item in explained if not is_given(item)]
         # constants come before everything that varies
         later = _later(made)
@@ -220,6 +239,8 @@ class _Printed:
 
     def _symbols(self, step: Line) -> dict[str, str]:
         """Return the symbols of operands that have another here than elsewhere."""
+        if isinstance(step, SumLine):
+            return self._own
         if not isinstance(step, FormulaLine) or not self._own:
             return {}
         entries = {name: ARGUMENTS[name] for name in step.values if name in ARGUMENTS}
@@ -384,6 +405,20 @@ def distinct_symbols(keys: Iterable[str], language: Language) -> dict[str, str]:
         if owner and len(kinds.get(shown, ())) > 1:
             symbols[key] = f"{shown}{',' if '_' in shown else '_'}{marks[owner]}"
     return symbols
+
+
+def numbered_terms(known: Iterable[TracedValue], symbols: Mapping[str, str], language: Language) -> dict[str, str]:
+    """Return symbols with a number, for terms of a sum that would have the symbol of another one."""
+    result = dict[str, str]()
+    for value in known:
+        terms = value.node.operands if isinstance(value.node, Sum) else ()
+        taken = list[str]()
+        for key in dict.fromkeys(term.key for term in terms if term.key):
+            shown = symbols.get(key) or value_symbol(key, language)
+            if shown in taken:
+                result[key] = f"{shown}{',' if '_' in shown else '_'}{taken.count(shown) + 1}"
+            taken.append(shown)
+    return result
 
 
 def _later(calculated: list[ExplainedValue]) -> set[int]:

@@ -39,6 +39,8 @@ FILE_KEYS = {
     "pressure_ratio": "pressure_rise_ratio",
     "mechanical_loss": "mechanical_loss_pressure",
 }
+# values that are those of a whole column, and parts of keys
+_EXTREMES = ("max", "min")
 
 
 def _is_angle(key: str) -> bool:
@@ -157,6 +159,8 @@ def label(key: str, language: Language) -> str:
             translate("report.order", language, order=decimal(name, language)) if is_order else row_name(name, language)
         )
         return f"{translate(_OF_ORDERS[kind], language)}, {what}"
+    if name in _EXTREMES:
+        return _label(f"{kind}_{name}", language)
     return _label(kind, language, _part(kind, name, language) if name else "")
 
 

@@ -134,6 +134,10 @@ def _through(path: AnimationPath, angle: float) -> tuple[AnimationPath, int]:
     """Return a path with a frame at a crank angle, and the number of that frame. [deg]"""
     low, high = float(path.degrees.min()), float(path.degrees.max())
     if not low <= angle <= high:
+        # the same position, whole turns apart
+        period = high - low if path.turns else _TURN
+        angle += period * math.ceil((low - angle) / period)
+    if not low <= angle <= high:
         raise CrankworkError(ErrorMessage("still_outside", angle=angle, low=f"{low:.4g}", high=f"{high:.4g}"))
     degrees, frame = path.degrees.copy(), int(np.argmin(np.abs(path.degrees[:-1] - angle)))
     degrees[frame] = angle

@@ -138,9 +138,10 @@ def with_branch_positions(values: dict[str, Any]) -> str:
 
 
 def _idle(stated: Description, *kinds: str) -> list[str]:
-    """Return the keys of positions with errors of these kinds."""
+    """Return the keys of positions with errors or notices of these kinds."""
     try:
-        stated.machine()
+        notices = stated.machine().notices
+        return [f"positions.{values['name']}" for code, values in notices if code in kinds]
     except InputError as error:
         return [problem.key for problem in error.problems if getattr(problem.message, "name", "") in kinds]
     except CrankworkError:
