@@ -67,7 +67,11 @@ def assumptions(results: Results) -> tuple[Assumption, ...]:
     if inputs is None:
         return ()
     file = inputs()
-    listed = [*_left_out(results), *_conventions(results), *_taken(results, {**file.stated, **file.defaults})]
+    listed = [
+        *_left_out(results, file.stated),
+        *_conventions(results),
+        *_taken(results, {**file.stated, **file.defaults}),
+    ]
     defaults: dict[tuple[str, str], list[str]] = {}
     for path, default in file.defaults.items():
         if path not in _WITH_SENTENCES and _default_matters(path, results, file.stated):
@@ -83,7 +87,7 @@ def assumptions(results: Results) -> tuple[Assumption, ...]:
 _WITH_SENTENCES = ("method.weights",)
 
 
-def _left_out(results: Results) -> Iterator[Assumption]:
+def _left_out(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assumption]:
     """Yield effects that are not included."""
     machine = results.machine
     has_forces = any(key.startswith(("joint_force", "piston_force")) for key in results.columns)
@@ -91,10 +95,10 @@ def _left_out(results: Results) -> Iterator[Assumption]:
         yield Assumption("no_weights", ("method.weights",))
     if has_forces and not machine.friction and machine.drive.efficiency == 1.0:
         yield Assumption("no_friction", ("friction", "efficiency"))
-    yield from _without_mass(results)
+    yield from _without_mass(results, stated)
 
 
-def _without_mass(results: Results) -> Iterator[Assumption]:
+def _without_mass(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assumption]:
     """Yield the moving parts whose mass is not stated beside others whose mass is."""
     machine = results.machine
     if machine.linkage is not None:
@@ -105,7 +109,8 @@ def _without_mass(results: Results) -> Iterator[Assumption]:
         parts = {"piston": machine.masses.piston, "rod": rod}
     else:
         return
-    light = [name for name, mass in parts.items() if not mass]
+    # sides of a drive that are no parts of the file have no mass either
+    light = [name for name, mass in parts.items() if not mass and any(path.startswith(f"{name}.") for path in stated)]
     if light and _has_mass(results):
         yield Assumption("massless", tuple(f"{name}.mass" for name in light), names=tuple(light))
 
@@ -328,9 +333,9 @@ def _acts(curve: LoadCurve, name: str, index: int, travel: Array) -> bool:
     for share in (0.01, -0.01):
         other = list(columns[name])
         other[index] += share * (other[index] or largest)
-        at, values = ({**columns, name: tuple(other)}[column] for column in columns)
+        entries = {**columns, name: tuple(other)}
         try:
-            changed = replace(curve, at=at, values=values)(travel)
+            changed = replace(curve, at=entries["at"], values=entries["values"])(travel)
         except ValueError:
             return True
         if np.max(np.abs(changed - acting)) > _ROUNDING * max(map(abs, curve.values)):
