@@ -177,7 +177,7 @@ def known_unit(name: str) -> str:
     Examples
     --------
     >>> known_unit("кг⋅м^2"), known_unit("min⁻¹"), known_unit("furlong")
-    ('kg*m2', '1/min', '')
+    ('кг·м²', '1/min', '')
     """
     name = unicodedata.normalize("NFC", name.strip())
     spellings_of_name = (name, name.replace(" ", "_"), name.replace(". ", ".").replace(" ", "_"))
@@ -243,8 +243,8 @@ def shown_unit(unit: str) -> str:
     return unit if unit in _UNCHANGED else coherent_unit(unit)
 
 
-# angles and temperatures are displayed in degrees in all systems
-_UNCHANGED = ("deg", "degC", "rpm")
+# angles and temperatures are displayed in degrees in all systems, rotation and mains by what is counted
+_UNCHANGED = ("deg", "degC", "rpm", "Hz")
 
 # "ratio" has no unit; the report chooses whether a fraction is shown in per cent.
 EXAMPLES = {
