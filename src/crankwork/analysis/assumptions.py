@@ -80,7 +80,8 @@ def assumptions(results: Results) -> tuple[Assumption, ...]:
         Assumption("default", tuple(paths), file.defaults[paths[0]].value, meaning)
         for (meaning, _), paths in defaults.items()
     ]
-    return tuple(listed)
+    # what a law does at its ends decides about all forces
+    return tuple(sorted(listed, key=lambda item: not any(key.endswith(".ends") for key in item.keys)))
 
 
 # defaults that have sentences of their own
@@ -95,6 +96,9 @@ def _left_out(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Ass
         yield Assumption("no_weights", ("method.weights",))
     if has_forces and not machine.friction and machine.drive.efficiency == 1.0:
         yield Assumption("no_friction", ("friction", "efficiency"))
+    masses = machine.masses
+    if masses is not None and masses.rod_small_end and not masses.rod_inertia_excess and machine.method.rod == "rigid":
+        yield Assumption("two_masses", ("rod.inertia",))
     yield from _without_mass(results, stated)
 
 
@@ -219,6 +223,9 @@ def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
     if inputs is None:
         return ()
     stated = {path: item for path, item in inputs().stated.items() if not _DISPLAY.fullmatch(path)}
+    if results.machine.linkage is not None and any(path.startswith("rod.") for path in stated):
+        # the trace of an engine with friction or loads names the parts of the linkage that it is
+        return tuple(_unreached_forces(results, stated))
     idle = {item.key: item for item in _unreached_forces(results, stated)}
     in_trace = leaves(results)
     for path in stated:
@@ -260,8 +267,14 @@ def _idle_mass(results: Results, stated: Mapping[str, FileInput], path: str) -> 
 
 
 def _idle_point(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
-    gas, __, point = path.removesuffix(".angle").rpartition(".points.")
-    return "" if _bounds_pieces(gas, point, stated) else "only_volume"
+    """Return whether a point of a diagram stands on none of its pieces, or serves as a reference by its volume only."""
+    place, __, name = path.rpartition(".")
+    gas, __, point = place.rpartition(".points.")
+    uses = {key.rpartition(".")[2].partition("[")[0] for key, item in stated.items()
+            if item.value == point and key.startswith(f"{gas}.pieces[")}  # fmt: skip
+    if not uses:
+        return "unused"
+    return "only_volume" if name == "angle" and "points" not in uses and f"{place}.volume" in stated else ""
 
 
 # why an input may have no effect although it is in the trace, or need not be in it
@@ -274,16 +287,8 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"cylinder\.inclination", lambda results, *_: "" if _has_weights(results) else "weights_off"),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
-    (r".*\.points\.[^.]+\.angle", _idle_point),
+    (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),
 )
-
-
-def _bounds_pieces(gas: str, point: str, stated: Mapping[str, FileInput]) -> bool:
-    """Return whether a point of a diagram stands on one of its pieces, or has no volume but that at its angle."""
-    on_piece = re.compile(rf"{re.escape(gas)}\.pieces\[\d+\]\.points\[\d+\]")
-    return f"{gas}.points.{point}.volume" not in stated or any(
-        item.value == point for path, item in stated.items() if on_piece.fullmatch(path)
-    )
 
 
 def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) -> str:
@@ -315,7 +320,10 @@ def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iter
             for index in range(len(load.force.at)):
                 path = f"loads[{number}].{key}[{index + 1}]"
                 if path in stated and not _acts(load.force, name, index, travel):
-                    yield IdleInput(path, "beyond_stroke" if np.any(acting) else "never_acts", values)
+                    code = (
+                        "beyond_stroke" if np.any(acting) else "never_acts" if any(load.force.values) else "zero_force"
+                    )
+                    yield IdleInput(path, code, values)
 
 
 def _travel(results: Results, load: ProcessForce) -> Array:
