@@ -20,6 +20,7 @@ from crankwork.errors import InputError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.report.notices import notice_text
 from each import for_each
+from shown import in_parts
 
 MACHINE = """
 [crank]
@@ -68,6 +69,7 @@ ENGINES = {
     "supercharged diesel": Engine(16.5, 2.3, 2.4, 70.0, 355.0, 60.0, 1.35, 0.5),
     "petrol at part load": Engine(10.0, 0.45, 1.05, 20.0, 345.0, 45.0, 1.3, 1.0),
 }
+FIRST, OTHERS = ["petrol"], ["supercharged diesel", "petrol at part load"]
 
 
 def volume(degrees: Array, engine: Engine) -> Array:
@@ -232,7 +234,7 @@ def test_the_right_file_is_read_without_a_question(reading, name):
     assert found.torque == pytest.approx(torque_of(name), rel=1e-3)
 
 
-@for_each("name", ENGINES)
+@in_parts("name", FIRST, OTHERS)
 @for_each("fault", READ)
 def test_an_awkward_file_is_the_right_one(reading, name, fault):
     degrees, pressure = cycle_of(name)
@@ -242,7 +244,7 @@ def test_an_awkward_file_is_the_right_one(reading, name, fault):
     assert found.torque == pytest.approx(reading(rows(degrees, pressure), name, BAR, ABSOLUTE).torque, rel=2e-6)
 
 
-@for_each("name", ENGINES)
+@in_parts("name", FIRST, OTHERS)
 @for_each("fault", ASKED)
 def test_a_wrong_file_is_asked_about_with_the_line_that_makes_it_right(reading, name, fault):
     degrees, pressure = cycle_of(name)

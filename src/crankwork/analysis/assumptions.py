@@ -177,6 +177,7 @@ _Rule = Callable[["Results", Mapping[str, FileInput], str], bool]
 _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     # the summary says the method, and pi is a constant of mathematics
     (r"method\.(pi|kinematics)", lambda *_: False),
+    (r".*\.measured\.shift", lambda results, *_: all(item.code != "measured_zero" for item in results.notices)),
     (r"method\.gravity", lambda results, *_: "method.gravity" in leaves(results) and _has_mass(results)),
     (r"method\.weights", lambda results, *_: _has_mass(results)),
     (r"rod\.ratio_definition", lambda _, stated, __: "rod.ratio" in stated),
