@@ -65,7 +65,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "speed": [
         (_RPM, "rpm r/min rev/min 1/min об/мин 1/мин vg/ph vòng/phút v/ph v/p"), (1.0, "rad/s рад/с"),
-        (2 * math.pi, "rev/s r/s rps об/с vg/s vòng/s"), (math.pi / 180, "deg/s °/s град/с độ/s"),
+        (2 * math.pi, "rev/s r/s rps об/с vg/s vòng/s"), (math.pi / 180, "°/s deg/s град/с độ/s"),
     ],
     "frequency": [(2 * math.pi, "Hz 1/s Гц 1/с")],
     "angular_acceleration": [(1.0, "rad/s2 рад/с2")],
