@@ -99,7 +99,7 @@ def find_reachable_motion(machine: Machine, step: float) -> ReachableMotion:
 
 
 def _reasons_of_ends(mechanism: Mechanism, grid: CrankGrid, travel: CrankRange) -> ErrorMessage | None:
-    """Return what stops a crank at each end, unless the group that is told to fail over a grid does so at both."""
+    """Return what stops a crank at each end, unless the group that is reported to fail over a grid does so at both."""
     inside = place(mechanism, CrankGrid.from_degrees(open_range(travel)))
     margins = [np.broadcast_to(closure.value, 2) / closure.scale for closure in inside.closures]
     first, last = (mechanism.dyads[int(index)] for index in np.argmin(margins, axis=0))

@@ -80,7 +80,7 @@ def _of_columns(table: Values, gas: Gas, engine: Engine, reader: Reader, read_me
         diagram = build_diagram(
             Values({"measured": own, "pressures": pressures}, table.table), "gas", reader, read_measured
         )
-        # what is told of the first is true of all
+        # what is reported of the first is true of all
         samples = diagram.measured and replace(diagram.measured, notices=() if gases else diagram.measured.notices)
         gases[place.number] = replace(gas, measured=samples, angle_shift=gas.angle_shift - later)
     return gases

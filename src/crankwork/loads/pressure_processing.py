@@ -49,7 +49,7 @@ _FEWEST_POINTS = 8
 _FARTHEST = 6.0
 # errors that bend a compression line too: offset of the pressure [Pa], change of the exponent
 _OFF, _CHANGE = 5e3, 0.045
-# offset that is told, over the pressure at the start, and distance from that of the surroundings that is theirs [Pa]
+# offset that is reported, over the pressure at the start, and how far from that of the surroundings it is theirs [Pa]
 _LEVEL, _SURE = 0.3, 40e3
 # most work of a driven cylinder over its stroke and greatest pressure
 _DRIVEN = 0.04
