@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple
@@ -16,6 +17,7 @@ import numpy as np
 import pytest
 
 import crankwork
+from crankwork.description import measured_build
 from crankwork.errors import InputError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.report.notices import notice_text
@@ -314,3 +316,78 @@ def test_every_wrong_row_of_a_file_is_told_with_its_line(reading):
     lines[7], lines[20], lines[99] = "7;n/a", "20;1,0,1", "99;1;2;3"
     words = reading("\n".join(lines), "petrol", BAR, ABSOLUTE).words
     assert [re.findall(r"line (\d+)", line)[0] for line in words.splitlines()] == ["8", "21", "100"]
+
+
+FIRING = """CA [deg ATDC firing]; Crank angle, deg after firing TDC; CA [deg] (0 = firing TDC); Angle ATDCF [deg]
+CA [deg aTDC power]; φ, °ПКВ после ВМТ сгорания; Угол ПКВ от ВМТ рабочего хода, град; φ, ° ПКВ (0 – ВМТ сгорания)
+Угол от ВМТ вспышки, град; Угол поворота от ВМТ воспламенения, град; φ, град после ВМТ такта сжатия
+Кут повороту, град після ВМТ згоряння; φ, °ПКВ від ВМТ робочого ходу; Кут, град (ВМТ стиску); Góc quay [độ sau ĐCT nổ]
+ĐCT nổ; Góc quay trục khuỷu, ° sau ĐCT kỳ nổ; φ (độ) từ ĐCT cháy; Góc quay từ ĐCT cuối nén, độ
+Góc (điểm chết trên cháy); Goc quay sau DCT no [do]; Kurbelwinkel [°KW nach ZOT]"""
+BEFORE = """CA [deg BTDC]; Crank angle before TDC [deg]; φ, град до ВМТ; Кут перед ВМТ, град; Кут до ВМТ, град
+Góc trước ĐCT [độ]; Goc quay truoc DCT [do]"""
+
+
+def headings(text: str) -> list[str]:
+    return re.split(r"; ?|\n", text)
+
+
+@for_each("form", ["NFC", "NFD"])
+@for_each("heading", headings(FIRING) + headings(BEFORE))
+def test_headings_of_every_language_say_where_zero_is(reading, heading, form):
+    degrees, pressure = cycle_of("petrol")
+    angles = degrees - 360 if heading in headings(FIRING) else -degrees
+    found = reading(
+        unicodedata.normalize(form, f"{heading}\tp [bar]\n") + rows(angles, pressure, "\t"), "petrol", "", ABSOLUTE
+    )
+    assert found.questions == set(), found.words
+    assert found.torque == pytest.approx(torque_of("petrol"), rel=1e-3)
+
+
+def test_a_heading_may_say_that_firing_is_at_360(reading):
+    degrees, pressure = cycle_of("petrol")
+    found = reading("CA [deg] (firing TDC = 360);p [bar]\n" + rows(degrees, pressure), "petrol", "", ABSOLUTE)
+    assert found.torque == pytest.approx(torque_of("petrol"), rel=1e-3)
+
+
+ABOVE = """Gauge pressure;Избыточное давление;Давление манометрическое;Тиск надлишковий
+Áp suất dư;Ap suat du;Áp suất tương đối"""
+
+
+@for_each("heading", headings(ABOVE))
+def test_headings_of_every_language_say_what_pressures_count_from(reading, heading):
+    degrees, pressure = cycle_of("petrol")
+    content = f"CA [deg];{heading} [bar]\n" + rows(degrees, pressure)
+    assert reading(content, "petrol", "", ABSOLUTE).questions >= {"measured_reference"}
+
+
+def test_words_of_headings_are_of_one_alphabet():
+    """A Cyrillic letter among Latin ones looks right and is never found."""
+    for pattern in (
+        measured_build._FROM_FIRING,
+        measured_build._BEFORE,
+        *measured_build._REFERENCES.values(),
+        *measured_build._WORDS.values(),
+    ):
+        for word in re.findall(r"[^\W\d_]+", re.sub(r"\\.", " ", pattern.pattern)):
+            alphabets = {unicodedata.name(letter).split()[0] for letter in word}
+            assert len(alphabets - {"GREEK"}) <= 1, word
+
+
+PEGS = {
+    'pressure = "1 bar"': ['peg.angle: is missing; write angle = "180 deg"'],
+    'angle = "180 deg"': ['peg.pressure: is missing; write pressure = "1 bar"'],
+    "exponent = 1.32": ['peg.from: is missing; write from = "270 deg"', 'peg.to: is missing; write to = "330 deg"'],
+    'from = "270 deg", to = "330 deg"': ["peg.exponent: is missing; write exponent = 1.32"],
+}
+
+
+@for_each(("peg", "words"), PEGS.items())
+def test_what_a_pegging_lacks_is_named(reading, peg, words):
+    found = reading(rows(*cycle_of("petrol")), "petrol", f"{BAR}\npeg = {{ {peg} }}", ABSOLUTE)
+    lines = found.words.splitlines()
+    assert len(lines) == len(words)
+    assert [word for word, line in zip(words, lines, strict=True) if not line.endswith(word)] == [], lines
+    # with what is advised the pressures are pegged
+    more = ", ".join(re.split("write ", line)[1] for line in lines)
+    assert reading(rows(*cycle_of("petrol")), "petrol", f"{BAR}\npeg = {{ {peg}, {more} }}", ABSOLUTE).torque > 0

@@ -22,18 +22,29 @@ from crankwork.units import UNITS, spellings
 
 # words of headings in the languages of test benches
 _WORDS = {
-    "angle": re.compile(r"ang|crank|phi|φ|alpha|α|theta|θ|deg|°|\bca\b|cad|winkel|угол|угла|пкв|góc", re.IGNORECASE),
-    "pressure": re.compile(r"^p(?![a-z]{2}|ow)|press|druck|zyl|давл|р_?ц|áp", re.IGNORECASE),
+    "angle": re.compile(
+        r"ang|crank|phi|φ|alpha|α|theta|θ|deg|°|\bca\b|cad|winkel|угол|угла|кут|пкв|góc|\bgoc\b", re.IGNORECASE
+    ),
+    "pressure": re.compile(r"^p(?![a-z]{2}|ow)|press|druck|zyl|давл|тиск|р_?ц|áp|\bap suat", re.IGNORECASE),
 }
 _REFERENCES = {
-    "absolute": re.compile(r"(?:\b|_)(?:abs(?:olut\w*)?|bara|psia)(?:\b|_)|\(a\)|абс|tuyệt đối", re.IGNORECASE),
-    "gauge": re.compile(r"(?:\b|_)(?:gauge|barg|psig|rel)(?:\b|_)|\(g\)|изб|áp suất dư|überdruck", re.IGNORECASE),
+    "absolute": re.compile(
+        r"(?:\b|_)(?:abs(?:olut\w*)?|bara|psia)(?:\b|_)|\(a\)|абс|tuyệt đối|tuyet doi", re.IGNORECASE
+    ),
+    "gauge": re.compile(
+        r"(?:\b|_)(?:gauge|barg|psig|rel)(?:\b|_)|\(g\)|изб|манометр|надлишк|áp suất dư|ap suat du|tương đối|tuong doi"
+        r"|überdruck",
+        re.IGNORECASE,
+    ),
 }
-# angles from the dead centre of firing, and angles before a dead centre
+# angles from the dead centre of firing, and angles before a dead centre; words in each of the languages
 _FROM_FIRING = re.compile(
-    r"firing|fired|combust|compression|tdcf\b|сгоран|сжат|рабоч|\bнổ|cháy|nén|zünd|\bzot\b", re.IGNORECASE
+    r"firing|fired|combust|ignition|compression|tdcf\b|tdc\s+power|power\s+(?:stroke|tdc)"
+    r"|сгоран|сжат|рабоч|вспышк|воспламен|згор|стис|робоч|спалах|займан"
+    r"|\bnổ|cháy|nén|\bdct (?:ky )?(?:no|chay|cuoi nen|nen)\b|zünd|\bzot\b",
+    re.IGNORECASE,
 )
-_BEFORE = re.compile(r"\bb\.?tdc|before|до\s+вмт|trước|\bvor\b", re.IGNORECASE)
+_BEFORE = re.compile(r"\bb\.?tdc|before|(?:до|перед)\s+вмт|trước|\btruoc\b|\bvor\b", re.IGNORECASE)
 _RANGE = re.compile(r"(\d+)\s*\.\.\s*(\d+)")
 # text after an angle that is a unit: it has a number or a quotient
 _SOME_UNIT = re.compile(r"\d|/")
@@ -154,7 +165,11 @@ def _columns(table: FileTable, values: Values) -> _Columns:
     if pressures and "pressure_unit" not in values and units[1]:
         notices.append(("measured_units_of_file", {"units": ", ".join(of_file)}))
     heading = f"{table.names[angle]} {table.written[angle]}"
-    zero, is_before = 360.0 if _FROM_FIRING.search(heading) else 0.0, bool(_BEFORE.search(heading))
+    # a heading may say that firing is at 360
+    zero, is_before = (
+        360.0 if _FROM_FIRING.search(heading) and "360" not in heading else 0.0,
+        bool(_BEFORE.search(heading)),
+    )
     if is_before:
         notices.append(("measured_before", {"column": table.label(angle)}))
     return _Columns(angle, pressures, units[0], units[1], tuple(notices), zero, is_before)
