@@ -391,3 +391,29 @@ def test_what_a_pegging_lacks_is_named(reading, peg, words):
     # with what is advised the pressures are pegged
     more = ", ".join(re.split("write ", line)[1] for line in lines)
     assert reading(rows(*cycle_of("petrol")), "petrol", f"{BAR}\npeg = {{ {peg}, {more} }}", ABSOLUTE).torque > 0
+
+
+# how many of a unit are a bar
+OF_BAR = {"MPa": 0.1, "bar": 1.0, "kPa": 100.0, "mbar": 1000.0, "Pa": 1e5, "psi": 14.5038, "kgf/cm2": 1.0197}
+
+
+@in_parts("name", FIRST, OTHERS)
+@for_each("unit", OF_BAR)
+@for_each("counted", [0.0, AMBIENT])
+def test_a_missing_unit_is_asked_for_by_size(reading, name, unit, counted):
+    degrees, pressure = cycle_of(name)
+    words = reading(rows(degrees, OF_BAR[unit] * (pressure - counted)), name, "", ABSOLUTE).words
+    units = re.findall(r'pressure_unit = "(.*?)"', words)
+    assert unit in units, words
+    # absolute pressures tell it better
+    assert len(units) <= (4 if counted else 3), words
+
+
+def test_all_that_a_file_lacks_is_told_at_once(reading):
+    lines = rows(*cycle_of("petrol")).splitlines()
+    lines[7], lines[20] = "7;n/a", "20;1,0,1"
+    words = reading("\n".join(lines), "petrol", "", ABSOLUTE).words.splitlines()
+    assert [re.findall(r"pressure_unit|line \d+", line)[0] for line in words] == ["pressure_unit", "line 8", "line 21"]
+    wide = "a;b;c\n" + "\n".join(f"{line};1" for line in lines)
+    names = reading(wide, "petrol", 'angle_column = "x"\npressure_column = "y"', ABSOLUTE).words
+    assert re.findall(r'no column "(.)"', names) == ["x", "y"]

@@ -85,8 +85,11 @@ def test_twelve_columns_are_asked_about(read):
 
 
 def test_many_columns_without_headings_are_asked_about(read):
-    message = refusal(read, table(ANGLES, BAR / 2, BAR))
-    assert "line 1: 3 columns without headings; write angle_column = 1" in message
+    with pytest.raises(InputError) as caught:
+        read(table(ANGLES, BAR / 2, BAR))
+    of_angle, of_pressure = (problem.message for problem in caught.value.problems)
+    assert "line 1: 3 columns without headings; write angle_column = 1" in of_angle
+    assert "line 1: 3 columns without headings; write pressure_column = 3" in of_pressure
     keys = 'pressure_unit = "bar"\nangle_column = 1'
     assert "write pressure_column = 3, the number" in refusal(read, table(ANGLES, BAR / 2, BAR), keys)
     assert is_right(read(table(ANGLES, BAR / 2, BAR), f"{keys}\npressure_column = 3"))

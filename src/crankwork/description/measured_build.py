@@ -16,9 +16,9 @@ from crankwork.description.table_file import FileTable, read_table
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing
+from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing, plausible_units
 from crankwork.locale import ErrorMessage
-from crankwork.units import UNITS, spellings
+from crankwork.units import UNITS
 
 # words of headings in the languages of test benches
 _WORDS = {
@@ -79,6 +79,8 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     try:
         table = read_table(folder / file, name=file, sheet=values["sheet"])
         columns = _columns(table, values)
+        if not (columns.pressure_unit or reader.has_errors(f"{path}.measured.pressure_unit")):
+            reader.add_error(f"{path}.measured.pressure_unit", _without_unit(table, columns.pressures[0]))
         samples = table.columns((columns.angle, *columns.pressures))
         _check_angles(samples[:, 0], columns.angle_unit, table)
         other = next(filter(partial(_rises, table), columns.pressures), -1)
@@ -88,15 +90,6 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
         reader.add_error(f"{path}.measured.file", *error.args)
         return None
     if not columns.pressure_unit:
-        key = "pressure_unit"
-        written = table.written[columns.pressures[0]]
-        options = ", ".join(spellings("pressure")[:4])
-        message = ErrorMessage("missing", advice=(f'{key} = "MPa"',))
-        if written:
-            column = table.label(columns.pressures[0])
-            message = ErrorMessage("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
-        if not reader.has_errors(f"{path}.measured.{key}"):
-            reader.add_error(f"{path}.measured.{key}", message)
         return None
     if not reader.decimal_comma and _are_thousands(table, samples[:, 1:] * UNITS[columns.pressure_unit].factor):
         line = table.lines[0]
@@ -129,6 +122,15 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     )
 
 
+def _without_unit(table: FileTable, column: int) -> ErrorMessage:
+    """Return the question for the unit of a column of pressures, with those that suit its numbers."""
+    units, written = plausible_units(table.readable(column)), table.written[column]
+    if not written:
+        return ErrorMessage("missing", advice=tuple(f'pressure_unit = "{unit}"' for unit in units))
+    stated = {"unit": written[:20], "column": table.label(column), "name": "pressure_unit"}
+    return ErrorMessage("measured_unit_unknown", **stated, options=", ".join(units))
+
+
 def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Preprocessing:
     """Return the requested treatment of samples; `path`: of its table."""
     peg, which, smooth, loss = values.get("peg"), values["cycle"], values.si("smooth"), values.si("loss_angle")
@@ -153,8 +155,18 @@ def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -
 
 def _columns(table: FileTable, values: Values) -> _Columns:
     """Return the columns to read, and their units; raise if the machine file must name them."""
-    angle, *_ = _chosen(table, values, "angle", ())
-    pressures = _chosen(table, values, "pressure", (angle,))
+    mistakes = list[ErrorMessage]()
+    angle, pressures = -1, tuple[int, ...]()
+    try:
+        angle, *_ = _chosen(table, values, "angle", ())
+    except CrankworkError as error:
+        mistakes += error.args
+    try:
+        pressures = _chosen(table, values, "pressure", (angle,))
+    except CrankworkError as error:
+        mistakes += error.args
+    if mistakes:
+        raise CrankworkError(*dict.fromkeys(mistakes))
     notices: list[NoticeData] = []
     more = f"..{table.label(pressures[-1])}" if len(pressures) > 1 else ""
     taken = table.label(pressures[0]) + more

@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import contextlib
 import csv
+import itertools
 import re
 import unicodedata
 from collections import Counter
@@ -128,6 +129,12 @@ class FileTable:
         if mistakes:
             raise CrankworkError(*mistakes)
         return np.array(cells)
+
+    def readable(self, position: int) -> Array:
+        """Return the numbers of a column in the rows that have one, 0 without any."""
+        cells = (_cells(row, self.separator)[position : position + 1] for row in self.rows)
+        numbers = (_float(cell) for cell in itertools.chain.from_iterable(cells))
+        return np.array([number for number in numbers if number is not None and abs(number) < _LARGEST] or [0.0])
 
     def _is_even(self, rows: Iterable[str]) -> bool:
         """Return whether every row has as many cells as there are columns."""
