@@ -46,7 +46,7 @@ AMBIENT = 1.01325
 # what a question is: a refusal, or one of these notices
 QUESTIONS = {
     "peak_far", "work_negative", "exponent_odd", "dead_centre_compression", "pressure_unit_odd", "pressures_other",
-    "pressure_level", "measured_reference", "measured_other_unit",
+    "pressure_level", "measured_reference", "measured_other_unit", "pressure_spike",
 }  # fmt: skip
 
 
@@ -417,3 +417,113 @@ def test_all_that_a_file_lacks_is_told_at_once(reading):
     wide = "a;b;c\n" + "\n".join(f"{line};1" for line in lines)
     names = reading(wide, "petrol", 'angle_column = "x"\npressure_column = "y"', ABSOLUTE).words
     assert re.findall(r'no column "(.)"', names) == ["x", "y"]
+
+
+FAR = [3, -3, 8, -8, 10, -10, 15, -15, 20, -20, 30, -30, 45, -45, 90, -90, 102, -102, 180, 360]
+
+
+@in_parts("name", FIRST, OTHERS)
+@for_each("shift", FAR)
+@for_each("is_reversed", [False, True])
+def test_a_shift_of_any_size_is_asked_about_with_the_right_line(reading, name, shift, is_reversed):
+    degrees, pressure = cycle_of(name)
+    recorded = pressure[-np.arange(len(pressure)) % len(pressure)] if is_reversed else pressure
+    words = reading(rows(degrees, later(recorded, degrees, shift)), name, BAR, ABSOLUTE).words
+    assert bool(re.search("reversed = true", words)) == is_reversed, words
+    stated = re.search(r'shift = "(\S+) deg"', words.split("if the file")[0] if is_reversed else words)
+    wanted = -shift if is_reversed else shift
+    if stated or not is_reversed or abs(shift) > 3:
+        assert stated, words
+        assert (float(stated[1]) - wanted + 360) % 720 - 360 == pytest.approx(0, abs=0.6)
+    assert "peg" not in words
+    assert "exponent" not in words
+
+
+def compressor(ratio: float, clearance: float) -> tuple[Array, Array]:
+    """Return crank angles and pressures of compression, delivery and expansion by closed forms. [deg], [bar]"""
+    degrees, share = np.arange(0.0, 360.0), 45 / 150
+    moved = 1 - np.cos(np.radians(degrees)) + (1 - np.sqrt(1 - (share * np.sin(np.radians(degrees))) ** 2)) / share
+    size = clearance + moved / 2
+    down, up = np.maximum(1.0, ratio * (clearance / size) ** 1.3), np.minimum(ratio, ((1 + clearance) / size) ** 1.3)
+    return degrees, np.where(degrees < 180, down, up)
+
+
+def two_stroke(name: str) -> tuple[Array, Array]:
+    """Return the closed part of a cycle from the dead centre on. [deg], [bar]"""
+    degrees, pressure = cycle_of(name)
+    closed = pressure[(degrees >= 180) & (degrees < 540)]
+    return degrees[degrees < 360], np.roll(closed, -len(closed) // 2)
+
+
+TURNS = {
+    "compressor 2.5": (compressor(2.5, 0.05), 21.0),
+    "compressor 8": (compressor(8.0, 0.05), 21.0),
+    "compressor 12": (compressor(12.0, 0.03), 1 + 1 / 0.03),
+    "two-stroke": (two_stroke("petrol"), 9.0),
+    "two-stroke diesel": (two_stroke("supercharged diesel"), 16.5),
+}
+CHAMBER = """
+[fixed_points]
+O = ["0 mm", "0 mm"]
+[crank]
+pivot = "O"
+pin = "A"
+radius = "45 mm"
+speed = "3000 rpm"
+[guides]
+bed = { through = "O" }
+[links]
+rod = { joins = ["A", "B"], length = "150 mm" }
+[sliders]
+piston = { guide = "bed", pin = "B" }
+[chambers.gas]
+slider = "piston"
+bore = "86 mm"
+sense = -1
+period = "360 deg"
+pressures = "absolute"
+"""
+
+
+@for_each("name", TURNS)
+@for_each("form", ["cylinder", "chamber"])
+@for_each(("by", "is_reversed"), [(0, False), (0, True), (180, False), (90, False), (-90, False), (90, True)])
+def test_cycles_of_a_turn_are_asked_about_in_cylinders_and_chambers(tmp_path, name, form, by, is_reversed):
+    (degrees, pressure), ratio = TURNS[name]
+    recorded = pressure[-np.arange(len(pressure)) % len(pressure)] if is_reversed else pressure
+    moved = np.interp((degrees + by) % 360, np.append(degrees, 360), np.append(recorded, recorded[0]))
+    (tmp_path / "p.txt").write_text(rows(degrees, moved), encoding="utf-8")
+    text = MACHINE.replace("720 deg", "360 deg").format(ratio=ratio, pressures=ABSOLUTE, keys=BAR)
+    if form == "chamber":
+        head, measured = f"{CHAMBER}\ncompression_ratio = {ratio}\n", text[text.index("[gas.measured]") :]
+        text = head + measured.replace("gas.", "chambers.gas.")
+    if not by and not is_reversed:
+        assert not QUESTIONS & {
+            one.code for one in crankwork.analyse(crankwork.read_machine(text, folder=tmp_path)).notices
+        }
+        return
+    with pytest.raises(InputError) as caught:
+        crankwork.read_machine(text, folder=tmp_path)
+    (problem,) = caught.value.problems
+    wanted = ["reversed = true"] * is_reversed + [f'shift = "{by * (-1) ** is_reversed} deg"'] * bool(by)
+    advice = re.search(r"write (.*?)(?: if the file|, or)", problem.message)
+    assert advice is not None
+    assert advice[1] == ", ".join(wanted)
+    assert crankwork.read_machine(text + "\n" + advice[1].replace(", ", "\n"), folder=tmp_path)
+
+
+@for_each(("row", "value"), [(300, 60.0), (640, 60.0), (50, 20.0), (372, 5.0)])
+def test_one_wrong_sample_is_named_and_nothing_else_is_asked(reading, row, value):
+    degrees, pressure = cycle_of("petrol")
+    wrong = np.where(np.arange(len(pressure)) == row, value, pressure)
+    found = reading(rows(degrees, wrong), "petrol", BAR, ABSOLUTE)
+    assert found.questions == {"pressure_spike"}
+    assert f"line {row + 1}:" in found.words
+
+
+@for_each("pressure", [1.0, 0.0])
+def test_a_pressure_that_does_not_change_is_said_to(reading, pressure):
+    degrees = np.arange(720.0)
+    words = reading(rows(degrees, pressure + 1e-4 * np.sin(degrees)), "petrol", BAR, 'pressures = "gauge"').words
+    assert "the pressure hardly changes over the cycle" in words
+    assert 'as pressure_column, or shift = "0 deg" if it is so' in words

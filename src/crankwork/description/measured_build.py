@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
@@ -17,6 +18,7 @@ from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing, plausible_units
+from crankwork.loads.pressure_processing import QUESTIONS
 from crankwork.locale import ErrorMessage
 from crankwork.units import UNITS
 
@@ -129,6 +131,23 @@ def _without_unit(table: FileTable, column: int) -> ErrorMessage:
         return ErrorMessage("missing", advice=tuple(f'pressure_unit = "{unit}"' for unit in units))
     stated = {"unit": written[:20], "column": table.label(column), "name": "pressure_unit"}
     return ErrorMessage("measured_unit_unknown", **stated, options=", ".join(units))
+
+
+def in_file(key: str, mistake: ErrorMessage, values: Values) -> ErrorMessage:
+    """Return a mistake with the file that it is about, if it is about one."""
+    owner, measured, _ = key.partition(".measured")
+    if not measured:
+        return mistake
+    table = functools.reduce(dict.__getitem__, owner.split("."), values)
+    return ErrorMessage("in_file", file=table["measured"]["file"], mistake=mistake)
+
+
+def add_questions(notices: Iterable[NoticeData], values: Values, reader: Reader) -> None:
+    """Report the notices that a description has to answer, each once."""
+    for code, stated in notices:
+        key = str(stated.get("name"))
+        if code in QUESTIONS and not reader.has_errors(key):
+            reader.add_error(key, in_file(key, ErrorMessage(f"notices.{code}", **stated), values))
 
 
 def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Preprocessing:
