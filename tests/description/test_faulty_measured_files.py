@@ -527,3 +527,45 @@ def test_a_pressure_that_does_not_change_is_said_to(reading, pressure):
     words = reading(rows(degrees, pressure + 1e-4 * np.sin(degrees)), "petrol", BAR, 'pressures = "gauge"').words
     assert "the pressure hardly changes over the cycle" in words
     assert 'as pressure_column, or shift = "0 deg" if it is so' in words
+
+
+ORDERS = [
+    ["p1", "p3", "p4", "p2"],
+    ["p1", "p3", "p2", "p4"],
+    ["p4", "p3", "p2", "p1"],
+    ["p2", "p1", "p3", "p4"],
+    [2, 4, 3, 5],
+]
+
+
+@for_each("order", ORDERS)
+def test_columns_in_a_wrong_order_are_answered_with_the_right_one(tmp_path, order):
+    (tmp_path / "p.txt").write_text(four("petrol"), encoding="utf-8")
+    keys = f"columns = {order}".replace("'", '"')
+    text = MACHINE.format(ratio=9.0, pressures=ABSOLUTE, keys=keys) + ENGINE
+    with pytest.raises(InputError) as caught:
+        crankwork.read_machine(text, folder=tmp_path)
+    (problem,) = caught.value.problems
+    line = re.search(r"write (columns = \[.*?\])", problem.message)[1]
+    assert line == f"columns = {sorted(order)}".replace("'", '"')
+    results = crankwork.analyse(crankwork.read_machine(text.replace(keys, line), folder=tmp_path))
+    assert results.summary["mean_torque"] == pytest.approx(4 * torque_of("petrol"), rel=1e-3)
+
+
+SHIFTS = 'shift = "180 deg"', 'shift = "-180 deg"', 'shift = "360 deg"'
+
+
+@for_each("order", [["p3", "p2", "p4"], ["p3", "p4", "p2"]])
+def test_entries_with_the_columns_of_others_are_answered_with_their_own(tmp_path, order):
+    (tmp_path / "p.txt").write_text(four("petrol"), encoding="utf-8")
+    text = MACHINE.format(ratio=9.0, pressures=ABSOLUTE, keys='pressure_column = "p1"') + ENGINE
+    for number, (column, shift) in enumerate(zip(order, SHIFTS, strict=True), start=2):
+        own = f'[gas.cylinders.{number}.measured]\nfile = "p.txt"\npressure_column = "{column}"\n{shift}\n'
+        text += own
+    with pytest.raises(InputError) as caught:
+        crankwork.read_machine(text, folder=tmp_path)
+    lines = {
+        problem.key: re.search(r'pressure_column = "(.*?)"', problem.message)[1] for problem in caught.value.problems
+    }
+    wrong = [number for number, column in enumerate(order, start=2) if column != f"p{number}"]
+    assert lines == {f"gas.cylinders.{number}.measured.pressure_column": f"p{number}" for number in wrong}

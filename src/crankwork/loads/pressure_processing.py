@@ -47,7 +47,7 @@ _COMPRESSION = (90.0, 20.0)
 _PEAK = 12.0
 _FEWEST_POINTS = 8
 # where the peak of a fired or motored cycle may stand, from top dead centre [deg]
-_PEAKS = (-15, 40)
+PEAKS = (-15, 40)
 # share of the range above which delivery goes on, and how long it takes at least [deg]
 _DELIVERY, _DELIVERED = 0.7, 50.0
 # how much longer a compressor takes to compress than to expand what is left
@@ -108,7 +108,7 @@ def measured_diagram(
         notices.append(("wrap", {"step": recorded.wrap}))
     if around.top is not None:
         # a wrong sample tells nothing of the dead centre
-        smooth = np.where(_off(pressure) > 0, (np.roll(pressure, 1) + np.roll(pressure, -1)) / 2, pressure)
+        smooth = _without_spikes(pressure)
         absolute = smooth if treatment.absolute else smooth + AMBIENT
         against = contradictions((degrees, absolute), around.volume_at, (cycle, around.top), measured, shift=shift)
         questions = list[NoticeData]()
@@ -147,11 +147,11 @@ def _other_strokes(
 
     def placed(both: tuple[Array, Array]) -> tuple[float, float, bool]:
         """Return how late the peak is, the shift that puts it in place, and whether that is by the compression."""
-        late = _centred(float(both[0][np.argmax(both[1])]) - centre, period)
+        late = centred(float(both[0][np.argmax(both[1])]) - centre, period)
         if sign < 0:
             # delivery ends at the dead centre
             end = float(both[0][_end_of(both[1] > least + _DELIVERY * (highest - least))])
-            return late, _quarter(-_centred(end - centre, period), _QUARTER), False
+            return late, _quarter(-centred(end - centre, period), _QUARTER), False
         correction = _straightest(both, around.volume_at, (cycle, centre), late)
         if correction is None:
             return late, _quarter(-late, near), False
@@ -177,7 +177,7 @@ def _other_strokes(
     yield code, {**angles, "turned": f"{_wrapped(shift + more):g} deg", "own": own}
 
 
-def _centred(degrees: float, period: float) -> float:
+def centred(degrees: float, period: float) -> float:
     """Return an angle between minus and plus half of a period. [deg]"""
     return (degrees + period / 2) % period - period / 2
 
@@ -203,7 +203,7 @@ def _straightest(
 
     `where`: cycle and dead centre of firing; `late`: how far from there the peak is.
     """
-    shifts = np.arange(math.ceil(_PEAKS[0] - late), math.floor(_PEAKS[1] - late) + 1.0)
+    shifts = np.arange(math.ceil(PEAKS[0] - late), math.floor(PEAKS[1] - late) + 1.0)
     lines = [_compression(samples, volume_at, where, shift) for shift in shifts.tolist()]
     candidates = []
     for shift, line, after in zip(shifts.tolist(), lines, lines[1:], strict=False):
@@ -255,6 +255,16 @@ def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
             worst = np.argsort(-off)[: min(_MOST_TOLD, int(np.sum(off > 0)))]
             lines = ", ".join(str(measured.rows[line]) for line in worst.tolist())
             yield "pressure_spike", {"line": lines, "step": float(pressure[worst[0]]), "count": float(np.sum(off > 0))}
+
+
+def _without_spikes(pressure: Array) -> Array:
+    return np.where(_off(pressure) > 0, (np.roll(pressure, 1) + np.roll(pressure, -1)) / 2, pressure)
+
+
+def peak_angle(measured: MeasuredPressure) -> float:
+    """Return the angle of the greatest pressure, as it is recorded. [deg]"""
+    pressure = measured.pressure.reshape(len(measured.degrees), -1).mean(axis=1)
+    return float(measured.degrees[np.argmax(_without_spikes(pressure))])
 
 
 def _off(pressure: Array) -> Array:
