@@ -158,11 +158,6 @@ def _taken(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assump
             yield Assumption("taken", (path,), node.value, quantity=quantity)
 
 
-def is_display(path: str) -> bool:
-    """Return whether a key of a file changes no result: texts, tables and drawings."""
-    return _DISPLAY.fullmatch(path) is not None
-
-
 def leaves(results: Results) -> dict[str, tuple[Input, str]]:
     """Return the inputs that results depend on, by path, with the key of their quantity."""
     inputs: dict[str, tuple[Input, str]] = {}
