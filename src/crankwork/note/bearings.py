@@ -21,7 +21,9 @@ from crankwork.note.parts import (
     Section,
     Shown,
     Text,
+    When,
     every,
+    full,
     has,
     turning,
 )
@@ -116,8 +118,10 @@ SECTIONS = (
     Section("mains", (
         Head("mains", sinks=True), Text("mains"), At("bearings"), Lines("bearings", _ON_MAINS),
         Shown(("main_journal_polar",), (Over("mains", _group("main_journals")),)),
-        Shown(("main_wear",), (Rows("main_wear", "main_wear"),)), Lines("engine_torque"),
-        Shown(("accumulated_torque",), (Over("accumulated", _group("accumulated_torque")),)),
+        When(full, (
+            Shown(("main_wear",), (Rows("main_wear", "main_wear"),)), Lines("engine_torque"),
+            Shown(("accumulated_torque",), (Over("accumulated", _group("accumulated_torque")),)),
+        )),
     ), lambda material: material.has_piston and material.has_engine and material.has("main_journals")),
     Section("bearings", (
         Head("bearings"), Text("joint_bearings", {"source": Citation(_SOURCE)}), At("joint_bearings"),

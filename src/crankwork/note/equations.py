@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.formula.expression import Formula, Operation, Symbol, record, takes_angle, text
-from crankwork.locale import texts, translate
+from crankwork.locale import texts
 from crankwork.locale.numbers import number
 from crankwork.note.definitions import definition_box, definition_text
 from crankwork.note.document import Equation
@@ -321,14 +321,3 @@ def _angles(step: FormulaLine, language: Language) -> dict[str, str]:
 
 def _fenced(printed: str) -> str:
     return f"({printed})" if printed.startswith("−") else printed
-
-
-def legend_rows(block: Equation, language: Language) -> list[tuple[str, Box, str]]:
-    """Return the lines of a legend: the word before the first, the symbol, and what follows it with its stop."""
-    ends = [";"] * (len(block.legend) - 1) + ["."]
-    rows = []
-    for k, (entry, end) in enumerate(zip(block.legend, ends, strict=True) if block.legend else ()):
-        rows.append(
-            (translate("note.where", language) if k == 0 else "", symbol_box(entry.symbol), f" – {entry.text}{end}")
-        )
-    return rows

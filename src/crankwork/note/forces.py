@@ -26,6 +26,7 @@ from crankwork.note.parts import (
     driven,
     either,
     every,
+    full,
     works,
 )
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
@@ -136,7 +137,7 @@ SECTIONS = (
         Head("dynamics"), Head("masses", 2), _masses,
         When(works("forces"), (
             Head("forces", 2), *_WORKED, _per_area, Shown(("piston_forces",), (Over("along", _along),)), _ON_CRANKPIN,
-            Head("extremes", 2), _OF_FORCES, _OF_POWER,
+            When(full, (Head("extremes", 2), _OF_FORCES)), _OF_POWER,
         )),
     ), either(works("masses"), works("forces"))),
     Section("inertia", (

@@ -24,6 +24,7 @@ from crankwork.note.parts import (
     draws,
     driven,
     every,
+    full,
     has,
 )
 from crankwork.note.tables import Column, tabulated
@@ -100,7 +101,8 @@ SECTIONS = (
     # displacement, velocity and acceleration in one
     Section("kinematics", (
         Head("kinematics"), At("motion"), Lines("motion"),
-        Head("harmonics", 2), Lines("harmonics", intro="orders"), Head("extremes", 2), _EXTREMES, _REPEATS,
+        When(full, (Head("harmonics", 2), Lines("harmonics", intro="orders"), Head("extremes", 2), _EXTREMES)),
+        _REPEATS,
         Shown(("kinematics", "brix", "tolle"), (
             Over("motion", tuple(key for noun in _NOUNS for key in (*_orders(noun), noun)), one_turn=True), _OF_RODS,
         )),

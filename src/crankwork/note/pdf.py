@@ -32,7 +32,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.equations import formula_of, legend_rows, line_parts, printed_equation
+from crankwork.note.equations import formula_of, line_parts, printed_equation
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright, width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, numbering
@@ -197,12 +197,6 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
         set_line = f"math.equation(block: true, alt: {words}, $ {typst_box(line)} $)"
         drawn.append(f"fitted({set_line})" if width(line) > free else set_line)
     yield f"#lines({typst_string(mark)}, {', '.join(drawn)})"
-    if block.legend:
-        cells = ", ".join(
-            f"{typst_string(where)}, [{_math(box, entry.symbol)}#{typst_string(words)}]"
-            for (where, box, words), entry in zip(legend_rows(block, numbers.language), block.legend, strict=True)
-        )
-        yield f"#block(breakable: false, grid(columns: 2, column-gutter: 0.6em, row-gutter: 0.7em, {cells}))"
 
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
@@ -278,12 +272,16 @@ def _breakable(text: str) -> str:
 
 def _title_page(page: TitlePage, note: Note) -> str:
     """Return the cover: whose it is at the head, the title in the middle, people below, place and year at the foot."""
-    small = 0.62 if page.is_crowded else 1.0
+    small = 0.62 if page.is_crowded else 0.8 if page.is_plain else 1.0
 
     def lines(texts: tuple[str, ...], size: float, weight: int = 400) -> str:
         boxes = ", ".join(f"text(size: {size * small:.1f}pt, weight: {weight}, {_breakable(entry)})" for entry in texts)
         return f"#stack(spacing: {0.9 * small:.2f}em, {boxes})\n" if texts else ""
 
+    if page.is_plain:
+        people_line = tuple(", ".join(person.names) for person in page.people)
+        title = f"{lines((note.headline,), 20, 700)}{lines(page.below, 14)}{lines(people_line, 14)}"
+        return f"#align(center, block(below: 1.6em)[#set par(justify: false)\n{title}])"
     # the strokes of signatures stand under names that are written by hand
     sign = "box(width: 32mm, height: 0.9em, stroke: (bottom: 0.4pt))"
     people = ", ".join(

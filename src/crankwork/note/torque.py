@@ -24,6 +24,7 @@ from crankwork.note.parts import (
     draws,
     either,
     every,
+    full,
     has,
     lacks,
     machine_has,
@@ -146,7 +147,7 @@ SECTIONS = (
             Shown(("total_torque",)),
             When(draws("torque"), (Text("see_figure", {"figures": Reference("f:torque")}),)),
         )),
-        When(_SEVERAL, HARMONICS),
+        When(every(full, _SEVERAL), HARMONICS),
     ), every(has("total_torque_max"), either(_SEVERAL, every(_ONE, school("vi"))))),
     Section("static", (
         Head("static"),
@@ -188,5 +189,5 @@ SECTIONS = (
     Section("harmonics", (
         Head("torque_harmonics"), Text("crank_harmonics", {"source": Citation(_HARMONICS)}), Lines("crank_harmonics"),
         Listed("torque_harmonics", "harmonics"), Shown(("torque_harmonics",)),
-    ), every(turning, has("torque_harmonics"))),
+    ), every(full, turning, has("torque_harmonics"))),
 )  # fmt: skip

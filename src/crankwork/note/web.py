@@ -26,7 +26,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.equations import legend_rows, printed_equation
+from crankwork.note.equations import printed_equation
 from crankwork.note.interactive import bar, controls, look, page_data, stored_data_element, symbol_html
 from crankwork.note.mathml import mathml_box
 from crankwork.note.numbering import Numbering, numbering
@@ -71,8 +71,6 @@ ul { list-style: "–  "; padding-left: 1.4em; }
 .lines math { margin: .35em 0; }
 .mark { white-space: nowrap; }
 .lines:has(math + math) + .mark { align-self: flex-end; padding-bottom: .5em; }
-.legend { border-spacing: 0; margin: .3em 0 .9em; }
-.legend td { padding: 0 .5em 0 0; vertical-align: baseline; }
 .table { margin: 1.6em 0; }
 .table table { border-collapse: collapse; margin: 0 auto; font-size: .82rem; line-height: 1.25;
   font-variant-numeric: lining-nums tabular-nums; }
@@ -198,12 +196,6 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
     lines = "".join(f'<math display="block">{mathml_box(line)}</math>' for line in printed.lines)
     mark = xml_text(numbers.mark(block, number, " "))
     yield f'<div class="equation"><div class="lines">{lines}</div><div class="mark">{mark}</div></div>'
-    if block.legend:
-        rows = "".join(
-            f"<tr><td>{where}</td><td><math>{mathml_box(box)}</math>{xml_text(words)}</td></tr>"
-            for where, box, words in legend_rows(block, numbers.language)
-        )
-        yield f'<table class="legend" role="presentation">{rows}</table>'
 
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:

@@ -24,7 +24,7 @@ from crankwork.note.document import (
     TitlePage,
     cell_length,
 )
-from crankwork.note.equations import PrintedEquation, formula_of, legend_rows
+from crankwork.note.equations import PrintedEquation, formula_of
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
@@ -50,9 +50,6 @@ _SIZES = (20, 18, 16, 14)
 _ROW_HEIGHT = 0.6
 # of source and number, at least; of a letter of them [twip]
 _MARK_WIDTH, _MARK = 2150, 122
-_LEGEND = (
-    '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
-)
 _CELL_STYLE = '<w:pStyle w:val="TableText"/>'
 # rows that stay with the heading of their table; LibreOffice loses the others where one alone ends a page
 _TOGETHER = 2
@@ -104,12 +101,8 @@ def equation_xml(block: Equation, number: str, numbers: Numbering, printed: Prin
         f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cell(left, lines, 'center')}{cell(marked, right, place)}</w:tr>"
         "</w:tbl>"
     )
-    if not block.legend:
-        # two tables without a paragraph between them would become one
-        yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
-    for where, box, words in legend_rows(block, numbers.language):
-        mathematics = f"<m:oMath>{omml_box(box)}</m:oMath>"
-        yield paragraph(f"{text_run(where)}<w:r><w:tab/></w:r>{mathematics}{text_run(words)}", "", _LEGEND)
+    # two tables without a paragraph between them would become one
+    yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
 
 
 def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -> Iterator[str]:
