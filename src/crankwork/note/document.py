@@ -134,12 +134,16 @@ def cell_length(cell: Cell) -> int:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing; `alt` says what it shows, and the end of its label what it is called elsewhere."""
+    """A drawing; `alt` says what it shows, and the end of its label what it is called elsewhere.
+
+    `floats`: whether it may stand at the head of a page instead of here.
+    """
 
     drawing: Drawing
     caption: str
     alt: str
     label: str = ""
+    floats: bool = True
 
     @property
     def name(self) -> str:

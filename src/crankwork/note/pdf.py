@@ -46,15 +46,18 @@ from crankwork.sources import cite
 _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.DOTALL)
 _SETTINGS = """
 #set page(paper: "a4", margin: (left: 25mm, right: 15mm, top: 20mm, bottom: 20mm), numbering: "1")
-#set text(font: "Libertinus Serif", size: 12pt, hyphenate: true)
+#set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
 #set par(leading: 0.78em, spacing: 0.95em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
 #show heading: set block(above: 1.5em, below: 0.9em, sticky: true)
 #show heading: set par(justify: false)
-#show heading.where(level: 1): set text(size: 15pt)
-#show heading.where(level: 2): set text(size: 13pt)
-#show heading.where(level: 3): set text(size: 12pt)
-#set table(stroke: 0.4pt + black, inset: (x: 4pt, y: 3.2pt))
+#show heading.where(level: 1): set text(size: 14pt)
+#show heading.where(level: 2): set text(size: 12pt)
+#show heading.where(level: 3): set text(size: 11pt)
+#set table(inset: (x: 4pt, y: 3.2pt))
+#let ruled(head) = (_, y) => if y == head {
+  (top: 0.7pt + black, bottom: 0.5pt + black)
+} else if y > head { (bottom: 0.3pt + luma(70%)) }
 #set list(marker: [–])
 #let fitted(line) = layout(size => {
   let wide = measure(line).width
@@ -65,8 +68,8 @@ _SETTINGS = """
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
   grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
 ))
-#let drawing(body, words) = figure(
-  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: auto,
+#let drawing(body, words, place) = figure(
+  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: place,
 )
 #set page(foreground: context {
   let begun = ()
@@ -216,9 +219,10 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     )
     again = "" if is_whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
+    columns = _columns(block, size, marked=not is_whole)
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table({_columns(block, size, marked=not is_whole)}, align: ({align},), {header},\n{rows}))\n}}"
+        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_whole)}), {header},\n{rows}))\n}}"
     )
     if is_whole:
         yield "]"
@@ -262,7 +266,7 @@ def _figure(block: Figure, number: str, language: Language) -> str:
         f'layout(size => image(bytes("{data}"), format: "svg", alt: {typst_string(block.alt)}, '
         f"width: calc.min({width:.2f}pt, size.width)))"
     )
-    return f"#drawing({image}, {words})"
+    return f"#drawing({image}, {words}, {'auto' if block.floats else 'none'})"
 
 
 def _breakable(text: str) -> str:
