@@ -45,6 +45,16 @@ _OF_ENGINES = (
 )  # fmt: skip
 # what a comparison and a table of main results leave out: where extremes are reached stands beside them
 _PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
+# main results of linkages; the others are in the full note
+_OF_LINKAGES = frozenset((
+    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max", "slider_acceleration_min",
+    "joint_force_max", "normal_force_max", "transmission_angle_min", "reduced_inertia_max", "reduced_inertia_min",
+    "static_torque_max", "driving_torque_max", "driving_torque_min", "mean_torque", "mean_driving_torque",
+    "efficiency", "mean_efficiency", "motor_power", "shaft_power", "driver_force_max", "driver_force_min",
+    "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",
+    "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
+    "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
+))  # fmt: skip
 # digits of differences
 _DIGITS = 3
 # in their order; of what links, joints and cylinders have the largest is before
@@ -221,7 +231,8 @@ def _main_keys(material: Material) -> list[str]:
     """Return the keys of the main results in order: all, but of a crank gear those that its appendix does not have."""
     summary = material.summary
     if not material.has_piston:
-        return [key for key in summary if not _is_place(key)]
+        keys = [key for key in summary if not _is_place(key)]
+        return keys if material.full else [key for key in keys if key_of(key).quantity in _OF_LINKAGES]
     # those of each method have a table of their own
     alone = ("excess_work", "flywheel_inertia")
     keys = [key for kind in _MAIN for key in summary
