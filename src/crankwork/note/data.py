@@ -73,7 +73,7 @@ def _scheme(material: Material) -> Iterator[Block]:
     if material.options.figures and "piston_force" in material.results.columns:
         title = material.words.title("scheme")
         yield material.words.paragraph("scheme_drawn", figure=Reference("f:scheme"))
-        yield Figure(crank_gear_scheme(title, material.words.language), title, title, label="f:scheme", floats=False)
+        yield Figure(crank_gear_scheme(title, material.words.language), title, title, label="f:scheme")
 
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:

@@ -286,6 +286,10 @@ class Material:
             for name in self.drawn
             if kind_of(name) == kind and name not in self._shown_figures and (self.full or kind in self._figures)
         ]
+        if not self.full:
+            # of crankpins that differ the first
+            of_pins = [name for name in drawn if kind_of(name) in _OF_CRANKPINS]
+            drawn = [name for name in drawn if name not in of_pins or name == of_pins[0]]
         labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
         for name in drawn:
             labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
@@ -299,7 +303,7 @@ class Material:
             yield Paragraph(tuple(sentences))
         for name in drawn:
             yield self._figure(name)
-            read = reading(kind_of(name), self)
+            read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
             if read is not None:
                 yield read
         yield from shown_tables

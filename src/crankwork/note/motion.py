@@ -104,7 +104,8 @@ SECTIONS = (
         When(full, (Head("harmonics", 2), Lines("harmonics", intro="orders"), Head("extremes", 2), _EXTREMES)),
         _REPEATS,
         Shown(("kinematics", "brix", "tolle"), (
-            Over("motion", tuple(key for noun in _NOUNS for key in (*_orders(noun), noun)), one_turn=True), _OF_RODS,
+            Over("motion", tuple(key for noun in _NOUNS for key in (*_orders(noun), noun)), one_turn=True),
+            lambda material: _OF_RODS(material) if material.full else None,
         )),
         _largest_errors,
     ), has("piston_displacement")),

@@ -31,9 +31,9 @@ _TOLD: Mapping[str, tuple[str, ...]] = {
 _PARTS = ("gas_force", "inertia_force")
 
 
-def reading(kind: str, material: Material) -> Paragraph | None:
-    """Return the sentence that reads a figure of some kind, None where it has none."""
-    known = _known(kind, material)
+def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
+    """Return the sentence that reads a figure of some kind, of one of several crankpins; None where it has none."""
+    known = _known(kind, material, pin)
     if kind == "joint_forces":
         return _of_joints(material)
     if not known:
@@ -59,11 +59,11 @@ def reading(kind: str, material: Material) -> Paragraph | None:
     return words.paragraph(f"reads_{kind}", **values)
 
 
-def _known(kind: str, material: Material) -> dict[str, tuple[float, float | None]]:
+def _known(kind: str, material: Material, pin: str) -> dict[str, tuple[float, float | None]]:
     """Return the values that a sentence tells, with the angles where they are reached; none unless all are known."""
     summary, found = material.summary, dict[str, tuple[float, float | None]]()
     for key in _TOLD.get(kind, ()):
-        own = next((name for name in (key, f"{key}.1") if name in summary), None)
+        own = next((name for name in (key, f"{key}.{pin}") if name in summary), None)
         if own is None:
             return {}
         place = key_of(own).derived("_angle")
