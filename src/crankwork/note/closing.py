@@ -205,7 +205,7 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         yield Figure(film.still(), title, film.about or title, label="f:machine", floats=False)
     keys = [key for kind in _NUMBERS for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
-    yield value_table("glance", [_row(material, key, digits=4) for key in keys[:_GLANCE]], words)
+    yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.checks:
         largest = words.number(100.0 * max(results.checks.values()), digits=2)
         yield words.paragraph("all_hold", count=str(len(results.checks)), residual=largest)
@@ -241,14 +241,14 @@ def _main_keys(material: Material) -> list[str]:
     return [key for key in keys if material.has_engine or key not in _OF_ENGINES]
 
 
-def _row(material: Material, key: str, digits: int = 6) -> tuple[Cell, ...]:
+def _row(material: Material, key: str) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value, and the crank angle or time where it is reached."""
     words, summary = material.words, material.summary
     area = summary["piston_area"] if material.per_area else None
     kind = key_of(key).quantity
     places = {unit: summary.get(key_of(key).derived(f"_{over}")) for over, unit in (("angle", "deg"), ("time", "s"))}
     reached = [(place, unit) for unit, place in places.items() if place is not None and kind.endswith(("_max", "_min"))]
-    row = value_row(display_key(key, material.results), summary[key], words, area=area, digits=digits)
+    row = value_row(display_key(key, material.results), summary[key], words, area=area, digits=material.digits)
     return (*row, words.amount(*reached[0], digits=4) if reached else "–")
 
 

@@ -129,7 +129,11 @@ def _cycle(material: Material) -> Iterator[Block]:
         left = [line.key for line in steps if line.key in material.summary and not material.is_shown(line.key)]
         left = [key for key in left if not key.startswith(_OF_CHEMISTRY)]
         yield words.paragraph("cycle_results", table=Reference("t:cycle_results"))
-        yield value_table("cycle_results", [value_row(key, material.summary[key], words) for key in left], words)
+        yield value_table(
+            "cycle_results",
+            [value_row(key, material.summary[key], words, digits=material.digits) for key in left],
+            words,
+        )
         return
     for stage, lines in _staged(steps).items():
         equations = material.worked(lines)

@@ -57,6 +57,8 @@ MAIN_COURSE = frozenset((
     "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle", "turning_moment", "stroke_work",
     "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
+# significant digits of the values of a note that does not show all
+_DIGITS = 4
 # sentences that refer to one of a kind, and to several
 _SEE = {
     "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
@@ -105,6 +107,11 @@ class Material:
     def full(self) -> bool:
         """Whether every formula is shown, and tables have the step of the machine."""
         return self.options.full
+
+    @property
+    def digits(self) -> int:
+        """Significant digits of values."""
+        return 6 if self.full else _DIGITS
 
     @property
     def order(self) -> str:
@@ -233,7 +240,7 @@ class Material:
             defined = line.key if isinstance(line, ValueLine) and self.has_piston and not again else ""
             area = self.summary["piston_area"] if self.per_area and is_per_area(line.key) else 0.0
             symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
-            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area))
+            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area, digits=self.digits))
             self._keys.add(line.key)
             self._formulas.add(_formula_name(line))
         return blocks
