@@ -128,7 +128,10 @@ rod = { length = "200 mm", mass = "1 kg", small_end_share = 0.3 }
 piston.mass = "0.8 kg"
 cylinder = { bore = "80 mm", compression_ratio = 8, inclination = "20 deg" }
 method.gravity = "9.8 m/s2"
-gas = { cycle = "360 deg", pressures = "absolute", ambient = "1 bar", valves = { suction = "1 bar", discharge = "4 bar" } }
+gas.cycle = "360 deg"
+gas.pressures = "absolute"
+gas.ambient = "1 bar"
+gas.valves = { suction = "1 bar", discharge = "4 bar" }
 friction.pins.A = { coefficient = 0.1, radius = "20 mm" }
 """
 

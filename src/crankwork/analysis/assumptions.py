@@ -230,9 +230,9 @@ def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
     if results.machine.linkage is not None and _is_engine(stated):
         # the trace of an engine with friction or loads names the parts of the linkage that it is
         parts, ends = {key: _FACE.sub("", part) for key, part in linkage_paths(results.machine).items()}, (".", "[")
-        in_trace |= {key for key in stated if key not in parts}
+        in_trace |= {key for key in stated if key not in parts and not key.startswith("method.")}
         in_trace |= {key for key, part in parts.items() for path in in_trace
-                     if path == part or path.startswith(part) and path[len(part)] in ends}  # fmt: skip
+                     if path == part or (path.startswith(part) and path[len(part)] in ends)}  # fmt: skip
     for path in stated:
         if path not in idle and not _CHOOSING.fullmatch(path) and (code := _idle(path, stated, results, in_trace)):
             idle[path] = IdleInput(path, code)
