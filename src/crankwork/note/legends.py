@@ -63,7 +63,7 @@ def legend(step: FormulaLine | Formula, language: Language, known: frozenset[str
 
 def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
     """Return the meanings of all symbols of equations, each once, in alphabetical order."""
-    found: dict[str, Meaning] = {}
+    known_meanings: dict[str, Meaning] = {}
     known: set[str] = set()
     for block in blocks:
         if not isinstance(block, Equation):
@@ -72,13 +72,13 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
         left = "" if isinstance(step, Formula) else key_of(step.key).quantity
         if left in QUANTITIES and left not in known:
             own = block.symbol or equation_symbol(step, language)
-            found.setdefault(own, Meaning(own, label(left, language)))
+            known_meanings.setdefault(own, Meaning(own, label(left, language)))
             known.add(left)
         if isinstance(step, FormulaLine | Formula):
             for meaning in legend(step, language, frozenset(known)):
-                found.setdefault(meaning.symbol, meaning)
+                known_meanings.setdefault(meaning.symbol, meaning)
             known |= explained_keys(step)
-    return sorted(found.values(), key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
+    return sorted(known_meanings.values(), key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
 
 
 def _unit(name: str, key: str) -> str:

@@ -53,9 +53,9 @@ def _mechanism(canvas: Canvas, pin: Array, piston: Array) -> None:
     canvas.line([x, x], [top - 12.0, y + _CRANK + 10.0], style=DASH_DOT, width=0.45)
     circle = np.linspace(0.0, 2 * math.pi, 121)
     canvas.line(x + _CRANK * np.sin(circle), y - _CRANK * np.cos(circle), style=(4.0, 4.0), width=0.45)
-    for wall, way in ((x - _BORE / 2, -1.0), (x + _BORE / 2, 1.0)):
+    for wall, side in ((x - _BORE / 2, -1.0), (x + _BORE / 2, 1.0)):
         canvas.line([wall, wall], [top, piston[1] + 46.0], width=0.9)
-        ends = [(wall, at, wall + way * 6.0, at - 6.0) for at in np.arange(top + 6.0, piston[1] + 46.0, 8.0)]
+        ends = [(wall, lower, wall + side * 6.0, lower - 6.0) for lower in np.arange(top + 6.0, piston[1] + 46.0, 8.0)]
         canvas.segments(np.array(ends), width=0.45)
     half = _BORE / 2 - 1.5
     left, right, up, down = x - half, x + half, piston[1] - _PISTON / 2, piston[1] + _PISTON / 2
@@ -94,7 +94,7 @@ def _angles(canvas: Canvas, tilt: float, piston: Array, language: Language) -> N
 def _head(canvas: Canvas, centre: Array, radius: float, angle: float) -> None:
     """Draw the head of a clockwise arrow on a circle, which ends at an angle from the axis."""
     back = angle - 7.0 / radius
-    start, end = (centre + radius * np.array([math.sin(at), -math.cos(at)]) for at in (back, angle))
+    start, end = (centre + radius * np.array([math.sin(turned), -math.cos(turned)]) for turned in (back, angle))
     canvas.arrow(start.tolist(), end.tolist(), width=0.5)
 
 
@@ -104,8 +104,8 @@ def _lengths(canvas: Canvas, pin: Array, piston: Array, rod: Array, across: Arra
     canvas.text(middle[0], middle[1], f"${symbol('crank_radius', language)}$", size=10.0)
     middle = piston + 0.62 * _ROD * rod + np.array([7.0, -2.0])
     canvas.text(middle[0], middle[1], f"${symbol('rod_length', language)}$", size=10.0)
-    level, at = _CENTRE[1] - _CRANK - _ROD, _CENTRE[0] + _BORE / 2 + 16.0
+    level, right = _CENTRE[1] - _CRANK - _ROD, _CENTRE[0] + _BORE / 2 + 16.0
     for height in (level, piston[1]):
-        canvas.line([_CENTRE[0], at + 4.0], [height, height], width=0.45)
-    canvas.arrow((at, level), (at, piston[1]), width=0.5)
-    canvas.text(at + 5.0, (level + piston[1]) / 2 + 3.0, f"${symbol('piston_displacement', language)}$", size=10.0)
+        canvas.line([_CENTRE[0], right + 4.0], [height, height], width=0.45)
+    canvas.arrow((right, level), (right, piston[1]), width=0.5)
+    canvas.text(right + 5.0, (level + piston[1]) / 2 + 3.0, f"${symbol('piston_displacement', language)}$", size=10.0)
