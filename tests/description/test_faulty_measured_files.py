@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+import xlsxwriter
 
 import crankwork
 from crankwork.description import measured_build
@@ -569,3 +570,74 @@ def test_entries_with_the_columns_of_others_are_answered_with_their_own(tmp_path
     }
     wrong = [number for number, column in enumerate(order, start=2) if column != f"p{number}"]
     assert lines == {f"gas.cylinders.{number}.measured.pressure_column": f"p{number}" for number in wrong}
+
+
+PASTED = {
+    "decimal commas, one number on each line": lambda lines: "\n".join(lines).replace(";", "\n").replace(".", ","),
+    "words below numbers of one column": lambda lines: "\n".join([*lines, "Mean", "1.2", "end"]).replace(";", "\n"),
+    "headings again on every page": lambda lines: "\n".join(
+        line + "\nCA [deg];p [bar]" * (row % 100 == 99) for row, line in enumerate(lines)
+    ),
+    "Markdown with a caption and a source": lambda lines: "\n".join(
+        ["", "Table 3", "", *(f"| {line.replace(';', ' | ')} |" for line in lines), "", "Source: bench"]
+    ).replace("CA [deg] | p [bar] |", "**CA** [deg] | **p** [bar] |\n|:-|-:|"),
+    "a typographic minus": lambda lines: "\n".join(lines).replace("-", "\N{MINUS SIGN}"),
+}
+
+
+@for_each("paste", PASTED)
+def test_tables_pasted_from_documents_are_read(reading, paste):
+    degrees, pressure = cycle_of("petrol")
+    lines = ["CA [deg]" + ";p [bar]", *rows(degrees, pressure).splitlines()]
+    content = PASTED[paste](lines)
+    found = reading(content, "petrol", "", ABSOLUTE)
+    assert found.torque == pytest.approx(torque_of("petrol"), rel=1e-3), found.words
+
+
+@for_each("separated", [True, False])
+def test_spaces_between_thousands_are_none(reading, separated):
+    degrees, pressure = cycle_of("petrol")
+    space = "\N{NO-BREAK SPACE}" if separated else "\N{NARROW NO-BREAK SPACE}"
+    lines = [f"{x:g};{thousands(1000 * y, space)}" for x, y in zip(degrees, pressure, strict=True)]
+    content = "CA [deg];p [mbar]\n" + "\n".join(lines)
+    assert reading(content, "petrol", "", ABSOLUTE).torque == pytest.approx(torque_of("petrol"), rel=1e-3)
+
+
+@for_each("mark", [".", ","])
+def test_a_single_mark_that_may_be_between_thousands_is_asked_about(reading, mark):
+    degrees, pressure = cycle_of("petrol")
+    lines = [
+        f"{x:g};{y:.1f}".replace(".", "," if mark == "." else ".") for x, y in zip(degrees, 100 * pressure, strict=True)
+    ]
+    lines[20] = "20;" + ("1.013,1" if mark == "." else "1,013.1")
+    words = reading("CA [deg];p [kPa]\n" + "\n".join(lines), "petrol", "", ABSOLUTE).words
+    assert "line 22: " in words
+    assert f"write {'1013,1' if mark == '.' else '1013.1'} if it is that number, else correct it" in words
+
+
+def test_missing_numbers_in_one_column_are_told_all_at_once(reading):
+    lines = rows(*cycle_of("petrol")).splitlines()
+    for row in (7, 300):
+        lines[row] = f"{row};n/a"
+    words = reading("CA [deg]\np [bar]\n" + "\n".join(lines).replace(";", "\n"), "petrol", "", ABSOLUTE).words
+    assert re.findall(r'line (\d+): "n/a"', words) == ["17", "603"]
+
+
+def test_a_mark_that_differs_is_told_in_its_own_row_only(reading):
+    lines = rows(*cycle_of("petrol")).splitlines()
+    lines[300] = "300;7,5"
+    assert re.findall(r"line (\d+)", reading("\n".join(lines), "petrol", BAR, ABSOLUTE).words) == ["301"]
+
+
+def test_headings_over_merged_cells_are_those_of_each_column(tmp_path):
+    degrees, pressure = cycle_of("petrol")
+    with xlsxwriter.Workbook(tmp_path / "p.xlsx") as book:
+        sheet = book.add_worksheet()
+        sheet.merge_range(0, 1, 0, 2, "Pressure [bar]")
+        sheet.merge_range(0, 0, 1, 0, "Crank angle [deg]")
+        sheet.write_row(1, 1, ["Cyl 1", "Cyl 2"])
+        for row, (x, y) in enumerate(zip(degrees.tolist(), pressure.tolist(), strict=True), start=2):
+            sheet.write_row(row, 0, [x, y, 0.9 * y])
+    text = MACHINE.format(ratio=9.0, pressures=ABSOLUTE, keys='pressure_column = "Cyl 1"').replace("p.txt", "p.xlsx")
+    results = crankwork.analyse(crankwork.read_machine(text, folder=tmp_path))
+    assert results.summary["mean_torque"] == pytest.approx(torque_of("petrol"), rel=1e-3)

@@ -27,6 +27,8 @@ _FIRST_LINES = 2000
 _LONGEST_LINE = 131_072
 _LARGEST = 1e12
 _FEWEST_ROWS = 3
+# lines below a table with one number on each
+_MOST_WORDS = 12
 _MARKS = ("#", "%", "!", "//")
 _BLANKS = re.compile(r"\s{2,}|\t")
 # separators in order of preference; None: blanks
@@ -62,9 +64,12 @@ _THOUSANDS = {
     for mark, other in ((".", ","), (",", "."))
 }
 _WITH_THOUSANDS = {
-    mark: re.compile(rf"(?<![\d.,])\d{{1,3}}(?:[{mark}]\d{{3}})+[{other}]\d")
+    mark: re.compile(rf"(?<![\d.,])\d{{1,3}}(?:[{mark}]\d{{3}})+[{other}]\d+")
     for mark, other in ((".", ","), (",", "."))
 }
+# spaces that do not break, between thousands
+_HARD_SPACES = re.compile(r"(?<=\d)[\u00a0\u202f\u2009](?=\d{3})")
+_ABSENT = ("n/a", "na", "nan", "-", "–", "--", "#n/a")
 _CYRILLIC = re.compile(rb"[\xc0-\xff\xa8\xb8]{3}")
 
 
@@ -162,9 +167,10 @@ class FileTable:
         for number, position in zip(numbers, positions, strict=True):
             if number is None or not abs(number) < _LARGEST:
                 raise self.refused("measured_no_number", line=line, cell=cells[position].strip()[:40])
-            marks |= {mark for mark in ".," if mark in cells[position]}
-            if len(marks) > 1:
+            own = {mark for mark in ".," if mark in cells[position]}
+            if len(marks | own) > 1:
                 raise self.refused("table_marks", line=line, cell=cells[position].strip()[:40])
+            marks |= own
         return [number for number in numbers if number is not None]
 
     def refused(self, name: str, /, **values: object) -> CrankworkError:
@@ -180,7 +186,8 @@ def read_table(path: str | Path, *, name: str = "", sheet: str | None = None) ->
     path = Path(path)
     called = name or path.name
     try:
-        return _table(unicodedata.normalize("NFC", _text(files.read_data(path), path, sheet)), called)
+        text = unicodedata.normalize("NFC", _text(files.read_data(path), path, sheet)).replace("\N{MINUS SIGN}", "-")
+        return _table(_HARD_SPACES.sub("", text), called)
     except ValueError as error:
         raise CrankworkError(ErrorMessage("in_file", file=called, mistake=error.args[0])) from None
 
@@ -197,7 +204,9 @@ def _table(text: str, name: str) -> FileTable:
         raise ValueError(ErrorMessage("measured_empty"))
     separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
     notices = list[tuple[str, Mapping[str, float | str]]]()
-    if start < 0 and _row_by_row(lines, filled):
+    # decimal commas look like commas between columns
+    is_single = start < 0 or (separator == "," and any("," not in lines[number - 1] for number in filled[start:]))
+    if is_single and _row_by_row(lines, filled):
         notices.append(("table_one_a_line", {"file": name}))
         filled = _filled(lines)
         separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
@@ -206,28 +215,42 @@ def _table(text: str, name: str) -> FileTable:
         raise ValueError(
             ErrorMessage("measured_one_column" if single else "measured_heading", line=single or filled[0])
         )
-    numbers = filled[start:]
+    # headings stand again at the top of every page
+    above = {lines[number - 1].strip() for number in filled[:start]}
+    numbers = [number for number in filled[start:] if lines[number - 1].strip() not in above]
 
     def begins_with_number(line: int) -> bool:
         return _float(next((cell for cell in _cells(lines[line - 1], separator) if cell.strip()), "")) is not None
 
     while begins_with_number(numbers[0]) and not begins_with_number(numbers[-1]):
         numbers.pop()
-    if len(numbers) < len(filled) - start:
-        notices.append(("table_footer", {"file": name, "line": str(filled[start + len(numbers)])}))
+    if numbers[-1] < filled[-1]:
+        notices.append(("table_footer", {"file": name, "line": str(filled[filled.index(numbers[-1]) + 1])}))
     if separator == "," and count > 2 and lines[numbers[0] - 2].count(",") + 1 == count / 2:
         raise ValueError(ErrorMessage("table_commas", line=numbers[0]))
     rows = [lines[number - 1] for number in numbers]
     width = len(_cells(rows[0], separator))
     heading, names, written = _headings(lines[: numbers[0] - 1], separator, (count, width))
     units = tuple(unit_of(unit) for unit in written)
-    # between commas only cells in quotes have thousands
-    quoted = rows if separator != "," else [part for row in rows for part in row.split('"')[1::2]]
-    thousands = next((mark for mark, pattern in _WITH_THOUSANDS.items() if any(map(pattern.search, quoted))), "")
+    thousands = _thousands(numbers, rows, separator)
     if thousands:
         notices.append(("table_thousands", {"file": name, "mark": thousands}))
     table = FileTable(name, names, units, written, heading or numbers[0], numbers, rows, separator)
     return replace(table, thousands=thousands, notices=tuple(notices))
+
+
+def _thousands(numbers: Sequence[int], rows: Sequence[str], separator: str | None) -> str:
+    """Return the mark between thousands, empty for none; raise if few numbers have one."""
+    # between commas only cells in quotes have thousands
+    quoted = rows if separator != "," else ["".join(row.split('"')[1::2]) for row in rows]
+    for mark, pattern in _WITH_THOUSANDS.items():
+        marked = [(line, match[0]) for line, row in zip(numbers, quoted, strict=True) if (match := pattern.search(row))]
+        if marked and len(marked) < _FEWEST_ROWS:
+            line, cell = marked[0]
+            raise ValueError(ErrorMessage("table_slip", line=line, cell=cell, number=cell.replace(mark, "")))
+        if marked:
+            return mark
+    return ""
 
 
 def _filled(lines: Sequence[str]) -> list[int]:
@@ -259,17 +282,22 @@ def _row_by_row(lines: list[str], filled: Sequence[int]) -> bool:
     cells = [lines[number - 1].strip(" \t;,\ufeff") for number in filled]
     values = [_float(cell) for cell in cells]
     first = next((index for index, value in enumerate(values) if value is not None), len(values))
-    numbers = np.array([value for value in values[first:] if value is not None])
-    if len(numbers) < len(values) - first:
-        return False
-    for count in range(2, 7):
+    # what is not a number and not a missing one ends the table
+    words = (
+        index for index in range(first, len(cells)) if values[index] is None and cells[index].lower() not in _ABSENT
+    )
+    end = next(words, len(cells))
+    numbers = np.array(values[first:end], float)
+    for count in range(2, 7 if end > len(cells) - _MOST_WORDS else 2):
         steps = np.diff(numbers[::count])
         if len(numbers) % count or len(steps) < _FEWEST_ROWS or not 0 < steps.max() < 1.5 * steps.min():
             continue
         begins = first - count if first >= count else first
-        for index in range(begins, len(filled)):
+        if end < len(cells):
+            lines[filled[end] - 1], cells[end + 1 :] = " ".join(cells[end:]), [""] * len(cells[end + 1 :])
+        for index in [*range(begins, end), *range(end + 1, len(cells))]:
             is_first = (index - begins) % count == 0
-            lines[filled[index] - 1] = "\t".join(cells[index : index + count]) if is_first else ""
+            lines[filled[index] - 1] = "\t".join(cells[index : min(index + count, end)]) if is_first else ""
         return True
     return False
 
@@ -318,20 +346,24 @@ def _cells(line: str, separator: str | None) -> list[str]:
 
 
 def _headings(
-    above: Sequence[str], separator: str | None, counts: tuple[int, int]
+    lines: Sequence[str], separator: str | None, counts: tuple[int, int]
 ) -> tuple[int, tuple[str, ...], tuple[str, ...]]:
     """Return the line of the headings, 0 for none, the headings, and the unit of each column as written.
 
     `counts`: of the columns with numbers, and with empty ones after them.
     """
-    nearest = list(_divided(above, separator, counts))
+    nearest = list(_divided(lines, separator, counts))
     of_units = next((cells for _, cells in nearest if _are_units(cells)), None)
     named = [(number, cells) for number, cells in nearest if cells is not of_units]
     line, names = named[0] if named else (0, ("",) * counts[0])
     for _, cells in named[1:]:
         # a heading of two lines names some columns in the upper one
         names = tuple(name or upper for name, upper in zip(names, cells, strict=True))
-    return line, names, of_units or tuple(_split_unit(name)[1] for name in names)
+    units = tuple(_split_unit(name)[1] for name in names)
+    for _, cells in named[1:]:
+        above = (_split_unit(cell)[1] for cell in cells)
+        units = tuple(unit or upper * bool(unit_of(upper)) for unit, upper in zip(units, above, strict=True))
+    return line, names, of_units or units
 
 
 def _divided(
