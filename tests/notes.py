@@ -45,7 +45,7 @@ _SHOWN: dict[int, tuple[Note, list[PrintedEquation]]] = {}
 
 def note(name: str, language: Language = "en", **options: Any) -> Note:
     """Return the note of a machine, without figures where they are not asked for."""
-    return _note(name, NoteOptions(**{"language": language, "figures": False, **options}))
+    return _note(name, NoteOptions(**{"full": True, "language": language, "figures": False, **options}))
 
 
 def sheets(name: str, language: Language = "en", paper: Paper = SIGNED, **options: Any) -> tuple[Sheet, ...]:

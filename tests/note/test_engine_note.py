@@ -78,7 +78,7 @@ def test_sections_stand_in_the_order_of_each_school():
     mixed = note(FOUR, "en", school="ru")
     assert headings(mixed)[2:4] == ["Working cycle", "Construction of the indicator diagram"]
     with pytest.raises(CrankworkError, match="take en, ru or vi"):
-        note_of(results(SPARK), NoteOptions(school="de", figures=False))
+        note_of(results(SPARK), NoteOptions(full=True, school="de", figures=False))
 
 
 def test_the_table_of_forces_is_the_published_one():
@@ -193,7 +193,7 @@ def test_measured_pressure_is_named_and_tabulated(tmp_path):
     (tmp_path / "m.toml").write_text(MEASURED, encoding="utf-8")
     found = crankwork.analyse(crankwork.read(tmp_path / "m.toml"))
     for language in LANGUAGES:
-        one = note_of(found, NoteOptions(language=language, figures=False))
+        one = note_of(found, NoteOptions(full=True, language=language, figures=False))
         paragraphs = [
             "".join(run for run in block.runs if isinstance(run, str)) for block in blocks(one, Paragraph)
         ]  # fmt: skip
@@ -252,10 +252,10 @@ def test_rotating_masses_have_no_order(language, wanted):
 def test_what_is_not_known_is_left_out():
     spark = results(SPARK).machine
     motion = replace(spark, gas=None, masses=None, cylinder=None)
-    one = note_of(crankwork.analyse(motion), NoteOptions(language="ru", figures=False))
+    one = note_of(crankwork.analyse(motion), NoteOptions(full=True, language="ru", figures=False))
     assert headings(one)[1:3] == ["Исходные данные", "Кинематика кривошипно-шатунного механизма"]
     assert not {"along", "total", "points"} & tables(one).keys()
-    no_gas = note_of(crankwork.analyse(replace(spark, gas=None)), NoteOptions(language="vi", figures=False))
+    no_gas = note_of(crankwork.analyse(replace(spark, gas=None)), NoteOptions(full=True, language="vi", figures=False))
     assert "Đồ thị công" not in headings(no_gas)
     assert "Đồ thị mài mòn chốt khuỷu" in headings(no_gas)
     # nobody knows the journals of a crank gear of its own
@@ -280,7 +280,7 @@ def test_forces_per_area_are_divided_once():
 
 def test_a_figure_that_no_section_knows_stands_in_the_appendix(monkeypatch, drawing):
     monkeypatch.setattr(materials, "drawings", lambda *_, **__: {"crankpin_polar": drawing, "main_wear": drawing})
-    material = materials.Material(results(FOUR), NoteOptions(language="en"))
+    material = materials.Material(results(FOUR), NoteOptions(full=True, language="en"))
     assert material.remaining_figures() == ["crankpin_polar", "main_wear"]
     list(material.presented((), ["crankpin_polar"]))
     assert material.remaining_figures() == ["main_wear"]

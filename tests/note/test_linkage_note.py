@@ -52,7 +52,7 @@ def changed(name, *changes):
 
 
 def note_from(found, language="en", **options):
-    return note_of(found, NoteOptions(**{"language": language, "figures": False, **options}))
+    return note_of(found, NoteOptions(**{"full": True, "language": language, "figures": False, **options}))
 
 
 @pytest.fixture(scope="module")
@@ -346,10 +346,10 @@ def test_bytes_of_a_note_are_the_same_every_time(ending):
 
 @pytest.mark.slow
 def test_sheets_come_in_three_formats_with_a_title_block():
-    found = sheets_of(results("press"), NoteOptions(language="ru", author="Петров"))
+    found = sheets_of(results("press"), NoteOptions(full=True, language="ru", author="Петров"))
     assert list(found) == ["-sheet-1.pdf", "-sheet-1.svg", "-sheet-1.dxf"]
     assert "Петров" in found["-sheet-1.svg"].decode()
     assert found["-sheet-1.pdf"].startswith(b"%PDF")
-    english = sheets_of(results("press"), NoteOptions(author="Petrov"))["-sheet-1.svg"].decode()
+    english = sheets_of(results("press"), NoteOptions(full=True, author="Petrov"))["-sheet-1.svg"].decode()
     assert "Petrov" in english
     assert "Created by" in english

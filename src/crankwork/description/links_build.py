@@ -18,6 +18,7 @@ from crankwork.description.drive_build import read_drive
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
 from crankwork.description.flywheel_build import read_flywheel
 from crankwork.description.friction_build import build_friction, check_friction
+from crankwork.description.measured_build import add_questions, in_file
 from crankwork.description.range_checks import checked_motion, explain_redundant, with_crank_range, with_starts
 from crankwork.description.redundant_build import fitting, geometry_of, without_redundant, without_unshared
 from crankwork.description.schema import Values
@@ -180,12 +181,9 @@ def _fits(machine: Machine, values: Values, reader: Reader) -> bool:
         reader.add_error("chambers", ErrorMessage("chambers_partial"))
         return False
     try:
-        traced_linkage(machine, reached.motion)
+        add_questions(traced_linkage(machine, reached.motion)[1].filling.notices, values, reader)
     except DiagramError as error:
-        mistake = error.args[0]
-        if ".measured" in error.key:
-            name = error.key.split(".")[1]
-            mistake = ErrorMessage("in_file", file=values["chambers"][name]["measured"]["file"], mistake=mistake)
+        mistake = in_file(error.key, error.args[0], values)
         if machine.mechanism.driver.law is not None:
             mistake = ErrorMessage("in_period", mistake=mistake)
         reader.add_error(error.key, mistake)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import codecs
 import contextlib
 import csv
+import itertools
 import re
+import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -30,16 +32,19 @@ _BLANKS = re.compile(r"\s{2,}|\t")
 # separators in order of preference; None: blanks
 _SEPARATORS = (";", "\t", ",", None)
 _BRACKETED = re.compile(r"(.*\S)\s*[\[(]\s*([^\[\]()]*(?:\([^()]*\))?)\s*[\])]\.?")
+_BRACKETS = re.compile(r"[\[(].*?[\])]")
 _DIVIDING = re.compile(r"\s*[,/]\s*|\s+|_")
 _IN_BRACKETS = re.compile(r"[\[(](.*)[\])]")
 _NUMBER_LAST = re.compile(r"(?:^|[\s_,/=@])\d[\d.,]*$")
 # suffixes of units of crank angle, and of pressure
 _OF_CRANK = re.compile(
-    r"(?:^ca|^пкв|(?<=.)[\s.]*(?:ca|kw|пкв|п\.к\.в|[ab]\.?tdc|abdc|(?:после|до|от|sau|trước|nach|vor)\s*(?:вмт|đct|ot))f?)"
+    r"(?:^ca|^пкв|(?<=.)[\s.]*(?:ca|kw|пкв|п\.к\.в|[ab]\.?tdc|abdc|(?:после|після|до|перед|от|від|từ|sau|trước|truoc|nach|vor)\s*(?:вмт|đct|dct|ot))f?)"
     r"(?:[\s,(]+[^\d/]*)?\.?$",
     re.IGNORECASE,
 )
-_OF_REFERENCE = re.compile(r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс\w*|изб\w*|dư|tuyệt đối)\.?\)?$", re.IGNORECASE)
+_OF_REFERENCE = re.compile(
+    r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс\w*|изб\w*|надл\w*|dư|tuyệt đối)\.?\)?$", re.IGNORECASE
+)
 # unknown units of derivatives by the angle and of other quantities
 _QUOTIENT = re.compile(r"[\w°³²·*^%]{1,8}(?:/[\w°³²·*^]{1,8}){1,3}")
 _UNITLESS = ("", "-", "–", "1", "[-]", "[]", "(-)", "%")
@@ -85,8 +90,9 @@ class FileTable:
             if not 1 <= column <= count:
                 raise self.refused("table_number", number=f"{column:g}", count=str(count))
             return int(column) - 1
+        column = unicodedata.normalize("NFC", column).strip()
         for spell in (str, lambda name: _split_unit(name)[0], lambda name: _split_unit(name)[0].casefold()):
-            indices = [index for index, name in enumerate(self.names) if name and spell(name) == spell(column.strip())]
+            indices = [index for index, name in enumerate(self.names) if name and spell(name) == spell(column)]
             if len(indices) > 1:
                 numbers = [str(index + 1) for index in indices]
                 raise self.refused("table_twice", line=self.heading, name=column, numbers=numbers)
@@ -123,6 +129,12 @@ class FileTable:
         if mistakes:
             raise CrankworkError(*mistakes)
         return np.array(cells)
+
+    def readable(self, position: int) -> Array:
+        """Return the numbers of a column in the rows that have one, 0 without any."""
+        cells = (_cells(row, self.separator)[position : position + 1] for row in self.rows)
+        numbers = (_float(cell) for cell in itertools.chain.from_iterable(cells))
+        return np.array([number for number in numbers if number is not None and abs(number) < _LARGEST] or [0.0])
 
     def _is_even(self, rows: Iterable[str]) -> bool:
         """Return whether every row has as many cells as there are columns."""
@@ -168,7 +180,7 @@ def read_table(path: str | Path, *, name: str = "", sheet: str | None = None) ->
     path = Path(path)
     called = name or path.name
     try:
-        return _table(_text(files.read_data(path), path, sheet), called)
+        return _table(unicodedata.normalize("NFC", _text(files.read_data(path), path, sheet)), called)
     except ValueError as error:
         raise CrankworkError(ErrorMessage("in_file", file=called, mistake=error.args[0])) from None
 
@@ -331,7 +343,8 @@ def _divided(
         line = content.strip("\ufeff ")
         for mark in _MARKS:
             line = line.removeprefix(mark)
-        splits = _splits(line, separator) if "=" not in line else ()
+        # a line of the preamble, unless brackets tell what zero is
+        splits = _splits(line, separator) if "=" not in _BRACKETS.sub("", line) else ()
         cells = next((cells for cells in splits if len(cells) in counts and any(cell.strip() for cell in cells)), None)
         if cells is None:
             return
@@ -379,7 +392,9 @@ def _split_unit(heading: str) -> tuple[str, str]:
     """Return a heading without its unit, and the unit as written."""
     match = _BRACKETED.fullmatch(heading.strip())
     if match:
-        return match[1].rstrip(" ,/"), match[2]
+        # a remark may follow the unit
+        before = ("", "") if unit_of(match[2]) else _split_unit(match[1])
+        return before if unit_of(before[1]) else (match[1].rstrip(" ,/"), match[2])
     for mark in _DIVIDING.finditer(heading.strip()):
         name, unit = heading.strip()[: mark.start()], heading.strip()[mark.end() :]
         # 800 rpm is an operating point, not a unit

@@ -50,12 +50,13 @@ from crankwork.report.torque import (
     has_turning_moment,
     loops,
     torque,
+    total_tangential_force,
     total_torque,
     turning_moment,
 )
 from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import Graph
-from crankwork.show.scene import DASHED, SOLID, Drawing, Style
+from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing, Style
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
 
@@ -358,7 +359,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("indicator", indicator, piston("gas_pressure")),
     Diagram("piston_forces", piston_forces, piston("piston_force"), is_of_forces=True),
     _forces("rod_forces", rod_force=SOLID, side_force=DASHED),
-    _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED),
+    _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED, side_force=DASH_DOT),
     Diagram("torque", torque, piston("crank_torque")),
     Several(_crankpins, lambda machine: piston("tangential_force")(machine) or _drawn(machine)),
     Diagram("crankpin_load", crankpin_load, _listed("crankpin_wear"), is_of_forces=True),
@@ -368,6 +369,7 @@ DIAGRAMS: tuple[Entry, ...] = (
             is_of_forces=True),
     Diagram("crankpin_wear", crankpin_wear, _listed("crankpin_wear"), is_of_forces=True),
     Diagram("main_wear", main_wear, _listed("main_wear"), is_of_forces=True),
+    Diagram("total_tangential_force", total_tangential_force, _many, is_of_forces=True),
     Diagram("total_torque", total_torque, _many),
     Diagram("accumulated_torque", accumulated_torque, every(_engine, lambda machine: machine.diagrams.has_throws)),
     Diagram("excess_work", excess_work, _engine),

@@ -36,8 +36,8 @@ _HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 34.0
 _HIGHEST, _WHOLE = 230.0, 560.0
 # a paper wider than this has two plans side by side [pt]
 _TWO = 560.0
-# how far apart forces are drawn that lie along each other, and what is as near as that [pt]
-_LANE, _NEAR, _LANES = 6.0, 4.0, (0, 1, -1, 2, -2, 3, -3)
+# how far apart forces are drawn that coincide, and what does: nothing else is set aside, so that plans close [pt]
+_LANE, _NEAR, _LANES = 6.0, 0.8, (0, 1, -1, 2, -2, 3, -3)
 _LOAD, _REACTION = 0.9, 1.6
 # a group of fewer forces has no plan, only two that are equal
 _FEWEST, _MOST = 3, 4

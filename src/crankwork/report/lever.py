@@ -87,11 +87,12 @@ def _named(lever: Lever, numbers: dict[str, int], language: Language) -> list[_N
     """Return the forces with their symbols, that which balances last."""
     seen: Counter[str] = Counter()
     named = []
-    for count, acting in enumerate(lever.forces, 1):
+    for acting in lever.forces:
         base = "F_" if acting.kind == "load" else f"{symbol('link_inertia_force', language)},"
         name = f"{base}{numbers.get(acting.link, acting.link)}"
         letter, _, index = name.partition("_")
-        named.append(_Named(acting, math_symbol(f"{letter}{_PRIME * seen[name]}_{index}"), f"$h_{count}$"))
+        force, arm = (math_symbol(f"{sign}{_PRIME * seen[name]}_{index}") for sign in (letter, "h"))
+        named.append(_Named(acting, force, arm))
         seen[name] += 1
     end = next((name for name, node in lever.plan.nodes.items() if np.allclose(node, lever.balancing.end)), "a")
     index = symbol("balancing_torque", language).partition("_")[2]

@@ -19,7 +19,7 @@ from crankwork.analysis.sampled_motion import reached_angles
 from crankwork.analysis.vector_polygons import worked_position
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import ProcedureValue, breakpoints_of
-from crankwork.locale import has_text, translate
+from crankwork.locale import capital, has_text, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
@@ -48,9 +48,9 @@ def figure_title(name: str, language: Language) -> str:
     """Return the title of a figure, for its caption."""
     kind = kind_of(name)
     number = name.removeprefix(kind).removeprefix("_")
-    # some are called what their table is
-    room = "figures" if has_text(f"figures.{kind}") else "tables"
-    return translate(f"{room}.{kind}", language) + (f", {number}" if number else "")
+    # some are called what their table or their quantity is
+    room = next(room for room in ("figures", "tables", "quantities") if has_text(f"{room}.{kind}"))
+    return capital(translate(f"{room}.{kind}", language)) + (f", {number}" if number else "")
 
 
 class Style(NamedTuple):

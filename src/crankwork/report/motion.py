@@ -50,8 +50,7 @@ _LEAST = 1e-6
 
 
 def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return three panels over one revolution; an approximate method shows the two orders it is made of."""
-    turn = engine.degrees <= 360
+    """Return three panels over the cycle; an approximate method shows the two orders it is made of."""
     has_orders = "piston_velocity_first_order" in engine.columns
     gap = _PANEL_GAP if has_orders else 20.0
     head = 16.0 if has_orders else 4.0
@@ -63,12 +62,12 @@ def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         keys = {f"piston_{noun}": SOLID}
         if has_orders:
             keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
-        curves = [Line(key, engine.values(key)[turn], style) for key, style in keys.items()]
+        curves = [Line(key, engine.values(key), style) for key, style in keys.items()]
         box = ChartBox(current_layout().left, top, current_layout().inner, panel)
         ends = limits(*(curve.values for curve in curves))
-        graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
+        graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=row == 2)
         for index, curve in enumerate(curves):
-            graph.curve(curve.key, engine.degrees[turn], curve.values, curve.style)
+            graph.curve(curve.key, engine.degrees, curve.values, curve.style)
             if has_orders:
                 left = box.left + 8 + 70 * index
                 paper.line([left, left + 20], [box.top - 10] * 2, style=curve.style, width=1.2, name="legend")

@@ -41,16 +41,12 @@ class ChartBox(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour.
-
-    `other`: colour of a second line with the same dashes.
-    """
+    """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour."""
 
     text: str
     style: Style = SOLID
     width: float = 1.2
     colour: str = BLACK
-    other: str = ""
 
 
 def round_ticks(low: float, high: float, most: int = 8) -> Array:
@@ -274,10 +270,8 @@ def legend(paper: Canvas, rows: Sequence[Row], top: float) -> None:
         elif row is not None and row.style == ARROW:
             paper.arrow((left, level + 6), (left + 20, level + 6), width=row.width)
         elif row is not None and row.width:
-            lines = [(6.0, row.colour)] if not row.other else [(4.0, row.colour), (8.0, row.other)]
-            for down, colour in lines:
-                ends = [left, left + 20], [level + down] * 2
-                paper.line(*ends, style=row.style, width=row.width, colour=colour, name="legend")
+            ends = [left, left + 20], [level + 6] * 2
+            paper.line(*ends, style=row.style, width=row.width, colour=row.colour, name="legend")
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 
 

@@ -40,8 +40,8 @@ _DATA = (
 _SHEETS: dict[str, tuple[str, tuple[str, ...]]] = {
     "engine-motion": ("sheets.first_sheet", ("indicator", "pressure", "brix", "tolle", "kinematics", "data")),
     "engine-forces": ("headings.dynamics", (
-        "piston_forces", "rod_forces", "crankpin_forces", "torque", "total_torque", "crankpin_load", "crankpin_polar",
-        "crankpin_wear",
+        "piston_forces", "rod_forces", "crankpin_forces", "torque", "total_tangential_force", "total_torque",
+        "crankpin_load", "crankpin_polar", "crankpin_wear",
     )),
     "engine-shaft": ("sheets.shaft_sheet", (
         "accumulated_torque", "excess_work", "crank_speed", "big_end_polar", "main_journal_polar", "main_wear",
