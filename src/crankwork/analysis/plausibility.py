@@ -76,9 +76,8 @@ def implausible(results: Results) -> Iterator[Notice]:
 def _outside(usual: _Range, value: float | None, machine: Machine) -> Iterator[Notice]:
     if value is None or usual.low <= value <= usual.high:
         return
-    path = next((path for key in usual.keys for path in machine.stated if path.startswith(key)), usual.keys[0])
     # of many points no single one is to blame
-    path = path if path in usual.keys else next(key for key in usual.keys if path.startswith(key))
+    path = next((key for key in usual.keys if any(path.startswith(key) for path in machine.stated)), usual.keys[0])
     limits = {"low": usual.low, "high": usual.high}
     yield Notice(
         "implausible", {"quantity": usual.quantity, "value": value, **limits, "path": path, "source": usual.source}
