@@ -268,22 +268,15 @@ def _is_engine(stated: Mapping[str, FileInput]) -> bool:
     return any(path.startswith("rod.") for path in stated)
 
 
-def _idle_inclination(results: Results, *_: object) -> str:
-    # places of the links of one that is drawn turn with it
-    return "" if _has_weights(results) or results.machine.linkage is not None else "weights_off"
-
-
 def _idle_order(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
     listing = results.listings.get("balance")
     return "" if listing is not None and f"balance_shafts.{stated[path].value}" in listing.names else "no_order"
 
 
 def _idle_uneven(results: Results, *_: object) -> str:
-    engine = results.machine.engine
-    if engine is None:
-        return ""
-    angles = sorted(place.firing_angle for place in engine.layout.places)
-    gaps = np.diff([*angles, angles[0] + engine.layout.cycle])
+    layout = results.machine.engine.layout if results.machine.engine is not None else None
+    angles = sorted(place.firing_angle for place in layout.places) if layout is not None else []
+    gaps = np.diff([*angles, angles[0] + layout.cycle]) if layout is not None else np.array([0.0, 1.0])
     return "even_intervals" if np.ptp(gaps) <= _EVEN else ""
 
 
@@ -328,7 +321,11 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"(fixed_points|guides)\..*", _idle_place),
     (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
     (r"flywheel\.(fluctuation|percent)", _idle_wheel),
-    (r"cylinder\.inclination", _idle_inclination),
+    # places of the links of one that is drawn turn with it
+    (
+        r"cylinder\.inclination",
+        lambda results, *_: "" if _has_weights(results) or results.machine.linkage else "weights_off",
+    ),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),

@@ -48,11 +48,11 @@ def _words(path: str, value: Any) -> Iterator[tuple[str, str]]:  # noqa: ANN401 
     """Yield texts and names of tables by path."""
     if isinstance(value, str):
         yield path, value
-    elif isinstance(value, Mapping):
-        for name, item in value.items():
-            inner = f"{path}.{name}" if path else name
+    items = (
+        value.items() if isinstance(value, Mapping) else enumerate(value, start=1) if isinstance(value, list) else ()
+    )
+    for name, item in items:
+        inner = f"{path}[{name}]" if isinstance(name, int) else f"{path}.{name}".lstrip(".")
+        if isinstance(name, str):
             yield inner, name
-            yield from _words(inner, item)
-    elif isinstance(value, list):
-        for index, item in enumerate(value, start=1):
-            yield from _words(f"{path}[{index}]", item)
+        yield from _words(inner, item)

@@ -23,9 +23,10 @@ _DEVIATION = re.compile(
 )
 # limits on two sides, `45 +0.1/-0.2 mm`, `45^{+0.1}_{-0.2} mm`, `45 mm -0.02 -0.05`
 _SIDES = re.compile(
-    r"\s*([+-]?\d[\d.,]*)\s*([^\W\d_]\S*)?\s*\^?\{?([+−-]\s?\d[\d.,]*)\}?\s*([^\W\d_]\S*?)?"
-    r"(?:\s*[/_;]\s*|\s+)\{?([+−-]?\s?\d[\d.,]*)\}?\s*([^\W\d_]\S*)?\s*"
+    r"\s*([+-]?\d+[.,]?\d*)\s*([^\W\d_]\S*)?\s*\^?\{?([+−-]\s?\d+[.,]?\d*)\}?\s*([^\W\d_]\S*?)?"
+    r"(?:\s*[/_;]\s*|\s+)\{?([+−-]?\s?\d+[.,]?\d*)\}?\s*([^\W\d_]\S*)?\s*"
 )
+_PLAIN_SIGNS = str.maketrans(",−", ".-")
 # smaller numbers become 0, so that nothing is divided by them
 _SMALLEST = 1e-30
 _FRACTION = re.compile(r"\s*([+-]?\d+(?:\.\d+)?)\s*/\s*(\d+(?:\.\d+)?)\s*")
@@ -67,24 +68,15 @@ def split_deviation(text: str) -> tuple[str, Deviation | None]:
     return f"{value} {first or last}".strip(), Deviation(f"{size} {last}" if first and last else size, is_tolerance)
 
 
-def _middle_of_sides(text: str) -> str:
-    """Return what has the same limits as a value with two of its own, `44.95 ± 0.15 mm`; empty if it has none.
-
-    Examples
-    --------
-    >>> _middle_of_sides("45 +0.1/-0.2 mm"), _middle_of_sides("45 mm"), _middle_of_sides("0.25 +0.01/0")
-    ('44.95 ± 0.15 mm', '', '0.255 ± 0.005')
-    """
+def _by_sides(text: str, message: ErrorMessage) -> ErrorMessage:
+    """Return how to write a value with two limits of its own, `45 +0.1/-0.2 mm`; the message if it has none."""
     match = _SIDES.fullmatch(text) if len(text) < _LONG else None
     if match is None:
-        return ""
-    stated = match.group(1, 3, 5)
-    value, one, other = (_float(part.replace(",", ".").replace("−", "-").replace(" ", "")) for part in stated)
-    named = {unit for unit in match.group(2, 4, 6) if unit}
-    if len(named) > 1 or not all(isinstance(number, float) for number in (value, one, other)) or one == other:
-        return ""
-    unit = "".join(f" {name}" for name in named)
-    return f"{value + (one + other) / 2:.12g} ± {abs(one - other) / 2:.12g}{unit}"
+        return message
+    value, one, other = (float(re.sub(r"\s", "", part.translate(_PLAIN_SIGNS))) for part in match.group(1, 3, 5))
+    units_named = {f" {unit}" for unit in match.group(2, 4, 6) if unit}
+    written = f"{value + (one + other) / 2:.12g} ± {abs(one - other) / 2:.12g}{''.join(units_named)}"
+    return ErrorMessage("tolerance_sides", text=text, written=written) if len(units_named) < 2 else message
 
 
 class MeasuredValue(NamedTuple):
@@ -179,9 +171,7 @@ class Quantity(NamedTuple):
         try:
             parsed = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
-            sides = _middle_of_sides(value)
-            advised = self._advised(error.args[0], value, key, reader)
-            reader.add_error(key, ErrorMessage("tolerance_sides", text=value, written=sides) if sides else advised)
+            reader.add_error(key, _by_sides(value, self._advised(error.args[0], value, key, reader)))
             return None
         if not self._holds(parsed.value):
             reader.add_error(key, self._out_of_range(value.strip(), parsed.dimension))
@@ -298,9 +288,8 @@ class Number(NamedTuple):
             is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
             value = _float(stated.replace(",", ".")) if is_number else value
         if isinstance(value, bool) or not isinstance(value, int | float):
-            sides = _middle_of_sides(value) if isinstance(value, str) else ""
-            plain = ErrorMessage("number_plain", value=shown(value), example=self.example())
-            reader.add_error(key, ErrorMessage("tolerance_sides", text=value, written=sides) if sides else plain)
+            message = ErrorMessage("number_plain", value=shown(value), example=self.example())
+            reader.add_error(key, _by_sides(str(value), message))
             return None
         number = float(value) if _is_moderate(value) else math.nan
         if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
