@@ -398,6 +398,7 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "crankpin_polar": ("crankpin_tangential_force", "crankpin_radial_force"),
     "brix": ("piston_displacement",),
     "tolle": ("piston_displacement", "piston_acceleration"),
+    "process_force": ("process_force",),
     "total_torque": ("total_torque",),
     "total_tangential_force": ("total_tangential_force",),
     "crankpin_load": ("crankpin_load",),

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results
+from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.vector_polygons import driver_rates
 from crankwork.locale import translate
@@ -36,7 +37,7 @@ from crankwork.report.flywheel import (
     speed_curve,
     wittenbauer,
 )
-from crankwork.report.forces import forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
+from crankwork.report.forces import force_law, forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
 from crankwork.report.gas import chamber_indicator, indicator, pressure
 from crankwork.report.harmonics import phase_stars, torque_harmonics
 from crankwork.report.lever import has_lever, lever_figure
@@ -78,7 +79,7 @@ class Diagram(NamedTuple):
     number: str = ""  # That of a crankpin, where there are several
 
     def picture(self, machine: Drawn) -> Drawing:
-        """Return it, with the method that made it."""
+        """Return it."""
         title = kind_of(self.name) + (f"_{self.number}" if self.number else "")
         frame = self.frame(machine) if callable(self.frame) else self.frame
         remark = translate(f"drawing.{frame}", machine.language) if frame else ""
@@ -344,6 +345,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("centrodes", centrodes, every(_turning, has_centrodes)),
     Construction("indicator", chamber_indicator, lambda machine: _drawn(machine) and bool(_GAS(machine))),
     Curves("chambers", _GAS, when=_drawn),
+    Construction("process_force", force_law, lambda machine: bool(force_laws(machine.results))),
     Curves("reduced_inertia", _inertia, "quantities.reduced_inertia"),
     Curves("torques", _torques, "quantities.driving_torque", remark=_gives_work),
     Curves("friction", _friction, "tables.friction"),

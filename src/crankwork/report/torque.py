@@ -31,7 +31,7 @@ from crankwork.show.chart import (
     sheet,
     small_text,
     true_slices,
-    write_method,
+    write_remark,
 )
 from crankwork.show.chart_layout import current_layout, scaled_height
 from crankwork.show.label_placement import label_points
@@ -39,7 +39,7 @@ from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 from crankwork.units import from_si
 
 _FIRING, _PANEL_GAP = 15.0, 15.0
-_THIN, _NAMED = 0.8, 1.3
+_THIN, _NAMED = 0.45, 0.9
 _UPPER, _LOWER, _GAP = 216.0, 144.0, 16.0
 _MOST_TICKS = 12
 _MOST_NAMED = 24
@@ -163,9 +163,8 @@ def turning_moment(machine: Drawn) -> Drawing:
     _torques(paper, upper, drawn, language)
     _energy(paper, lower, results, drawn, language)
     excess = results.summary["excess_work"]
-    write_method(
+    write_remark(
         paper,
-        machine.style.method,
         f"{math_symbol(QUANTITIES['excess_work'].symbol(language))} = {_work(excess, language)}",
     )
     return paper.drawing(figure_title("turning_moment", language), language)
@@ -251,7 +250,7 @@ def _energy(paper: Canvas, box: ChartBox, results: Results, drawn: TurningDiagra
     columns = results.listings["energy_extremes"].columns
     angle, energy = np.degrees(columns["crank_angle"]), displayed_values(row, columns["kinetic_energy_change"])
     for find, line, name in ((np.argmax, DASH_DOT, "max"), (np.argmin, DOTTED, "min")):
-        graph.curve(name, graph.x, [float(energy[int(find(energy))])] * 2, line, width=0.8)
+        graph.curve(name, graph.x, [float(energy[int(find(energy))])] * 2, line, width=0.45)
     if angle.size <= _MOST_NAMED:
         for x, y in zip(angle, energy, strict=True):
             paper.dot(*graph.point(x, y), 1.3)
@@ -280,5 +279,4 @@ def loops(machine: Drawn) -> Drawing:
     label_points(graph, names)
     graph.x_title(axis_title(QUANTITIES["loop_number"], language))
     graph.y_title(axis_title(row, language))
-    write_method(paper, machine.style.method)
     return paper.drawing(figure_title("loops", language), language)
