@@ -55,7 +55,7 @@ def reading(kind: str, material: Material) -> Paragraph | None:
         if not mean:
             return None
         values["mean"] = words.amount(mean, "N*m", digits=4)
-        values["ratio"] = words.number(abs(known["total_torque_max"][0] / mean), digits=2)
+        values["ratio"] = words.number(max(abs(value) for value, _ in known.values()) / abs(mean), digits=2)
     return words.paragraph(f"reads_{kind}", **values)
 
 

@@ -147,9 +147,7 @@ def symbol_table(meanings: Sequence[tuple[Cell, str]], words: Words) -> Table:
     return folded(words.table("nomenclature", ("symbol", "meaning"), meanings, "ll", "t:nomenclature"), most=2)
 
 
-def value_row(
-    key: str, value: float, words: Words, *, area: float | None = None, digits: int = 6
-) -> tuple[Cell, ...]:
+def value_row(key: str, value: float, words: Words, *, area: float | None = None, digits: int = 6) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value."""
     return (
         label(key, words.language),
