@@ -88,7 +88,7 @@ def test_a_day_gives_the_year(language, place):
 
 REFUSED = {
     'sections = ["kinematic"]': 'sections[1]: "kinematic" is no section of this note; write "kinematics"',
-    'sections = ["qq"]': '"qq" is no section of this note; write one of preface, data',
+    'sections = ["qq"]': '"qq" is no section of this note; write one of summary, preface, data',
     "sections = []": "sections: has 0 entries",
     'date = "31.05.2026"': 'date: "31.05.2026" is no day; write year, month and day, "2026-05-31"',
     "date = 2026-05-31T10:00:00": "date: 2026-05-31 10:00:00 is no day",
