@@ -45,6 +45,16 @@ _OF_ENGINES = (
 )  # fmt: skip
 # what a comparison and a table of main results leave out: where extremes are reached stands beside them
 _PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
+# main results of linkages; the others are in the full note
+_OF_LINKAGES = frozenset((
+    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max", "slider_acceleration_min",
+    "joint_force_max", "normal_force_max", "transmission_angle_min", "reduced_inertia_max", "reduced_inertia_min",
+    "static_torque_max", "driving_torque_max", "driving_torque_min", "mean_torque", "mean_driving_torque",
+    "efficiency", "mean_efficiency", "motor_power", "shaft_power", "driver_force_max", "driver_force_min",
+    "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",
+    "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
+    "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
+))  # fmt: skip
 # digits of differences
 _DIGITS = 3
 # in their order; of what links, joints and cylinders have the largest is before
@@ -190,14 +200,14 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     results, words, summary = material.results, material.words, material.results.summary
     film = film_of(results, language=words.language) if material.options.figures else None
     if film is not None:
-        title = words.title("machine")
+        title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
         yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
         yield Figure(film.still(), title, film.about or title, label="f:machine", floats=False)
     keys = [key for kind in _NUMBERS for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     yield words.paragraph("see_table", tables=Reference("t:glance"))
-    yield value_table("glance", [_row(material, key, digits=4) for key in keys[:_GLANCE]], words)
+    yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.checks:
         largest = words.number(100.0 * max(results.checks.values()), digits=2)
         yield words.paragraph("all_hold", count=str(len(results.checks)), residual=largest)
@@ -223,7 +233,8 @@ def _main_keys(material: Material) -> list[str]:
     """Return the keys of the main results in order: all, but of a crank gear those that its appendix does not have."""
     summary = material.summary
     if not material.has_piston:
-        return [key for key in summary if not _is_place(key)]
+        keys = [key for key in summary if not _is_place(key)]
+        return keys if material.full else [key for key in keys if key_of(key).quantity in _OF_LINKAGES]
     # those of each method have a table of their own
     alone = ("excess_work", "flywheel_inertia")
     keys = [key for kind in _MAIN for key in summary
@@ -232,14 +243,14 @@ def _main_keys(material: Material) -> list[str]:
     return [key for key in keys if material.has_engine or key not in _OF_ENGINES]
 
 
-def _row(material: Material, key: str, digits: int = 6) -> tuple[Cell, ...]:
+def _row(material: Material, key: str) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value, and the crank angle or time where it is reached."""
     words, summary = material.words, material.summary
     area = summary["piston_area"] if material.per_area else None
     kind = key_of(key).quantity
     places = {unit: summary.get(key_of(key).derived(f"_{over}")) for over, unit in (("angle", "deg"), ("time", "s"))}
     reached = [(place, unit) for unit, place in places.items() if place is not None and kind.endswith(("_max", "_min"))]
-    row = value_row(display_key(key, material.results), summary[key], words, area=area, digits=digits)
+    row = value_row(display_key(key, material.results), summary[key], words, area=area, digits=material.digits)
     return (*row, words.amount(*reached[0], digits=4) if reached else "–")
 
 

@@ -91,7 +91,7 @@ class Equation:
 
     `symbol` replaces the symbol of the step's key. `defined` is the key of a value without a formula whose definition
     stands before the number. `area`: piston area by which tables divide the value, 0 if they do not [m2]. `cites`:
-    whether the source of the formula is printed beside it.
+    whether the source of the formula is printed beside it; `digits`: significant digits of its value.
     """
 
     step: Line | Formula
@@ -100,6 +100,7 @@ class Equation:
     defined: str = ""
     area: float = 0.0
     cites: bool = True
+    digits: int = 6
 
 
 @dataclass(frozen=True)

@@ -103,6 +103,8 @@ def _lever(material: Material) -> Iterator[Block]:
         routes, gaps = {name: printed[key] for name, key in zip(routes, of_routes, strict=True)}, np.zeros_like(gaps)
     largest = words.number(100.0 * float(np.max(gaps, initial=0.0)), digits=2)
     yield words.paragraph("lever", source=Citation(_WORK), difference=largest)
+    if not material.full:
+        return
     shown = [_route(name, values, material) for name, values in routes.items()]
     percent = [words.number(difference, digits=2) for difference in (100.0 * gaps).tolist()]
     shown.append(Column((words.column("difference"),), percent))

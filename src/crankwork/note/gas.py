@@ -97,6 +97,10 @@ _SINGLE = (
 )  # fmt: skip
 
 
+# amounts of gases, their heats and the balance of them, which the full note has
+_OF_CHEMISTRY = (
+    "air_", "fresh_charge_", "product_", "molar_", "heat_", "mixture_", "working_mixture_", "combustion_energy",
+)  # fmt: skip
 # what varies with the crank angle or stands among the data of the machine
 _ELSEWHERE = (
     "crank_angle", "cylinder_pressure", "cylinder_temperature", "cylinder_volume", "piston_displacement",
@@ -123,8 +127,13 @@ def _cycle(material: Material) -> Iterator[Block]:
     if not material.full:
         yield from material.equations("cycle")
         left = [line.key for line in steps if line.key in material.summary and not material.is_shown(line.key)]
+        left = [key for key in left if not key.startswith(_OF_CHEMISTRY)]
         yield words.paragraph("cycle_results", table=Reference("t:cycle_results"))
-        yield value_table("cycle_results", [value_row(key, material.summary[key], words) for key in left], words)
+        yield value_table(
+            "cycle_results",
+            [value_row(key, material.summary[key], words, digits=material.digits) for key in left],
+            words,
+        )
         return
     for stage, lines in _staged(steps).items():
         equations = material.worked(lines)

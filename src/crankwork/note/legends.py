@@ -66,7 +66,7 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
 
     A symbol that stands for two things, as some letters of a school do, is there with both.
     """
-    found: dict[Meaning, None] = {}
+    collected: dict[Meaning, None] = {}
     known: set[str] = set()
     for block in blocks:
         if not isinstance(block, Equation):
@@ -75,13 +75,13 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
         left = "" if isinstance(step, Formula) else key_of(step.key).quantity
         if left in QUANTITIES and left not in known:
             own = block.symbol or equation_symbol(step, language)
-            found[Meaning(own, label(left, language))] = None
+            collected[Meaning(own, label(left, language))] = None
             known.add(left)
         if isinstance(step, FormulaLine | Formula):
-            found |= dict.fromkeys(legend(step, language, frozenset(known)))
+            collected |= dict.fromkeys(legend(step, language, frozenset(known)))
             known |= explained_keys(step)
-    named = {meaning.symbol for meaning in found if not meaning.is_derived}
-    shown = (meaning for meaning in found if not (meaning.is_derived and meaning.symbol in named))
+    named = {meaning.symbol for meaning in collected if not meaning.is_derived}
+    shown = (meaning for meaning in collected if not (meaning.is_derived and meaning.symbol in named))
     return sorted(shown, key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
 
 

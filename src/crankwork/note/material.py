@@ -38,7 +38,7 @@ _CONSTRUCTED = (
     "wittenbauer",
 )  # fmt: skip
 # what a note shows the formula of when it is not to show all
-MAIN_COURSE = frozenset((
+_ESSENTIAL = frozenset((
     "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",
     "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure",
     "compression_temperature", "combustion_celsius", "combustion_pressure", "expansion_pressure",
@@ -57,6 +57,8 @@ MAIN_COURSE = frozenset((
     "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle", "turning_moment", "stroke_work",
     "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
+# significant digits of the values of a note that does not show all
+_DIGITS = 4
 # sentences that refer to one of a kind, and to several
 _SEE = {
     "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
@@ -105,6 +107,11 @@ class Material:
     def full(self) -> bool:
         """Whether every formula is shown, and tables have the step of the machine."""
         return self.options.full
+
+    @property
+    def digits(self) -> int:
+        """Significant digits of values."""
+        return 6 if self.full else _DIGITS
 
     @property
     def order(self) -> str:
@@ -209,7 +216,7 @@ class Material:
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
         if not self.full:
-            selected = [row for row in selected if _kind(row) in MAIN_COURSE]
+            selected = [row for row in selected if _kind(row) in _ESSENTIAL]
         # of families, such as the journals of a shaft, a table has the others
         return self.worked(_first(selected) if first or self.has_piston or not self.full else selected)
 
@@ -233,7 +240,7 @@ class Material:
             defined = line.key if isinstance(line, ValueLine) and self.has_piston and not again else ""
             area = self.summary["piston_area"] if self.per_area and is_per_area(line.key) else 0.0
             symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
-            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area))
+            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area, digits=self.digits))
             self._keys.add(line.key)
             self._formulas.add(_formula_name(line))
         return blocks
@@ -286,6 +293,10 @@ class Material:
             for name in self.drawn
             if kind_of(name) == kind and name not in self._shown_figures and (self.full or kind in self._figures)
         ]
+        if not self.full:
+            # of crankpins that differ the first
+            of_pins = [name for name in drawn if kind_of(name) in _OF_CRANKPINS]
+            drawn = [name for name in drawn if name not in of_pins or name == of_pins[0]]
         labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
         for name in drawn:
             labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
@@ -299,7 +310,7 @@ class Material:
             yield Paragraph(tuple(sentences))
         for name in drawn:
             yield self._figure(name)
-            read = reading(kind_of(name), self)
+            read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
             if read is not None:
                 yield read
         yield from shown_tables

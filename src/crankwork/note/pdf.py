@@ -47,14 +47,14 @@ _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.
 _SETTINGS = """
 #set page(paper: "a4", margin: (left: 25mm, right: 15mm, top: 20mm, bottom: 20mm), numbering: "1")
 #set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
-#set par(leading: 0.78em, spacing: 0.95em, justify: true)
+#set par(leading: 0.68em, spacing: 0.85em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
 #show heading: set block(above: 1.5em, below: 0.9em, sticky: true)
 #show heading: set par(justify: false)
 #show heading.where(level: 1): set text(size: 14pt)
 #show heading.where(level: 2): set text(size: 12pt)
 #show heading.where(level: 3): set text(size: 11pt)
-#set table(inset: (x: 4pt, y: 3.2pt))
+#set table(inset: (x: 4pt, y: 2.6pt))
 #let ruled(head) = (_, y) => if y == head {
   (top: 0.7pt + black, bottom: 0.5pt + black)
 } else if y > head { (bottom: 0.3pt + luma(70%)) }
@@ -63,7 +63,7 @@ _SETTINGS = """
   let wide = measure(line).width
   if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
 })
-#let lines(number, ..all) = block(width: 100%, breakable: false, above: 1.1em, below: 1.1em, grid(
+#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.85em, below: 0.85em, grid(
   columns: (1fr, auto), column-gutter: 0.8em,
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
   grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
@@ -86,10 +86,12 @@ _SETTINGS = """
 #let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
 """
 _TOGETHER = 16
+# of drawings, whose letters are then 8 pt
+_REDUCED = 0.87
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
 # height of a line of a table [em], and what is free above and below it [pt]
-_LINE, _INSET = 0.66, 3.2
+_LINE, _INSET = 0.66, 2.6
 # a word that may be wider than a column of the cover
 _LONG_WORD = re.compile(r"\S{28,}")
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
@@ -259,7 +261,7 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
 
 def _figure(block: Figure, number: str, language: Language) -> str:
-    width = block.drawing.width / MM
+    width = _REDUCED * block.drawing.width / MM
     data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     words = typst_string(caption("figure", number, block.caption, language))
     image = (

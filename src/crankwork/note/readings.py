@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from crankwork.note.material import Material
 
 # kind of figure: the single values that its sentence tells, of which each must be known
-_TOLD: Mapping[str, tuple[str, ...]] = {
+_READ: Mapping[str, tuple[str, ...]] = {
     "kinematics": ("piston_velocity_max", "piston_acceleration_max"),
     "pressure": ("gas_pressure_max",),
     "piston_forces": ("piston_force_max", "piston_force_min"),
@@ -31,9 +31,9 @@ _TOLD: Mapping[str, tuple[str, ...]] = {
 _PARTS = ("gas_force", "inertia_force")
 
 
-def reading(kind: str, material: Material) -> Paragraph | None:
-    """Return the sentence that reads a figure of some kind, None where it has none."""
-    known = _known(kind, material)
+def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
+    """Return the sentence that reads a figure of some kind, of one of several crankpins; None where it has none."""
+    known = _known(kind, material, pin)
     if kind == "joint_forces":
         return _of_joints(material)
     if not known:
@@ -59,18 +59,18 @@ def reading(kind: str, material: Material) -> Paragraph | None:
     return words.paragraph(f"reads_{kind}", **values)
 
 
-def _known(kind: str, material: Material) -> dict[str, tuple[float, float | None]]:
+def _known(kind: str, material: Material, pin: str) -> dict[str, tuple[float, float | None]]:
     """Return the values that a sentence tells, with the angles where they are reached; none unless all are known."""
-    summary, found = material.summary, dict[str, tuple[float, float | None]]()
-    for key in _TOLD.get(kind, ()):
-        own = next((name for name in (key, f"{key}.1") if name in summary), None)
+    summary, values = material.summary, dict[str, tuple[float, float | None]]()
+    for key in _READ.get(kind, ()):
+        own = next((name for name in (key, f"{key}.{pin}") if name in summary), None)
         if own is None:
             return {}
         place = key_of(own).derived("_angle")
         if key.endswith(("_max", "_min")) and place not in summary:
             return {}
-        found[key] = (summary[own], summary.get(place))
-    return found
+        values[key] = (summary[own], summary.get(place))
+    return values
 
 
 def _of_joints(material: Material) -> Paragraph | None:

@@ -72,7 +72,8 @@ def _losses(material: Material) -> Iterator[Block]:
     yield words.paragraph("efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency))
     # what the chain comes to before it is rounded is the efficiency as well
     marks = {"efficiency.exact": words.symbol("efficiency")}
-    yield from material.worked(material.lines("efficiency"), marks)
+    lines = material.lines("efficiency")
+    yield from material.worked(lines if material.full else lines[-1:], marks)
     if drive.exact_efficiency is not None:
         used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency)
         yield words.paragraph("efficiency_rounded", used=used, exact=exact)

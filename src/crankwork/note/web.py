@@ -75,10 +75,12 @@ ul { list-style: "–  "; padding-left: 1.4em; }
 .table table { border-collapse: collapse; margin: 0 auto; font-size: .82rem; line-height: 1.25;
   font-variant-numeric: lining-nums tabular-nums; }
 .table caption { text-align: left; font-size: 1rem; padding-bottom: .4em; }
-.table th, .table td { border: 1px solid var(--g6); padding: .15em .45em; text-align: right; white-space: nowrap; }
+.table table { border-top: 1.5px solid currentColor; }
+.table th, .table td { border-bottom: 1px solid var(--g16); padding: .15em .45em; text-align: right;
+  white-space: nowrap; }
 .table td.left { text-align: left; white-space: normal; }
 .table td.centre { text-align: center; }
-.table th { text-align: center; font-weight: normal; background: var(--g19); }
+.table th { text-align: center; font-weight: normal; background: var(--ground); border-bottom-color: currentColor; }
 figure { margin: 1.6em 0; text-align: center; break-inside: avoid; }
 figure svg { max-width: 100%; height: auto; }
 figcaption { margin-top: .5em; }
@@ -140,10 +142,14 @@ def web(note: Note) -> bytes:
         "<main>",
     ]
     for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True)):
-        parts.extend(_block(block, number, k, note, numbers))
-        if isinstance(block, TitlePage) and film is not None:
+        if film is not None and isinstance(block, Figure) and block.name == "machine":
+            # here it moves
             own = "".join(controls(film, note.language))
-            parts.append(f'<figure id="machine">{inline_film(film, "machine")}{own}</figure>')
+            words = xml_text(caption("figure", number, block.caption, note.language))
+            moves = f"{inline_film(film, 'machine')}{own}<figcaption>{words}</figcaption>"
+            parts.append(f'<figure id="machine">{moves}</figure>')
+        else:
+            parts.extend(_block(block, number, k, note, numbers))
     parts.append("</main>")
     if results is not None:
         parts += [

@@ -304,7 +304,8 @@ def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
         if isinstance(block, Figure) and (waiting or _left(filled, height).max() > _EMPTY):
             waiting.append(k)
             continue
-        is_new = isinstance(block, PageBreak | TitlePage) or (isinstance(block, Table) and block.wide)
+        covers = isinstance(block, TitlePage) and not block.is_plain
+        is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
         while waiting and not is_heading and (is_new or _fits_here(filled, heights[waiting[0]], waited)):
             figure, waited = waiting.pop(0), 0.0
             filled = _after(filled, blocks[figure], heights[figure])

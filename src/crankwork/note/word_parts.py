@@ -121,8 +121,8 @@ def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -
     )
     grid = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
     borders = "".join(
-        f'<w:{side} w:val="single" w:sz="4" w:space="0" w:color="auto"/>'
-        for side in ("top", "left", "bottom", "right", "insideH", "insideV")
+        f'<w:{side} w:val="single" w:sz="{size}" w:space="0" w:color="{colour}"/>'
+        for side, size, colour in (("top", 6, "auto"), ("bottom", 4, "B0B0B0"), ("insideH", 4, "B0B0B0"))
     )
     aligned = [f'<w:jc w:val="{_ALIGN[letter]}"/></w:pPr>' for letter in (block.align or "r" * len(widths))]
     starts = [f"<w:tc><w:p><w:pPr>{_CELL_STYLE}" + keep for keep in ("", "<w:keepNext/>")]
@@ -283,13 +283,18 @@ _STROKE = '<w:tcBorders><w:bottom w:val="single" w:sz="4" w:space="0" w:color="a
 
 
 def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
-    """Yield the cover and the end of its page."""
+    """Yield the cover and the end of its page; a plain one stands above the text."""
     small = 0.62 if page.is_crowded else 1.0
 
     def lines(texts: tuple[str, ...], size: int, *, bold: bool = False, style: str = "TitleLine") -> str:
         font = f'{"<w:b/>" if bold else ""}<w:sz w:val="{int(size * small)}"/><w:szCs w:val="{int(size * small)}"/>'
         return "".join(paragraph(text_run(entry_text, font), style) for entry_text in texts)
 
+    if page.is_plain:
+        names = tuple(", ".join(person.names) for person in page.people)
+        yield lines((note.headline,), 36, bold=True, style="Title")
+        yield from (lines((entry_text,), 24) for entry_text in (*page.below, *names))
+        return
     title = lines(page.above, 30) + lines((note.headline,), 40, bold=True, style="Title") + lines(page.below, 28)
     parts = [
         (_HEAD, "top", lines(page.institution, 26)),
