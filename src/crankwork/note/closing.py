@@ -68,7 +68,8 @@ _NUMBERS = (
 )  # fmt: skip
 _SAME = {"shaft_power": ("motor_power",)}
 _GLANCE = 10
-
+# the option that gives everything
+_FULL = "--full"
 
 # the label of the heading that a list of the symbols follows
 NOMENCLATURE = "nomenclature"
@@ -199,12 +200,13 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     results, words, summary = material.results, material.words, material.results.summary
     film = film_of(results, language=words.language) if material.options.figures else None
     if film is not None:
-        title = words.title("machine")
+        title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
         yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
         yield Figure(film.still(), title, film.about or title, label="f:machine", floats=False)
     keys = [key for kind in _NUMBERS for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
+    yield words.paragraph("see_table", tables=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.checks:
         largest = words.number(100.0 * max(results.checks.values()), digits=2)
@@ -217,9 +219,9 @@ def _left_out(material: Material) -> Iterator[Block]:
     step = words.amount(math.radians(material.results.machine.table_step), "deg")
     left = [figure_title(name, words.language) for name in dict.fromkeys(map(kind_of, material.remaining_figures()))]
     if left:
-        yield words.paragraph("left_out", step=step, figures="; ".join(left))
+        yield words.paragraph("left_out", option=_FULL, step=step, figures="; ".join(left))
     else:
-        yield words.paragraph("left_out_formulas", step=step)
+        yield words.paragraph("left_out_formulas", option=_FULL, step=step)
 
 
 def _conclusion(material: Material) -> Iterator[Block]:

@@ -35,6 +35,7 @@ class Meaning(NamedTuple):
 
     symbol: str
     text: str
+    is_derived: bool = False  # Whether it is told by what it is made of, for want of a name
 
 
 def legend(step: FormulaLine | Formula, language: Language, known: frozenset[str] = frozenset()) -> tuple[Meaning, ...]:
@@ -49,9 +50,8 @@ def legend(step: FormulaLine | Formula, language: Language, known: frozenset[str
             if key in known or key in explanations:
                 continue
             if key == f"argument:{name}":
-                shown = symbol(name, language)
-                if not any(given in QUANTITIES and QUANTITIES[given].symbol(language) == shown for given in known):
-                    explanations[key] = Meaning(shown, words_of(name, language) + after)
+                derived = not has_text(f"arguments.{name}")
+                explanations[key] = Meaning(symbol(name, language), words_of(name, language) + after, derived)
             else:
                 own = entry.pattern == "{}" or name in named
                 meaning = _meaning(key, language)
@@ -62,8 +62,11 @@ def legend(step: FormulaLine | Formula, language: Language, known: frozenset[str
 
 
 def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
-    """Return the meanings of all symbols of equations, each once, in alphabetical order."""
-    known_meanings: dict[str, Meaning] = {}
+    """Return the meanings of all symbols of equations, each once, in alphabetical order.
+
+    A symbol that stands for two things, as some letters of a school do, is there with both.
+    """
+    collected: dict[Meaning, None] = {}
     known: set[str] = set()
     for block in blocks:
         if not isinstance(block, Equation):
@@ -72,13 +75,14 @@ def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
         left = "" if isinstance(step, Formula) else key_of(step.key).quantity
         if left in QUANTITIES and left not in known:
             own = block.symbol or equation_symbol(step, language)
-            known_meanings.setdefault(own, Meaning(own, label(left, language)))
+            collected[Meaning(own, label(left, language))] = None
             known.add(left)
         if isinstance(step, FormulaLine | Formula):
-            for meaning in legend(step, language, frozenset(known)):
-                known_meanings.setdefault(meaning.symbol, meaning)
+            collected |= dict.fromkeys(legend(step, language, frozenset(known)))
             known |= explained_keys(step)
-    return sorted(known_meanings.values(), key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
+    named = {meaning.symbol for meaning in collected if not meaning.is_derived}
+    shown = (meaning for meaning in collected if not (meaning.is_derived and meaning.symbol in named))
+    return sorted(shown, key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
 
 
 def _unit(name: str, key: str) -> str:

@@ -38,7 +38,7 @@ _CONSTRUCTED = (
     "wittenbauer",
 )  # fmt: skip
 # what a note shows the formula of when it is not to show all
-ESSENTIAL = frozenset((
+_ESSENTIAL = frozenset((
     "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",
     "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure",
     "compression_temperature", "combustion_celsius", "combustion_pressure", "expansion_pressure",
@@ -216,7 +216,7 @@ class Material:
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
         if not self.full:
-            selected = [row for row in selected if _kind(row) in ESSENTIAL]
+            selected = [row for row in selected if _kind(row) in _ESSENTIAL]
         # of families, such as the journals of a shaft, a table has the others
         return self.worked(_first(selected) if first or self.has_piston or not self.full else selected)
 

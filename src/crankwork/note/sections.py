@@ -104,7 +104,7 @@ def _order(material: Material) -> tuple[str, ...]:
 def note_of_sections(results: Results, options: NoteOptions) -> Note:
     """Return the note of a machine behind its cover and contents: sections of its school, or those that it names.
 
-    What a note cites stands in its list of sources, which is always there.
+    What a note cites stands in its list of sources and its symbols in their own, which are always there.
     """
     if options.order not in _CRANK_GEAR:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
@@ -113,8 +113,8 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     if options.author.strip():
         document = replace(document, author=(options.author,))
     chosen = document.sections
-    if chosen and "sources" not in chosen:
-        chosen = (*chosen, "sources")
+    if chosen:
+        chosen = (*chosen, *(name for name in ("nomenclature", "sources") if name not in chosen))
     known = sections_of(material)
     parts = itertools.chain.from_iterable(known[name].parts for name in chosen or _order(material) if name in known)
     blocks = tuple(_with_nomenclature(_cited_once(written(parts, material)), material))
@@ -154,6 +154,7 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
             yield block
         elif listed:
             yield block
+            yield words.paragraph("symbols_listed", table=Reference("t:nomenclature"))
             yield symbol_table([(Math(meaning.symbol), meaning.text) for meaning in listed], words)
 
 
