@@ -264,7 +264,8 @@ def _transient(values: Values, reader: Reader) -> Transient | None:
         reader.add_error("transient.motor", ErrorMessage("transient_motorless"))
     start, ends = table.si("start"), tuple(stop.value for stop in table["stops"] or ())
     if ends and not (ends[0] <= start <= ends[1] and ends[0] < ends[1]):
-        reader.add_error("transient.stops", ErrorMessage("transient_stops"))
+        low, high = (f"{math.degrees(start) + away:g}" for away in (-90, 90))
+        reader.add_error("transient.stops", ErrorMessage("transient_stops", low=low, high=high))
     rows = table.si("time") / table.si("step") if table["step"] and table["time"] else 0.0
     if rows > _MOST_ROWS:
         reader.add_error("transient.step", ErrorMessage("transient_rows", rows=rows, most=_MOST_ROWS))

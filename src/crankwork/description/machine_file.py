@@ -25,6 +25,7 @@ from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LIN
 from crankwork.description.load_keys import LOADING
 from crankwork.description.measured_build import add_questions, in_file, read_measured
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
+from crankwork.description.stated import mistaken_names
 from crankwork.description.toml_positions import locate
 from crankwork.description.torque_keys import PRESS_FILE, TURNING_FILE
 from crankwork.description.value_types import Reader, is_one_line, look_alikes
@@ -99,6 +100,9 @@ def read_machine(
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
     machine = _build(values, reader, folder)
     if mistakes or reader.problems or machine is None:
+        for path, letters, latin in mistaken_names(values):
+            told = Problem(path, ErrorMessage("key_look_alike", letters=letters, written=latin))
+            reader.problems = [*(problem for problem in reader.problems if problem.key != path), told]
         raise input_error(source, name, reader, settings, mistakes)
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     notices = (*machine.notices, *reader.notices)
