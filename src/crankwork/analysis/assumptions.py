@@ -268,7 +268,10 @@ def _idle_order(results: Results, stated: Mapping[str, FileInput], path: str) ->
     return "" if listing is not None and f"balance_shafts.{stated[path].value}" in listing.names else "no_order"
 
 
-def _idle_uneven(results: Results, *_: object) -> str:
+def _idle_uneven(results: Results, stated: Mapping[str, FileInput], _: str) -> str:
+    if not any(path.startswith(("engine.firing_order", "engine.throws")) for path in stated):
+        # the customary order is permitted as it is
+        return "unused"
     layout = results.machine.engine.layout if results.machine.engine is not None else None
     angles = sorted(place.firing_angle for place in layout.places) if layout is not None else []
     gaps = np.diff([*angles, angles[0] + layout.cycle]) if layout is not None else np.array([0.0, 1.0])
@@ -317,10 +320,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
     (r"flywheel\.(fluctuation|percent)", _idle_wheel),
     # places of the links of one that is drawn turn with it
-    (
-        r"cylinder\.inclination",
-        lambda results, *_: "" if _has_weights(results) or results.machine.linkage else "weights_off",
-    ),
+    (r"cylinder\.inclination", lambda known, *_: "" if known.machine.linkage or _has_weights(known) else "weights_off"),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),
