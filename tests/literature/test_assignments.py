@@ -167,3 +167,36 @@ def test_data_that_contradict_one_another_are_refused(
 ) -> None:
     with pytest.raises(crankwork.InputError, match=message):
         _changed(tmp_path, *changes)
+
+
+def test_forces_of_a_printed_program_follow_with_its_pi_its_gravity_and_weights() -> None:
+    """Pd, Pn, Pr, Pk per piston area at five crank angles; its degrees are those of 3.14. [Pa]"""
+    printed = {
+        540: (609275.46273, 873.32585, -609272.68089, 2037.76730),
+        720: (2278778.96925, -4355.14510, 2278704.98284, -18872.18055),
+        12.5: (3121328.79537, 203000.61166, 3003500.08699, 873435.70145),
+        30: (1389711.55912, 210743.02925, 1098386.85046, 877073.06917),
+        40: (872921.19861, 171475.56198, 558719.10972, 692263.13189),
+    }
+    results = entered("ru_kshm_delphi")
+    columns = results.columns_at([angle * 3.14 / np.pi for angle in printed])
+    keys = ("piston_force", "side_force", "radial_force", "tangential_force")
+    forces = np.array([columns[key] for key in keys]).T / results["piston_area"]
+    # the file states the angles of the pressures to 1e-6 degrees
+    assert forces == pytest.approx(np.array(list(printed.values())), abs=0.5)
+
+
+def test_motion_of_a_calculus_project_is_that_of_its_functions() -> None:
+    """By x = r cos q + sqrt(l^2 - r^2 sin^2 q) and differences of it."""
+    results, step = entered("en_rosehulman_engine"), 1e-4
+    speed = 1000 * 2 * np.pi / 60
+    degrees = np.array([20.0, 75.0, 200.0])
+
+    def height(q: np.ndarray) -> np.ndarray:
+        return 0.08 * np.cos(q) + np.sqrt(0.245**2 - 0.08**2 * np.sin(q) ** 2)
+
+    before, here, after = (height(np.radians(degrees) + shift) for shift in (-step, 0, step))
+    columns = results.columns_at(degrees)
+    assert columns["piston_displacement"] == pytest.approx(0.325 - here, rel=1e-12)
+    assert columns["piston_velocity"] == pytest.approx((before - after) / (2 * step) * speed, rel=1e-6)
+    assert columns["piston_acceleration"] == pytest.approx((2 * here - before - after) / step**2 * speed**2, rel=1e-5)
