@@ -200,3 +200,13 @@ def test_motion_of_a_calculus_project_is_that_of_its_functions() -> None:
     assert columns["piston_displacement"] == pytest.approx(0.325 - here, rel=1e-12)
     assert columns["piston_velocity"] == pytest.approx((before - after) / (2 * step) * speed, rel=1e-6)
     assert columns["piston_acceleration"] == pytest.approx((2 * here - before - after) / step**2 * speed**2, rel=1e-5)
+
+
+def test_weights_in_newtons_are_masses_by_the_gravity_of_the_sheet(tmp_path: Path) -> None:
+    """G = 30, 40 and 60 N are 3, 4 and 6 kg with g = 10 in the sheet of a gear shaper (ukrbukva.net, 44430, page 7)."""
+    for weight, mass in ((30, 3.0), (40, 4.0), (60, 6.0)):
+        heavy = ('mass = "0.8 kg"', f'mass = "{weight} N"')
+        # a mass of the rod of 1 kg, 0.3 of which moves with the piston
+        results = _changed(tmp_path, heavy, ("[engine]", '[method]\ngravity = "10 m/s2"\n[engine]'))
+        assert results["reciprocating_mass"] == pytest.approx(mass + 0.3, rel=1e-12)
+        assert {one.values["gravity"] for one in results.notices if one.code == "weight"} == {10.0}
