@@ -28,7 +28,7 @@ PINNED = {
         "machine": "93e6fd34e1f6",
     },
     "formulas": "29245a9434cd",
-    "quantities": "e53bf72028f0",
+    "quantities": "e8556442faa7",
     "defaults": "6b294094b813",
 }
 
