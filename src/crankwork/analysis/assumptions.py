@@ -36,7 +36,7 @@ _TRACED = re.compile(
 _FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
 _FACE = re.compile(r"\.faces\[1\]")
 _SAMPLES, _ROUNDING, _EVEN = 721, 1e-9, 1e-6
-_CORNERS = ("petrol", "diesel", "otto", "ideal-diesel", "dual")
+_CORNERS = ("petrol", "diesel", "otto", "ideal-diesel", "dual", "assigned-petrol", "assigned-diesel")
 
 
 class Assumption(NamedTuple):
@@ -188,6 +188,14 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
     (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path, stated, results)),
     (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing.peak", stated, results)),
+    (
+        r".*cycle\.(rise|rise_share|peak_level)",
+        lambda results, stated, path: not _idle_convention(path, stated, results),
+    ),
+    (
+        r".*cycle\.blow_down",
+        lambda results, stated, path: not _idle_convention(path, stated, results, "exhaust_opens"),
+    ),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
 )
 
@@ -331,8 +339,11 @@ def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) ->
     """Return why an event of the valves has no effect in a calculated cycle; empty if it has."""
     table, _, name = path.rpartition(".")
     cycle = table.removesuffix(".timing")
-    kind, corners = (stated.get(f"{cycle}.{key}", FileInput(None)).value for key in ("kind", "corners"))
-    is_rounded = corners == "rounded" or (corners is None and any(path.startswith(f"{table}.") for path in stated))
+    kind, corners, school = (
+        stated.get(f"{cycle}.{key}", FileInput(None)).value for key in ("kind", "corners", "school")
+    )
+    has_timing = any(path.startswith(f"{cycle}.timing.") for path in stated)
+    is_rounded = school != "none" and (corners == "rounded" or (corners is None and has_timing))
     if (kind in _CORNERS or name == "peak") and not (is_rounded and kind in _CORNERS):
         return "sharp_corners"
     if results.machine.cycle > 360.0:
@@ -342,6 +353,12 @@ def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) ->
     first, second = (numbers.get(f"{table}.{key}", InputNumber(0.0)).value for key in (name, other))
     # one that is not far from the other may become the later one
     return "closes_first" if other and 2 * first < second else ""
+
+
+def _idle_convention(path: str, stated: Mapping[str, FileInput], results: Results, event: str = "ignition") -> bool:
+    """Return whether a convention of rounding has no effect: without the event whose corner it rounds."""
+    timing = f"{path.rpartition('.')[0]}.timing"
+    return f"{timing}.{event}" not in stated or bool(_idle_event(f"{timing}.peak", stated, results))
 
 
 def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iterator[IdleInput]:
