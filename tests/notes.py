@@ -12,7 +12,7 @@ import numpy as np
 
 import crankwork
 from crankwork.note.contents import note_of
-from crankwork.note.document import Block, Equation, Figure, Heading, ItemList, Note, Paragraph, Table
+from crankwork.note.document import Block, Equation, Figure, Heading, ItemList, Math, Note, Paragraph, Table
 from crankwork.note.equations import PrintedEquation, printed_equation
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets import Paper, TitleBlock, drawn_sheets
@@ -45,7 +45,7 @@ _SHOWN: dict[int, tuple[Note, list[PrintedEquation]]] = {}
 
 def note(name: str, language: Language = "en", **options: Any) -> Note:
     """Return the note of a machine, without figures where they are not asked for."""
-    return _note(name, NoteOptions(**{"language": language, "figures": False, **options}))
+    return _note(name, NoteOptions(**{"full": True, "language": language, "figures": False, **options}))
 
 
 def sheets(name: str, language: Language = "en", paper: Paper = SIGNED, **options: Any) -> tuple[Sheet, ...]:
@@ -66,6 +66,13 @@ def headings(one: Note) -> list[str]:
 def tables(one: Note) -> dict[str, Table]:
     """Return the tables by their labels, without what says that they are tables."""
     return {block.label.removeprefix("t:"): block for block in blocks(one, Table)}
+
+
+def nomenclature(one: Note) -> list[tuple[Math, str]]:
+    """Return the symbols and their meanings as the table of symbols lists them, its halves one below the other."""
+    rows = tables(one)["nomenclature"].rows if "nomenclature" in tables(one) else ()
+    pairs = [pair for left in (0, 2) for row in rows if (pair := tuple(row[left : left + 2]))]
+    return [(symbol, meaning) for symbol, meaning in pairs if isinstance(symbol, Math)]
 
 
 def figures(one: Note) -> dict[str, Figure]:
@@ -119,8 +126,6 @@ def words(one: Note) -> Iterator[str]:
             case Table(caption=caption, headings=titles, rows=rows):
                 yield caption
                 yield from (run for runs in (*titles, *rows) for run in runs if isinstance(run, str))
-            case Equation(legend=legend):
-                yield from (entry.text for entry in legend)
             case Figure(caption=caption, alt=alt):
                 yield from (caption, alt)
             case ItemList(items):

@@ -55,6 +55,6 @@ def test_it_is_shown() -> None:
     for kind, wheel in zip(KINDS, (*wheels, wheels[0]), strict=True):
         results = analysed(kind, **wheel)
         assert {"speed", "crank_speed"} & set(figures(results)), kind
-        page = web(note_of(results, NoteOptions(figures=False))).decode()
+        page = web(note_of(results, NoteOptions(full=True, figures=False))).decode()
         assert "<table" in page, kind
         assert results.explain("rim_mass"), kind

@@ -131,7 +131,7 @@ flywheel.fluctuation = 0.04
     for results, codes in ((free, ["no_flywheel"]), (driven, [])):
         assert [one.code for one in results.notices if one.code == "no_flywheel"] == codes
         assert "wittenbauer" not in figures(results)
-        assert "(0; 0)" in web(note_of(results, NoteOptions(figures=False))).decode()
+        assert "(0; 0)" in web(note_of(results, NoteOptions(full=True, figures=False))).decode()
     assert driven.summary["flywheel_inertia"] > 0
     assert driven.summary["speed_fluctuation"] == pytest.approx(0.04, rel=1e-9)
 

@@ -165,7 +165,7 @@ def test_a_shaft_is_shown() -> None:
         results = analyse(read(path))
         assert set(figures(results, language=language)) in ({"turning_moment", "speed"}, {"loops"}), path.stem
         assert "energy_extremes" in sheets(results), path.stem
-        page = web(note_of(results, NoteOptions(language=language))).decode()
+        page = web(note_of(results, NoteOptions(full=True, language=language))).decode()
         if "<table" not in page or "None" in page:
             wrong.append((path.stem, language))
     assert wrong == []

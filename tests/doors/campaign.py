@@ -144,7 +144,7 @@ def _write(text: str) -> None:
     for _ in results_folder(results):
         pass
     for language in ("en", "ru"):
-        options = NoteOptions(language=language)
+        options = NoteOptions(full=True, language=language)
         written_note(note_of(results, options), "note.html")
         # sheets show a turn of a crank
         if results.machine.mechanism.driver.law is None:

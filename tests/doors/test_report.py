@@ -165,7 +165,7 @@ def test_sheets_stand_beside_the_note_on_the_paper_that_is_asked_for(crankwork, 
 @pytest.mark.parametrize("ending", FORMATS)
 def test_a_table_of_a_thousand_rows_is_whole(crankwork, machine_file, ending) -> None:
     name = machine_file(text=template("scotch-yoke"))
-    answer = crankwork("report", name, "-o", f"a{ending}", "--step", "0.36", "--no-figures")
+    answer = crankwork("report", name, "-o", f"a{ending}", "--full", "--step", "0.36", "--no-figures")
     assert answer.code == 0
     shown = _words(f"a{ending}")
     assert [step for step in (1, 501, 999) if f"{step * 0.36:.6g}" not in shown] == []
@@ -173,7 +173,9 @@ def test_a_table_of_a_thousand_rows_is_whole(crankwork, machine_file, ending) ->
 
 def test_options_of_the_calculation_reach_the_note(crankwork, machine_file) -> None:
     name = machine_file(text=template("four-bar"))
-    plain = crankwork("report", name, "-o", "a.html", "--no-figures", "--step", "45", "--set", "crank.speed=200 rpm")
+    plain = crankwork(
+        "report", name, "-o", "a.html", "--full", "--no-figures", "--step", "45", "--set", "crank.speed=200 rpm"
+    )
     assert plain.code == 0
     shown = _words("a.html")
     assert "20.944" in shown

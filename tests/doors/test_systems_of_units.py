@@ -69,7 +69,9 @@ def test_a_note_shows_every_value_in_its_system_beside_si(name, languages) -> No
     results = crankwork.analyse(crankwork.read_machine(f'units = "imperial"\n{crankwork.template(name)}'))
     found = {}
     for language in languages:
-        page = written_note(note_of(results, NoteOptions(language=language, figures=False)), "note.html").decode()
+        page = written_note(
+            note_of(results, NoteOptions(full=True, language=language, figures=False)), "note.html"
+        ).decode()
         text = re.sub(r"<[^>]+>", " ", re.sub(r"<style.*?</style>", "", page, flags=re.DOTALL))
         found[language] = re.findall(r"\bMPa\b|\bМПа\b|cm³|см³|\bmm\b|\bмм\b", text)
         assert ("фунт-сила" if language == "ru" else "lbf") in text

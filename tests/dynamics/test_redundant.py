@@ -137,7 +137,7 @@ def test_it_is_told_and_explained(language):
     explained = results.explain("axial_force.third", at=40, language=language)
     assert re.search("second", explained)
     assert not re.search(r"[{}]|None|nan", explained)
-    assert "third" in web(note_of(results, NoteOptions(language=language, figures=False))).decode()
+    assert "third" in web(note_of(results, NoteOptions(full=True, language=language, figures=False))).decode()
 
 
 def test_without_a_share_everything_but_joint_forces_is_known():
@@ -156,7 +156,7 @@ def test_without_a_share_everything_but_joint_forces_is_known():
         size = max(1e-3, float(np.max(np.abs(shared[key]))))
         assert column == pytest.approx(shared[key], abs=1e-9 * size), key
     for language in LANGUAGES:
-        assert "third" in web(note_of(results, NoteOptions(language=language, figures=False))).decode()
+        assert "third" in web(note_of(results, NoteOptions(full=True, language=language, figures=False))).decode()
 
 
 def test_two_links_too_many_without_shares():

@@ -170,7 +170,7 @@ def lines(case: str, group: str, *degrees: float) -> dict:
 
 @cache
 def note(case: str, language: Language = "en") -> Note:
-    return note_of(results(case), NoteOptions(language=language, figures=False))
+    return note_of(results(case), NoteOptions(full=True, language=language, figures=False))
 
 
 def key_of(shown: crankwork.Results, name: str) -> str:

@@ -37,7 +37,6 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.legends import legend
 from crankwork.note.lines import lines_of
 from crankwork.quantities import LANGUAGES, Language
 from crankwork.show.scene import Drawing, line
@@ -103,7 +102,7 @@ def sample(language: Language) -> Note:
         Heading(2, "Động học"),
         Paragraph((HOSTILE, Bold("Сила"), Math("v_п.ср"), Math(record(gas.swept_volume)), Citation("den_hartog_1956"))),
         Paragraph((Reference("first"), Reference("area"), Reference("drawing"), Reference("wide"))),
-        Equation(area, label="area", legend=legend(area, language)),
+        Equation(area, label="area"),
         Equation(speed),
         Equation(mass),
         Equation(FORMULAS[forces.side_force.__name__]),

@@ -13,7 +13,7 @@ from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, ValueL
 from crankwork.formula.expression import evaluate
 from crankwork.locale import translate
 from crankwork.machine import Document
-from crankwork.note.document import Equation, Figure, ItemList, Math, Note, Paragraph, Reference, Table
+from crankwork.note.document import Equation, Figure, Math, Note, Paragraph, Reference, Table
 from crankwork.note.equations import line_parts
 from crankwork.note.layout import EQUALS
 from crankwork.note.numbering import numbering
@@ -23,7 +23,7 @@ from crankwork.quantities import LANGUAGES
 from crankwork.sources import source_language
 from each import failing, for_each
 from note.built import key_of
-from notes import blocks, figures, note, printed, shown, tables, value, words, worked
+from notes import blocks, figures, nomenclature, note, printed, shown, tables, value, words, worked
 
 # every kind of machine; in the light part two engines, a linkage and a driven one in each language
 LIGHT = [(name, one) for name in ("spark-engine", "petrol-four", "press-geometry", "boom") for one in LANGUAGES]
@@ -87,7 +87,7 @@ def test_everything_is_numbered_referred_to_and_explained_once(notes):
         labels = {block.label for block in one.blocks if isinstance(block, Table | Figure) and ":" in block.label}
         said = {run.label for block in blocks(one, Paragraph) for run in block.runs if isinstance(run, Reference)}
         assert labels <= said
-        entries = Counter(entry for block in blocks(one, Equation) for entry in block.legend)
+        entries = Counter((row[0].content, row[1]) for row in nomenclature(one))
         assert [entry for entry, count in entries.items() if count > 1] == []
         own = [source_language(key) == one.language for key in numbering(one).sources]
         assert own == sorted(own, reverse=True)
@@ -234,11 +234,10 @@ def test_values_by_the_piston_area_are_those_of_the_tables():
     ],
 )
 def test_a_conclusion_says_the_numbers_that_matter(name, wanted):
-    found = note(name, "ru").blocks
-    before = "Основные результаты:"
-    (at,) = (k for k, one in enumerate(found) if isinstance(one, Paragraph) and before in str(one.runs[0]))
-    assert isinstance(found[at + 1], ItemList)
-    assert [item[1].content for item in found[at + 1].items][: len(wanted)] == wanted
+    found = tables(note(name, "ru"))
+    assert [row[1].content for row in found["glance"].rows][: len(wanted)] == wanted
+    # and all of them together with others
+    assert set(wanted) <= {row[1].content for row in found["summary"].rows}
 
 
 def test_one_cylinder_has_no_table_of_sums():

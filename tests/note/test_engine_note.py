@@ -54,31 +54,31 @@ shift = "-12 deg"
 def test_sections_stand_in_the_order_of_each_school():
     numbered = [block.text for block in note(SPARK, "vi").blocks if isinstance(block, Heading) and block.numbered]
     assert numbered == [
-        "Bảng thông số cho trước",
+        "Các kết quả chính", "Bảng thông số cho trước",
         "Đồ thị công", "Đồ thị Brick", "Đồ thị vận tốc v(α)", "Đồ thị gia tốc j(x)", "Đồ thị lực quán tính",
         "Đồ thị khai triển lực khí thể, lực quán tính và hợp lực",
         "Đồ thị lực tiếp tuyến T, lực pháp tuyến Z, lực ngang N",
         "Đồ thị tổng lực tiếp tuyến ΣT",
         "Đồ thị phụ tải tác dụng trên chốt khuỷu", "Đồ thị khai triển phụ tải Q–α",
         "Đồ thị phụ tải tác dụng lên đầu to thanh truyền", "Đồ thị mài mòn chốt khuỷu",
-        "Kiểm tra kết quả",
+        "Kiểm tra kết quả", "Ký hiệu",
     ]  # fmt: skip
-    assert headings(note(SPARK, "vi"))[:2] == ["Lời nói đầu", "Bảng thông số cho trước"]
-    assert headings(note(FOUR, "vi"))[:3] == ["Lời nói đầu", "Bảng thông số cho trước", "Tính toán nhiệt"]
+    assert headings(note(SPARK, "vi"))[:2] == ["Các kết quả chính", "Bảng thông số cho trước"]
+    assert headings(note(FOUR, "vi"))[:3] == ["Các kết quả chính", "Bảng thông số cho trước", "Tính toán nhiệt"]
     assert headings(note(FOUR, "ru")) == [
-        "Введение", "Исходные данные", "Тепловой расчёт", "Построение индикаторной диаграммы",
+        "Основные результаты расчёта", "Исходные данные", "Тепловой расчёт", "Построение индикаторной диаграммы",
         "Кинематика кривошипно-шатунного механизма", "Динамика кривошипно-шатунного механизма",
         "Суммарный крутящий момент", "Силы, действующие на шатунную шейку", "Коренные шейки и набегающие моменты",
         "Уравновешивание двигателя", "Равномерность хода и маховик", "Проверка результатов", "Заключение",
-        "Список литературы", "Приложение А",
+        "Условные обозначения", "Список литературы", "Приложение А",
     ]  # fmt: skip
-    assert headings(note(FOUR, "en"))[:4] == ["Input data", "Method", "Main results", "Working cycle"]
-    assert headings(note(FOUR, "en"))[-3:] == ["Checks", "References", "Appendix"]
+    assert headings(note(FOUR, "en"))[:4] == ["Main results", "Input data", "Method", "Working cycle"]
+    assert headings(note(FOUR, "en"))[-5:] == ["Checks", "Conclusion", "Nomenclature", "References", "Appendix"]
     # the school orders and the language speaks
     mixed = note(FOUR, "en", school="ru")
     assert headings(mixed)[2:4] == ["Working cycle", "Construction of the indicator diagram"]
     with pytest.raises(CrankworkError, match="take en, ru or vi"):
-        note_of(results(SPARK), NoteOptions(school="de", figures=False))
+        note_of(results(SPARK), NoteOptions(full=True, school="de", figures=False))
 
 
 def test_the_table_of_forces_is_the_published_one():
@@ -96,7 +96,8 @@ def test_the_table_of_forces_is_the_published_one():
 
 def test_a_note_counts_what_it_shows():
     one = note(FOUR, "ru", figures=True)
-    assert figures(one).keys() == drawn_figures(results(FOUR), language="ru").keys()
+    # all that are drawn, and the machine
+    assert figures(one).keys() == {"machine", *drawn_figures(results(FOUR), language="ru")}
     assert len(tables(one)) >= 20
     assert len(blocks(one, Equation)) > 180
     # as many rows as there are angles, motion for one turn only
@@ -193,7 +194,7 @@ def test_measured_pressure_is_named_and_tabulated(tmp_path):
     (tmp_path / "m.toml").write_text(MEASURED, encoding="utf-8")
     found = crankwork.analyse(crankwork.read(tmp_path / "m.toml"))
     for language in LANGUAGES:
-        one = note_of(found, NoteOptions(language=language, figures=False))
+        one = note_of(found, NoteOptions(full=True, language=language, figures=False))
         paragraphs = [
             "".join(run for run in block.runs if isinstance(run, str)) for block in blocks(one, Paragraph)
         ]  # fmt: skip
@@ -252,10 +253,10 @@ def test_rotating_masses_have_no_order(language, wanted):
 def test_what_is_not_known_is_left_out():
     spark = results(SPARK).machine
     motion = replace(spark, gas=None, masses=None, cylinder=None)
-    one = note_of(crankwork.analyse(motion), NoteOptions(language="ru", figures=False))
+    one = note_of(crankwork.analyse(motion), NoteOptions(full=True, language="ru", figures=False))
     assert headings(one)[1:3] == ["Исходные данные", "Кинематика кривошипно-шатунного механизма"]
     assert not {"along", "total", "points"} & tables(one).keys()
-    no_gas = note_of(crankwork.analyse(replace(spark, gas=None)), NoteOptions(language="vi", figures=False))
+    no_gas = note_of(crankwork.analyse(replace(spark, gas=None)), NoteOptions(full=True, language="vi", figures=False))
     assert "Đồ thị công" not in headings(no_gas)
     assert "Đồ thị mài mòn chốt khuỷu" in headings(no_gas)
     # nobody knows the journals of a crank gear of its own
@@ -280,7 +281,7 @@ def test_forces_per_area_are_divided_once():
 
 def test_a_figure_that_no_section_knows_stands_in_the_appendix(monkeypatch, drawing):
     monkeypatch.setattr(materials, "drawings", lambda *_, **__: {"crankpin_polar": drawing, "main_wear": drawing})
-    material = materials.Material(results(FOUR), NoteOptions(language="en"))
+    material = materials.Material(results(FOUR), NoteOptions(full=True, language="en"))
     assert material.remaining_figures() == ["crankpin_polar", "main_wear"]
     list(material.presented((), ["crankpin_polar"]))
     assert material.remaining_figures() == ["main_wear"]

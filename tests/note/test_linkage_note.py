@@ -52,7 +52,7 @@ def changed(name, *changes):
 
 
 def note_from(found, language="en", **options):
-    return note_of(found, NoteOptions(**{"language": language, "figures": False, **options}))
+    return note_of(found, NoteOptions(**{"full": True, "language": language, "figures": False, **options}))
 
 
 @pytest.fixture(scope="module")
@@ -70,8 +70,8 @@ def partial() -> crankwork.Results:
 @for_each("language", LANGUAGES)
 def test_the_press_has_its_four_tables_with_the_numbers_of_the_document(language):
     found = tables(note("press", language))
-    assert list(found) == ["transfer", "static", "reduced", "torque", "summary"]
-    transfer, static, reduced, torque, _ = found.values()
+    assert list(found) == ["glance", "transfer", "static", "reduced", "torque", "summary", "nomenclature"]
+    transfer, static, reduced, torque = (found[name] for name in ("transfer", "static", "reduced", "torque"))
     assert column(transfer, 0) == list(range(1, 13))
     assert column(transfer, 1) == [30.0 * k for k in range(12)]
     assert column(transfer, 2) == list(ROD)
@@ -150,7 +150,7 @@ def test_sections_stand_in_the_order_of_each_school(toggle):
 def test_how_many_tables_equations_and_figures_a_note_has():
     found = {name: note(name, "ru", figures=True) for name in ("press", "press-geometry")}
     counts = {name: [len(blocks(one, kind)) for kind in (Table, Equation, Figure)] for name, one in found.items()}
-    assert counts == {"press": [5, 42, 2], "press-geometry": [28, 243, 19]}
+    assert counts == {"press": [7, 42, 2], "press-geometry": [30, 243, 20]}
     assert figures(note("press", "ru")) == {}
 
 
@@ -273,8 +273,8 @@ def test_the_counterweight_stands_after_the_shaking_force():
 
 def test_a_linkage_without_masses_has_its_motion_only():
     assert headings(note_from(changed("four-bar", (r", mass.*?centre = (\[.*?\]|\"P\")", "")))) == [
-        "Task and data", "Main results", "Structure", "Kinematics of the mechanism",
-        "Quality of the mechanism", "References",
+        "Main results", "Task and data", "Structure", "Kinematics of the mechanism",
+        "Quality of the mechanism", "Conclusion", "Nomenclature", "References",
         "Appendix: results over the whole turn",
     ]  # fmt: skip
 
@@ -346,10 +346,10 @@ def test_bytes_of_a_note_are_the_same_every_time(ending):
 
 @pytest.mark.slow
 def test_sheets_come_in_three_formats_with_a_title_block():
-    found = sheets_of(results("press"), NoteOptions(language="ru", author="Петров"))
+    found = sheets_of(results("press"), NoteOptions(full=True, language="ru", author="Петров"))
     assert list(found) == ["-sheet-1.pdf", "-sheet-1.svg", "-sheet-1.dxf"]
     assert "Петров" in found["-sheet-1.svg"].decode()
     assert found["-sheet-1.pdf"].startswith(b"%PDF")
-    english = sheets_of(results("press"), NoteOptions(author="Petrov"))["-sheet-1.svg"].decode()
+    english = sheets_of(results("press"), NoteOptions(full=True, author="Petrov"))["-sheet-1.svg"].decode()
     assert "Petrov" in english
     assert "Created by" in english

@@ -148,7 +148,7 @@ def moments(results: Results) -> list[Snapshot]:
     if results.has_positions:
         degrees = results.grid.degrees.tolist()
     else:
-        groups = Material(results, NoteOptions(figures=False)).groups.values()
+        groups = Material(results, NoteOptions(full=True, figures=False)).groups.values()
         degrees = {one.degrees for one in groups if one.degrees is not None}
     return [Snapshot(CrankGrid.from_degrees, one) for one in degrees] or [Snapshot(CrankGrid.from_degrees, 0.0)]
 

@@ -1,4 +1,4 @@
-"""Every symbol of a note is explained no later than it comes first, stands for one thing, and is set alike."""
+"""Every symbol of a note is explained in its nomenclature, stands for one thing, and is set alike."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from crankwork.note.symbols import symbol_box
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.display import symbol as key_symbol
 from note.built import SOME, broken, looked_at, note, schools, source
-from notes import blocks, printed, tables
+from notes import blocks, nomenclature, printed, tables
 
 OTHERS = (
     "spark-engine: exact", "v8-diesel", "radial-five", "narrow-v6: textbook", "two-stroke", "atkinson", "beta-stirling",
@@ -69,29 +69,31 @@ def needed(step: FormulaLine, language: str) -> dict[str, tuple[str, ...]]:
 
 def unexplained(one: Note) -> list[str]:
     """Return the symbols of equations that nothing explains."""
-    known: set[str] = set()
-    missing: list[str] = []
-    for block in blocks(one, Equation):
-        known |= {entry.symbol for entry in block.legend}
-        kind = getattr(block.step, "key", "").partition(".")[0]
-        known |= {QUANTITIES[kind].symbol(one.language)} if kind in QUANTITIES and block.symbol in known else set()
-        if isinstance(block.step, FormulaLine):
-            symbols = needed(block.step, one.language)
-            # one of a kind is explained for all of them
-            known |= {base for printed, wanted in symbols.items() for base in wanted if printed in known}
-            for printed, wanted in symbols.items():
-                if not ({printed} <= known or set(wanted) <= known):
-                    missing.append(f"{printed} in {printed_equation(block, one.language).text}")
-        known.add(block.symbol or equation_symbol(block.step, one.language))
-    return missing
+    known = {row[0].content for row in nomenclature(one)}
+    worked = blocks(one, Equation)
+    needs = [(block, needed(block.step, one.language)) for block in worked if isinstance(block.step, FormulaLine)]
+    # one of a kind is explained for all of them
+    kinds = {
+        QUANTITIES[kind].symbol(one.language)
+        for block in worked
+        if block.symbol in known and (kind := getattr(block.step, "key", "").partition(".")[0]) in QUANTITIES
+    }
+    kinds |= {base for _, symbols in needs for shown, wanted in symbols.items() for base in wanted if shown in known}
+    known |= kinds
+    return [
+        f"{shown} in {printed_equation(block, one.language).text}"
+        for block, symbols in needs
+        for shown, wanted in symbols.items()
+        if not ({shown} <= known or set(wanted) <= known)
+    ]
 
 
 def ambiguous(one: Note) -> set[str]:
     """Return the symbols of equations that stand for two things, but for those of the school."""
     meanings, values = defaultdict(set), defaultdict(set)
+    for shown, meaning in nomenclature(one):
+        meanings[shown.content].add(meaning)
     for block in blocks(one, Equation):
-        for entry in block.legend:
-            meanings[entry.symbol].add(entry.text)
         if not isinstance(block.step, Formula) and not block.step.key.startswith(WAYS):
             values[block.symbol or equation_symbol(block.step, one.language)].add(block.step.key)
     twice = {shown for found in (meanings, values) for shown, of in found.items() if len(of) > 1}
@@ -102,7 +104,7 @@ def flat(one: Note, text: str) -> set[str]:
     """Return the symbols of equations that stand flat in a table, but what a file has."""
     worked, found = blocks(one, Equation), set()
     known = {block.symbol or equation_symbol(block.step, one.language) for block in worked}
-    known |= {entry.symbol for block in worked for entry in block.legend}
+    known |= {row[0].content for row in nomenclature(one)}
     for table in blocks(one, Table):
         runs = [run for heading in table.headings for run in heading]
         # names and symbols stand in the first two columns
@@ -138,8 +140,12 @@ test_a_symbol_of_a_table_of_values_stands_for_one_row = every_note(lambda _, one
 
 def test_a_symbol_without_explanation_is_found():
     one = note("slider-crank")
-    bare = [Equation(block.step) if isinstance(block, Equation) else block for block in one.blocks]
-    assert unexplained(replace(one, blocks=tuple(bare)))
+    (table,) = (block for block in one.blocks if getattr(block, "label", "") == "t:nomenclature")
+    for missing in ("r", "λ", "ω", "φ"):
+        rows = [(*row, "", "") for row in nomenclature(one) if row[0].content != missing]
+        shown = tuple(replace(table, rows=rows) if block is table else block for block in one.blocks)
+        assert len(rows) == len(nomenclature(one)) - 1
+        assert unexplained(replace(one, blocks=shown)), missing
 
 
 def test_the_numbers_of_a_substance_stay_at_their_letters():
@@ -163,7 +169,6 @@ PRINTED = {
     ("v8-diesel", "ru"): ("T_5 = T(300°) = ", "M_кр,5 = T_5·R = "),
     ("petrol-four", "ru"): (
         "Q_r = 1000·G_т·(M_2·h_μ,r − M_1·h_μ,0) = ",
-        "M_кш,3 = M_кш,2 + M_кр,2 = ",
         "L_изб = max ΔT − min ΔT = ",
     ),
     # the first two orders of the motion as textbooks have them

@@ -83,7 +83,7 @@ def number_of(text: object) -> float:
 def columns_of(name: str, units: str, school: str):
     """Yield the numbers of every column with a unit, in SI, with where it stands."""
     found = crankwork.analyse(crankwork.read(EXAMPLES / f"{name}.toml", [f"units={units}"]))
-    one = note_of(found, NoteOptions(language="en", school=school, figures=False))
+    one = note_of(found, NoteOptions(full=True, language="en", school=school, figures=False))
     for place, table in enumerate(blocks(one, Table)):
         for column, heading in enumerate(table.headings):
             said = "".join(run.content if isinstance(run, Math) else run for run in heading)

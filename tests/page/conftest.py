@@ -31,7 +31,7 @@ def of_example(name: str, language: Language = "en") -> bytes:
     """Return the page of an example, or the web page of its note."""
     results = crankwork.analyse(crankwork.read(EXAMPLES / f"{name.removeprefix('note-')}.toml"))
     if name.startswith("note-"):
-        return written_note(note_of(results, NoteOptions(language=language)), "note.html")
+        return written_note(note_of(results, NoteOptions(full=True, language=language)), "note.html")
     return written(results, language)
 
 

@@ -157,7 +157,7 @@ def test_notes_have_a_section_with_table_and_figure():
     four_bars = [crankwork.analyse(machine("four-bar", *some)) for some in ((), ("crank.radius=60 mm",))]
     compared = by_methods("engine", "textbook", "series:3"), crankwork.compare(four_bars[0], {"b": four_bars[1]}, "a")
     for language, results in (("en", compared[0]), ("ru", compared[1]), ("vi", compared[0])):
-        note = crankwork.note_of(results, NoteOptions(language=language))
+        note = crankwork.note_of(results, NoteOptions(full=True, language=language))
         titles = {"en": "Comparison", "ru": "Сравнение", "vi": "So sánh"}
         assert titles[language] in [one.text for one in note.blocks if isinstance(one, Heading)]
         (table,) = (one for one in note.blocks if isinstance(one, Table) and one.label == "t:compared")

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 @PER_AREA
 @click.option("--title", default="", metavar="TEXT")
 @click.option("--author", default="", metavar="TEXT")
+@click.option("--full", is_flag=True)
 @NO_FIGURES
 @click.option("--sheets", is_flag=True)
 @click.option("--paper", type=click.Choice(["A0", "A1", "A2", "A3"]))
@@ -56,6 +57,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     author: str,
     paper: Literal["A0", "A1", "A2", "A3"] | None,
     *,
+    full: bool,
     sheets: bool,
     grid: bool,
 ) -> None:
@@ -72,7 +74,7 @@ def report(  # noqa: PLR0913 - one argument per option of the command
     files.check_files(output, overwrite=options.overwrite)
     note_options = NoteOptions(
         language=options.language, school=school or "", per_area=options.per_area, title=title.strip(),
-        author=author.strip(), figures=not options.no_figures, sheets=sheets, paper=paper or "A1", grid=grid,
+        author=author.strip(), full=full, figures=not options.no_figures, sheets=sheets, paper=paper or "A1", grid=grid,
     )  # fmt: skip
     results = options.results()
     written: dict[str | Path, bytes] = {output: written_note(note_of(results, note_options), output)}

@@ -13,18 +13,22 @@ from crankwork.machine import Document
 
 # sections of notes in the order that most schools have
 _ENGINE = (
-    "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity", "acceleration",
-    "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled", "big_end",
-    "wear", "mains", "balance", "evenness", "comparison", "checks", "conclusion", "sources", "appendix",
+    "summary", "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity",
+    "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled",
+    "big_end", "wear", "mains", "balance", "evenness", "comparison", "checks", "conclusion", "nomenclature", "sources",
+    "appendix",
 )  # fmt: skip
 _LINKAGE = (
-    "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques", "friction",
-    "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks", "conclusion",
-    "sources", "appendix",
+    "summary", "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques",
+    "friction", "bearings", "harmonics", "motor", "flywheel", "law_of_motion", "transient", "comparison", "checks",
+    "conclusion", "nomenclature", "sources", "appendix",
 )  # fmt: skip
-_TRANSFER = ("task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "sources")
+_TRANSFER = (
+    "summary", "task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "nomenclature", "sources",
+)  # fmt: skip
 _TURNING = (
-    "task", "moments", "energy", "flywheel", "law_of_motion", "comparison", "checks", "conclusion", "sources",
+    "summary", "task", "moments", "energy", "flywheel", "law_of_motion", "comparison", "checks", "conclusion",
+    "nomenclature", "sources",
 )  # fmt: skip
 _WORDS = Text(300)
 _HEAD = (

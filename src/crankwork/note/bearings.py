@@ -21,7 +21,9 @@ from crankwork.note.parts import (
     Section,
     Shown,
     Text,
+    When,
     every,
+    full,
     has,
     turning,
 )
@@ -94,7 +96,9 @@ _PIN: tuple[Part, ...] = (Text("crankpin"), _articulated, At("bearings"), Lines(
 _STATED = Lines("bearing_loads", _STATISTICS, intro="loads", first=True)
 _OF_ROD = Lines("bearings", _ON_ROD)
 _LOADS, _OF_WEAR = Rows("bearing_loads", "loads"), Rows("crankpin_wear", "crankpin_wear")
-_WEAR: tuple[Part, ...] = (_oil_hole, Shown(("crankpin_wear",), (_OF_WEAR,)))
+_WEAR: tuple[Part, ...] = (
+    _oil_hole, Shown(("crankpin_wear",), (lambda material: _OF_WEAR(material) if material.full else None,)),
+)  # fmt: skip
 SECTIONS = (
     # polar, unrolled and wear in one
     Section("crankpin", (
@@ -116,15 +120,18 @@ SECTIONS = (
     Section("mains", (
         Head("mains", sinks=True), Text("mains"), At("bearings"), Lines("bearings", _ON_MAINS),
         Shown(("main_journal_polar",), (Over("mains", _group("main_journals")),)),
-        Shown(("main_wear",), (Rows("main_wear", "main_wear"),)), Lines("engine_torque"),
-        Shown(("accumulated_torque",), (Over("accumulated", _group("accumulated_torque")),)),
+        When(full, (
+            Shown(("main_wear",), (Rows("main_wear", "main_wear"),)), Lines("engine_torque"),
+            Shown(("accumulated_torque",), (Over("accumulated", _group("accumulated_torque")),)),
+        )),
     ), lambda material: material.has_piston and material.has_engine and material.has("main_journals")),
     Section("bearings", (
         Head("bearings"), Text("joint_bearings", {"source": Citation(_SOURCE)}), At("joint_bearings"),
         Lines("joint_bearings", _ON_PINS), Places("bearings", _ON_PINS, "bearings", filled=True),
-        Text("joint_loads"), Lines("bearing_sizes"), Listed("bearing_loads", "loads"),
-        Shown(("crankpin_polar", "crankpin_load", "main_journal_polar")), _oil_holes,
-        Listed("crankpin_wear", "crankpin_wear"), Listed("main_wear", "main_wear"),
-        Shown(("crankpin_wear", "main_wear")),
+        Text("joint_loads"), Lines("bearing_sizes"), Listed("bearing_loads", "loads"), Shown(("crankpin_polar",)),
+        _oil_holes, When(full, (
+            Shown(("crankpin_load", "main_journal_polar")), Listed("crankpin_wear", "crankpin_wear"),
+            Listed("main_wear", "main_wear"), Shown(("crankpin_wear", "main_wear")),
+        )),
     ), every(turning, has("bearing_loads"))),
 )  # fmt: skip

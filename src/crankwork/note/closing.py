@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from crankwork.analysis import Results
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import translate
 from crankwork.note import balance, bearings, flywheel
 from crankwork.note.data import GEAR, cycle_keys
-from crankwork.note.document import Bibliography, Block, Cell, ItemList, Math, Paragraph, Reference, Runs, Table
+from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Section, Shown, Text, When, drawn, has, lacks, school, written
+from crankwork.note.parts import Head, Section, Shown, Text, When, drawn, every, full, has, lacks, written
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
@@ -24,7 +24,8 @@ from crankwork.quantities.key import key_of
 from crankwork.report.assumptions import plain_assumptions
 from crankwork.report.comparison import comparison_rows, shown_names
 from crankwork.report.display import display_key, displayed, key_unit, label
-from crankwork.report.look import kind_of
+from crankwork.report.drawing import film_of
+from crankwork.report.look import figure_title, kind_of
 from crankwork.report.notices import notice_text
 from crankwork.report.tables import any_nonzero
 
@@ -44,6 +45,16 @@ _OF_ENGINES = (
 )  # fmt: skip
 # what a comparison and a table of main results leave out: where extremes are reached stands beside them
 _PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
+# main results of linkages; the others are in the full note
+_OF_LINKAGES = frozenset((
+    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max", "slider_acceleration_min",
+    "joint_force_max", "normal_force_max", "transmission_angle_min", "reduced_inertia_max", "reduced_inertia_min",
+    "static_torque_max", "driving_torque_max", "driving_torque_min", "mean_torque", "mean_driving_torque",
+    "efficiency", "mean_efficiency", "motor_power", "shaft_power", "driver_force_max", "driver_force_min",
+    "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",
+    "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
+    "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
+))  # fmt: skip
 # digits of differences
 _DIGITS = 3
 # in their order; of what links, joints and cylinders have the largest is before
@@ -56,9 +67,12 @@ _NUMBERS = (
     "piston_acceleration_min",
 )  # fmt: skip
 _SAME = {"shaft_power": ("motor_power",)}
-_MOST = 12
+_GLANCE = 10
+# the option that gives everything
+_FULL = "--full"
 
-
+# the label of the heading that a list of the symbols follows
+NOMENCLATURE = "nomenclature"
 _DYNAMICS = (
     "reduced_inertia", "reduced_inertia_1", "static_torque", "dynamic_torque", "balancing_torque", "driving_torque",
     "kinetic_energy_change", "crank_speed",
@@ -173,21 +187,6 @@ def _errors(material: Material, largest_errors: dict[str, tuple[float, float]]) 
     return words.table("errors", ("quantity", "value", "unit", "relative"), rows, "lrcr", "t:errors")
 
 
-def _main_numbers(material: Material) -> Iterator[Block]:
-    """Yield the numbers that matter, one in a line."""
-    results, words, summary = material.results, material.words, material.results.summary
-    keys = [
-        key
-        for kind in _NUMBERS
-        if not any(same in summary for same in _SAME.get(kind, ()))
-        for key in _of(kind, summary)
-    ]
-    items = [_item(key, results, words) for key in keys[:_MOST]]
-    if items:
-        yield words.paragraph("numbers")
-        yield ItemList(tuple(items))
-
-
 def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
     """Return the key of a quantity, or of the largest of those that links, joints and cylinders have."""
     if kind in summary or "." in kind:
@@ -196,13 +195,33 @@ def _of(kind: str, summary: Mapping[str, float]) -> list[str]:
     return [max(parts, key=lambda key: abs(summary[key]))] if parts else []
 
 
-def _item(key: str, results: Results, words: Words) -> Runs:
-    unit = printed_unit(key_unit(key), words.language)
-    name = translate("report.exact", words.language) if key.endswith(".exact") else ""
-    own = display_key(key, results).removesuffix(".exact")
-    title = label(own, words.language) + (f", {name}" if name else "")
-    value = words.number(displayed(key, results.summary[key]), digits=5)
-    return (f"{title}, ", Math(words.symbol(own)), f" = {value}\u00a0{unit}".rstrip("\u00a0"))
+def _at_a_glance(material: Material) -> Iterator[Block]:
+    """Yield the machine as it stands, the results that matter most, and whether the checks hold."""
+    results, words, summary = material.results, material.words, material.results.summary
+    film = film_of(results, language=words.language) if material.options.figures else None
+    if film is not None:
+        title = translate("subjects.machine", words.language)
+        place = words.place_text(float(film.angles[film.rest]))
+        yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
+        yield Figure(film.still(), title, film.about or title, label="f:machine", floats=False)
+    keys = [key for kind in _NUMBERS for key in _of(kind, summary)
+            if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
+    yield words.paragraph("see_table", tables=Reference("t:glance"))
+    yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
+    if results.checks:
+        largest = words.number(100.0 * max(results.checks.values()), digits=2)
+        yield words.paragraph("all_hold", count=str(len(results.checks)), residual=largest)
+
+
+def _left_out(material: Material) -> Iterator[Block]:
+    """Yield what the full note has beside this one."""
+    words = material.words
+    step = words.amount(math.radians(material.results.machine.table_step), "deg")
+    left = [figure_title(name, words.language) for name in dict.fromkeys(map(kind_of, material.remaining_figures()))]
+    if left:
+        yield words.paragraph("left_out", option=_FULL, step=step, figures="; ".join(left))
+    else:
+        yield words.paragraph("left_out_formulas", option=_FULL, step=step)
 
 
 def _conclusion(material: Material) -> Iterator[Block]:
@@ -214,7 +233,8 @@ def _main_keys(material: Material) -> list[str]:
     """Return the keys of the main results in order: all, but of a crank gear those that its appendix does not have."""
     summary = material.summary
     if not material.has_piston:
-        return [key for key in summary if not _is_place(key)]
+        keys = [key for key in summary if not _is_place(key)]
+        return keys if material.full else [key for key in keys if key_of(key).quantity in _OF_LINKAGES]
     # those of each method have a table of their own
     alone = ("excess_work", "flywheel_inertia")
     keys = [key for kind in _MAIN for key in summary
@@ -230,7 +250,7 @@ def _row(material: Material, key: str) -> tuple[Cell, ...]:
     kind = key_of(key).quantity
     places = {unit: summary.get(key_of(key).derived(f"_{over}")) for over, unit in (("angle", "deg"), ("time", "s"))}
     reached = [(place, unit) for unit, place in places.items() if place is not None and kind.endswith(("_max", "_min"))]
-    row = value_row(display_key(key, material.results), summary[key], words, area=area)
+    row = value_row(display_key(key, material.results), summary[key], words, area=area, digits=material.digits)
     return (*row, words.amount(*reached[0], digits=4) if reached else "–")
 
 
@@ -292,11 +312,13 @@ SECTIONS = (
     Section("comparison", (Head("comparison"), _compared, Shown(("comparison",))),
             lambda material: material.results.compared is not None),
     Section("checks", (Head("checks"), _checks), _has_checks),
+    Section("summary", (Head("results"), _at_a_glance)),
     Section("conclusion", (
-        When(school("en"), (Head("results"),)), When(lacks(school("en")), (Head("conclusion"),)),
-        _main_numbers, Text("conclusion", {"table": Reference("t:summary")}), _conclusion,
+        Head("conclusion"), Text("conclusion", {"table": Reference("t:summary")}), _conclusion,
+        When(lacks(full), (_left_out,)),
     )),
+    Section("nomenclature", (lambda material: [material.words.heading("nomenclature", label=NOMENCLATURE)],)),
     Section("sources", (Head("sources"), lambda _: (Bibliography(),))),
-    Section("appendix", (_rest,), has("piston_displacement")),
-    Section("appendix", (_all_columns,), drawn),
+    Section("appendix", (_rest,), every(full, has("piston_displacement"))),
+    Section("appendix", (_all_columns,), every(full, drawn)),
 )  # fmt: skip

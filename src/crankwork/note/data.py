@@ -14,7 +14,7 @@ from crankwork.mechanism.driver import Cylinder, DrivingSlider, Law, LinkMotor, 
 from crankwork.mechanism.linkage import Member
 from crankwork.mechanism.mechanism import Driver
 from crankwork.mechanism.structure import links_of
-from crankwork.note.document import Block, Cell, Citation, ItemList, Math, Paragraph, Reference, Runs, Table
+from crankwork.note.document import Block, Cell, Citation, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Lines, Section, Text, When, driven, has, lacks, machine_has, school
 from crankwork.note.symbols import subscript
@@ -22,6 +22,7 @@ from crankwork.note.tables import Column, position_tables, value_row, value_tabl
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import cycle as cycle_quantities
 from crankwork.report.display import key_unit, link_label
+from crankwork.report.scheme import crank_gear_scheme
 from crankwork.report.summary import results_method
 
 GEAR = ("rotational_speed", "angular_acceleration", "stroke", "crank_radius", "rod_length", "rod_ratio", "offset")
@@ -65,6 +66,14 @@ def _how(material: Material) -> Iterator[Block]:
     yield words.paragraph("conventions")
     if "piston_force" in results.columns:
         yield words.paragraph("references", **{name: Citation(source) for name, source in _SOURCES.items()})
+
+
+def _scheme(material: Material) -> Iterator[Block]:
+    """Yield the crank gear with the senses in which its angles and forces are counted."""
+    if material.options.figures and "piston_force" in material.results.columns:
+        title = material.words.title("scheme")
+        yield material.words.paragraph("scheme_drawn", figure=Reference("f:scheme"))
+        yield Figure(crank_gear_scheme(title, material.words.language), title, title, label="f:scheme")
 
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
@@ -459,7 +468,7 @@ def _points(material: Material, table: str, key: str) -> Table:
 
 
 _SHEETS = When(lambda material: material.options.sheets, (Text("sheets"),))
-_HOW = (_how,)
+_HOW = (_how, _scheme)
 SECTIONS = (
     Section("preface", (Head("preface"), Text("preface")), has("piston_displacement")),
     Section("data", (

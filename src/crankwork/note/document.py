@@ -86,28 +86,21 @@ class Paragraph:
 
 
 @dataclass(frozen=True)
-class Explanation:
-    """A symbol of an equation and what it stands for, with its unit after a comma if it has one."""
-
-    symbol: str
-    text: str
-
-
-@dataclass(frozen=True)
 class Equation:
     """A worked step, or a formula without numbers, with the number of its source and its own.
 
-    `symbol` replaces the symbol of the step's key; `legend` explains symbols below it, after "where". `defined` is the
-    key of a value without a formula whose definition stands before the number. `area`: piston area by which tables
-    divide the value, 0 if they do not [m2].
+    `symbol` replaces the symbol of the step's key. `defined` is the key of a value without a formula whose definition
+    stands before the number. `area`: piston area by which tables divide the value, 0 if they do not [m2]. `cites`:
+    whether the source of the formula is printed beside it; `digits`: significant digits of its value.
     """
 
     step: Line | Formula
     symbol: str = ""
     label: str = ""
-    legend: tuple[Explanation, ...] = ()
     defined: str = ""
     area: float = 0.0
+    cites: bool = True
+    digits: int = 6
 
 
 @dataclass(frozen=True)
@@ -142,12 +135,16 @@ def cell_length(cell: Cell) -> int:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing; `alt` says what it shows, and the end of its label what it is called elsewhere."""
+    """A drawing; `alt` says what it shows, and the end of its label what it is called elsewhere.
+
+    `floats`: whether it may stand at the head of a page instead of here.
+    """
 
     drawing: Drawing
     caption: str
     alt: str
     label: str = ""
+    floats: bool = True
 
     @property
     def name(self) -> str:
@@ -190,6 +187,11 @@ class TitlePage:
     below: tuple[str, ...] = ()
     people: tuple[Person, ...] = ()
     place: str = ""
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether only a title, and who wrote it, is known: it then stands above the text."""
+        return not (self.institution or self.above or self.place) and len(self.people) < 2
 
     @property
     def is_crowded(self) -> bool:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.formula.expression import Formula, Operation, Symbol, record, takes_angle, text
-from crankwork.locale import texts, translate
+from crankwork.locale import texts
 from crankwork.locale.numbers import number
 from crankwork.note.definitions import definition_box, definition_text
 from crankwork.note.document import Equation
@@ -35,7 +35,7 @@ from crankwork.note.layout import (
     row,
     width,
 )
-from crankwork.note.math import enough_digits, formula_box, is_exact_pi, whole_degrees
+from crankwork.note.math import RESULT_DIGITS, enough_digits, formula_box, is_exact_pi, whole_degrees
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
 from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
@@ -73,7 +73,7 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     block = block if isinstance(block.step, Formula) else replace(block, step=without_noise(block.step))
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []
-    for part in (*_definition(block, language), *_parts(block.step, language)):
+    for part in (*_definition(block, language), *_parts(block.step, language, block.digits)):
         if parts and isinstance(part, Row) and Row(part.parts[:-2]) == row(parts[-1]):
             # the same number follows with its unit
             parts.pop()
@@ -82,7 +82,7 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     lines = list(_lines(left, parts, limit))
     if block.area:
         symbol, value, unit = _per_area(block, language)
-        lines += _lines(symbol_box(symbol), [value_box(value, unit, language)], limit)
+        lines += _lines(symbol_box(symbol), [value_box(value, unit, language, block.digits)], limit)
     return PrintedEquation(tuple(lines), _plain(block, language))
 
 
@@ -176,7 +176,7 @@ def _definition(block: Equation, language: Language) -> tuple[Box, ...]:
     return () if box is None else (box,)
 
 
-def _parts(step: Line | Formula, language: Language) -> Iterator[Box]:
+def _parts(step: Line | Formula, language: Language, least: int) -> Iterator[Box]:
     """Yield the boxes between the equal signs."""
     match step:
         case Formula():
@@ -184,19 +184,18 @@ def _parts(step: Line | Formula, language: Language) -> Iterator[Box]:
             return
         case FormulaLine(values=values):
             yield formula_box(step.expression, None, language, symbols=_symbols(step, language))
-            yield formula_box(
-                step.expression, values, language, digits=enough_digits(step), symbols=_symbols(step, language)
-            )
+            digits = enough_digits(step, least)
+            yield formula_box(step.expression, values, language, digits=digits, symbols=_symbols(step, language))
         case DelayedLine(of=column, degrees=degrees):
             yield row(symbol_box(value_symbol(column, language)), Fence(value_box(degrees, "deg", language)))
         case SumLine(terms=terms):
             if len(terms) <= _MANY:
                 yield _sum_of_symbols(step, language)
             if len(terms) > 1:
-                digits = enough_digits(step)
+                digits = enough_digits(step, least)
                 yield _joined([number_box(term.value, language, digits)[0] for term in terms])
     for value, unit in distinct_values(step):
-        yield value_box(value, unit, language)
+        yield value_box(value, unit, language, least)
 
 
 def _sum_of_symbols(step: SumLine, language: Language) -> Box:
@@ -255,19 +254,19 @@ def _same_dimension(first: str, second: str) -> bool:
     return first == second or (first in UNITS and second in UNITS and UNITS[first].dimension == UNITS[second].dimension)
 
 
-def value_box(value: float, unit: str, language: Language) -> Box:
+def value_box(value: float, unit: str, language: Language, digits: int = RESULT_DIGITS) -> Box:
     """Return a number with its unit."""
-    box, _ = number_box(value, language)
+    box, _ = number_box(value, language, digits)
     name = printed_unit(unit, language)
     if not name:
         return box
     return row(box, *([] if name in _TIGHT_UNITS else [SPACE]), Upright(name))
 
 
-def value_text(value: float, unit: str, language: Language) -> str:
+def value_text(value: float, unit: str, language: Language, digits: int = RESULT_DIGITS) -> str:
     """Return a number with its unit as text."""
     name = printed_unit(unit, language)
-    return number(value, language) + ("" if not name or name in _TIGHT_UNITS else "\u00a0") + name
+    return number(value, language, digits=digits) + ("" if not name or name in _TIGHT_UNITS else "\u00a0") + name
 
 
 def _plain(block: Equation, language: Language) -> str:
@@ -278,19 +277,21 @@ def _plain(block: Equation, language: Language) -> str:
         parts += [part for part in (definition_text(block.defined, language),) if part]
     if isinstance(step, Formula):
         return " = ".join([*parts, text(record(step.shown), None, language)])
-    equation = " = ".join([*parts, *line_parts(step, language)])
+    equation = " = ".join([*parts, *line_parts(step, language, least=block.digits)])
     if not block.area:
         return equation
     symbol, value, unit = _per_area(block, language)
-    return f"{equation}; {symbol} = {value_text(value, unit, language)}"
+    return f"{equation}; {symbol} = {value_text(value, unit, language, block.digits)}"
 
 
-def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = MappingProxyType({})) -> list[str]:
+def line_parts(
+    step: Line, language: Language, symbols: Mapping[str, str] = MappingProxyType({}), *, least: int = RESULT_DIGITS
+) -> list[str]:
     """Return the parts of a line between the equal signs, as text: symbols, numbers, values with units.
 
-    `symbols`: those that stand for some operands here, by argument name, or by key in a sum.
+    `symbols`: those that stand for some operands here, by argument name, or by key in a sum; `least`: digits of values.
     """
-    parts, digits = [], enough_digits(step)
+    parts, digits = [], enough_digits(step, least)
     if isinstance(step, FormulaLine):
         put_in = {name: value for name, value in step.values.items() if not is_exact_pi(name, value)}
         printed = {name: number(value, language, digits=digits) for name, value in put_in.items()}
@@ -303,10 +304,10 @@ def line_parts(step: Line, language: Language, symbols: Mapping[str, str] = Mapp
         names = [symbols.get(term.key) or value_symbol(term.key, language) for term in step.terms]
         numbers = [number(term.value, language, digits=digits) for term in step.terms]
         parts = [" + ".join(names), " + ".join([numbers[0], *map(_fenced, numbers[1:])])]
-    while parts and parts[-1] == number(step.value, language):
+    while parts and parts[-1] == number(step.value, language, digits=least):
         # the same number follows with its unit
         parts.pop()
-    parts += [value_text(value, unit, language) for value, unit in distinct_values(step)]
+    parts += [value_text(value, unit, language, least) for value, unit in distinct_values(step)]
     return [part for index, part in enumerate(parts) if not index or part != parts[index - 1]]
 
 
@@ -321,14 +322,3 @@ def _angles(step: FormulaLine, language: Language) -> dict[str, str]:
 
 def _fenced(printed: str) -> str:
     return f"({printed})" if printed.startswith("−") else printed
-
-
-def legend_rows(block: Equation, language: Language) -> list[tuple[str, Box, str]]:
-    """Return the lines of a legend: the word before the first, the symbol, and what follows it with its stop."""
-    ends = [";"] * (len(block.legend) - 1) + ["."]
-    rows = []
-    for k, (entry, end) in enumerate(zip(block.legend, ends, strict=True) if block.legend else ()):
-        rows.append(
-            (translate("note.where", language) if k == 0 else "", symbol_box(entry.symbol), f" – {entry.text}{end}")
-        )
-    return rows

@@ -25,6 +25,7 @@ from crankwork.note.parts import (
     When,
     amount,
     every,
+    full,
     has,
     lacks,
     machine_has,
@@ -51,7 +52,9 @@ def _by_methods(material: Material) -> Iterator[Block]:
     words, summary, lines, last = material.words, material.results.summary, material.lines("flywheel"), ""
     methods = [key_of(key).owner for key in summary if key.startswith("flywheel_inertia.")]
     marks = _marks(methods, material)
-    for line in lines:
+    # where all is not shown, the way that leaves nothing out
+    shown_lines = lines if material.full else [line for line in lines if "exact" in line.key.split(".")]
+    for line in shown_lines:
         method = next((name for name in methods if name in line.key.split(".")), last or methods[0])
         if method != last and line.key not in _OF_ALL:
             yield Paragraph((Bold(capital(words.way(method))), ":"))
@@ -123,7 +126,7 @@ SECTIONS = (
         When(every(_is_wanted, has("flywheel_inertia.exact")), _FOUND),
         When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),
         When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _OF_ENERGY_AND_SPEED),)),)),
-        When(_is_alone, HARMONICS),
+        When(every(full, _is_alone), HARMONICS),
     ), has("piston_displacement", "excess_work")),
     Section("energy", (
         Head("energy_extremes"),

@@ -26,6 +26,7 @@ from crankwork.note.parts import (
     driven,
     either,
     every,
+    full,
     works,
 )
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
@@ -102,6 +103,8 @@ def _lever(material: Material) -> Iterator[Block]:
         routes, gaps = {name: printed[key] for name, key in zip(routes, of_routes, strict=True)}, np.zeros_like(gaps)
     largest = words.number(100.0 * float(np.max(gaps, initial=0.0)), digits=2)
     yield words.paragraph("lever", source=Citation(_WORK), difference=largest)
+    if not material.full:
+        return
     shown = [_route(name, values, material) for name, values in routes.items()]
     percent = [words.number(difference, digits=2) for difference in (100.0 * gaps).tolist()]
     shown.append(Column((words.column("difference"),), percent))
@@ -136,7 +139,7 @@ SECTIONS = (
         Head("dynamics"), Head("masses", 2), _masses,
         When(works("forces"), (
             Head("forces", 2), *_WORKED, _per_area, Shown(("piston_forces",), (Over("along", _along),)), _ON_CRANKPIN,
-            Head("extremes", 2), _OF_FORCES, _OF_POWER,
+            When(full, (Head("extremes", 2), _OF_FORCES)), _OF_POWER,
         )),
     ), either(works("masses"), works("forces"))),
     Section("inertia", (

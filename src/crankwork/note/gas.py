@@ -28,6 +28,7 @@ from crankwork.note.parts import (
     Shown,
     Text,
     When,
+    full,
     machine_has,
 )
 from crankwork.note.printed_units import printed_unit
@@ -96,6 +97,10 @@ _SINGLE = (
 )  # fmt: skip
 
 
+# amounts of gases, their heats and the balance of them, which the full note has
+_OF_CHEMISTRY = (
+    "air_", "fresh_charge_", "product_", "molar_", "heat_", "mixture_", "working_mixture_", "combustion_energy",
+)  # fmt: skip
 # what varies with the crank angle or stands among the data of the machine
 _ELSEWHERE = (
     "crank_angle", "cylinder_pressure", "cylinder_temperature", "cylinder_volume", "piston_displacement",
@@ -119,6 +124,17 @@ def _cycle(material: Material) -> Iterator[Block]:
         yield words.paragraph("cycle_data", table=Reference("t:cycle_data"))
         yield value_table("cycle_data", rows, words)
     yield words.paragraph("cycle")
+    if not material.full:
+        yield from material.equations("cycle")
+        left = [line.key for line in steps if line.key in material.summary and not material.is_shown(line.key)]
+        left = [key for key in left if not key.startswith(_OF_CHEMISTRY)]
+        yield words.paragraph("cycle_results", table=Reference("t:cycle_results"))
+        yield value_table(
+            "cycle_results",
+            [value_row(key, material.summary[key], words, digits=material.digits) for key in left],
+            words,
+        )
+        return
     for stage, lines in _staged(steps).items():
         equations = material.worked(lines)
         if equations:
@@ -324,9 +340,9 @@ _OF_DELIVERY = Lines("delivery", intro="delivery", source=_DELIVERED)
 SECTIONS = (
     Section("cycle", (Head("cycle"), _cycle), lambda material: bool(material.cycle)),
     Section("indicator", (
-        Head("indicator"), _measured, Lines("gas", intro="volumes"), _polytropes,
+        Head("indicator"), _measured, Lines("gas", intro="volumes"), When(full, (_polytropes,)),
         When(_is_absolute, (Text("absolute"),)),
-        Shown(("indicator", "pressure"), (_points, _laws)),
+        Shown(("indicator", "pressure"), (_points, lambda material: _laws(material) if material.full else None)),
         Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"), _OF_DELIVERY,
         When(lambda material: any(key.startswith("inlet_flow.") for key in material.summary), (
             Text("delivery_of_all"),

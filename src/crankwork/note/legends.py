@@ -1,15 +1,15 @@
-"""Meanings of the symbols of a formula: the lines below an equation, after "where"."""
+"""Meanings of the symbols of formulas."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
 
 from crankwork.formula.calculation_lines import FormulaLine, symbols_of
 from crankwork.formula.expression import Formula, record, symbol
 from crankwork.locale import has_text, translate
 from crankwork.notation import ARGUMENTS, Argument, argument_unit
-from crankwork.note.document import Block, Equation, Explanation
+from crankwork.note.document import Block, Equation
 from crankwork.note.equations import equation_symbol, own_key, value_symbol
 from crankwork.note.printed_units import printed_unit
 from crankwork.quantities import QUANTITIES, Language, base_key
@@ -30,11 +30,17 @@ _DERIVED = {
 _NAMED_ONLY = Argument("")
 
 
-def legend(
-    step: FormulaLine | Formula, language: Language, known: frozenset[str] = frozenset()
-) -> tuple[Explanation, ...]:
+class Meaning(NamedTuple):
+    """A symbol and what it stands for, with its unit after a comma if it has one."""
+
+    symbol: str
+    text: str
+    is_derived: bool = False  # Whether it is told by what it is made of, for want of a name
+
+
+def legend(step: FormulaLine | Formula, language: Language, known: frozenset[str] = frozenset()) -> tuple[Meaning, ...]:
     """Return the meanings of the symbols of a formula, each with the unit in which the formula takes it."""
-    explanations: dict[str, Explanation] = {}
+    explanations: dict[str, Meaning] = {}
     named = dict(step.named) if isinstance(step, FormulaLine) else {}
     for name in _arguments(step):
         entry = ARGUMENTS.get(name, _NAMED_ONLY)
@@ -44,38 +50,39 @@ def legend(
             if key in known or key in explanations:
                 continue
             if key == f"argument:{name}":
-                shown = symbol(name, language)
-                if not any(given in QUANTITIES and QUANTITIES[given].symbol(language) == shown for given in known):
-                    explanations[key] = Explanation(shown, words_of(name, language) + after)
+                derived = not has_text(f"arguments.{name}")
+                explanations[key] = Meaning(symbol(name, language), words_of(name, language) + after, derived)
             else:
                 own = entry.pattern == "{}" or name in named
                 meaning = _meaning(key, language)
                 # some names of quantities end in their unit
                 shown = value_symbol(own_key(named.get(name, key)), language)
-                explanations[key] = Explanation(shown, meaning.removesuffix(after) + after * own)
+                explanations[key] = Meaning(shown, meaning.removesuffix(after) + after * own)
     return tuple(explanations.values())
 
 
-def explained(blocks: Iterable[Block], language: Language, *, with_results: bool = False) -> Iterator[Block]:
-    """Yield blocks, where each equation explains the symbols that come for the first time.
+def meanings(blocks: Iterable[Block], language: Language) -> list[Meaning]:
+    """Return the meanings of all symbols of equations, each once, in alphabetical order.
 
-    `with_results`: also the symbol on the left.
+    A symbol that stands for two things, as some letters of a school do, is there with both.
     """
+    collected: dict[Meaning, None] = {}
     known: set[str] = set()
     for block in blocks:
         if not isinstance(block, Equation):
-            yield block
             continue
         step = block.step
-        left = "" if isinstance(step, Formula) or not with_results else key_of(step.key).quantity
-        own: tuple[Explanation, ...] = ()
+        left = "" if isinstance(step, Formula) else key_of(step.key).quantity
         if left in QUANTITIES and left not in known:
-            own = (Explanation(block.symbol or equation_symbol(step, language), label(left, language)),)
+            own = block.symbol or equation_symbol(step, language)
+            collected[Meaning(own, label(left, language))] = None
             known.add(left)
         if isinstance(step, FormulaLine | Formula):
-            own += legend(step, language, frozenset(known))
+            collected |= dict.fromkeys(legend(step, language, frozenset(known)))
             known |= explained_keys(step)
-        yield replace(block, legend=own)
+    named = {meaning.symbol for meaning in collected if not meaning.is_derived}
+    shown = (meaning for meaning in collected if not (meaning.is_derived and meaning.symbol in named))
+    return sorted(shown, key=lambda meaning: (meaning.symbol.casefold(), meaning.symbol))
 
 
 def _unit(name: str, key: str) -> str:

@@ -22,6 +22,7 @@ from crankwork.mechanism.structure import Structure, structure
 from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Runs, Table, listed
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
+from crankwork.note.readings import reading
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area, key_unit, label
@@ -36,11 +37,42 @@ _CONSTRUCTED = (
     "position_plans", "velocity_plan", "acceleration_plan", "force_plans", "zhukovsky_lever", "centrodes",
     "wittenbauer",
 )  # fmt: skip
+# what a note shows the formula of when it is not to show all
+_ESSENTIAL = frozenset((
+    "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",
+    "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure",
+    "compression_temperature", "combustion_celsius", "combustion_pressure", "expansion_pressure",
+    "expansion_temperature", "theoretical_mean_pressure", "indicated_mean_pressure", "effective_mean_pressure",
+    "effective_power", "effective_torque", "burnt_fraction", "pressure_rise", "swept_volume", "clearance_volume",
+    "indicated_work", "indicated_power", "reciprocating_mass", "rotating_mass", "gas_force", "inertia_force",
+    "piston_force", "side_force", "rod_force", "radial_force", "tangential_force", "crank_torque", "total_torque",
+    "mean_total_torque", "mean_driving_torque", "mean_torque", "firing_interval", "crankpin_radial_force",
+    "crankpin_tangential_force", "crankpin_load", "mean_crankpin_load", "main_journal_load", "bearing_pressure_max",
+    "order_inertia_force", "free_force", "free_moment", "counterweight_moment", "excess_work", "flywheel_inertia",
+    "speed_fluctuation", "point_x", "point_y", "point_velocity", "point_acceleration", "link_angle",
+    "link_angular_velocity", "link_angular_acceleration", "slider_displacement", "slider_velocity",
+    "slider_acceleration", "link_inertia_force", "link_inertia_torque", "joint_force", "normal_force", "driver_force",
+    "driver_displacement", "driver_velocity", "reduced_inertia", "reduced_inertia_1", "reduced_torque",
+    "static_torque", "dynamic_torque", "balancing_torque", "driving_torque", "shaking_force", "motor_power",
+    "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle", "turning_moment", "stroke_work",
+    "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
+))  # fmt: skip
+# significant digits of the values of a note that does not show all
+_DIGITS = 4
 # sentences that refer to one of a kind, and to several
 _SEE = {
     "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
     "figure": ("see_figure", "see_figures"),
 }  # fmt: skip
+# figures of a note that does not show all, and those that a school asks for beside them
+_MAIN_FIGURES = frozenset((
+    "kinematics", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar", "crankpin_wear",
+    "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan", "acceleration_plan",
+    "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison", "turning_moment",
+    "driver", "chambers", "speed",
+))  # fmt: skip
+_OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
+              "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
@@ -70,6 +102,16 @@ class Material:
     def machine(self) -> Machine:
         """The machine."""
         return self.results.machine
+
+    @property
+    def full(self) -> bool:
+        """Whether every formula is shown, and tables have the step of the machine."""
+        return self.options.full
+
+    @property
+    def digits(self) -> int:
+        """Significant digits of values."""
+        return 6 if self.full else _DIGITS
 
     @property
     def order(self) -> str:
@@ -173,7 +215,10 @@ class Material:
         selected = self.lines(group, *kinds)
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
-        return self.worked(_first(selected) if first else selected)
+        if not self.full:
+            selected = [row for row in selected if _kind(row) in _ESSENTIAL]
+        # of families, such as the journals of a shaft, a table has the others
+        return self.worked(_first(selected) if first or self.has_piston or not self.full else selected)
 
     def worked(
         self, lines: Iterable[Line], marks: Mapping[str, str] | None = None, *, again: bool = False
@@ -195,7 +240,7 @@ class Material:
             defined = line.key if isinstance(line, ValueLine) and self.has_piston and not again else ""
             area = self.summary["piston_area"] if self.per_area and is_per_area(line.key) else 0.0
             symbol = (marks or {}).get(line.key) or self.words.symbol(line.key)
-            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area))
+            blocks.append(Equation(line, symbol=symbol, defined=defined, area=area, digits=self.digits))
             self._keys.add(line.key)
             self._formulas.add(_formula_name(line))
         return blocks
@@ -243,8 +288,15 @@ class Material:
         """Yield tables and figures after sentences that refer to them by number; `names`: kinds of figures."""
         shown_tables = [table for table in tables if table is not None]
         drawn = [
-            name for kind in names for name in self.drawn if kind_of(name) == kind and name not in self._shown_figures
+            name
+            for kind in names
+            for name in self.drawn
+            if kind_of(name) == kind and name not in self._shown_figures and (self.full or kind in self._figures)
         ]
+        if not self.full:
+            # of crankpins that differ the first
+            of_pins = [name for name in drawn if kind_of(name) in _OF_CRANKPINS]
+            drawn = [name for name in drawn if name not in of_pins or name == of_pins[0]]
         labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
         for name in drawn:
             labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
@@ -256,8 +308,17 @@ class Material:
                 sentences += [" ", *sentence] if sentences else sentence
         if sentences:
             yield Paragraph(tuple(sentences))
+        for name in drawn:
+            yield self._figure(name)
+            read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
+            if read is not None:
+                yield read
         yield from shown_tables
-        yield from map(self._figure, drawn)
+
+    @cached_property
+    def _figures(self) -> frozenset[str]:
+        """Kinds of figures that a note shows when it is not to show all."""
+        return _MAIN_FIGURES | _OF_SCHOOL.get(self.order, frozenset())
 
     def remaining_figures(self) -> list[str]:
         """Return the names of figures that no section has shown."""
@@ -271,9 +332,7 @@ class Material:
         if not self.has_engine:
             lines = [line for line in lines if not line.key.startswith(_OF_ENGINES)]
         return self.worked(
-            line
-            for line in lines
-            if line.key not in self._keys and (line.key in self.summary or _formula_name(line) not in self._formulas)
+            line for line in lines if line.key not in self._keys and _formula_name(line) not in self._formulas
         )
 
     def _title(self, name: str) -> str:

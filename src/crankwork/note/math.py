@@ -197,25 +197,26 @@ def _function(function: Any, operands: tuple[Expression, ...], printing: _Printi
     return Apply(Upright(function_name(function, printing.language)), Fence(row(*inside))), _POWER
 
 
-def enough_digits(step: Line) -> int:
-    """Return the significant digits of the numbers put in: six, and more where the value needs them.
+def enough_digits(step: Line, least: int = RESULT_DIGITS) -> int:
+    """Return the significant digits of the numbers put in: those of the value, and more where it needs them.
 
     Put in as printed they give the printed value within two units of its last place; where no digits do, as in a
     difference of equal numbers, within two units of the last place of the largest term.
     """
-    printed = as_printed(step.value)
+    printed = as_printed(step.value, least)
     if isinstance(step, ValueLine | DelayedLine):
-        return RESULT_DIGITS
+        return least
     reached = []
-    for digits in range(RESULT_DIGITS, _MOST_DIGITS + 1):
+    for digits in range(least, _MOST_DIGITS + 1):
         terms = _terms(step, digits)
         if not all(map(math.isfinite, terms)):
-            return RESULT_DIGITS
+            return least
         missed = abs(sum(terms) - printed)
-        if missed <= _UNITS * last_place(printed):
+        if missed <= _UNITS * last_place(printed, least):
             return digits
         reached.append((digits, missed, max(map(abs, (*terms, printed)))))
-    return next((digits for digits, missed, largest in reached if missed <= _UNITS * last_place(largest)), _MOST_DIGITS)
+    sufficient = (digits for digits, missed, largest in reached if missed <= _UNITS * last_place(largest, least))
+    return next(sufficient, _MOST_DIGITS)
 
 
 def _terms(step: FormulaLine | SumLine, digits: int) -> list[float]:
@@ -269,13 +270,13 @@ def is_exact_pi(name: str, value: float) -> bool:
     return name == "pi" and value == math.pi
 
 
-def as_printed(value: float, digits: int = RESULT_DIGITS) -> float:
+def as_printed(value: float, digits: int) -> float:
     """Return a number as it is read when printed with some significant digits."""
     return float(f"{value:.{digits}g}")
 
 
-def last_place(value: float) -> float:
+def last_place(value: float, digits: int) -> float:
     """Return one unit of the last place of a printed number."""
     if not value or not math.isfinite(value):
         return 0.0
-    return float(10.0 ** (math.floor(math.log10(abs(value))) - RESULT_DIGITS + 1))
+    return float(10.0 ** (math.floor(math.log10(abs(value))) - digits + 1))

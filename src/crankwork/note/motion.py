@@ -24,6 +24,7 @@ from crankwork.note.parts import (
     draws,
     driven,
     every,
+    full,
     has,
 )
 from crankwork.note.tables import Column, tabulated
@@ -91,7 +92,7 @@ _MOST = ("piston_velocity_max_angle", "piston_velocity_max", "piston_velocity_mi
 _OF_RODS = Over("rod", _ROD, one_turn=True)
 _REPEATS, _EXTREMES = Text("repeats"), Lines("extremes", intro="extremes")
 # where links turn about that have no fixed pivot
-_INSTANT_CENTRES = When(lambda material: bool(material.of_axes("instant_centre")), (
+_INSTANT_CENTRES = When(lambda material: material.full and bool(material.of_axes("instant_centre")), (
     Head("instant_centres", 2), Text("instant_centres", {"source": Citation(_CENTRES)}), At("instant_centres"),
     Lines("instant_centres"), Places("instant_centres", _centres),
 ))  # fmt: skip
@@ -100,9 +101,11 @@ SECTIONS = (
     # displacement, velocity and acceleration in one
     Section("kinematics", (
         Head("kinematics"), At("motion"), Lines("motion"),
-        Head("harmonics", 2), Lines("harmonics", intro="orders"), Head("extremes", 2), _EXTREMES, _REPEATS,
+        When(full, (Head("harmonics", 2), Lines("harmonics", intro="orders"), Head("extremes", 2), _EXTREMES)),
+        _REPEATS,
         Shown(("kinematics", "brix", "tolle"), (
-            Over("motion", tuple(key for noun in _NOUNS for key in (*_orders(noun), noun)), one_turn=True), _OF_RODS,
+            Over("motion", tuple(key for noun in _NOUNS for key in (*_orders(noun), noun)), one_turn=True),
+            lambda material: _OF_RODS(material) if material.full else None,
         )),
         _largest_errors,
     ), has("piston_displacement")),
@@ -130,8 +133,9 @@ SECTIONS = (
     ), every(drawn, driven)),
     Section("kinematics", (
         Head("linkage_kinematics"), Head("plans", 2), Text("positions"), Shown(("position_plans",)),
-        Places("positions", _positions), Head("transfer", 2), Text("transfer", {"source": Citation(_POSITIONS)}),
-        _transfer, Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion"),
+        Places("positions", _positions), When(full, (
+            Head("transfer", 2), Text("transfer", {"source": Citation(_POSITIONS)}), _transfer,
+        )), Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion"),
         Places("velocities", _MOVING), Places("accelerations", (*_ACCELERATING, "coriolis_acceleration")),
         _INSTANT_CENTRES, Shown(("centrodes", "points", "links")),
         When(lambda material: bool(material.drawn), (

@@ -61,7 +61,7 @@ class Numbering(NamedTuple):
 
     def mark(self, block: Equation, number: str, between: str = "\u2002") -> str:
         """Return the source and the number of an equation, printed beside it."""
-        source = equation_source(block)
+        source = equation_source(block) if block.cites else ""
         return between.join(([self.citation(source)] if source else []) + ([f"({number})"] if number else []))
 
 

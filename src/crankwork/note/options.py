@@ -24,6 +24,8 @@ class NoteOptions:
         Instead of the title of the machine.
     author : str
         Who hands it in.
+    full : bool
+        Every formula, and the tables at their own step, as a school requires; else the main course alone.
     figures : bool
         Draw figures.
     sheets : bool
@@ -39,6 +41,7 @@ class NoteOptions:
     per_area: bool = False
     title: str = ""
     author: str = ""
+    full: bool = False
     figures: bool = True
     sheets: bool = False
     paper: Literal["A0", "A1", "A2", "A3"] = "A1"

@@ -171,6 +171,11 @@ class Section:
     when: Condition = always
 
 
+def full(material: Material) -> bool:
+    """Return whether a note is to show everything."""
+    return material.full
+
+
 def has(*keys: str) -> Condition:
     """Return the condition that results have a column, single value, table or listing of each name."""
     return lambda material: all(map(material.has, keys))

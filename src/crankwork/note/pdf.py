@@ -32,7 +32,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.equations import formula_of, legend_rows, line_parts, printed_equation
+from crankwork.note.equations import formula_of, line_parts, printed_equation
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright, width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, numbering
@@ -46,27 +46,30 @@ from crankwork.sources import cite
 _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.DOTALL)
 _SETTINGS = """
 #set page(paper: "a4", margin: (left: 25mm, right: 15mm, top: 20mm, bottom: 20mm), numbering: "1")
-#set text(font: "Libertinus Serif", size: 12pt, hyphenate: true)
-#set par(leading: 0.78em, spacing: 0.95em, justify: true)
+#set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
+#set par(leading: 0.68em, spacing: 0.85em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
 #show heading: set block(above: 1.5em, below: 0.9em, sticky: true)
 #show heading: set par(justify: false)
-#show heading.where(level: 1): set text(size: 15pt)
-#show heading.where(level: 2): set text(size: 13pt)
-#show heading.where(level: 3): set text(size: 12pt)
-#set table(stroke: 0.4pt + black, inset: (x: 4pt, y: 3.2pt))
+#show heading.where(level: 1): set text(size: 14pt)
+#show heading.where(level: 2): set text(size: 12pt)
+#show heading.where(level: 3): set text(size: 11pt)
+#set table(inset: (x: 4pt, y: 2.6pt))
+#let ruled(head) = (_, y) => if y == head {
+  (top: 0.7pt + black, bottom: 0.5pt + black)
+} else if y > head { (bottom: 0.3pt + luma(70%)) }
 #set list(marker: [–])
 #let fitted(line) = layout(size => {
   let wide = measure(line).width
   if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
 })
-#let lines(number, ..all) = block(width: 100%, breakable: false, above: 1.1em, below: 1.1em, grid(
+#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.85em, below: 0.85em, grid(
   columns: (1fr, auto), column-gutter: 0.8em,
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
   grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
 ))
-#let drawing(body, words) = figure(
-  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: auto,
+#let drawing(body, words, place) = figure(
+  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: place,
 )
 #set page(foreground: context {
   let begun = ()
@@ -83,10 +86,12 @@ _SETTINGS = """
 #let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
 """
 _TOGETHER = 16
+# of drawings, whose letters are then 8 pt
+_REDUCED = 0.87
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
 # height of a line of a table [em], and what is free above and below it [pt]
-_LINE, _INSET = 0.66, 3.2
+_LINE, _INSET = 0.66, 2.6
 # a word that may be wider than a column of the cover
 _LONG_WORD = re.compile(r"\S{28,}")
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
@@ -197,12 +202,6 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
         set_line = f"math.equation(block: true, alt: {words}, $ {typst_box(line)} $)"
         drawn.append(f"fitted({set_line})" if width(line) > free else set_line)
     yield f"#lines({typst_string(mark)}, {', '.join(drawn)})"
-    if block.legend:
-        cells = ", ".join(
-            f"{typst_string(where)}, [{_math(box, entry.symbol)}#{typst_string(words)}]"
-            for (where, box, words), entry in zip(legend_rows(block, numbers.language), block.legend, strict=True)
-        )
-        yield f"#block(breakable: false, grid(columns: 2, column-gutter: 0.6em, row-gutter: 0.7em, {cells}))"
 
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
@@ -222,9 +221,10 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     )
     again = "" if is_whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
+    columns = _columns(block, size, marked=not is_whole)
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table({_columns(block, size, marked=not is_whole)}, align: ({align},), {header},\n{rows}))\n}}"
+        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_whole)}), {header},\n{rows}))\n}}"
     )
     if is_whole:
         yield "]"
@@ -261,14 +261,14 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
 
 def _figure(block: Figure, number: str, language: Language) -> str:
-    width = block.drawing.width / MM
+    width = _REDUCED * block.drawing.width / MM
     data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     words = typst_string(caption("figure", number, block.caption, language))
     image = (
         f'layout(size => image(bytes("{data}"), format: "svg", alt: {typst_string(block.alt)}, '
         f"width: calc.min({width:.2f}pt, size.width)))"
     )
-    return f"#drawing({image}, {words})"
+    return f"#drawing({image}, {words}, {'auto' if block.floats else 'none'})"
 
 
 def _breakable(text: str) -> str:
@@ -278,12 +278,16 @@ def _breakable(text: str) -> str:
 
 def _title_page(page: TitlePage, note: Note) -> str:
     """Return the cover: whose it is at the head, the title in the middle, people below, place and year at the foot."""
-    small = 0.62 if page.is_crowded else 1.0
+    small = 0.62 if page.is_crowded else 0.8 if page.is_plain else 1.0
 
     def lines(texts: tuple[str, ...], size: float, weight: int = 400) -> str:
         boxes = ", ".join(f"text(size: {size * small:.1f}pt, weight: {weight}, {_breakable(entry)})" for entry in texts)
         return f"#stack(spacing: {0.9 * small:.2f}em, {boxes})\n" if texts else ""
 
+    if page.is_plain:
+        people_line = tuple(", ".join(person.names) for person in page.people)
+        title = f"{lines((note.headline,), 20, 700)}{lines(page.below, 14)}{lines(people_line, 14)}"
+        return f"#align(center, block(below: 1.6em)[#set par(justify: false)\n{title}])"
     # the strokes of signatures stand under names that are written by hand
     sign = "box(width: 32mm, height: 0.9em, stroke: (bottom: 0.4pt))"
     people = ", ".join(

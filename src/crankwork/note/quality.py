@@ -88,7 +88,8 @@ def _transmission(material: Material) -> Iterator[Block]:
     if named(columns, "pressure_angle"):
         yield words.paragraph("pressure", source=Citation(_SOURCE), limit=words.number(USUAL_PRESSURE) + "°")
     yield from _worst(material)
-    yield from tabulated(material, "transmission_angles", keys)
+    if material.full:
+        yield from tabulated(material, "transmission_angles", keys)
 
 
 def _worst(material: Material) -> Iterator[Block]:
@@ -98,7 +99,7 @@ def _worst(material: Material) -> Iterator[Block]:
     if not extremes:
         return
     yield words.paragraph("worst_angles")
-    for key, extreme in extremes:
+    for key, extreme in extremes if material.full else ():
         if extreme is not None:
             symbol, place, unit = words.place(extreme.at)
             name, value = key_of(key).owner, _with_unit(place, unit, words)

@@ -31,8 +31,10 @@ from crankwork.note.captions import printed_date
 from crankwork.note.document import (
     Block,
     Contents,
+    Equation,
     Heading,
     ItemList,
+    Math,
     Note,
     PageBreak,
     Paragraph,
@@ -40,10 +42,12 @@ from crankwork.note.document import (
     Reference,
     TitlePage,
 )
-from crankwork.note.legends import explained
+from crankwork.note.legends import meanings
 from crankwork.note.material import Material
+from crankwork.note.numbering import equation_source
 from crankwork.note.options import NoteOptions
 from crankwork.note.parts import Section, written
+from crankwork.note.tables import symbol_table
 
 # headings of contents that fill a page to more than three fifths
 _OWN_PAGE = 24
@@ -58,25 +62,24 @@ _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 # sections in the order of a school; those that results have nothing for are left out
 _LINKAGE = (
-    "task", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics", "quality", "chambers",
-    "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor", "flywheel",
-    "law_of_motion", "transient", "comparison", "checks", "conclusion", "sources", "appendix",
+    "summary", "task", "structure", "static", "dynamic", "driving", "moments", "energy", "kinematics", "quality",
+    "chambers", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor", "flywheel",
+    "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
 )  # fmt: skip
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
-        "preface", "data", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains", "balance",
-        "evenness", "comparison", "checks", "conclusion", "sources", "appendix",
+        "summary", "data", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains", "balance",
+        "evenness", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
-        "preface", "data", "cycle", "indicator", "displacement", "velocity", "acceleration", "inertia",
+        "summary", "data", "cycle", "indicator", "displacement", "velocity", "acceleration", "inertia",
         "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "comparison", "checks",
-        "conclusion", "sources", "appendix",
+        "conclusion", "nomenclature", "sources", "appendix",
     ),
-    # engineers who read English want the results before the way to them
     "en": (
-        "data", "method", "conclusion", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains",
-        "balance", "evenness", "comparison", "checks", "sources", "appendix",
+        "summary", "data", "method", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains",
+        "balance", "evenness", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
     ),
 }  # fmt: skip
 # every section of a note; of several with one name the first whose condition holds
@@ -95,16 +98,13 @@ def sections_of(material: Material) -> dict[str, Section]:
 def _order(material: Material) -> tuple[str, ...]:
     if material.has_piston:
         return _CRANK_GEAR[material.order]
-    # a table of transfer functions and the torques on a shaft are told in the order of the calculation
-    if material.order != "en" or material.machine.linkage is None or material.words.period:
-        return _LINKAGE
-    return ("task", "conclusion", *(name for name in _LINKAGE if name not in ("task", "conclusion")))
+    return _LINKAGE
 
 
 def note_of_sections(results: Results, options: NoteOptions) -> Note:
     """Return the note of a machine behind its cover and contents: sections of its school, or those that it names.
 
-    What a note cites stands in its list of sources, which is always there.
+    What a note cites stands in its list of sources and its symbols in their own, which are always there.
     """
     if options.order not in _CRANK_GEAR:
         raise CrankworkError(f'no school of notes is called "{options.order}"; take en, ru or vi')
@@ -113,17 +113,20 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     if options.author.strip():
         document = replace(document, author=(options.author,))
     chosen = document.sections
-    if chosen and "sources" not in chosen:
-        chosen = (*chosen, "sources")
+    if chosen:
+        chosen = (*chosen, *(name for name in ("nomenclature", "sources") if name not in chosen))
     known = sections_of(material)
     parts = itertools.chain.from_iterable(known[name].parts for name in chosen or _order(material) if name in known)
-    blocks = tuple(explained(written(parts, material), options.language, with_results=material.has_piston))
+    blocks = tuple(_with_nomenclature(_cited_once(written(parts, material)), material))
     title, subtitle = _titles(material)
     # on a page of their own where they fill it: Typst then sets the rest once, not again with every page found
     listed = sum(isinstance(block, Heading) and block.level <= 2 for block in blocks)
-    front: list[Block] = [cover(document, options.language, words.title(subtitle)), Contents()]
-    if listed >= _OWN_PAGE:
-        front.append(PageBreak())
+    title_page = cover(document, options.language, words.title(subtitle))
+    front: list[Block] = [title_page]
+    if options.full or not title_page.is_plain:
+        front.append(Contents())
+        if listed >= _OWN_PAGE:
+            front.append(PageBreak())
     return Note(
         options.title or material.machine.title or words.title(title),
         options.language,
@@ -131,6 +134,28 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
         tuple(author for author in document.author if author.strip()),
         document.date,
     )
+
+
+def _cited_once(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Yield blocks, where each equation cites its source unless the one before from a source had the same."""
+    last = ""
+    for block in blocks:
+        source = equation_source(block) if isinstance(block, Equation) else ""
+        yield replace(block, cites=False) if isinstance(block, Equation) and source == last else block
+        last = source or last
+
+
+def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[Block]:
+    """Yield blocks, the symbols of all equations listed below the heading that stands for them."""
+    kept, words = list(blocks), material.words
+    listed = meanings(kept, words.language)
+    for block in kept:
+        if getattr(block, "label", "") != closing.NOMENCLATURE:
+            yield block
+        elif listed:
+            yield block
+            yield words.paragraph("symbols_listed", table=Reference("t:nomenclature"))
+            yield symbol_table([(Math(meaning.symbol), meaning.text) for meaning in listed], words)
 
 
 def _titles(material: Material) -> tuple[str, str]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork.analysis import Array
 from crankwork.locale import has_text
@@ -22,6 +23,8 @@ _LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10
 # columns of numbers beside position and crank angle that fit on a page
 _MOST = 9
 _TURN = 360.0
+# rows and steps of a short table
+_FEW, _STEPS = 13, 12
 
 
 class Column(NamedTuple):
@@ -61,6 +64,12 @@ def long_table(
     """Return a table over the crank angle with one row for each."""
     words, degrees = material.words, material.results.grid.degrees
     rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
+    if (
+        not material.full
+        and rows.sum() > _FEW
+        and (coarse := rows & _in_steps(degrees, float(degrees[rows][-1]))).any()
+    ):
+        rows = coarse
     columns = [
         quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key))
         for key in keys
@@ -72,10 +81,16 @@ def long_table(
     return column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
 
 
-def folded(table: Table) -> Table:
+def _in_steps(degrees: Array, end: float) -> NDArray[np.bool]:
+    """Return which angles stand in a short table: whole twelfths of all."""
+    steps = _STEPS * degrees / end
+    return np.isclose(steps, np.round(steps), atol=1e-9)
+
+
+def folded(table: Table, most: int = _MOST_PARTS) -> Table:
     """Return a long narrow table with its parts side by side; any other as it is."""
     count, rows = len(table.headings), list(table.rows)
-    parts = min(_MOST_COLUMNS // count, _MOST_PARTS)
+    parts = min(_MOST_COLUMNS // count, most)
     if len(rows) <= _LONG or parts == 1 or not parts:
         return table
     height = -(-len(rows) // parts)
@@ -127,12 +142,17 @@ def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words) ->
     return words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}")
 
 
-def value_row(key: str, value: float, words: Words, *, area: float | None = None) -> tuple[Cell, ...]:
+def symbol_table(meanings: Sequence[tuple[Cell, str]], words: Words) -> Table:
+    """Return the meanings of symbols."""
+    return folded(words.table("nomenclature", ("symbol", "meaning"), meanings, "ll", "t:nomenclature"), most=2)
+
+
+def value_row(key: str, value: float, words: Words, *, area: float | None = None, digits: int = 6) -> tuple[Cell, ...]:
     """Return name, symbol, value and unit of a single value."""
     return (
         label(key, words.language),
         Math(words.symbol(key)),
-        words.number(displayed(key, value, per_area=area)),
+        words.number(displayed(key, value, per_area=area), digits=digits),
         printed_unit(key_unit(key, per_area=area is not None), words.language) or "–",
     )
 

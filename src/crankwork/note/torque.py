@@ -24,6 +24,7 @@ from crankwork.note.parts import (
     draws,
     either,
     every,
+    full,
     has,
     lacks,
     machine_has,
@@ -62,7 +63,8 @@ def _losses(material: Material) -> Iterator[Block]:
     yield words.paragraph("efficiency", source=Citation(_EFFICIENCY), value=words.number(drive.efficiency))
     # what the chain comes to before it is rounded is the efficiency as well
     marks = {"efficiency.exact": words.symbol("efficiency")}
-    yield from material.worked(material.lines("efficiency"), marks)
+    lines = material.lines("efficiency")
+    yield from material.worked(lines if material.full else lines[-1:], marks)
     if drive.exact_efficiency is not None:
         used, exact = words.number(drive.efficiency), words.number(drive.exact_efficiency)
         yield words.paragraph("efficiency_rounded", used=used, exact=exact)
@@ -138,7 +140,7 @@ SECTIONS = (
             Shown(("total_torque",)),
             When(draws("torque"), (Text("see_figure", {"figures": Reference("f:torque")}),)),
         )),
-        When(_SEVERAL, HARMONICS),
+        When(every(full, _SEVERAL), HARMONICS),
     ), every(has("total_torque_max"), either(_SEVERAL, every(_ONE, school("vi"))))),
     Section("static", (
         Head("static"),
@@ -180,5 +182,5 @@ SECTIONS = (
     Section("harmonics", (
         Head("torque_harmonics"), Text("crank_harmonics", {"source": Citation(_HARMONICS)}), Lines("crank_harmonics"),
         Listed("torque_harmonics", "harmonics"), Shown(("torque_harmonics",)),
-    ), every(turning, has("torque_harmonics"))),
+    ), every(full, turning, has("torque_harmonics"))),
 )  # fmt: skip

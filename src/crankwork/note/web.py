@@ -26,7 +26,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.equations import legend_rows, printed_equation
+from crankwork.note.equations import printed_equation
 from crankwork.note.interactive import bar, controls, look, page_data, stored_data_element, symbol_html
 from crankwork.note.mathml import mathml_box
 from crankwork.note.numbering import Numbering, numbering
@@ -71,16 +71,16 @@ ul { list-style: "–  "; padding-left: 1.4em; }
 .lines math { margin: .35em 0; }
 .mark { white-space: nowrap; }
 .lines:has(math + math) + .mark { align-self: flex-end; padding-bottom: .5em; }
-.legend { border-spacing: 0; margin: .3em 0 .9em; }
-.legend td { padding: 0 .5em 0 0; vertical-align: baseline; }
 .table { margin: 1.6em 0; }
 .table table { border-collapse: collapse; margin: 0 auto; font-size: .82rem; line-height: 1.25;
   font-variant-numeric: lining-nums tabular-nums; }
 .table caption { text-align: left; font-size: 1rem; padding-bottom: .4em; }
-.table th, .table td { border: 1px solid var(--g6); padding: .15em .45em; text-align: right; white-space: nowrap; }
+.table table { border-top: 1.5px solid currentColor; }
+.table th, .table td { border-bottom: 1px solid var(--g16); padding: .15em .45em; text-align: right;
+  white-space: nowrap; }
 .table td.left { text-align: left; white-space: normal; }
 .table td.centre { text-align: center; }
-.table th { text-align: center; font-weight: normal; background: var(--g19); }
+.table th { text-align: center; font-weight: normal; background: var(--ground); border-bottom-color: currentColor; }
 figure { margin: 1.6em 0; text-align: center; break-inside: avoid; }
 figure svg { max-width: 100%; height: auto; }
 figcaption { margin-top: .5em; }
@@ -142,10 +142,14 @@ def web(note: Note) -> bytes:
         "<main>",
     ]
     for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True)):
-        parts.extend(_block(block, number, k, note, numbers))
-        if isinstance(block, TitlePage) and film is not None:
+        if film is not None and isinstance(block, Figure) and block.name == "machine":
+            # here it moves
             own = "".join(controls(film, note.language))
-            parts.append(f'<figure id="machine">{inline_film(film, "machine")}{own}</figure>')
+            words = xml_text(caption("figure", number, block.caption, note.language))
+            moves = f"{inline_film(film, 'machine')}{own}<figcaption>{words}</figcaption>"
+            parts.append(f'<figure id="machine">{moves}</figure>')
+        else:
+            parts.extend(_block(block, number, k, note, numbers))
     parts.append("</main>")
     if results is not None:
         parts += [
@@ -198,12 +202,6 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
     lines = "".join(f'<math display="block">{mathml_box(line)}</math>' for line in printed.lines)
     mark = xml_text(numbers.mark(block, number, " "))
     yield f'<div class="equation"><div class="lines">{lines}</div><div class="mark">{mark}</div></div>'
-    if block.legend:
-        rows = "".join(
-            f"<tr><td>{where}</td><td><math>{mathml_box(box)}</math>{xml_text(words)}</td></tr>"
-            for where, box, words in legend_rows(block, numbers.language)
-        )
-        yield f'<table class="legend" role="presentation">{rows}</table>'
 
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:

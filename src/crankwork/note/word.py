@@ -37,7 +37,7 @@ from crankwork.note.document import (
     Table,
     TitlePage,
 )
-from crankwork.note.equations import legend_rows, printed_equation
+from crankwork.note.equations import printed_equation
 from crankwork.note.layout import Apply, Box, Fence, Fraction, Root, Row, Script
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.word_parts import (
@@ -79,12 +79,12 @@ PAGE, _WIDTH, _EMPTY = 728.0, 481.0, 150.0
 # how high blocks may be beside what is estimated, and how much text a figure waits for until it stands anywhere [pt]
 _OFF, _LONG = np.linspace(0.97, 1.03, 15), 1.5 * PAGE
 # lines of text and of mathematics; what a line of a legend and a fraction have more; what stands after a paragraph [pt]
-_LINE, _MATHS, _ENTRY, _HIGHER, _AFTER = 16.0, 16.4, 2.3, 12.0, 6.0
+_LINE, _MATHS, _HIGHER, _AFTER = 16.0, 16.4, 12.0, 6.0
 _CAPTION, _BEGINS = 17.0 + _LINE, 90.0
 _HEADINGS = {1: 46.0, 2: 37.0, 3: 33.0}
 _SIZE = 12.0
 # before the words of a legend and of an item [pt]; as wide as a symbol in the line, about
-_INDENT, _ITEM, _SYMBOL = 48.0, 21.0, 6 * "x"
+_ITEM, _SYMBOL = 21.0, 6 * "x"
 _FONT = "Times New Roman"
 _WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 _CENTRE, _LEFT, _BOTH = "center", "left", "both"
@@ -170,7 +170,7 @@ class _Writer:
     def _height(self, block: Block, headings: int) -> float:
         match block:
             case Equation():
-                return equation_height(block, self._printed[id(block)].lines, self._note.language)
+                return equation_height(self._printed[id(block)].lines)
             case Table():
                 return table_height(block, self._columns[id(block)])
         return block_height(block, headings, self._numbers.sources)
@@ -304,7 +304,8 @@ def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
         if isinstance(block, Figure) and (waiting or _left(filled, height).max() > _EMPTY):
             waiting.append(k)
             continue
-        is_new = isinstance(block, PageBreak | TitlePage) or (isinstance(block, Table) and block.wide)
+        covers = isinstance(block, TitlePage) and not block.is_plain
+        is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
         while waiting and not is_heading and (is_new or _fits_here(filled, heights[waiting[0]], waited)):
             figure, waited = waiting.pop(0), 0.0
             filled = _after(filled, blocks[figure], heights[figure])
@@ -336,18 +337,13 @@ def _after(filled: Array, block: Block, height: float) -> Array:
         least = _BEGINS if isinstance(block, Table) else height + 2 * _LINE
         begins = np.where(filled + least > PAGE, 0.0, filled)
         high = high + 2 * _LINE * ((begins + high) // PAGE)
-    # of an equation the lines that explain it
-    is_divided = isinstance(block, Table | Paragraph | ItemList | Contents) or bool(getattr(block, "legend", ()))
+    is_divided = isinstance(block, Table | Paragraph | ItemList | Contents)
     return np.where(begins + high <= PAGE, begins + high, (begins + high) % PAGE if is_divided else high)
 
 
-def equation_height(block: Equation, lines: Sequence[Row], language: Language) -> float:
-    """Return about how high the lines of an equation and its legend are. [pt]"""
-    legend = sum(
-        _LINE * _lines((words,), _WIDTH - _INDENT) + _ENTRY + _HIGHER * (_high(symbol) - 1.0)
-        for _, symbol, words in legend_rows(block, language)
-    )
-    return sum(_MATHS + _HIGHER * (_high(row) - 1.0) for row in lines) + (legend or 2.0)
+def equation_height(lines: Sequence[Row]) -> float:
+    """Return about how high the lines of an equation are. [pt]"""
+    return sum(_MATHS + _HIGHER * (_high(row) - 1.0) for row in lines) + 2.0
 
 
 def table_height(block: Table, columns: Columns) -> float:

@@ -24,7 +24,7 @@ from crankwork.note.document import (
     TitlePage,
     cell_length,
 )
-from crankwork.note.equations import PrintedEquation, formula_of, legend_rows
+from crankwork.note.equations import PrintedEquation, formula_of
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
@@ -50,9 +50,6 @@ _SIZES = (20, 18, 16, 14)
 _ROW_HEIGHT = 0.6
 # of source and number, at least; of a letter of them [twip]
 _MARK_WIDTH, _MARK = 2150, 122
-_LEGEND = (
-    '<w:tabs><w:tab w:val="left" w:pos="960"/></w:tabs><w:spacing w:after="0"/><w:ind w:left="960" w:hanging="960"/>'
-)
 _CELL_STYLE = '<w:pStyle w:val="TableText"/>'
 # rows that stay with the heading of their table; LibreOffice loses the others where one alone ends a page
 _TOGETHER = 2
@@ -104,12 +101,8 @@ def equation_xml(block: Equation, number: str, numbers: Numbering, printed: Prin
         f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cell(left, lines, 'center')}{cell(marked, right, place)}</w:tr>"
         "</w:tbl>"
     )
-    if not block.legend:
-        # two tables without a paragraph between them would become one
-        yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
-    for where, box, words in legend_rows(block, numbers.language):
-        mathematics = f"<m:oMath>{omml_box(box)}</m:oMath>"
-        yield paragraph(f"{text_run(where)}<w:r><w:tab/></w:r>{mathematics}{text_run(words)}", "", _LEGEND)
+    # two tables without a paragraph between them would become one
+    yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
 
 
 def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -> Iterator[str]:
@@ -128,8 +121,8 @@ def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -
     )
     grid = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
     borders = "".join(
-        f'<w:{side} w:val="single" w:sz="4" w:space="0" w:color="auto"/>'
-        for side in ("top", "left", "bottom", "right", "insideH", "insideV")
+        f'<w:{side} w:val="single" w:sz="{size}" w:space="0" w:color="{colour}"/>'
+        for side, size, colour in (("top", 6, "auto"), ("bottom", 4, "B0B0B0"), ("insideH", 4, "B0B0B0"))
     )
     aligned = [f'<w:jc w:val="{_ALIGN[letter]}"/></w:pPr>' for letter in (block.align or "r" * len(widths))]
     starts = [f"<w:tc><w:p><w:pPr>{_CELL_STYLE}" + keep for keep in ("", "<w:keepNext/>")]
@@ -290,13 +283,18 @@ _STROKE = '<w:tcBorders><w:bottom w:val="single" w:sz="4" w:space="0" w:color="a
 
 
 def cover_xml(page: TitlePage, note: Note) -> Iterator[str]:
-    """Yield the cover and the end of its page."""
+    """Yield the cover and the end of its page; a plain one stands above the text."""
     small = 0.62 if page.is_crowded else 1.0
 
     def lines(texts: tuple[str, ...], size: int, *, bold: bool = False, style: str = "TitleLine") -> str:
         font = f'{"<w:b/>" if bold else ""}<w:sz w:val="{int(size * small)}"/><w:szCs w:val="{int(size * small)}"/>'
         return "".join(paragraph(text_run(entry_text, font), style) for entry_text in texts)
 
+    if page.is_plain:
+        names = tuple(", ".join(person.names) for person in page.people)
+        yield lines((note.headline,), 36, bold=True, style="Title")
+        yield from (lines((entry_text,), 24) for entry_text in (*page.below, *names))
+        return
     title = lines(page.above, 30) + lines((note.headline,), 40, bold=True, style="Title") + lines(page.below, 28)
     parts = [
         (_HEAD, "top", lines(page.institution, 26)),
