@@ -48,6 +48,8 @@ def default_values(values: Mapping[str, Any]) -> Iterator[tuple[str, Any, object
     """Yield path, value and kind of every default that the file could state in the tables that it has."""
     keys = file_keys(values)
     present = {**values, "method": values.get("method", {})}
+    if "rod" in values:
+        present["cylinder"] = values.get("cylinder", {})
     if values.get("cycle", {}).get("kind") == "wiebe":
         present["cycle"] = {"timing": {}, **values["cycle"]}
     read = keys.read(present, "", Reader()) or Values({}, keys)
@@ -182,7 +184,7 @@ EXCEPTIONS = {
     r"method\.kinematics": "the summary names the method",
     r"(positions|branch)\..*": "they choose a circuit; others near by choose the same",
     r"engine\.layout": "of few cylinders two layouts are one engine",
-    r"engine\.uneven": "it permits intervals and changes none",
+    r"motor\.(frequency|pole_pairs)": "of a motor that stalls another speed may make it turn",
     r".*\.pieces\[\d+\]\.law": "between points of equal pressure all laws are one line",
     r".*\.points\..*\.pressure": "that of the last point must agree with the first",
 }

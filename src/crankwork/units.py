@@ -152,8 +152,8 @@ UNITS: dict[str, Unit] = {
 }
 
 # signs and words that textbooks print otherwise than the table
-_SIGNS = str.maketrans("²³¹⁻−⋅∙•×·", "231--*****", "^")
-_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min"}
+_SIGNS = str.maketrans("²³¹⁻−⋅∙•×·", "231--*****", "^{}")
+_WORDS = {"sec": "s", "сек": "с", "giây": "s", "phút": "min", "hertz": "Hz", "Hertz": "Hz", "герц": "Гц", "Герц": "Гц"}
 
 
 def _plain(name: str) -> str:
@@ -324,20 +324,27 @@ def _ask_which(spelling: str, dimensions: tuple[str, ...], number: str, name: st
     """Raise for a unit of several meanings; those of a speed are radians and revolutions."""
     if spelling.lower() in _DOUBTFUL:
         raise ValueError(ErrorMessage(_DOUBTFUL[spelling.lower()], unit=_short(name), number=number))
-    unit = UNITS.get(spelling)
+    unit = UNITS.get(spelling) or UNITS.get(_other_alphabet(name))
     if unit is not None and unit.dimension == "frequency" and "speed" in dimensions and "frequency" not in dimensions:
         options = (f'"{number} rad/s"', f'"{number} rev/s"')
         raise ValueError(ErrorMessage("speed_per_second", unit=_short(name), options=options))
 
 
+def _other_alphabet(name: str) -> str:
+    """Return the unit that a name is in the letters of one alphabet, empty if it is none."""
+    return next((unit for table in (TO_LATIN, _TO_CYRILLIC) if (unit := known_unit(name.translate(table)))), "")
+
+
 def _unknown_unit(name: str, number: str, dimensions: tuple[str, ...], **values: object) -> ErrorMessage:
     rows = [names for dimension in dimensions for _, names in _SPELLINGS[dimension]]
     all_spellings = [spelling for names in rows for spelling in names.split()]
+    same = [spelling for spelling in all_spellings if spelling.casefold() == name.casefold()]
+    near = same if len(name) > 2 or name.isupper() else []
     # one or two letters are close to anything
-    near = difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else []
-    mixed = [spelling for table in (TO_LATIN, _TO_CYRILLIC) if (spelling := name.translate(table)) in all_spellings]
-    if mixed:
-        return ErrorMessage("unit_look_alike", unit=_short(name), nearest=f"{number} {mixed[0]}")
+    near = near or (difflib.get_close_matches(name, all_spellings, n=1) if len(name) > 2 else [])
+    mixed = _other_alphabet(name)
+    if mixed in all_spellings:
+        return ErrorMessage("unit_look_alike", unit=_short(name), nearest=f"{number} {mixed}")
     if near:
         return ErrorMessage("unit_unknown_near", unit=_short(name), nearest=f"{number} {near[0]}", **values)
     return ErrorMessage("unit_unknown", unit=_short(name), **values)

@@ -85,3 +85,57 @@ def test_valve_timing_of_a_release_of_heat_is_told():
     events = {key: item.value for item in analyse(description).assumptions for key in item.keys if "timing" in key}
     assert events["cycle.timing.intake_closes"] == "50 deg"
     assert events["cycle.timing.exhaust_opens"] == "60 deg"
+
+
+def test_a_balance_shaft_of_an_order_without_forces_is_told():
+    description = Description(template("whole-engine"))
+    # the first order of four throws 0, 180, 180, 0 has neither force nor moment
+    description["balance.shafts"] = [1, 2]
+    told = idle(analyse(description))
+    assert {key: told.get(key) for key in ("balance.shafts[1]", "balance.shafts[2]")} == {
+        "balance.shafts[1]": "no_order",
+        "balance.shafts[2]": None,
+    }
+
+
+def test_uneven_intervals_permitted_for_nothing_and_numbers_of_banks_with_one_cylinder_are_told():
+    description = Description(template("whole-engine"))
+    description["engine.uneven"] = True
+    assert idle(analyse(description))["engine.uneven"] == "even_intervals"
+    description.replace({"engine.layout": "V", "engine.cylinders": 2, "engine.bank_angle": "60 deg"})
+    description.replace({"engine.firing_order": [1, 2], "engine.numbering": "pairs"})
+    told = idle(analyse(description))
+    assert (told["engine.numbering"], told.get("engine.uneven")) == ("one_a_bank", None)
+
+
+def test_fixed_points_and_guides_that_no_part_names_are_told():
+    description = Description(template("four-bar"))
+    description["fixed_points.Q"] = ["300 mm", "10 mm"]
+    assert idle(analyse(description)) == {f"fixed_points.Q[{number}]": "unused" for number in (1, 2)}
+
+
+def test_the_offset_of_a_cylinder_that_is_not_stated_is_an_assumption():
+    text = 'crank = { radius = "50 mm", speed = "300 rpm" }\nrod.length = "200 mm"\n'
+    keys = {key for item in analyse(Description(text)).assumptions for key in item.keys}
+    assert "cylinder.offset" in keys
+    assert mistold(text, ROOT) == []
+
+
+FRICTION = """
+format = 2
+crank = { radius = "50 mm", speed = "300 rpm" }
+rod = { length = "200 mm", mass = "1 kg", small_end_share = 0.3 }
+piston.mass = "0.8 kg"
+cylinder = { bore = "80 mm", compression_ratio = 8, inclination = "20 deg" }
+method.gravity = "9.8 m/s2"
+gas.cycle = "360 deg"
+gas.pressures = "absolute"
+gas.ambient = "1 bar"
+gas.valves = { suction = "1 bar", discharge = "4 bar" }
+friction.pins.A = { coefficient = 0.1, radius = "20 mm" }
+"""
+
+
+def test_inputs_without_effect_of_an_engine_with_friction_are_told():
+    assert idle(analyse(Description(FRICTION))) == {"method.gravity": "weights_off"}
+    assert mistold(FRICTION, ROOT) == []

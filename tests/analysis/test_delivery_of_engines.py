@@ -141,7 +141,7 @@ def test_it_is_that_of_the_linkage_with_a_chamber_for_each_cylinder(tmp_path):
         ("en", "inlet volume flow, all cylinders", "inlet volume flow, of one cylinder"),
         ("ru", "объёмный расход по условиям всасывания, все цилиндры",
          "объёмный расход по условиям всасывания, одного цилиндра"),
-        ("vi", "lưu lượng thể tích hút, tất cả các xylanh", "lưu lượng thể tích hút, của một xylanh"),
+        ("vi", "lưu lượng thể tích hút, tất cả các xi lanh", "lưu lượng thể tích hút, của một xi lanh"),
     ],
 )  # fmt: skip
 def test_it_is_said_whose_flow_it_is(language, of_all, of_one):

@@ -271,3 +271,16 @@ def test_an_engine_with_friction_has_the_forces_that_its_cylinder_has_without():
     assert rubbed["mean_torque"] < alone["mean_torque"]
     pushed = crankwork.analyse(crankwork.Description(plain + '\n[[loads]]\nkind = "force"\npoint = "B"\ny = "5 N"\n'))
     assert "piston_force" not in pushed
+
+
+def test_the_air_behind_a_calculated_cycle_does_not_push_on_the_piston_rod() -> None:
+    text = f"""
+        crank = {{ radius = "50 mm", speed = "3000 rpm" }}
+        rod.length = "200 mm"
+        cylinder = {{ bore = "80 mm", compression_ratio = 9.0 }}
+        cycle = {{ kind = "otto", pressure_ratio = 2.5 }}
+        {RUBBING}
+    """
+    plain = analysed(text)
+    with_rod = analysed(text.replace("bore =", 'piston_rod_diameter = "20 mm", bore ='))
+    assert with_rod["mean_torque"] == pytest.approx(plain["mean_torque"], rel=1e-12)

@@ -26,6 +26,9 @@ def told(results):
         ("rod.ratio", 0.6, "rod_ratio"),
         ("cylinder.bore", "900 mm", "stroke_bore_ratio"),
         ("gas.points.z.pressure", "80 MPa", "gas_pressure_max"),
+        ("gas.points.a.pressure", "0.115 kPa", "gas_pressure"),
+        ("rod.small_end_share", 0.9, "small_end_share"),
+        ("flywheel.percent", 50, "speed_fluctuation"),
     ],
 )
 def test_a_value_beyond_what_is_built_is_told_with_its_range(key, value, quantity):
@@ -35,7 +38,9 @@ def test_a_value_beyond_what_is_built_is_told_with_its_range(key, value, quantit
     results = analyse(description)
     assert quantity in told(results)
     notice = next(item for item in results.notices if item.values.get("quantity") == quantity)
+    assert key.startswith(notice.values["path"])
     for language in ("en", "ru", "vi"):
+        assert f"({notice.values['source']})" in notice_text(notice.code, notice.values, language)
         assert "{" not in notice_text(notice.code, notice.values, language)
 
 
@@ -58,3 +63,11 @@ def test_files_of_real_machines_are_plausible():
     for name, text in machine_files("examples").items():
         if "[friction" not in text:
             assert told(analyse(read_machine(text, folder=ROOT / "examples"))) == set(), name
+
+
+def test_a_gas_as_cold_as_no_gas_is_told():
+    description = Description((ROOT / "examples" / "beta-stirling.toml").read_text("utf-8"))
+    key = next(key for key in description if key.startswith("chambers.") and key.endswith(".temperature"))
+    description[key] = "20 K"
+    notice = next(item for item in analyse(description).notices if item.code == "implausible")
+    assert (notice.values["path"], notice.values["value"]) == (key, 20.0)

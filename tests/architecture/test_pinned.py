@@ -28,7 +28,7 @@ PINNED = {
         "machine": "93e6fd34e1f6",
     },
     "formulas": "274ffc63bbc6",
-    "quantities": "eb8dc364166d",
+    "quantities": "12e3fdacadf2",
     "defaults": "6b294094b813",
 }
 

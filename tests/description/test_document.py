@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import crankwork
-from crankwork.description.document import Description
-from crankwork.description.machine_file import Setting, apply_override, template, template_names
+from crankwork.description.document import Description, load
+from crankwork.description.machine_file import Setting, apply_override, read_machine, template, template_names
 from crankwork.description.toml_edit import toml
 from crankwork.description.toml_positions import TomlPositions
-from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from each import for_each
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
@@ -208,3 +208,16 @@ def test_a_setting_reaches_as_deep_as_a_file_does():
     assert laid["chambers"]["cylinder"]["points"]["c"]["pressure"] == "1.9 MPa"
     with pytest.raises(CrankworkError):
         description.values_with([f"{'.'.join('abcdefghi')}=1"])
+
+
+def test_mistakes_of_the_syntax_and_all_others_are_told_at_once(tmp_path):
+    text = 'crank = { radius = "45 mm", speed = "300 rpm" }\nrod.length = 160 mm\npistn.mass = "1 kg"\n'
+    path = tmp_path / "machine.toml"
+    path.write_text(text, encoding="utf-8")
+    told = []
+    for read in (lambda: Description(text, str(path)), lambda: load(path), lambda: read_machine(text, str(path))):
+        with pytest.raises(InputError) as raised:
+            read()
+        told.append(raised.value.lines())
+    assert told[0] == told[1] == told[2]
+    assert len(told[0]) == 2

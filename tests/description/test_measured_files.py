@@ -85,8 +85,11 @@ def test_twelve_columns_are_asked_about(read):
 
 
 def test_many_columns_without_headings_are_asked_about(read):
-    message = refusal(read, table(ANGLES, BAR / 2, BAR))
-    assert "line 1: 3 columns without headings; write angle_column = 1" in message
+    with pytest.raises(InputError) as caught:
+        read(table(ANGLES, BAR / 2, BAR))
+    of_angle, of_pressure = (problem.message for problem in caught.value.problems)
+    assert "line 1: 3 columns without headings; write angle_column = 1" in of_angle
+    assert "line 1: 3 columns without headings; write pressure_column = 3" in of_pressure
     keys = 'pressure_unit = "bar"\nangle_column = 1'
     assert "write pressure_column = 3, the number" in refusal(read, table(ANGLES, BAR / 2, BAR), keys)
     assert is_right(read(table(ANGLES, BAR / 2, BAR), f"{keys}\npressure_column = 3"))
@@ -126,7 +129,7 @@ def test_radians_taken_for_degrees_are_told(read, heading, turns):
     text = heading + table(angles, BAR[: 360 * turns])
     message = refusal(read, text, 'pressure_unit = "bar"', machine)
     assert 'which are whole turns in rad; write angle_unit = "rad"' in message
-    assert read(text, 'pressure_unit = "bar"\nangle_unit = "rad"', machine)
+    assert read(text, 'pressure_unit = "bar"\nangle_unit = "rad"\nshift = "0 deg"', machine)
 
 
 def test_many_cycles_in_radians_are_radians(read):
@@ -349,7 +352,11 @@ def test_a_chamber_of_a_linkage_says_of_its_dead_centre_what_an_engine_says(read
     fired = table(angles, motored(np.mod(angles + 4, 720)) * (1 + 1.5 / (1 + np.exp(-(angles - 366) / 6))))
     engine, chamber = (told(read(fired, MEAN, machine)) for machine in (ABSOLUTE, LINKAGE))
     assert chamber["dead_centre_compression"]["shift"] == engine["dead_centre_compression"]["shift"]
-    assert "peak_far" in told(read(table(ANGLES, true_pressure(ANGLES + 187)), MEAN, LINKAGE))
+    far = table(ANGLES, true_pressure(ANGLES + 187))
+    message = refusal(read, far, MEAN, LINKAGE)
+    assert "chambers.gas.measured: p.txt, the greatest pressure stands at 545 deg" in message
+    assert 'top dead centre is at 0 deg; write shift = "180 deg", or shift = "0 deg" if the angles are right' in message
+    assert "peak_far" in told(read(far, f'{MEAN}\nshift = "0 deg"', LINKAGE))
 
 
 def test_smoothing_says_what_it_changed(read):
@@ -395,8 +402,8 @@ def test_a_compression_line_proposes_a_shift_with_an_honest_uncertainty(read, sh
 
 
 def test_a_peak_at_zero_is_said_to_be_there(read):
-    rows = table(np.arange(720.0), np.full(720, 0.1)).split("\n")
-    message = refusal(read, "\n".join([rows[0], "1e-8\t0.5", *rows[1:]]), MEAN)
+    rows = table(ANGLES, true_pressure(ANGLES + 372)).split("\n")
+    message = refusal(read, "\n".join([rows[0], "1e-8\t42", *rows[1:]]), MEAN)
     assert "the greatest pressure stands at 0 deg of the cycle, and firing is at 360 deg" in message
 
 
@@ -499,7 +506,7 @@ def test_commas_that_may_part_thousands_are_asked_about(read):
     said = refusal(read, f"CA [deg];p [Pa]\n{rows}\n", "")
     assert 'if it parts thousands, export without it, and if it is the decimal mark, write decimal_mark = ","' in said
     # with the words that are told
-    assert peak(read(f"CA [deg];p [Pa]\n{rows}\n", "", 'decimal_mark = ","\n' + MACHINE)) < 0.01
+    assert peak(read(f"CA [deg];p [Pa]\n{rows}\n", 'shift = "0 deg"', 'decimal_mark = ","\n' + MACHINE)) < 0.01
     assert is_right(read("CA [deg]\tp [bar]\n" + table(ANGLES, BAR, mark=","), ""))
 
 

@@ -35,6 +35,8 @@ MISTAKES = {
     "recovery beside friction": ("petrol-four", "fluctuation = 0.01",
                                  "fluctuation = 0.01\nrecovery = '1 s'\n[friction.pins.O]\nmoment = '1 N*m'",
                                  "flywheel.recovery", "constant moment of inertia"),
+    "recovery beside moving masses": ("petrol-four", "fluctuation = 0.01", "fluctuation = 0.01\nrecovery = '1 s'",
+                                      "flywheel.recovery", "engine by the method textbook"),
     "order repeats": ("petrol-four", ORDER, "firing_order = [1, 3, 4, 4]", "engine.firing_order",
                       "names cylinder 4 twice and leaves out cylinder 2"),
     "order too short": ("petrol-four", ORDER, "firing_order = [1, 3, 4]", "engine.firing_order", "leaves out"),

@@ -95,3 +95,56 @@ def test_a_fraction_is_a_number_beside_quantities_too():
     assert kind.read("1/4", "over", reader) == kind.read(0.25, "over", reader) == 0.25
     assert kind.read("3 s", "over", reader).value == 3.0
     assert reader.problems == []
+
+
+@for_each("unit", ["c⁻¹", "1/c", "s^{-1}", "hertz", "Герц"])
+def test_other_spellings_per_second_are_asked_about_too(unit):
+    description = package.Description(template("engine"))
+    description["crank.speed"] = f"9.42478 {unit}"
+    with pytest.raises(package.InputError, match="radians or revolutions") as raised:
+        description.machine()
+    assert LINES in str(raised.value)
+
+
+@for_each(("text", "nearest"), [("3000 RPM", "3000 rpm"), ("50 RAD/S", "50 rad/s")])
+def test_a_unit_in_capitals_is_told_with_the_usual_one(text, nearest):
+    description = package.Description(template("engine"))
+    description["crank.speed"] = text
+    with pytest.raises(package.InputError, match=f'did you mean "{nearest}"'):
+        description.machine()
+
+
+@for_each(
+    ("key", "text", "low", "high", "scale"),
+    [
+        ("crank.radius", "45 +0.1/-0.2 mm", 44.8, 45.1, 1e3),
+        ("crank.radius", "45^{+0.1}_{-0.2} mm", 44.8, 45.1, 1e3),
+        ("crank.radius", "45 mm −0.02 −0.05", 44.95, 44.98, 1e3),
+        ("crank.radius", "45 +0,1/0 mm", 45.0, 45.1, 1e3),
+        ("rod.ratio", "0.25 +0.01/-0.02", 0.23, 0.26, 1.0),
+    ],
+)
+def test_limits_of_two_sizes_are_refused_with_a_line_of_the_same_limits(key, text, low, high, scale):
+    description = package.Description(template("engine"))
+    description[key] = text
+    with pytest.raises(package.InputError, match="two limits of its own") as raised:
+        description.machine()
+    written = str(raised.value).split('"')[-2]
+    description[key] = written
+    middle, half = description.machine(), float(written.split()[2])
+    value = middle.mechanism.driver.radius if key == "crank.radius" else package.analyse(middle)["rod_ratio"]
+    assert (value * scale - half, value * scale + half) == pytest.approx((low, high))
+
+
+@for_each(
+    ("source", "latin", "mixed"),
+    [
+        ("four-bar", 'pin = "A"', 'pin = "А"'),
+        ("engine", '"a", "c1"', '"а", "c1"'),
+        ("engine", '"polytropic"', '"pоlytropic"'),
+    ],
+)
+def test_names_and_words_with_letters_of_the_other_alphabet_are_told_by_them(source, latin, mixed):
+    letter = next(letter for letter in mixed if ord(letter) > 1000)
+    with pytest.raises(package.InputError, match=f"Cyrillic letter {letter}.*; write "):
+        package.Description(template(source).replace(latin, mixed)).machine()

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from crankwork.errors import GeometryError
 from crankwork.kinematics.circuits import all_circuits, circuit_at, circuit_through
 from crankwork.kinematics.configuration_coordinates import driver_coordinate, link_angle, relative_angle
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -187,3 +188,9 @@ def test_a_driving_slider_has_the_circuit_of_the_crank():
     stroke = circuit.extent(driver_coordinate(slider))
     assert (stroke.least, stroke.greatest) == pytest.approx((0.15, 0.25), abs=1e-14)
     assert abs(circuit.turns("crank")) == 1
+
+
+def test_no_circuit_passes_a_position_that_cannot_be_assembled():
+    # from the pin to the other pivot it is 0.15 + 0.2, more than coupler and rocker
+    with pytest.raises(GeometryError, match="too short"):
+        circuit_through(PARTIAL, 180.0)

@@ -245,9 +245,18 @@ def test_no_diagram_of_an_engine_is_left_small(drawn):
         assert max(scales) <= 2.5 * min(scales), name
         assert min(plot.box.height for plot in polars) > 60, name
         assert min(np.ptp(one[:, 0]) for one in lines(shown["crankpin_wear"], "journal")) > 50, name
-        graph, *inset = shown["indicator"].plots
-        assert graph.box.height > 80, name
+        over_volume, over_angle, *inset = shown["indicator_brix"].plots
+        assert over_volume.box.height > 80, name
         assert len(inset) == 1, name
+        # read together: one scale of pressures, at one level
+        assert (over_volume.y, over_volume.box.height) == (over_angle.y, over_angle.box.height), name
+        assert over_volume.box.bottom == pytest.approx(over_angle.box.bottom), name
+        # the circle of Brix is as wide as the swept volume above it
+        (circle,) = lines(shown["indicator_brix"], "circle")
+        volume = over_volume.curves["indicator"][0]
+        unit = (over_volume.x[1] - over_volume.x[0]) / over_volume.box.width
+        assert np.ptp(circle[:, 0]) * unit == pytest.approx(np.ptp(volume), rel=2e-3), name
+        assert circle[0, 0] - over_volume.box.left == pytest.approx(np.min(volume) / unit, abs=0.1), name
 
 
 @pytest.mark.slow

@@ -150,7 +150,7 @@ def test_a_force_measured_in_dxf_is_the_force():
     again = [np.array(one.get_points("xy")) for one in reread("engine").modelspace().query("LWPOLYLINE")]
     (found,) = (one for one in again if one.shape == expected.shape and np.allclose(one, expected, atol=1e-9))
     zero = plot.box.bottom - plot.box.height * plot.y[0] / (plot.y[1] - plot.y[0])
-    largest = np.max(found[:, 1] - zero) * scale(drawing, "T,K") * 1e3  # kN
+    largest = np.max(found[:, 1] - zero) * scale(drawing, "T,K,N") * 1e3  # kN
     forces = results("spark-engine").columns["radial_force"]
     assert largest >= np.max(forces) * (1 - 1e-9)
     assert largest == pytest.approx(np.max(forces), rel=0.01)

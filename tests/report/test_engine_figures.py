@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
 import functools
+import math
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -12,7 +14,6 @@ import pytest
 from crankwork.analysis import Results, analyse
 from crankwork.analysis.constructions import brix_points, tangent_ends, tolle_points
 from crankwork.cylinders.engines import inline, radial, vee
-from crankwork.cylinders.torque_harmonics import phase_star
 from crankwork.kinematics.slider_crank import SliderCrank
 from crankwork.machine import Bearings, Drive, Engine
 from crankwork.report.figures import diagrams
@@ -185,15 +186,14 @@ def test_the_wear_ring_is_as_deep_as_the_sums_and_has_its_oil_hole_where_the_sum
 
 
 @for_each("layout", LAYOUTS)
-def test_the_total_torque_is_the_sum_of_the_drawn_cylinders_and_that_of_the_last_journal(layout):
+def test_the_total_torque_is_the_sum_of_the_cylinders_and_that_of_the_last_journal(layout):
     results, drawn = of_layout(layout)
     curves = _graph(drawn, "total_torque").curves
-    each = [curve for name, (_, curve) in curves.items() if name.startswith("cylinder_")]
+    each = drawn.diagrams.torques
+    assert curves["cylinder_1"][1] == pytest.approx(each[0], abs=1e-9 * np.max(each))
     total = curves["total"][1]
     apart = np.abs(np.sum(each, axis=0) - total)[:-1]
-    # the sum is a fitted curve, least exact where a pressure has a corner
-    assert np.max(apart) < 5e-5 * np.max(total)
-    assert np.median(apart) < 1e-9 * np.max(total)
+    assert np.max(apart) < 1e-9 * np.max(total)
     assert curves["mean"][1] == pytest.approx([results.summary["mean_torque"]] * 2)
     assert curves["total"][1].max() == pytest.approx(results.summary["total_torque_max"], rel=2e-3)
     throws = {place.throw for place in drawn.results.machine.engine.layout.places}
@@ -203,6 +203,30 @@ def test_the_total_torque_is_the_sum_of_the_drawn_cylinders_and_that_of_the_last
         curve = next(iter(graphs[-1].curves.values()))[1]
         assert np.max(np.abs(curve - total)[:-1]) < 5e-5 * np.max(total)
         assert len({graph.y for graph in graphs}) == 1
+
+
+@for_each("layout", ["inline-4", "inline-6", "V8"])
+def test_the_sum_of_tangential_forces_is_that_of_one_cylinder_at_every_firing_angle(layout):
+    results, drawn = of_layout(layout)
+    degrees = results.grid.degrees
+    # Direct sum: every cylinder does at its own crank angle what the first one does
+    angles = [(degrees - place.firing_angle) % 720.0 for place in drawn.diagrams.engine.layout.places]
+    expected = sum(analysed_alone().columns_at(angle)["tangential_force"] for angle in angles)
+    assert results.columns["total_tangential_force"] == pytest.approx(expected, abs=1e-6 * np.max(expected))
+    curve = _graph(drawn, "total_tangential_force").curves["total"]
+    shown = np.interp(degrees, *curve)
+    assert shown == pytest.approx(expected, abs=5e-3 * np.max(expected))
+    # no weight: the torque is the sum at the crank radius
+    torque = results.columns["total_torque"] / results.summary["crank_radius"]
+    assert torque == pytest.approx(expected, abs=1e-6 * np.max(expected))
+
+
+@functools.cache
+def analysed_alone() -> Results:
+    """Return the one cylinder of which the engines consist."""
+    machine = machine_of("spark-engine")
+    method = replace(machine.method, kinematics="exact", rod="rigid", inertia_rod_ratio=None)
+    return analyse(replace(machine, method=method))
 
 
 @for_each("layout", LAYOUTS)
@@ -242,15 +266,19 @@ def test_bars_are_as_high_as_the_listings(layout):
 
 
 @for_each("layout", LAYOUTS)
-def test_phase_stars_stack_equal_directions_and_add_up(layout):
+def test_phase_stars_have_unit_vectors_of_one_length_and_their_mean(layout):
     drawn = of_layout(layout).drawn
     layout = drawn.diagrams.engine.layout
-    for order, graph in _graphs(drawn, "phase_stars").items():
+    graphs = _graphs(drawn, "phase_stars")
+    for order, graph in graphs.items():
         x, y = graph.curves["ends"]
-        total = graph.curves["sum"]
-        assert np.hypot(x, y).sum() == pytest.approx(len(layout.places))
-        assert (y.sum(), x.sum()) == pytest.approx((total[1][0], total[0][0]), abs=1e-6)
-        assert np.hypot(*total) == pytest.approx(abs(phase_star(layout, float(order)).sum), abs=1e-9)
+        assert np.hypot(x, y) == pytest.approx(1.0, abs=1e-5)
+        # vectors by the definition, exp(-i nu theta), x to the right of the reference direction
+        star = [cmath.exp(-1j * float(order) * math.radians(place.firing_angle)) for place in layout.places]
+        mean = sum(star) / len(star)
+        (across,), (up,) = graph.curves["mean"]
+        assert (up, across) == pytest.approx((mean.real, mean.imag), abs=1e-9)
+        assert len({graph.x, graph.y, *(other.x for other in graphs.values())}) == 1
 
 
 def test_free_forces_have_loci_as_long_as_their_listing():

@@ -113,7 +113,7 @@ def test_forces_per_area_change_forces_only_and_need_a_bore():
     plain, per_area = figures_of("petrol-four"), figures_of("petrol-four", per_area=True)
     changed = {name for name in plain if svg(plain[name]) != svg(per_area[name])}
     loads = {"crankpin_load", "crankpin_wear", "main_wear"} | {name for name in plain if "polar" in name}
-    assert changed == {*FORCES, *loads} - {"torque"}
+    assert changed == {*FORCES, *loads, "total_tangential_force"} - {"torque"}
     with pytest.raises(CrankworkError, match=r"cylinder\.bore"):
         figures(analyse(replace(machine_of("template slider-crank"), cylinder=None)), per_area=True)
 

@@ -46,7 +46,7 @@ def _strokes(data: bytes) -> dict[str, set[str]]:
     for one in root.iter(f"{SVG}path"):
         if one.get("class"):
             pattern = one.get("stroke-dasharray", "")
-            kind = f"{len(pattern.split())}{'.' if pattern and float(pattern.split()[0]) < 0.8 else ''}"
+            kind = f"{len(pattern.split())}{'.' if pattern and float(pattern.split()[0]) < 0.5 else ''}"
             found.setdefault(kind, set()).add(one.get("stroke", ""))
     return found
 

@@ -15,6 +15,7 @@ from crankwork.analysis.vector_polygons import accelerations, velocities
 from crankwork.analysis.zhukovsky_lever import zhukovsky_lever
 from crankwork.report import plans, positions
 from crankwork.report.figures import drawings
+from crankwork.report.forces import _separated_sides
 from crankwork.report.look import Style
 from crankwork.report.plans import velocity_plan
 from crankwork.report.positions import position_plans
@@ -136,6 +137,42 @@ def test_force_plans_close_and_have_the_joint_forces_of_the_columns(name):
             key = {"pin": f"joint_force.{one.name}", "guide": f"normal_force.{one.name}"}.get(one.kind)
             if key in columns:
                 assert one.size == pytest.approx(abs(float(columns[key][0])), rel=1e-9), key
+
+
+@for_each("name", ["press-geometry", "knuckle-press", "andrews-squeezer"])
+def test_drawn_force_plans_are_closed_but_for_vectors_that_coincide(name):
+    """Every vector starts where the one before it ends; only what would lie on another one is set aside."""
+    results = results_of(name)
+    for at in (30.0, 75.0, 210.0):
+        for plan in force_plans(results, at):
+            corners = np.vstack([np.zeros(2), np.cumsum([(one.x, -one.y) for one in plan.forces], axis=0)])
+            span = np.ptp(corners, axis=0).max()
+            if not span:
+                continue
+            corners *= 150.0 / span
+            sides = np.array(_separated_sides(corners))
+            assert np.hypot(*(sides[:, 1] - sides[:, 0]).sum(axis=0)) < 1e-6
+            for index, (side, corner) in enumerate(zip(sides, corners, strict=False)):
+                if np.any(side[0] != corner):
+                    # set aside by more than a line's width: then it is level with another one at both ends
+                    assert any(_angle(side, other) < 2.0 for k, other in enumerate(sides) if k != index)
+
+
+def _angle(first, second):
+    """Return the angle between two sides. [deg]"""
+    (a, b), (c, d) = first[1] - first[0], second[1] - second[0]
+    size = np.hypot(a, b) * np.hypot(c, d)
+    return np.degrees(np.arcsin(min(1.0, abs(a * d - b * c) / size))) if size else 90.0
+
+
+def test_the_plan_of_links_2_and_3_of_the_press_has_no_gap():
+    """At 30 degrees R_A lies near F_3 and not on it, so that it starts where F_3 ends."""
+    results = results_of("press-geometry")
+    plan = next(plan for plan in force_plans(results, 30.0) if set(plan.links) == {"rod", "rocker"})
+    ends = np.cumsum([(one.x, -one.y) for one in plan.forces], axis=0)
+    corners = np.vstack([np.zeros(2), ends]) * 200.0 / np.ptp(ends, axis=0).max()
+    for side, start, end in zip(_separated_sides(corners), corners, corners[1:], strict=False):
+        assert side == pytest.approx(np.array([start, end]))
 
 
 DRIVEN_SLIDER = """

@@ -39,10 +39,10 @@ from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.machine import Engine
 
-_TORQUES = ("crank_torque.", "total_torque", "journal_torque.", "crankpin_torque.")
+_TORQUES = ("crank_torque.", "total_torque", "total_tangential_force", "journal_torque.", "crankpin_torque.")
 _WHOLE_VALUES = ("cylinder_count", "displacement", "indicated_power")
 _TABLES = {
-    "engine_torque": ("crank_torque.", "total_torque"),
+    "engine_torque": ("crank_torque.", "total_torque", "total_tangential_force"),
     "accumulated_torque": ("journal_torque.", "crankpin_torque."),
     "bearings": ("crankpin_", "big_end_load", "small_end_load"),
     "main_journals": ("main_journal_load.",),

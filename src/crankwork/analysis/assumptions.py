@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from crankwork.analysis.form_paths import linkage_paths
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.load_curve import LoadCurve
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 # keys of a file about its texts, tables and drawings, which change no result
 _DISPLAY = re.compile(r"(title|document|format|units|decimal_mark|table)\b.*|.*\bsource")
 # they choose a circuit, which nearby positions choose as well, or permit what may not be there
-_CHOOSING = re.compile(r"(positions|branch)\..*|engine\.uneven")
+_CHOOSING = re.compile(r"(positions|branch)\..*")
 # numbers that are in the trace if a result depends on them
 _TRACED = re.compile(
     r"(crank|rod|piston|links|sliders|geared|driver)\b.*\.(\w*mass|inertia|radius_of_gyration|centre_of_mass|small_end_share)"
@@ -34,7 +35,7 @@ _TRACED = re.compile(
 )
 _FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
 _FACE = re.compile(r"\.faces\[1\]")
-_SAMPLES, _ROUNDING = 721, 1e-9
+_SAMPLES, _ROUNDING, _EVEN = 721, 1e-9, 1e-6
 _CORNERS = ("petrol", "diesel", "otto", "ideal-diesel", "dual")
 
 
@@ -192,7 +193,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
     (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path, stated, results)),
     (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing.peak", stated, results)),
-    (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, {})),
+    (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
 )
 
 
@@ -224,18 +225,21 @@ def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
     if inputs is None:
         return ()
     stated = {path: item for path, item in inputs().stated.items() if not _DISPLAY.fullmatch(path)}
-    if results.machine.linkage is not None and any(path.startswith("rod.") for path in stated):
-        # the trace of an engine with friction or loads names the parts of the linkage that it is
-        return tuple(_unreached_forces(results, stated))
     idle = {item.key: item for item in _unreached_forces(results, stated)}
-    in_trace = leaves(results)
+    in_trace = set(leaves(results))
+    if results.machine.linkage is not None and _is_engine(stated):
+        # the trace of an engine with friction or loads names the parts of the linkage that it is
+        parts, ends = {key: _FACE.sub("", part) for key, part in linkage_paths(results.machine).items()}, (".", "[")
+        in_trace |= {key for key in stated if key not in parts and not key.startswith("method.")}
+        in_trace |= {key for key, part in parts.items() for path in in_trace
+                     if path == part or (path.startswith(part) and path[len(part)] in ends)}  # fmt: skip
     for path in stated:
         if path not in idle and not _CHOOSING.fullmatch(path) and (code := _idle(path, stated, results, in_trace)):
             idle[path] = IdleInput(path, code)
     return tuple(idle[path] for path in stated if path in idle)
 
 
-def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace: Mapping[str, Any]) -> str:
+def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace: Container[str]) -> str:
     """Return the code of the reason why nothing depends on an input; empty if something does."""
     rule = next((rule for pattern, rule in _REASONS if re.fullmatch(pattern, path)), None)
     if rule is not None:
@@ -260,10 +264,38 @@ def _idle_spacing(results: Results, *_: object) -> str:
     return "no_moments" if moments is None or not np.any(moments) else ""
 
 
+def _is_engine(stated: Mapping[str, FileInput]) -> bool:
+    return any(path.startswith("rod.") for path in stated)
+
+
+def _idle_order(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    listing = results.listings.get("balance")
+    return "" if listing is not None and f"balance_shafts.{stated[path].value}" in listing.names else "no_order"
+
+
+def _idle_uneven(results: Results, *_: object) -> str:
+    layout = results.machine.engine.layout if results.machine.engine is not None else None
+    angles = sorted(place.firing_angle for place in layout.places) if layout is not None else []
+    gaps = np.diff([*angles, angles[0] + layout.cycle]) if layout is not None else np.array([0.0, 1.0])
+    return "even_intervals" if np.ptp(gaps) <= _EVEN else ""
+
+
+def _idle_numbering(results: Results, *_: object) -> str:
+    engine = results.machine.engine
+    places = engine.layout.places if engine is not None else ()
+    return "one_a_bank" if places and len({place.axis for place in places}) == len(places) else ""
+
+
+def _idle_place(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
+    """Return whether no part of a linkage names a fixed point or a guide."""
+    name = re.split(r"[.\[]", path)[1]
+    return "" if any(item.value == name for item in stated.values()) else "unused"
+
+
 def _idle_mass(results: Results, stated: Mapping[str, FileInput], path: str) -> str:
     """Return whether a driving link has its mass at its pivot, where it is if no centre of mass is stated."""
     centre = path.replace(".mass", ".centre")
-    moves = centre in stated or f"{centre}[1]" in stated or results.machine.linkage is None
+    moves = centre in stated or f"{centre}[1]" in stated or results.machine.linkage is None or _is_engine(stated)
     return "" if moves or _has_weights(results) else "at_rest"
 
 
@@ -283,9 +315,17 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"motor\.\w+", _idle_motor),
     (r".*\.timing\.\w+", lambda results, stated, path: _idle_event(path, stated, results)),
     (r"engine\.spacing", _idle_spacing),
+    (r"engine\.uneven", _idle_uneven),
+    (r"engine\.numbering", _idle_numbering),
+    (r"balance\.shafts\[\d\]", _idle_order),
+    (r"(fixed_points|guides)\..*", _idle_place),
     (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
     (r"flywheel\.(fluctuation|percent)", _idle_wheel),
-    (r"cylinder\.inclination", lambda results, *_: "" if _has_weights(results) else "weights_off"),
+    # places of the links of one that is drawn turn with it
+    (
+        r"cylinder\.inclination",
+        lambda results, *_: "" if _has_weights(results) or results.machine.linkage else "weights_off",
+    ),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),

@@ -13,6 +13,8 @@ from crankwork.analysis.piston_kinematics import HARMONICS
 from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
+from crankwork.loads.load_curve import LoadCurve
+from crankwork.loads.process import ProcessForce
 from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
 
 _STEP = 0.5
@@ -20,6 +22,21 @@ _STEP = 0.5
 _AFTER = 1e-6
 # how many parts the tangents of a parabola are divided into
 _PARTS = 6
+# along a smooth law of a force
+_SAMPLES = 201
+
+
+def force_laws(results: Results) -> dict[str, tuple[Array, Array]]:
+    """Return the forces that are stated over the stroke of a piece, over its displacement, by its name. [m], [N]"""
+    laws = {}
+    for load in results.machine.loads if results.machine.linkage is not None else ():
+        if isinstance(load, ProcessForce) and load.against == "stroke" and isinstance(load.force, LoadCurve):
+            strokes, forces = np.array(load.force.at), np.array(load.force.values)
+            if load.force.interpolation != "linear":
+                strokes = np.linspace(strokes[0], strokes[-1], _SAMPLES)
+                forces = load.force(strokes)
+            laws[load.slider] = load.start + load.forward * strokes, forces
+    return laws
 
 
 class FineColumns(NamedTuple):

@@ -108,6 +108,11 @@ class EngineDiagrams:
         """Torque of every cylinder at `degrees`, shape (cylinders, n). [N m]"""
         return self.engine.each("crank_torque", self.degrees)
 
+    def values(self, *keys: str) -> dict[str, Array]:
+        """Return columns of the whole engine at `degrees`. [SI]"""
+        program = Program({key: self.results.trace[key] for key in keys})
+        return dict(program(CrankGrid.from_degrees(self.degrees)))
+
     @property
     def journal_torques(self) -> Array:
         """Torque on every main journal that carries some, from the second on, at `degrees`. [N m]"""

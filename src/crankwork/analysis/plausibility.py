@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -13,25 +14,36 @@ import numpy as np
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.results import Results
 from crankwork.cylinders.layout import Layout
+from crankwork.machine import Machine
 
 
 class _Range(NamedTuple):
-    """A range beyond which no engine is built, in SI and wider than its source."""
+    """A range beyond which no engine is built, in SI and wider than its source, with keys of a file that decide."""
 
-    key: str
+    quantity: str
     low: float
     high: float
+    source: str
+    keys: tuple[str, ...] = ()
 
 
-_RANGES = (
-    # kolchin_demidov_2008, ch. 6 and 7; heywood_1988, table 2.1; taylor_1985, ch. 11
-    _Range("mean_piston_speed", 0.0, 30.0),
-    _Range("rod_ratio", 0.08, 0.45),
-    _Range("gas_pressure_max", 0.0, 35e6),
-    _Range("speed_fluctuation", 0.0, 0.5),
+_RESULTS = (
+    _Range("mean_piston_speed", 0.0, 30.0, "heywood_1988", ("crank.speed",)),
+    _Range("rod_ratio", 0.08, 0.45, "kolchin_demidov_2008", ("rod.ratio", "rod.length")),
+    _Range("gas_pressure_max", 0.0, 35e6, "heywood_1988", ("gas.points", "gas", "cycle", "cylinder.compression_ratio")),
+    _Range("speed_fluctuation", 0.0, 0.5, "taylor_1985", ("flywheel",)),
 )
-# stroke over bore, and mass over piston area [kg/m2]
-_STROKE, _PISTON, _ROD = (0.3, 5.0), (10.0, 3000.0), (10.0, 4000.0)
+_WANTED = _Range("speed_fluctuation", 0.0, 0.25, "khurmi_gupta_2005", ("flywheel.percent", "flywheel.fluctuation"))
+_STROKE = _Range("stroke_bore_ratio", 0.3, 5.0, "taylor_1985", ("cylinder.bore",))
+# mass over piston area [kg/m2]
+_PISTON = _Range("mass_per_area.of_piston", 10.0, 3000.0, "kolchin_demidov_2008", ("piston.mass",))
+_ROD = _Range("mass_per_area.of_rod", 10.0, 4000.0, "kolchin_demidov_2008", ("rod.mass", "rod.big_end_mass"))
+# of numbers as they are stated, by their key
+_STATED = {
+    r"rod\.small_end_share": _Range("small_end_share", 0.1, 0.6, "kolchin_demidov_2008"),
+    r"gas\.points\.[^.]+\.pressure": _Range("gas_pressure", 1e4, 1e8, "heywood_1988"),
+    r"chambers\.(.*[._])?temperature": _Range("cylinder_temperature", 50.0, 4000.0, "urieli_berchowitz_1984"),
+}
 # orders of how many cylinders are compared, and how much better another has to be
 _MOST_ORDERS, _BETTER, _ZERO = 6, 2.0, 1e-9
 
@@ -39,24 +51,37 @@ _MOST_ORDERS, _BETTER, _ZERO = 6, 2.0, 1e-9
 def implausible(results: Results) -> Iterator[Notice]:
     """Yield a notice for each value far outside normal design (kolchin_demidov_2008, heywood_1988, taylor_1985)."""
     machine = results.machine
+    file = machine.inputs() if machine.inputs is not None else None
+    is_gauge = file is None or "gas.pressures" not in file.stated or file.stated["gas.pressures"].value == "gauge"
+    for path, number in machine.stated.items():
+        usual = next((usual for pattern, usual in _STATED.items() if re.fullmatch(pattern, path)), None)
+        if usual is not None and not (is_gauge and usual.quantity == "gas_pressure"):
+            yield from _outside(usual._replace(keys=(path,)), number.value, machine)
     if machine.lengths is None:
         return
-    for key, low, high in _RANGES:
-        yield from _outside(key, results.summary.get(key), low, high)
+    for usual in _RESULTS:
+        yield from _outside(usual, results.summary.get(usual.quantity), machine)
+    yield from _outside(_WANTED, machine.drive.fluctuation, machine)
     if machine.cylinder is not None:
-        yield from _outside("stroke_bore_ratio", 2 * float(machine.lengths[0]) / machine.cylinder.bore, *_STROKE)
+        yield from _outside(_STROKE, 2 * float(machine.lengths[0]) / machine.cylinder.bore, machine)
         area, masses = math.pi / 4 * machine.cylinder.bore**2, machine.masses
         if masses is not None:
             rod = masses.rod_small_end + masses.rod_big_end
-            yield from _outside("mass_per_area.of_piston", masses.piston / area or None, *_PISTON)
-            yield from _outside("mass_per_area.of_rod", rod / area or None, *_ROD)
+            yield from _outside(_PISTON, masses.piston / area or None, machine)
+            yield from _outside(_ROD, rod / area or None, machine)
     if machine.engine is not None and "engine.throws[1]" not in machine.stated:
         yield from _doubtful_order(machine.engine.layout)
 
 
-def _outside(key: str, value: float | None, low: float, high: float) -> Iterator[Notice]:
-    if value is not None and not low <= value <= high:
-        yield Notice("implausible", {"quantity": key, "value": value, "low": low, "high": high})
+def _outside(usual: _Range, value: float | None, machine: Machine) -> Iterator[Notice]:
+    if value is None or usual.low <= value <= usual.high:
+        return
+    # of many points no single one is to blame
+    path = next((key for key in usual.keys if any(path.startswith(key) for path in machine.stated)), usual.keys[0])
+    limits = {"low": usual.low, "high": usual.high}
+    yield Notice(
+        "implausible", {"quantity": usual.quantity, "value": value, **limits, "path": path, "source": usual.source}
+    )
 
 
 def _doubtful_order(layout: Layout) -> Iterator[Notice]:

@@ -215,7 +215,7 @@ def _given_diagram(
     `volume_at` and `centres`: volume and dead centres by these angles. [deg]
     """
     if gas.measured is not None:
-        around = PressureReference(volume_at, centres[0], has_strokes=True)
+        around = PressureReference(volume_at, centres[0], has_strokes=not gas.path.startswith("chambers"))
         diagram, messages = measured_diagram(
             gas.measured, gas.cycle, around, shift=gas.angle_shift, step=gas.resample, path=gas.path
         )

@@ -55,7 +55,7 @@ class EngineTorque(NamedTuple):
 
 
 def torque_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
-    """Return the torques of all cylinders, their sum and those along the shaft."""
+    """Return the torques of all cylinders, their sums and those along the shaft."""
     tangential = [engine.of(place.number, "tangential_force") for place in engine.layout.places]
     each = [_torque(engine, number, force) for number, force in enumerate(tangential, start=1)]
     along = torques_along_shaft(each, engine.layout)
@@ -63,6 +63,8 @@ def torque_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     if len(along.throws) > 1:
         values += [*along.throws, *along.journals[1:], *along.crankpins]
     values.append(total("total_torque", along.throws))
+    if len(each) > 1:
+        values.append(total("total_tangential_force", tangential))
     return {item.key: item for item in values}
 
 

@@ -58,6 +58,8 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
     if own or values["gas"]["measured"]["columns"]:
         engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
     speed = crank_speed(crank["speed"], method) if "speed" in crank else 0.0
+    if "recovery" in flywheel and masses and (masses.piston or masses.rod_small_end) and method.name != "textbook":
+        reader.add_error("flywheel.recovery", ErrorMessage("recovery_of_linkage"))
     drive = read_flywheel(flywheel, Drive(), speed, reader, pi=method.pi)
     if reader.problems or lengths is None:
         return None

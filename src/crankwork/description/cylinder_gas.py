@@ -6,10 +6,11 @@ from dataclasses import replace
 from typing import cast
 
 from crankwork.description.cylinder_pressure_build import ReadMeasured, build_diagram, check_parts, has_diagram
-from crankwork.description.schema import Values
+from crankwork.description.schema import Values, shown
 from crankwork.description.value_types import Reader
 from crankwork.formula.traced_value import given
 from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.pressure_processing import PEAKS, centred, peak_angle
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Engine, Gas
 from crankwork.working_cycle.pressure_models import CornerPressure, HeatReleasePressure, MisfirePressure
@@ -42,6 +43,8 @@ def with_own_gas(
     if left and not (gas.calculated or has_diagram(values["gas"])):
         reader.add_error("gas.points", ErrorMessage("cylinder_gas", numbers=", ".join(map(str, left)), first=left[0]))
         return engine
+    own_or_first = {number: diagrams.get(number, gas) for number in sorted({*diagrams, *left[:1]})}
+    _check_order(own_or_first, values["gas"], reader)
     gases, known = list[Gas](), dict[tuple[int, float], Gas]()
     for number, factor in enumerate(factors, start=1):
         own_gas = motored if motored is not None and number in misfires else diagrams.get(number, gas)
@@ -84,6 +87,46 @@ def _of_columns(table: Values, gas: Gas, engine: Engine, reader: Reader, read_me
         samples = diagram.measured and replace(diagram.measured, notices=() if gases else diagram.measured.notices)
         gases[place.number] = replace(gas, measured=samples, angle_shift=gas.angle_shift - later)
     return gases
+
+
+def _check_order(gases: dict[int, Gas], table: Values, reader: Reader) -> None:
+    """Report pressures of several cylinders that suit the firing order in another order only."""
+    samples = {number: gas.measured for number, gas in gases.items() if gas.measured is not None}
+    if len(samples) < len(gases) or len(gases) < 2:
+        return
+    cycle, peaks = gases[min(gases)].cycle, {number: peak_angle(measured) for number, measured in samples.items()}
+
+    def is_far(number: int, other: int, turn: float = 0.0) -> float:
+        """Return how far the peak of another column is from where that of a cylinder is usual. [deg]"""
+        late = centred(peaks[other] + gases[number].angle_shift + turn - 360.0, cycle)
+        return max(PEAKS[0] - late, late - PEAKS[1], 0.0) + 1e-3 * abs(late)
+
+    stated = {number: table if gas.path == "gas" else table["cylinders"][str(number)] for number, gas in gases.items()}
+    columns = table["measured"]["columns"] or [own["measured"].get("pressure_column") for own in stated.values()]
+    # columns as they follow each other may count from another dead centre
+    turns = (0.0, 180.0, 360.0, -180.0) if columns == sorted(columns, key=str) else (0.0,)
+    if any(all(is_far(number, number, turn) < 1 for number in gases) for turn in turns):
+        return
+    left, order = list(gases), dict[int, int]()
+    for number in gases:
+        order[number] = min(left, key=lambda other: is_far(number, other))
+        left.remove(order[number])
+    if any(is_far(number, other) > 1 for number, other in order.items()):
+        return
+    if table["measured"]["columns"]:
+        line = f"columns = [{', '.join(_written(columns[other - 1]) for other in order.values())}]"
+        reader.add_error("gas.measured.columns", ErrorMessage("columns_order", line=line))
+        return
+    for number, other in order.items():
+        own, right = (stated[either]["measured"] for either in (number, other))
+        keys = [key for key in ("file", "pressure_column") if right.get(key) != own.get(key)]
+        line = ", ".join(f"{key} = {_written(right.get(key))}" for key in keys)
+        if keys:
+            reader.add_error(f"{gases[number].path}.measured.{keys[0]}", ErrorMessage("columns_order", line=line))
+
+
+def _written(column: str | float) -> str:
+    return shown(int(column) if isinstance(column, float) else column)
 
 
 def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Reader, read: ReadMeasured) -> Gas:

@@ -157,7 +157,6 @@ def build_diagram(values: Values, path: str, reader: Reader, read_measured: Read
         if measured.zero and not (treatment.is_placed or is_counted):
             shift = measured.zero
             notices.append(("measured_zero", {"name": f"{path}.measured", "shift": shift}))
-        treatment = treatment._replace(is_placed=treatment.is_placed or is_counted)
         measured = replace(measured, treatment=treatment, notices=(*measured.notices, *notices))
     resample = source.si("resample")
     if absolute:

@@ -21,7 +21,7 @@ from crankwork.description.machine_file import (
 )
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.toml_edit import document, with_value, without_key
-from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from crankwork.locale import ErrorMessage
 
 if TYPE_CHECKING:
@@ -60,8 +60,13 @@ class Description:
 
     def __init__(self, text: str | Mapping[str, Any], name: str = "text", *, folder: Path | None = None) -> None:
         text = text if isinstance(text, str) else document(text)
-        self._text, self._values = text, parse(text, name)
-        self.name, self.folder = name, folder
+        self._text, self.name, self.folder = text, name, folder
+        try:
+            self._values = parse(text, name)
+        except InputError:
+            # tells the other mistakes too
+            read_machine(text, name, folder=folder)
+            raise
 
     def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - what the file states
         """Return a value as the file states it, or its default as a file would; KeyError if there is neither."""

@@ -71,11 +71,11 @@ PIECE = TableSpec("piece", {
 })  # fmt: skip
 
 _PEG = TableSpec("peg", {
-    "angle": KeySpec(_ANGLE, required=True, instead_of=("exponent",)),
-    "pressure": KeySpec(_PRESSURE, required=True, only={"angle": ()}),
-    "exponent": KeySpec(Number(1.0, 2.0), instead_of=("angle",)),
-    "from": KeySpec(_ANGLE, required=True, only={"exponent": ()}),
-    "to": KeySpec(_ANGLE, required=True, only={"exponent": ()}),
+    "angle": KeySpec(_ANGLE, required=True, instead_of=("exponent",), example='"180 deg"'),
+    "pressure": KeySpec(_PRESSURE, required=True, only={"angle": ()}, example='"1 bar"'),
+    "exponent": KeySpec(Number(1.0, 2.0), instead_of=("angle",), example="1.32"),
+    "from": KeySpec(_ANGLE, required=True, only={"exponent": ()}, example='"270 deg"'),
+    "to": KeySpec(_ANGLE, required=True, only={"exponent": ()}, example='"330 deg"'),
 })  # fmt: skip
 _COLUMN = NameOr(Number(1, 16_384, whole=True))
 MEASURED = TableSpec("measured", {

@@ -18,6 +18,7 @@ from crankwork.description.drive_build import read_drive
 from crankwork.description.driver_build import build_law, check_driver, check_gas, check_halves, check_loads
 from crankwork.description.flywheel_build import read_flywheel
 from crankwork.description.friction_build import build_friction, check_friction
+from crankwork.description.measured_build import add_questions, in_file
 from crankwork.description.range_checks import checked_motion, explain_redundant, with_crank_range, with_starts
 from crankwork.description.redundant_build import fitting, geometry_of, without_redundant, without_unshared
 from crankwork.description.schema import Values
@@ -180,12 +181,9 @@ def _fits(machine: Machine, values: Values, reader: Reader) -> bool:
         reader.add_error("chambers", ErrorMessage("chambers_partial"))
         return False
     try:
-        traced_linkage(machine, reached.motion)
+        add_questions(traced_linkage(machine, reached.motion)[1].filling.notices, values, reader)
     except DiagramError as error:
-        mistake = error.args[0]
-        if ".measured" in error.key:
-            name = error.key.split(".")[1]
-            mistake = ErrorMessage("in_file", file=values["chambers"][name]["measured"]["file"], mistake=mistake)
+        mistake = in_file(error.key, error.args[0], values)
         if machine.mechanism.driver.law is not None:
             mistake = ErrorMessage("in_period", mistake=mistake)
         reader.add_error(error.key, mistake)
@@ -266,7 +264,8 @@ def _transient(values: Values, reader: Reader) -> Transient | None:
         reader.add_error("transient.motor", ErrorMessage("transient_motorless"))
     start, ends = table.si("start"), tuple(stop.value for stop in table["stops"] or ())
     if ends and not (ends[0] <= start <= ends[1] and ends[0] < ends[1]):
-        reader.add_error("transient.stops", ErrorMessage("transient_stops"))
+        low, high = (f"{math.degrees(start) + away:g}" for away in (-90, 90))
+        reader.add_error("transient.stops", ErrorMessage("transient_stops", low=low, high=high))
     rows = table.si("time") / table.si("step") if table["step"] and table["time"] else 0.0
     if rows > _MOST_ROWS:
         reader.add_error("transient.step", ErrorMessage("transient_rows", rows=rows, most=_MOST_ROWS))

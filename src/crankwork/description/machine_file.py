@@ -23,14 +23,14 @@ from crankwork.description.file_inputs import file_inputs
 from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, METHOD, SIZED_FILE
 from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, TRANSFER_FILE
 from crankwork.description.load_keys import LOADING
-from crankwork.description.measured_build import read_measured
+from crankwork.description.measured_build import add_questions, in_file, read_measured
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
+from crankwork.description.stated import mistaken_names
 from crankwork.description.toml_positions import locate
 from crankwork.description.torque_keys import PRESS_FILE, TURNING_FILE
 from crankwork.description.value_types import Reader, is_one_line, look_alikes
 from crankwork.errors import CrankworkError, InputError, Problem, UnknownKeyError
 from crankwork.loads.indicator import DiagramError
-from crankwork.loads.pressure_processing import QUESTIONS
 from crankwork.locale import LANGUAGES, ErrorMessage, Language, translate
 from crankwork.resources import read_resource, resource_names
 from crankwork.units import TO_LATIN
@@ -100,6 +100,9 @@ def read_machine(
     reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
     machine = _build(values, reader, folder)
     if mistakes or reader.problems or machine is None:
+        for path, letters, latin in mistaken_names(values):
+            told = Problem(path, ErrorMessage("key_look_alike", letters=letters, written=latin))
+            reader.problems = [*(problem for problem in reader.problems if problem.key != path), told]
         raise input_error(source, name, reader, settings, mistakes)
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     notices = (*machine.notices, *reader.notices)
@@ -252,25 +255,14 @@ def _solvable(machine: Machine | None, values: Values, reader: Reader) -> Machin
             from crankwork.analysis.cylinders import multi_cylinder_engine  # noqa: PLC0415 - few engines have them
 
             solved += multi_cylinder_engine(solved[0]).cylinders[1:]
-        for notice in itertools.chain.from_iterable(cylinder.notices for cylinder in solved):
-            if notice.code in QUESTIONS:
-                key = str(notice.values["name"])
-                reader.add_error(key, _in_file(key, ErrorMessage(f"notices.{notice.code}", **notice.values), values))
+        add_questions(itertools.chain.from_iterable(cylinder.notices for cylinder in solved), values, reader)
     except DiagramError as error:
-        reader.add_error(error.key, _in_file(error.key, error.args[0], values))
+        reader.add_error(error.key, in_file(error.key, error.args[0], values))
     except CrankworkError as error:
         if "cycle" not in values:
             raise
         reader.add_error("cycle", error.args[0])
     return machine
-
-
-def _in_file(key: str, mistake: ErrorMessage, values: Values) -> ErrorMessage:
-    """Return a mistake with the file that it is about, if it is about one."""
-    if not key.endswith(".measured"):
-        return mistake
-    measured = functools.reduce(dict.__getitem__, key.split("."), values)
-    return ErrorMessage("in_file", file=measured["file"], mistake=mistake)
 
 
 def file_keys(values: Mapping[str, Any]) -> TableSpec:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
@@ -16,24 +17,36 @@ from crankwork.description.table_file import FileTable, read_table
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing
+from crankwork.loads.measured_pressure import MeasuredPressure, NoticeData, Pegging, Preprocessing, plausible_units
+from crankwork.loads.pressure_processing import QUESTIONS
 from crankwork.locale import ErrorMessage
-from crankwork.units import UNITS, spellings
+from crankwork.units import UNITS
 
 # words of headings in the languages of test benches
 _WORDS = {
-    "angle": re.compile(r"ang|crank|phi|φ|alpha|α|theta|θ|deg|°|\bca\b|cad|winkel|угол|угла|пкв|góc", re.IGNORECASE),
-    "pressure": re.compile(r"^p(?![a-z]{2}|ow)|press|druck|zyl|давл|р_?ц|áp", re.IGNORECASE),
+    "angle": re.compile(
+        r"ang|crank|phi|φ|alpha|α|theta|θ|deg|°|\bca\b|cad|winkel|угол|угла|кут|пкв|góc|\bgoc\b", re.IGNORECASE
+    ),
+    "pressure": re.compile(r"^p(?![a-z]{2}|ow)|press|druck|zyl|давл|тиск|р_?ц|áp|\bap suat", re.IGNORECASE),
 }
 _REFERENCES = {
-    "absolute": re.compile(r"(?:\b|_)(?:abs(?:olut\w*)?|bara|psia)(?:\b|_)|\(a\)|абс|tuyệt đối", re.IGNORECASE),
-    "gauge": re.compile(r"(?:\b|_)(?:gauge|barg|psig|rel)(?:\b|_)|\(g\)|изб|áp suất dư|überdruck", re.IGNORECASE),
+    "absolute": re.compile(
+        r"(?:\b|_)(?:abs(?:olut\w*)?|bara|psia)(?:\b|_)|\(a\)|абс|tuyệt đối|tuyet doi", re.IGNORECASE
+    ),
+    "gauge": re.compile(
+        r"(?:\b|_)(?:gauge|barg|psig|rel)(?:\b|_)|\(g\)|изб|манометр|надлишк|áp suất dư|ap suat du|tương đối|tuong doi"
+        r"|überdruck",
+        re.IGNORECASE,
+    ),
 }
-# angles from the dead centre of firing, and angles before a dead centre
+# angles from the dead centre of firing, and angles before a dead centre; words in each of the languages
 _FROM_FIRING = re.compile(
-    r"firing|fired|combust|compression|tdcf\b|сгоран|сжат|рабоч|\bнổ|cháy|nén|zünd|\bzot\b", re.IGNORECASE
+    r"firing|fired|combust|ignition|compression|tdcf\b|tdc\s+power|power\s+(?:stroke|tdc)"
+    r"|сгоран|сжат|рабоч|вспышк|воспламен|згор|стис|робоч|спалах|займан"
+    r"|\bnổ|cháy|nén|\bdct (?:ky )?(?:no|chay|cuoi nen|nen)\b|zünd|\bzot\b",
+    re.IGNORECASE,
 )
-_BEFORE = re.compile(r"\bb\.?tdc|before|до\s+вмт|trước|\bvor\b", re.IGNORECASE)
+_BEFORE = re.compile(r"\bb\.?tdc|before|(?:до|перед)\s+вмт|trước|\btruoc\b|\bvor\b", re.IGNORECASE)
 _RANGE = re.compile(r"(\d+)\s*\.\.\s*(\d+)")
 # text after an angle that is a unit: it has a number or a quotient
 _SOME_UNIT = re.compile(r"\d|/")
@@ -68,6 +81,8 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     try:
         table = read_table(folder / file, name=file, sheet=values["sheet"])
         columns = _columns(table, values)
+        if not (columns.pressure_unit or reader.has_errors(f"{path}.measured.pressure_unit")):
+            reader.add_error(f"{path}.measured.pressure_unit", _without_unit(table, columns.pressures[0]))
         samples = table.columns((columns.angle, *columns.pressures))
         _check_angles(samples[:, 0], columns.angle_unit, table)
         other = next(filter(partial(_rises, table), columns.pressures), -1)
@@ -77,15 +92,6 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
         reader.add_error(f"{path}.measured.file", *error.args)
         return None
     if not columns.pressure_unit:
-        key = "pressure_unit"
-        written = table.written[columns.pressures[0]]
-        options = ", ".join(spellings("pressure")[:4])
-        message = ErrorMessage("missing", advice=(f'{key} = "MPa"',))
-        if written:
-            column = table.label(columns.pressures[0])
-            message = ErrorMessage("measured_unit_unknown", unit=written[:20], column=column, name=key, options=options)
-        if not reader.has_errors(f"{path}.measured.{key}"):
-            reader.add_error(f"{path}.measured.{key}", message)
         return None
     if not reader.decimal_comma and _are_thousands(table, samples[:, 1:] * UNITS[columns.pressure_unit].factor):
         line = table.lines[0]
@@ -118,6 +124,32 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     )
 
 
+def _without_unit(table: FileTable, column: int) -> ErrorMessage:
+    """Return the question for the unit of a column of pressures, with those that suit its numbers."""
+    units, written = plausible_units(table.readable(column)), table.written[column]
+    if not written:
+        return ErrorMessage("missing", advice=tuple(f'pressure_unit = "{unit}"' for unit in units))
+    stated = {"unit": written[:20], "column": table.label(column), "name": "pressure_unit"}
+    return ErrorMessage("measured_unit_unknown", **stated, options=", ".join(units))
+
+
+def in_file(key: str, mistake: ErrorMessage, values: Values) -> ErrorMessage:
+    """Return a mistake with the file that it is about, if it is about one."""
+    owner, measured, _ = key.partition(".measured")
+    if not measured:
+        return mistake
+    table = functools.reduce(dict.__getitem__, owner.split("."), values)
+    return ErrorMessage("in_file", file=table["measured"]["file"], mistake=mistake)
+
+
+def add_questions(notices: Iterable[NoticeData], values: Values, reader: Reader) -> None:
+    """Report the notices that a description has to answer, each once."""
+    for code, stated in notices:
+        key = str(stated.get("name"))
+        if code in QUESTIONS and not reader.has_errors(key):
+            reader.add_error(key, in_file(key, ErrorMessage(f"notices.{code}", **stated), values))
+
+
 def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -> Preprocessing:
     """Return the requested treatment of samples; `path`: of its table."""
     peg, which, smooth, loss = values.get("peg"), values["cycle"], values.si("smooth"), values.si("loss_angle")
@@ -142,8 +174,18 @@ def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -
 
 def _columns(table: FileTable, values: Values) -> _Columns:
     """Return the columns to read, and their units; raise if the machine file must name them."""
-    angle, *_ = _chosen(table, values, "angle", ())
-    pressures = _chosen(table, values, "pressure", (angle,))
+    mistakes = list[ErrorMessage]()
+    angle, pressures = -1, tuple[int, ...]()
+    try:
+        angle, *_ = _chosen(table, values, "angle", ())
+    except CrankworkError as error:
+        mistakes += error.args
+    try:
+        pressures = _chosen(table, values, "pressure", (angle,))
+    except CrankworkError as error:
+        mistakes += error.args
+    if mistakes:
+        raise CrankworkError(*dict.fromkeys(mistakes))
     notices: list[NoticeData] = []
     more = f"..{table.label(pressures[-1])}" if len(pressures) > 1 else ""
     taken = table.label(pressures[0]) + more
@@ -154,7 +196,11 @@ def _columns(table: FileTable, values: Values) -> _Columns:
     if pressures and "pressure_unit" not in values and units[1]:
         notices.append(("measured_units_of_file", {"units": ", ".join(of_file)}))
     heading = f"{table.names[angle]} {table.written[angle]}"
-    zero, is_before = 360.0 if _FROM_FIRING.search(heading) else 0.0, bool(_BEFORE.search(heading))
+    # a heading may say that firing is at 360
+    zero, is_before = (
+        360.0 if _FROM_FIRING.search(heading) and "360" not in heading else 0.0,
+        bool(_BEFORE.search(heading)),
+    )
     if is_before:
         notices.append(("measured_before", {"column": table.label(angle)}))
     return _Columns(angle, pressures, units[0], units[1], tuple(notices), zero, is_before)

@@ -223,7 +223,7 @@ class KeySpec(NamedTuple):
     """A field of a table: its kind, its default as a file would state it, and when it applies.
 
     `required`: always, or for tables of these kinds; `instead_of`: equivalent keys that exclude it; `only`: keys that
-    must be present, each with its allowed values, or empty for any.
+    must be present, each with its allowed values, or empty for any; `example`: as a file has it.
     """
 
     kind: ValueType
@@ -231,6 +231,7 @@ class KeySpec(NamedTuple):
     instead_of: tuple[str, ...] = ()
     default: Any = None
     only: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+    example: str = ""
 
 
 class TableSpec(NamedTuple):
@@ -313,7 +314,7 @@ class TableSpec(NamedTuple):
         if wanted:
             reader.add_error(f"{prefix}{name}", no_effect_message(other, values[other], wanted))
         else:
-            advice = _advice(other, self.keys[other].kind, prefix)
+            advice = _advice(other, self.keys[other], prefix)
             reader.add_error(f"{prefix}{name}", ErrorMessage("only_beside", key=other, advice=advice))
 
     def _report_unknown(self, name: str, value: object, path: str, reader: Reader) -> None:
@@ -341,8 +342,11 @@ class TableSpec(NamedTuple):
         is_reported = reader.has_errors(*(f"{prefix}{key}" for key in (*alternatives, *entry.only)))
         if is_reported or any(alternative in value for alternative in alternatives) or self._foreign(entry, values):
             return
-        advice = tuple(_advice(alternative, self.keys[alternative].kind, prefix) for alternative in alternatives)
-        reader.add_error(f"{prefix}{name}", ErrorMessage("missing", advice=advice))
+        # what is there tells which alternative is meant
+        beside = {other for stated in value if stated in self.keys for other in self.keys[stated].only}
+        alternatives = tuple(key for key in alternatives if key in beside) or alternatives
+        advice = tuple(_advice(alternative, self.keys[alternative], prefix) for alternative in alternatives)
+        reader.add_error(f"{prefix}{alternatives[0]}", ErrorMessage("missing", advice=advice))
 
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of an object."""
@@ -445,14 +449,16 @@ def nearest_name(word: str, options: Iterable[str]) -> str:
     return matches[0] if matches else ""
 
 
-def _advice(name: str, kind: ValueType, prefix: str) -> str:
+def _advice(name: str, entry: KeySpec, prefix: str) -> str:
     """Return an example of a missing key; `prefix`: of the keys of its table."""
-    match kind:
-        case Quantity():
+    if entry.example:
+        return f"{name} = {entry.example}"
+    match entry.kind:
+        case Quantity() as kind:
             return f'{name} = "{units.EXAMPLES[kind.dimensions[0]]}"'
-        case Number():
+        case Number() as kind:
             return f"{name} = {kind.example()}"
-        case Choice():
+        case Choice() as kind:
             return f"{name} = {shown(kind.options[0])}"
         case Text():
             return f'{name} = "..."'

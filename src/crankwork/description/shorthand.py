@@ -291,7 +291,7 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
     yield name, {**face, **space, **plain}
     yield from ((f"{name}.{key}", value) for key, value in stated.items() if key not in plain)
     if cylinder.piston_rod_diameter:
-        rod, back = _unit(cylinder.piston_rod_diameter, "mm"), values["gas"]["back_pressure"]
+        rod, back = _unit(cylinder.piston_rod_diameter, "mm"), values.get("gas", {}).get("back_pressure", "0 MPa")
         yield f"chambers.crank_end{gear.own}", {**face, "rod_diameter": rod, "sense": -1, "pressure": back}
 
 

@@ -7,8 +7,9 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from crankwork.description.value_types import MeasuredValue
+from crankwork.description.value_types import MeasuredValue, look_alikes
 from crankwork.machine import InputNumber
+from crankwork.units import TO_LATIN
 
 
 def stated_numbers(values: Mapping[str, Any]) -> dict[str, InputNumber]:
@@ -32,3 +33,26 @@ def _numbers(path: str, value: Any) -> Iterator[tuple[str, InputNumber]]:  # noq
         case list():
             for index, item in enumerate(value, start=1):
                 yield from _numbers(f"{path}[{index}]", item)
+
+
+def mistaken_names(values: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    """Yield path, Cyrillic letters and Latin spelling of names that are another name of the file but for these."""
+    words = [(path, text) for path, text in _words("", values) if path != "title"]
+    names = {text for _, text in words}
+    for path, text in words:
+        if (letters := look_alikes(text)) and text.translate(TO_LATIN) in names:
+            yield path, letters, text.translate(TO_LATIN)
+
+
+def _words(path: str, value: Any) -> Iterator[tuple[str, str]]:  # noqa: ANN401 - tables, lists and texts
+    """Yield texts and names of tables by path."""
+    if isinstance(value, str):
+        yield path, value
+    items = (
+        value.items() if isinstance(value, Mapping) else enumerate(value, start=1) if isinstance(value, list) else ()
+    )
+    for name, item in items:
+        inner = f"{path}[{name}]" if isinstance(name, int) else f"{path}.{name}".lstrip(".")
+        if isinstance(name, str):
+            yield inner, name
+        yield from _words(inner, item)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import codecs
 import contextlib
 import csv
+import itertools
 import re
+import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -25,21 +27,26 @@ _FIRST_LINES = 2000
 _LONGEST_LINE = 131_072
 _LARGEST = 1e12
 _FEWEST_ROWS = 3
+# lines below a table with one number on each
+_MOST_WORDS = 12
 _MARKS = ("#", "%", "!", "//")
 _BLANKS = re.compile(r"\s{2,}|\t")
 # separators in order of preference; None: blanks
 _SEPARATORS = (";", "\t", ",", None)
 _BRACKETED = re.compile(r"(.*\S)\s*[\[(]\s*([^\[\]()]*(?:\([^()]*\))?)\s*[\])]\.?")
+_BRACKETS = re.compile(r"[\[(].*?[\])]")
 _DIVIDING = re.compile(r"\s*[,/]\s*|\s+|_")
 _IN_BRACKETS = re.compile(r"[\[(](.*)[\])]")
 _NUMBER_LAST = re.compile(r"(?:^|[\s_,/=@])\d[\d.,]*$")
 # suffixes of units of crank angle, and of pressure
 _OF_CRANK = re.compile(
-    r"(?:^ca|^пкв|(?<=.)[\s.]*(?:ca|kw|пкв|п\.к\.в|[ab]\.?tdc|abdc|(?:после|до|от|sau|trước|nach|vor)\s*(?:вмт|đct|ot))f?)"
+    r"(?:^ca|^пкв|(?<=.)[\s.]*(?:ca|kw|пкв|п\.к\.в|[ab]\.?tdc|abdc|(?:после|після|до|перед|от|від|từ|sau|trước|truoc|nach|vor)\s*(?:вмт|đct|dct|ot))f?)"
     r"(?:[\s,(]+[^\d/]*)?\.?$",
     re.IGNORECASE,
 )
-_OF_REFERENCE = re.compile(r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс\w*|изб\w*|dư|tuyệt đối)\.?\)?$", re.IGNORECASE)
+_OF_REFERENCE = re.compile(
+    r"(?<=..)[\s(]*(?:absolute|abs|gauge|a|g|абс\w*|изб\w*|надл\w*|dư|tuyệt đối)\.?\)?$", re.IGNORECASE
+)
 # unknown units of derivatives by the angle and of other quantities
 _QUOTIENT = re.compile(r"[\w°³²·*^%]{1,8}(?:/[\w°³²·*^]{1,8}){1,3}")
 _UNITLESS = ("", "-", "–", "1", "[-]", "[]", "(-)", "%")
@@ -57,9 +64,12 @@ _THOUSANDS = {
     for mark, other in ((".", ","), (",", "."))
 }
 _WITH_THOUSANDS = {
-    mark: re.compile(rf"(?<![\d.,])\d{{1,3}}(?:[{mark}]\d{{3}})+[{other}]\d")
+    mark: re.compile(rf"(?<![\d.,])\d{{1,3}}(?:[{mark}]\d{{3}})+[{other}]\d+")
     for mark, other in ((".", ","), (",", "."))
 }
+# spaces that do not break, between thousands
+_HARD_SPACES = re.compile(r"(?<=\d)[\u00a0\u202f\u2009](?=\d{3})")
+_ABSENT = ("n/a", "na", "nan", "-", "–", "--", "#n/a")
 _CYRILLIC = re.compile(rb"[\xc0-\xff\xa8\xb8]{3}")
 
 
@@ -85,8 +95,9 @@ class FileTable:
             if not 1 <= column <= count:
                 raise self.refused("table_number", number=f"{column:g}", count=str(count))
             return int(column) - 1
+        column = unicodedata.normalize("NFC", column).strip()
         for spell in (str, lambda name: _split_unit(name)[0], lambda name: _split_unit(name)[0].casefold()):
-            indices = [index for index, name in enumerate(self.names) if name and spell(name) == spell(column.strip())]
+            indices = [index for index, name in enumerate(self.names) if name and spell(name) == spell(column)]
             if len(indices) > 1:
                 numbers = [str(index + 1) for index in indices]
                 raise self.refused("table_twice", line=self.heading, name=column, numbers=numbers)
@@ -124,6 +135,12 @@ class FileTable:
             raise CrankworkError(*mistakes)
         return np.array(cells)
 
+    def readable(self, position: int) -> Array:
+        """Return the numbers of a column in the rows that have one, 0 without any."""
+        cells = (_cells(row, self.separator)[position : position + 1] for row in self.rows)
+        numbers = (_float(cell) for cell in itertools.chain.from_iterable(cells))
+        return np.array([number for number in numbers if number is not None and abs(number) < _LARGEST] or [0.0])
+
     def _is_even(self, rows: Iterable[str]) -> bool:
         """Return whether every row has as many cells as there are columns."""
         if self.separator is None:
@@ -150,9 +167,10 @@ class FileTable:
         for number, position in zip(numbers, positions, strict=True):
             if number is None or not abs(number) < _LARGEST:
                 raise self.refused("measured_no_number", line=line, cell=cells[position].strip()[:40])
-            marks |= {mark for mark in ".," if mark in cells[position]}
-            if len(marks) > 1:
+            own = {mark for mark in ".," if mark in cells[position]}
+            if len(marks | own) > 1:
                 raise self.refused("table_marks", line=line, cell=cells[position].strip()[:40])
+            marks |= own
         return [number for number in numbers if number is not None]
 
     def refused(self, name: str, /, **values: object) -> CrankworkError:
@@ -168,7 +186,8 @@ def read_table(path: str | Path, *, name: str = "", sheet: str | None = None) ->
     path = Path(path)
     called = name or path.name
     try:
-        return _table(_text(files.read_data(path), path, sheet), called)
+        text = unicodedata.normalize("NFC", _text(files.read_data(path), path, sheet)).replace("\N{MINUS SIGN}", "-")
+        return _table(_HARD_SPACES.sub("", text), called)
     except ValueError as error:
         raise CrankworkError(ErrorMessage("in_file", file=called, mistake=error.args[0])) from None
 
@@ -185,7 +204,9 @@ def _table(text: str, name: str) -> FileTable:
         raise ValueError(ErrorMessage("measured_empty"))
     separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
     notices = list[tuple[str, Mapping[str, float | str]]]()
-    if start < 0 and _row_by_row(lines, filled):
+    # decimal commas look like commas between columns
+    is_single = start < 0 or (separator == "," and any("," not in lines[number - 1] for number in filled[start:]))
+    if is_single and _row_by_row(lines, filled):
         notices.append(("table_one_a_line", {"file": name}))
         filled = _filled(lines)
         separator, start, count = _block([lines[number - 1] for number in filled[:_FIRST_LINES]])
@@ -194,28 +215,42 @@ def _table(text: str, name: str) -> FileTable:
         raise ValueError(
             ErrorMessage("measured_one_column" if single else "measured_heading", line=single or filled[0])
         )
-    numbers = filled[start:]
+    # headings stand again at the top of every page
+    above = {lines[number - 1].strip() for number in filled[:start]}
+    numbers = [number for number in filled[start:] if lines[number - 1].strip() not in above]
 
     def begins_with_number(line: int) -> bool:
         return _float(next((cell for cell in _cells(lines[line - 1], separator) if cell.strip()), "")) is not None
 
     while begins_with_number(numbers[0]) and not begins_with_number(numbers[-1]):
         numbers.pop()
-    if len(numbers) < len(filled) - start:
-        notices.append(("table_footer", {"file": name, "line": str(filled[start + len(numbers)])}))
+    if numbers[-1] < filled[-1]:
+        notices.append(("table_footer", {"file": name, "line": str(filled[filled.index(numbers[-1]) + 1])}))
     if separator == "," and count > 2 and lines[numbers[0] - 2].count(",") + 1 == count / 2:
         raise ValueError(ErrorMessage("table_commas", line=numbers[0]))
     rows = [lines[number - 1] for number in numbers]
     width = len(_cells(rows[0], separator))
     heading, names, written = _headings(lines[: numbers[0] - 1], separator, (count, width))
     units = tuple(unit_of(unit) for unit in written)
-    # between commas only cells in quotes have thousands
-    quoted = rows if separator != "," else [part for row in rows for part in row.split('"')[1::2]]
-    thousands = next((mark for mark, pattern in _WITH_THOUSANDS.items() if any(map(pattern.search, quoted))), "")
+    thousands = _thousands(numbers, rows, separator)
     if thousands:
         notices.append(("table_thousands", {"file": name, "mark": thousands}))
     table = FileTable(name, names, units, written, heading or numbers[0], numbers, rows, separator)
     return replace(table, thousands=thousands, notices=tuple(notices))
+
+
+def _thousands(numbers: Sequence[int], rows: Sequence[str], separator: str | None) -> str:
+    """Return the mark between thousands, empty for none; raise if few numbers have one."""
+    # between commas only cells in quotes have thousands
+    quoted = rows if separator != "," else ["".join(row.split('"')[1::2]) for row in rows]
+    for mark, pattern in _WITH_THOUSANDS.items():
+        marked = [(line, match[0]) for line, row in zip(numbers, quoted, strict=True) if (match := pattern.search(row))]
+        if marked and len(marked) < _FEWEST_ROWS:
+            line, cell = marked[0]
+            raise ValueError(ErrorMessage("table_slip", line=line, cell=cell, number=cell.replace(mark, "")))
+        if marked:
+            return mark
+    return ""
 
 
 def _filled(lines: Sequence[str]) -> list[int]:
@@ -247,17 +282,22 @@ def _row_by_row(lines: list[str], filled: Sequence[int]) -> bool:
     cells = [lines[number - 1].strip(" \t;,\ufeff") for number in filled]
     values = [_float(cell) for cell in cells]
     first = next((index for index, value in enumerate(values) if value is not None), len(values))
-    numbers = np.array([value for value in values[first:] if value is not None])
-    if len(numbers) < len(values) - first:
-        return False
-    for count in range(2, 7):
+    # what is not a number and not a missing one ends the table
+    words = (
+        index for index in range(first, len(cells)) if values[index] is None and cells[index].lower() not in _ABSENT
+    )
+    end = next(words, len(cells))
+    numbers = np.array(values[first:end], float)
+    for count in range(2, 7 if end > len(cells) - _MOST_WORDS else 2):
         steps = np.diff(numbers[::count])
         if len(numbers) % count or len(steps) < _FEWEST_ROWS or not 0 < steps.max() < 1.5 * steps.min():
             continue
         begins = first - count if first >= count else first
-        for index in range(begins, len(filled)):
+        if end < len(cells):
+            lines[filled[end] - 1], cells[end + 1 :] = " ".join(cells[end:]), [""] * len(cells[end + 1 :])
+        for index in [*range(begins, end), *range(end + 1, len(cells))]:
             is_first = (index - begins) % count == 0
-            lines[filled[index] - 1] = "\t".join(cells[index : index + count]) if is_first else ""
+            lines[filled[index] - 1] = "\t".join(cells[index : min(index + count, end)]) if is_first else ""
         return True
     return False
 
@@ -306,20 +346,24 @@ def _cells(line: str, separator: str | None) -> list[str]:
 
 
 def _headings(
-    above: Sequence[str], separator: str | None, counts: tuple[int, int]
+    lines: Sequence[str], separator: str | None, counts: tuple[int, int]
 ) -> tuple[int, tuple[str, ...], tuple[str, ...]]:
     """Return the line of the headings, 0 for none, the headings, and the unit of each column as written.
 
     `counts`: of the columns with numbers, and with empty ones after them.
     """
-    nearest = list(_divided(above, separator, counts))
+    nearest = list(_divided(lines, separator, counts))
     of_units = next((cells for _, cells in nearest if _are_units(cells)), None)
     named = [(number, cells) for number, cells in nearest if cells is not of_units]
     line, names = named[0] if named else (0, ("",) * counts[0])
     for _, cells in named[1:]:
         # a heading of two lines names some columns in the upper one
         names = tuple(name or upper for name, upper in zip(names, cells, strict=True))
-    return line, names, of_units or tuple(_split_unit(name)[1] for name in names)
+    units = tuple(_split_unit(name)[1] for name in names)
+    for _, cells in named[1:]:
+        above = (_split_unit(cell)[1] for cell in cells)
+        units = tuple(unit or upper * bool(unit_of(upper)) for unit, upper in zip(units, above, strict=True))
+    return line, names, of_units or units
 
 
 def _divided(
@@ -331,7 +375,8 @@ def _divided(
         line = content.strip("\ufeff ")
         for mark in _MARKS:
             line = line.removeprefix(mark)
-        splits = _splits(line, separator) if "=" not in line else ()
+        # a line of the preamble, unless brackets tell what zero is
+        splits = _splits(line, separator) if "=" not in _BRACKETS.sub("", line) else ()
         cells = next((cells for cells in splits if len(cells) in counts and any(cell.strip() for cell in cells)), None)
         if cells is None:
             return
@@ -379,7 +424,9 @@ def _split_unit(heading: str) -> tuple[str, str]:
     """Return a heading without its unit, and the unit as written."""
     match = _BRACKETED.fullmatch(heading.strip())
     if match:
-        return match[1].rstrip(" ,/"), match[2]
+        # a remark may follow the unit
+        before = ("", "") if unit_of(match[2]) else _split_unit(match[1])
+        return before if unit_of(before[1]) else (match[1].rstrip(" ,/"), match[2])
     for mark in _DIVIDING.finditer(heading.strip()):
         name, unit = heading.strip()[: mark.start()], heading.strip()[mark.end() :]
         # 800 rpm is an operating point, not a unit

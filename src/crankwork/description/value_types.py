@@ -21,6 +21,12 @@ _DEVIATION = re.compile(
     r"\s*([+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*((?:[^\s±+\d]|(?<=\s)1/)[^±+]*)?(±|\+-|\+/-|(?i:\bsd\b)|σ)"
     r"\s*([0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*(\S.*)?"
 )
+# limits on two sides, `45 +0.1/-0.2 mm`, `45^{+0.1}_{-0.2} mm`, `45 mm -0.02 -0.05`
+_SIDES = re.compile(
+    r"\s*([+-]?\d+[.,]?\d*)\s*([^\W\d_]\S*)?\s*\^?\{?([+−-]\s?\d+[.,]?\d*)\}?\s*([^\W\d_]\S*?)?"
+    r"(?:\s*[/_;]\s*|\s+)\{?([+−-]?\s?\d+[.,]?\d*)\}?\s*([^\W\d_]\S*)?\s*"
+)
+_PLAIN_SIGNS = str.maketrans(",−", ".-")
 # smaller numbers become 0, so that nothing is divided by them
 _SMALLEST = 1e-30
 _FRACTION = re.compile(r"\s*([+-]?\d+(?:\.\d+)?)\s*/\s*(\d+(?:\.\d+)?)\s*")
@@ -60,6 +66,17 @@ def split_deviation(text: str) -> tuple[str, Deviation | None]:
     if last == "%":
         return f"{value} {first}".strip(), Deviation(f"{size}%", is_tolerance)
     return f"{value} {first or last}".strip(), Deviation(f"{size} {last}" if first and last else size, is_tolerance)
+
+
+def _by_sides(text: str, message: ErrorMessage) -> ErrorMessage:
+    """Return how to write a value with two limits of its own, `45 +0.1/-0.2 mm`; the message if it has none."""
+    match = _SIDES.fullmatch(text) if len(text) < _LONG else None
+    if match is None:
+        return message
+    value, one, other = (float(re.sub(r"\s", "", part.translate(_PLAIN_SIGNS))) for part in match.group(1, 3, 5))
+    units_named = {f" {unit}" for unit in match.group(2, 4, 6) if unit}
+    written = f"{value + (one + other) / 2:.12g} ± {abs(one - other) / 2:.12g}{''.join(units_named)}"
+    return ErrorMessage("tolerance_sides", text=text, written=written) if len(units_named) < 2 else message
 
 
 class MeasuredValue(NamedTuple):
@@ -154,7 +171,7 @@ class Quantity(NamedTuple):
         try:
             parsed = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
         except ValueError as error:
-            reader.add_error(key, self._advised(error.args[0], value, key, reader))
+            reader.add_error(key, _by_sides(value, self._advised(error.args[0], value, key, reader)))
             return None
         if not self._holds(parsed.value):
             reader.add_error(key, self._out_of_range(value.strip(), parsed.dimension))
@@ -271,7 +288,8 @@ class Number(NamedTuple):
             is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
             value = _float(stated.replace(",", ".")) if is_number else value
         if isinstance(value, bool) or not isinstance(value, int | float):
-            reader.add_error(key, ErrorMessage("number_plain", value=shown(value), example=self.example()))
+            message = ErrorMessage("number_plain", value=shown(value), example=self.example())
+            reader.add_error(key, _by_sides(str(value), message))
             return None
         number = float(value) if _is_moderate(value) else math.nan
         if not (self.low < number if self.above else self.low <= number) or not number <= self.high:
@@ -333,6 +351,10 @@ class Choice(NamedTuple):
         if not isinstance(value, bool) and value in self.options:
             return next(option for option in self.options if option == value)
         options = tuple(shown(option) for option in self.options)
+        latin = value.translate(units.TO_LATIN) if isinstance(value, str) else value
+        if latin != value and latin in self.options:
+            reader.add_error(key, ErrorMessage("key_look_alike", letters=look_alikes(str(value)), written=latin))
+            return None
         reader.add_error(key, ErrorMessage("choice", value=shown(value), options=options))
         return None
 

@@ -20,6 +20,7 @@ _BROKEN = (zipfile.BadZipFile, zlib.error, ET.ParseError, LookupError, EOFError,
 _MOST_ROWS, _MOST_COLUMNS = 1_048_576, 16_384
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 _ID = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
+_MERGED = re.compile(r'<mergeCell ref="([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})\2"')
 _CELL = re.compile(r"([A-Z]{1,3})([0-9]{1,7})")
 
 
@@ -46,11 +47,16 @@ def _sheet_text(book: zipfile.ZipFile, wanted: str | None) -> str:
     words = []
     if "xl/sharedStrings.xml" in book.namelist():
         words = [_words(item) for item in _root(book, "xl/sharedStrings.xml").iter(f"{_MAIN}si")]
-    lines: list[str] = []
-    for number, row in _rows(_read(book, sheets[filled[0] if wanted is None else wanted]), words):
-        lines += [""] * (number - 1 - len(lines))
-        lines.append("\t".join(row))
-    return "\n".join(lines)
+    data, rows = _read(book, sheets[filled[0] if wanted is None else wanted]), list[list[str]]()
+    for number, row in _rows(data, words):
+        rows += [[] for _ in range(number - 1 - len(rows))]
+        rows.append(row)
+    # a heading over merged columns is that of each
+    for first, start, last in _MERGED.findall(data.decode(errors="replace")):
+        left, number, right = _column(first) - 1, int(start) - 1, min(_column(last), _MOST_COLUMNS)
+        if number < len(rows) and left < len(rows[number]) and right > left + 1:
+            rows[number][left:right] = [rows[number][left]] * (right - left)
+    return "\n".join("\t".join(row) for row in rows)
 
 
 def _check_size(book: zipfile.ZipFile) -> None:

@@ -24,7 +24,7 @@ from crankwork.kinematics.dead_centres import bracketed_roots
 from crankwork.kinematics.dyads import LinkMotion, fixed_point
 from crankwork.kinematics.kinematic_coefficients import PointMotion, Transfer
 from crankwork.kinematics.loop_closure import LoopClosure
-from crankwork.kinematics.position_analysis import Closures, Placed, place_at
+from crankwork.kinematics.position_analysis import Closures, Placed, assembled, place_at
 from crankwork.mechanism.chain import Chain, ChainLink, Gear, Slide
 from crankwork.mechanism.driver import Cylinder, DrivingSlider, LinkMotor
 from crankwork.mechanism.dyads import RPR, RRP, RRR, Branch, Guide, Point
@@ -192,6 +192,9 @@ def circuit_through(mechanism: Mechanism, crank_degrees: float = 0.0) -> Circuit
 def circuit_at(mechanism: Mechanism, coordinate: CrankGrid) -> Circuit:
     """Return the circuit through the position at a value of the driver's coordinate, traced as that grows."""
     system, start = _system(mechanism, place_at(mechanism, coordinate))
+    if not np.all(np.isfinite(start)):
+        # refused, with the group that does not meet
+        assembled(mechanism, coordinate)
     index, driver = system.equations.index, mechanism.driver
     ahead = np.zeros_like(start)
     match driver:

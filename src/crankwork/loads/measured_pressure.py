@@ -29,6 +29,9 @@ _CLOSED = 60.0
 # larger than any gas pressure [Pa]
 _HIGHEST = 1e9
 AMBIENT = 101325.0
+_USUAL = ("MPa", "bar", "kPa", "Pa", "psi")
+# greatest pressures and those before compression of machines [Pa], and share of the former below which these are gauge
+_PEAKS, _LEVELS, _GAUGE = (3e5, 3e7), (2e4, 8e5), 0.003
 
 # code of a notice and its values
 NoticeData = tuple[str, Mapping[str, float | str]]
@@ -141,7 +144,24 @@ def _check_size(measured: MeasuredPressure, columns: Array, key: str) -> None:
 def likely_unit(level: float, unit: str) -> str:
     """Return the unit that brings a level of pressures, read in another one, nearest to the surroundings. [Pa]"""
     number = level / UNITS[unit].factor
-    return min(("MPa", "bar", "kPa", "Pa", "psi"), key=lambda name: abs(np.log(number * UNITS[name].factor / AMBIENT)))
+    return min(_USUAL, key=lambda name: abs(np.log(number * UNITS[name].factor / AMBIENT)))
+
+
+def plausible_units(numbers: Array) -> list[str]:
+    """Return the units in which numbers are pressures of a machine, the likeliest first; of none the nearest."""
+    low, high = float(np.percentile(numbers, 10)), float(np.max(numbers))
+    factors = {unit: UNITS[unit].factor for unit in (*_USUAL, "mbar", "kgf/cm2")}
+    # around zero are gauge pressures
+    is_gauge = low < _GAUGE * high
+    suitable = [
+        unit
+        for unit, factor in factors.items()
+        if _PEAKS[0] < high * factor < _PEAKS[1] and (is_gauge or _LEVELS[0] < low * factor < _LEVELS[1])
+    ]
+    level = high / 60 if is_gauge else low
+    return sorted(suitable, key=lambda unit: abs(np.log(level * factors[unit] / AMBIENT))) or [
+        likely_unit(max(level, 1e-6), "Pa")
+    ]
 
 
 def _running_on(measured: MeasuredPressure, cycle: float, key: str) -> MeasuredPressure:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyfit, polyval
+from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, VolumeAt
@@ -25,7 +26,7 @@ from crankwork.loads.measured_pressure import (
 from crankwork.locale import ErrorMessage
 
 # notices that a description has to answer
-QUESTIONS = ("measured_strokes", "measured_reversed")
+QUESTIONS = ("measured_strokes", "measured_centre", "measured_reversed", "measured_driven", "measured_constant")
 # lower than any gauge pressure [Pa]
 _VACUUM = -110e3
 _EVEN = 1e-3
@@ -45,8 +46,18 @@ _COMPRESSION = (90.0, 20.0)
 # around the peak of a motored cycle [deg]
 _PEAK = 12.0
 _FEWEST_POINTS = 8
-# search range of the dead centre [deg]
-_FARTHEST = 6.0
+# where the peak of a fired or motored cycle may stand, from top dead centre [deg]
+PEAKS = (-15, 40)
+# share of the range above which delivery goes on, and how long it takes at least [deg]
+_DELIVERY, _DELIVERED = 0.7, 50.0
+# how much longer a compressor takes to compress than to expand what is left
+_SLOWLY = 1.5
+# how near an angle must come to a quarter of a turn to be one [deg]
+_QUARTER = 15.0
+# change over a cycle that is none, by the greatest pressure
+_CONSTANT = 0.02
+# lines that a notice lists
+_MOST_TOLD = 5
 # errors that bend a compression line too: offset of the pressure [Pa], change of the exponent
 _OFF, _CHANGE = 5e3, 0.045
 # offset that is reported, over the pressure at the start, and how far from that of the surroundings it is theirs [Pa]
@@ -96,32 +107,139 @@ def measured_diagram(
     if treatment.rest is None and wrap_is_rough(diagram, recorded.wrap):
         notices.append(("wrap", {"step": recorded.wrap}))
     if around.top is not None:
-        absolute = pressure if treatment.absolute else pressure + AMBIENT
+        # a wrong sample tells nothing of the dead centre
+        smooth = _without_spikes(pressure)
+        absolute = smooth if treatment.absolute else smooth + AMBIENT
         against = contradictions((degrees, absolute), around.volume_at, (cycle, around.top), measured, shift=shift)
         questions = list[NoticeData]()
-        if around.has_strokes and cycle > _TURN and not treatment.is_placed:
-            questions += _other_strokes((degrees, absolute), around, shift)
+        if not treatment.is_placed:
+            questions += _other_strokes((degrees, absolute), around, cycle, shift)
         notices += [(code, {**values, "name": key}) for code, values in questions or against]
     return diagram, notices
 
 
-def _other_strokes(samples: tuple[Array, Array], around: PressureReference, shift: float) -> Iterator[NoticeData]:
-    """Yield a peak in other strokes than those of compression and expansion, or angles against the rotation."""
+def _other_strokes(
+    samples: tuple[Array, Array], around: PressureReference, cycle: float, shift: float
+) -> Iterator[NoticeData]:
+    """Yield a pressure that does not change, a peak far from the dead centre, or angles against the rotation."""
     degrees, pressure = samples
-    cycle, firing, own = 2 * _TURN, (around.top or 0.0) + _TURN, f"{shift:g} deg"
-    late = (float(degrees[np.argmax(pressure)]) - firing + _TURN) % cycle - _TURN
-    turns = round(late / (_TURN / 2)) * _TURN / 2
-    if abs(late) > _NEAR[cycle]:
-        # counted from another dead centre, or from some other angle
-        more = -turns if abs(late - turns) <= _NEAR[cycle] else -round(late)
-        angles = {"angle": _in_cycle(late + firing, cycle), "firing": firing}
-        yield "measured_strokes", {**angles, "turned": f"{_wrapped(shift + more):g} deg", "own": own}
+    own, least, highest = f"{shift:g} deg", float(np.min(pressure)), float(np.max(pressure))
+    if highest - least < _CONSTANT * highest:
+        yield "measured_constant", {"low": least / 1e6, "high": highest / 1e6, "own": own}
         return
-    volume = around.volume_at(np.mod(np.append(degrees, degrees[0]), cycle))
-    work = float((pressure + np.roll(pressure, -1)) @ np.diff(volume)) / 2
+    top = around.top or 0.0
+    # a chamber may fire in either turn
+    period, centre = (cycle, top + _TURN) if around.has_strokes else (_TURN, top)
+    high = pressure > least + _DELIVERY * (highest - least)
+    steps = np.diff(np.append(degrees, degrees[0] + cycle))
+    # a compressor delivers over a part of its stroke, takes the work that an engine gives, and compresses slowly
+    sign = -1 if cycle == _TURN and float(steps[high].sum()) > _DELIVERED else 1
+    middle = ~high & (pressure > least + (1 - _DELIVERY) * (highest - least))
+    rises = np.roll(pressure, -1) > pressure
+    is_slow = float(steps[middle & ~rises].sum()) > _SLOWLY * float(steps[middle & rises].sum())
+    near = _NEAR[2 * _TURN if sign > 0 else _TURN]
+
+    def work(both: tuple[Array, Array], more: float) -> float:
+        """Return the work after a shift over that of the greatest pressure, positive as it should be."""
+        volume = around.volume_at(np.mod(np.append(both[0], both[0][0]) + more, cycle))
+        done = float((both[1] + np.roll(both[1], -1)) @ np.diff(volume)) / 2
+        return sign * done / (float(np.ptp(volume)) * highest)
+
+    def placed(both: tuple[Array, Array]) -> tuple[float, float, bool]:
+        """Return how late the peak is, the shift that puts it in place, and whether that is by the compression."""
+        late = centred(float(both[0][np.argmax(both[1])]) - centre, period)
+        if sign < 0:
+            # delivery ends at the dead centre
+            end = float(both[0][_end_of(both[1] > least + _DELIVERY * (highest - least))])
+            return late, _quarter(-centred(end - centre, period), _QUARTER), False
+        correction = _straightest(both, around.volume_at, (cycle, centre), late)
+        if correction is None:
+            return late, _quarter(-late, near), False
+        return late, _quarter(correction, 2.0), True
+
+    mirrored = (-degrees[::-1], pressure[::-1])
+    late, more, is_known = placed(samples)
+    _, back, is_known_back = placed(mirrored)
+    is_near, gained = abs(late) <= near, work(mirrored, back)
     # one that is driven takes little work beside its peak
-    if work < -_DRIVEN * float(np.ptp(volume) * np.max(pressure)):
-        yield "measured_reversed", {"own": own}
+    is_against = is_slow if sign < 0 else work(samples, more) < -_DRIVEN < gained
+    is_against |= sign > 0 and is_known_back and not is_known and gained > _DRIVEN
+    if is_near and not is_against and work(samples, 0.0) >= -_DRIVEN:
+        return
+    if is_against or (is_near and abs(more) < 1):
+        # angles that are counted against the rotation have the shift that is there with the other sign
+        turned = "" if abs(back - 2 * shift) < 2 else f', shift = "{_wrapped(back - shift):g} deg"'
+        code = "measured_reversed" if sign > 0 else "measured_driven"
+        yield code, {"lines": f"reversed = true{turned}", "own": own}
+        return
+    angles = {"angle": _in_cycle(late + centre, cycle), "firing": _in_cycle(centre, cycle)}
+    code = "measured_strokes" if cycle > _TURN and around.has_strokes else "measured_centre"
+    yield code, {**angles, "turned": f"{_wrapped(shift + more):g} deg", "own": own}
+
+
+def centred(degrees: float, period: float) -> float:
+    """Return an angle between minus and plus half of a period. [deg]"""
+    return (degrees + period / 2) % period - period / 2
+
+
+def _quarter(degrees: float, near: float) -> float:
+    """Return an angle as a multiple of a right angle if it is near to one, else rounded. [deg]"""
+    quarters = round(degrees / 90) * 90.0
+    return quarters if abs(degrees - quarters) <= near else float(round(degrees))
+
+
+def _end_of(high: NDArray[np.bool_]) -> int:
+    """Return the index of the last sample of the longest run within a closed cycle."""
+    ends = np.flatnonzero(high & ~np.roll(high, -1))
+    starts = np.flatnonzero(high & ~np.roll(high, 1))
+    lengths = [int(np.min((end - starts) % len(high))) for end in ends]
+    return int(ends[int(np.argmax(lengths))])
+
+
+def _straightest(
+    samples: tuple[Array, Array], volume_at: VolumeAt, where: tuple[float, float], late: float
+) -> float | None:
+    """Return the shift after which the line of compression is straight in logarithms, None if there is none. [deg]
+
+    `where`: cycle and dead centre of firing; `late`: how far from there the peak is.
+    """
+    shifts = np.arange(math.ceil(PEAKS[0] - late), math.floor(PEAKS[1] - late) + 1.0)
+    lines = [_compression(samples, volume_at, where, shift) for shift in shifts.tolist()]
+    candidates = []
+    for shift, line, after in zip(shifts.tolist(), lines, lines[1:], strict=False):
+        if line is None or after is None or line.bend * after.bend > 0:
+            continue
+        if all(_EXPONENTS[0] <= one.exponent <= _EXPONENTS[1] for one in (line, after)):
+            candidates.append((line.noise, shift, shift + line.bend / (line.bend - after.bend or 1.0)))
+    least = 2 * min((noise for noise, *_ in candidates), default=0.0)
+    return min((found for noise, _, found in candidates if noise <= least), key=abs, default=None)
+
+
+class _Compression(NamedTuple):
+    """The line of compression in logarithms: exponent, bend and its error, scatter, half of its length."""
+
+    exponent: float
+    bend: float
+    error: float
+    noise: float
+    half: float
+
+
+def _compression(
+    samples: tuple[Array, Array], volume_at: VolumeAt, where: tuple[float, float], shift: float, off: float = 0.0
+) -> _Compression | None:
+    """Return the line of compression of pressures after a shift [deg] and with an offset [Pa]; None if too short."""
+    cycle, centre = where
+    x, y = _between(samples, cycle, *(centre - before - round(shift) for before in _COMPRESSION))
+    if len(x) < _FEWEST_POINTS or float(y.min()) + off <= 0:
+        return None
+    along = np.log(volume_at(np.mod(x + shift, cycle)))
+    basis = np.vander(along - along.mean(), 3, increasing=True)
+    inverse, logarithms = np.linalg.pinv(basis), np.log(y + off)
+    curve = inverse @ logarithms
+    noise = float(np.sqrt(np.sum((basis @ curve - logarithms) ** 2) / (len(x) - 3)))
+    error = noise * float(np.linalg.norm(inverse[2]))
+    return _Compression(-float(curve[1]), float(curve[2]), error, noise, float(np.ptp(along)) / 2)
 
 
 def _in_cycle(degrees: float, cycle: float) -> float:
@@ -130,18 +248,34 @@ def _in_cycle(degrees: float, cycle: float) -> float:
 
 
 def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
-    """Yield notices of samples that differ from both neighbours, the worst of each column."""
+    """Yield notices of samples that differ from both neighbours, the worst of each column first."""
     for pressure in measured.pressure.reshape(len(measured.degrees), -1).T:
-        middle = np.median(np.stack([pressure[:-2], pressure[1:-1], pressure[2:]]), axis=0)
-        off = np.abs(pressure[1:-1] - (pressure[:-2] + pressure[2:]) / 2)
-        neighbours = np.abs(pressure[:-2] + pressure[2:]) / 2
-        # at low pressure, compared with the pressure and with the usual difference
-        low = (off > _LOW * neighbours) & (off > _LEAST * np.ptp(middle)) & (off > _RARE * np.median(off))
-        alone = ((off > _SPIKE * np.ptp(middle)) | low) & (np.abs(pressure[2:] - pressure[:-2]) < _NEIGHBOURS * off)
-        if np.any(alone):
-            worst = int(np.argmax(np.where(alone, off, 0.0)))
-            line, step, count = measured.rows[worst + 1], float(pressure[worst + 1]), float(np.sum(alone))
-            yield "pressure_spike", {"line": str(line), "step": step, "count": count}
+        off = _off(pressure)
+        if np.any(off):
+            worst = np.argsort(-off)[: min(_MOST_TOLD, int(np.sum(off > 0)))]
+            lines = ", ".join(str(measured.rows[line]) for line in worst.tolist())
+            yield "pressure_spike", {"line": lines, "step": float(pressure[worst[0]]), "count": float(np.sum(off > 0))}
+
+
+def _without_spikes(pressure: Array) -> Array:
+    return np.where(_off(pressure) > 0, (np.roll(pressure, 1) + np.roll(pressure, -1)) / 2, pressure)
+
+
+def peak_angle(measured: MeasuredPressure) -> float:
+    """Return the angle of the greatest pressure, as it is recorded. [deg]"""
+    pressure = measured.pressure.reshape(len(measured.degrees), -1).mean(axis=1)
+    return float(measured.degrees[np.argmax(_without_spikes(pressure))])
+
+
+def _off(pressure: Array) -> Array:
+    """Return how far samples that stand alone are from the mean of their neighbours, 0 for all others. [Pa]"""
+    middle = np.median(np.stack([pressure[:-2], pressure[1:-1], pressure[2:]]), axis=0)
+    off = np.abs(pressure[1:-1] - (pressure[:-2] + pressure[2:]) / 2)
+    neighbours = np.abs(pressure[:-2] + pressure[2:]) / 2
+    # at low pressure, compared with the pressure and with the usual difference
+    low = (off > _LOW * neighbours) & (off > _LEAST * np.ptp(middle)) & (off > _RARE * np.median(off))
+    alone = ((off > _SPIKE * np.ptp(middle)) | low) & (np.abs(pressure[2:] - pressure[:-2]) < _NEIGHBOURS * off)
+    return np.concatenate([[0.0], np.where(alone, off, 0.0), [0.0]])
 
 
 def _offsets(cycles: Array, degrees: Array, volume: Array, peg: Pegging, cycle_and_key: tuple[float, str]) -> Array:
@@ -307,41 +441,35 @@ def _by_compression(
         yield from _unit_of(float(np.max(samples[1])) / 60, measured.unit, spread=15.0)
         return
 
-    def line(offset: float, off: float = 0.0) -> tuple[float, float, float, float]:
-        """Return exponent and bend of the line, the error of the bend, and half of its length."""
-        along = np.log(volume_at(np.mod(x + offset, cycle)))
-        half = float(np.ptp(along)) / 2
-        basis = np.vander(along - along.mean(), 3, increasing=True)
-        inverse = np.linalg.pinv(basis)
-        curve = inverse @ np.log(y + off)
-        noise = float(np.sum((basis @ curve - np.log(y + off)) ** 2)) / (len(x) - 3)
-        return -float(curve[1]), float(curve[2]), float(np.sqrt(noise) * np.linalg.norm(inverse[2])), half
+    def line(shift: float, off: float = 0.0) -> _Compression:
+        """Return the line of compression, which has samples enough."""
+        return cast("_Compression", _compression(samples, volume_at, where, shift, off))
 
-    exponent, _, error, half = line(0.0)
-    correction = _zero(lambda offset: line(offset)[1], -_FARTHEST, _FARTHEST)
-    offset = _zero(lambda off: line(0.0, off)[1], -0.99 * float(y.min()), 0.5 * float(y.max()))
+    own = line(0.0)
+    correction = _straightest(samples, volume_at, where, float(samples[0][np.argmax(samples[1])]) - centre)
+    offset = _zero(lambda off: line(0.0, off).bend, -0.99 * float(y.min()), 0.5 * float(y.max()))
     # the straighter line tells which of them is wrong
-    by_shift = math.inf if correction is None else line(correction)[2]
-    by_offset = math.inf if offset is None else line(0.0, offset)[2]
+    by_shift = math.inf if correction is None else line(correction).noise
+    by_offset = math.inf if offset is None else line(0.0, offset).noise
     is_known, is_offset = by_shift < by_offset / 2, by_offset < by_shift / 2
-    offset = 0.0 if offset is None or is_known else offset
-    own = line(0.0, offset)[0]
-    start = (float(y[0]) + offset) * float(volume_at(np.mod(x[:1], cycle))[0] / ends[1]) ** own
+    moved, offset = (correction or 0.0, 0.0) if is_known else (0.0, offset or 0.0)
+    exponent = line(moved, offset).exponent
+    x, y = _between(samples, cycle, centre - _COMPRESSION[0] - moved, centre)
+    start = (float(y[0]) + offset) * float(volume_at(np.mod(x[:1] + moved, cycle))[0] / ends[1]) ** exponent
     odd = [*_unit_of(start, measured.unit, spread=4.0)]
-    if not odd and abs(offset) > _LEVEL * start and _EXPONENTS[0] <= own <= _EXPONENTS[1]:
+    if not odd and abs(offset) > _LEVEL * start and _EXPONENTS[0] <= exponent <= _EXPONENTS[1]:
         odd = [_level_of(offset, measured.treatment, centre)]
     if odd:
         yield from odd
         return
-    if not _EXPONENTS[0] <= exponent <= _EXPONENTS[1]:
-        yield "exponent_odd", {"exponent": exponent, "low": _EXPONENTS[0], "high": _EXPONENTS[1]}
+    if not _EXPONENTS[0] <= own.exponent <= _EXPONENTS[1] and not is_known:
+        yield "exponent_odd", {"exponent": own.exponent, "low": _EXPONENTS[0], "high": _EXPONENTS[1]}
     if correction is None or is_offset:
         return
-    rate = (line(correction + 0.1)[1] - line(correction - 0.1)[1]) / 0.2
-    offs = [abs(line(correction, off)[1] - line(correction)[1]) for off in (-_OFF, _OFF) if not is_known] or [0.0]
-    yield from _proposed(
-        "dead_centre_compression", correction, (2 * error + max(offs) + _CHANGE / 4 / half) / abs(rate), shift
-    )
+    rate = (line(correction + 0.1).bend - line(correction - 0.1).bend) / 0.2
+    offs = [abs(line(correction, off).bend - line(correction).bend) for off in (-_OFF, _OFF) if not is_known] or [0.0]
+    uncertain = 2 * line(correction).error + max(offs) + _CHANGE / 4 / own.half
+    yield from _proposed("dead_centre_compression", correction, uncertain / abs(rate), shift)
 
 
 def _unit_of(level: float, unit: str, *, spread: float) -> Iterator[NoticeData]:

@@ -16,6 +16,7 @@ _SAME = {
     "headings.driving": "quantities.driving_torque",
     "headings.firing": "columns.order",
     "headings.friction": "tables.friction",
+    "headings.machine": "subjects.machine",
     "headings.method": "report.method",
     "headings.reactions": "tables.joint_forces",
     "headings.static": "quantities.static_torque",

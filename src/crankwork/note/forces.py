@@ -161,12 +161,13 @@ SECTIONS = (
             "driver_force", "driver_torque", "driver_power", "joint_force", "axial_force", "normal_force",
             "normal_moment",
         ), "reactions", filled=True),
-        Shown(("joint_forces",)),
+        Shown(("process_force", "joint_forces")),
     ), every(_is_loaded, driven)),
     Section("forces", (
         Head("linkage_forces"), When(_has_bodies, (Head("inertia_loads", 2), *_INERTIA_OF_LINKS)),
         Head("reactions", 2), Text("reactions"), At("joint_forces"), Lines("joint_forces"),
-        Places("reactions", _IN_JOINTS, "reactions", filled=True), Shown(("joint_forces", "force_plans")), _undrawn,
+        Places("reactions", _IN_JOINTS, "reactions", filled=True),
+        Shown(("process_force", "joint_forces", "force_plans")), _undrawn,
         Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),
     ), _is_loaded),
 )  # fmt: skip

@@ -76,8 +76,8 @@ _POWER = ("indicated_work", "indicated_mean_pressure", "indicated_power", "mean_
 # of the whole engine
 _FIRING = ("swept_volume.", "displacement", "firing_interval", "firing_interval.")
 _ENGINE_TORQUES = (
-    "crank_torque.", "throw_torque.", "total_torque", "crankpin_torque.", "journal_torque.", "reduced_inertia",
-    "reduced_inertia_1",
+    "crank_torque.", "throw_torque.", "total_torque", "total_tangential_force", "crankpin_torque.", "journal_torque.",
+    "reduced_inertia", "reduced_inertia_1",
 )  # fmt: skip
 _OF_ARTICULATED = (
     "piston_displacement", "piston_velocity", "piston_acceleration", "gas_force", "inertia_force", "piston_force",

@@ -38,7 +38,7 @@ _CONSTRUCTED = (
     "wittenbauer",
 )  # fmt: skip
 # what a note shows the formula of when it is not to show all
-_ESSENTIAL = frozenset((
+ESSENTIAL = frozenset((
     "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",
     "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure",
     "compression_temperature", "combustion_celsius", "combustion_pressure", "expansion_pressure",
@@ -216,7 +216,7 @@ class Material:
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
         if not self.full:
-            selected = [row for row in selected if _kind(row) in _ESSENTIAL]
+            selected = [row for row in selected if _kind(row) in ESSENTIAL]
         # of families, such as the journals of a shaft, a table has the others
         return self.worked(_first(selected) if first or self.has_piston or not self.full else selected)
 
@@ -323,7 +323,8 @@ class Material:
     def remaining_figures(self) -> list[str]:
         """Return the names of figures that no section has shown."""
         left = [name for name in self.drawn if name not in self._shown_figures]
-        return [name for name in left if self.has_engine or not name.startswith("main_")]
+        # a crank gear without an engine has no journals of its own
+        return [name for name in left if self.has_engine or not self.has_piston or not name.startswith("main_")]
 
     def remaining_lines(self) -> list[Block]:
         """Return equations of lines that no section has shown: single values, and formulas that are new."""
@@ -393,12 +394,14 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
     "indicator": ("gas_pressure",),
     "piston_forces": ("gas_force", "inertia_force", "piston_force"),
     "rod_forces": ("rod_force", "side_force"),
-    "crankpin_forces": ("tangential_force", "radial_force"),
+    "crankpin_forces": ("tangential_force", "radial_force", "side_force"),
     "torque": ("crank_torque",),
     "crankpin_polar": ("crankpin_tangential_force", "crankpin_radial_force"),
     "brix": ("piston_displacement",),
     "tolle": ("piston_displacement", "piston_acceleration"),
+    "process_force": ("process_force",),
     "total_torque": ("total_torque",),
+    "total_tangential_force": ("total_tangential_force",),
     "crankpin_load": ("crankpin_load",),
     "big_end_polar": ("big_end_load",),
     "small_end_polar": ("small_end_load",),

@@ -215,8 +215,8 @@ def enough_digits(step: Line, least: int = RESULT_DIGITS) -> int:
         if missed <= _UNITS * last_place(printed, least):
             return digits
         reached.append((digits, missed, max(map(abs, (*terms, printed)))))
-    enough = (digits for digits, missed, largest in reached if missed <= _UNITS * last_place(largest, least))
-    return next(enough, _MOST_DIGITS)
+    sufficient = (digits for digits, missed, largest in reached if missed <= _UNITS * last_place(largest, least))
+    return next(sufficient, _MOST_DIGITS)
 
 
 def _terms(step: FormulaLine | SumLine, digits: int) -> list[float]:

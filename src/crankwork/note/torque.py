@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import in_order
-from crankwork.note.document import Block, Citation, Equation, Math, Reference, Table
+from crankwork.note.document import Block, Citation, Equation, Reference, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import (
     At,
@@ -31,7 +31,7 @@ from crankwork.note.parts import (
     school,
     turning,
 )
-from crankwork.note.tables import Column, angle_table, column_table, folded, position_tables, quantity_columns
+from crankwork.note.tables import Column, angle_table, position_tables, quantity_columns
 
 _WORK, _EFFICIENCY, _HARMONICS = "artobolevsky_1988, ch. 15", "artobolevsky_1988, ch. 14", "den_hartog_1956, ch. 5"
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
@@ -44,18 +44,9 @@ def _firing_order(material: Material) -> str:
 
 
 def _all_cylinders(material: Material) -> Table | None:
-    """Return the torques of the cylinders and their sum; Vietnamese notes add the sum of the tangential forces."""
-    words, columns = material.words, material.columns
-    keys = [key for key in columns if key.startswith("crank_torque.")] or ["crank_torque"]
-    keys.append("total_torque")
-    if material.order != "vi":
-        return angle_table(material, "total", keys)
-    force = material.results.columns["total_torque"] / material.summary["crank_radius"]
-    unit = words.unit("tangential_force")
-    angles = [words.number(float(angle)) for angle in material.results.grid.degrees]
-    shown = words.column_texts(material.shown("tangential_force", force).tolist())
-    made = [Column(words.titled("crank_angle"), angles), *quantity_columns(material, keys, columns)]
-    return folded(column_table("total", [*made, Column((Math("ΣT"), f", {unit}"), shown)], words))
+    """Return the torques of the cylinders, their sum, and the sum of the tangential forces."""
+    keys = [key for key in material.columns if key.startswith("crank_torque.")]
+    return angle_table(material, "total", [*keys, "total_torque", "total_tangential_force"])
 
 
 def _losses(material: Material) -> Iterator[Block]:
@@ -140,13 +131,14 @@ SECTIONS = (
         Lines("firing"), Lines("uniformity", ("mean_total_torque", "mean_driving_torque", "mean_torque")),
         When(_SEVERAL, (
             Shown((), (Rows("firing", "firing"),)), At("engine_torque"),
-            Lines("engine_torque", ("tangential_force", "crank_torque", "throw_torque", "total_torque")),
+            Lines("engine_torque", (
+                "tangential_force", "crank_torque", "throw_torque", "total_torque", "total_tangential_force",
+            )),
         )),
-        When(school("vi"), (Text("tangential_sum"),)),
-        When(_SEVERAL, (Shown(("total_torque",), (_all_cylinders,)),)),
+        When(_SEVERAL, (Shown(("total_tangential_force", "total_torque"), (_all_cylinders,)),)),
         When(_ONE, (
             Shown(("total_torque",)),
-            When(draws("torque"), (Text("see_figure", {"figures": Reference("f:torque")}),)),
+            When(every(full, draws("torque")), (Text("see_figure", {"figures": Reference("f:torque")}),)),
         )),
         When(every(full, _SEVERAL), HARMONICS),
     ), every(has("total_torque_max"), either(_SEVERAL, every(_ONE, school("vi"))))),

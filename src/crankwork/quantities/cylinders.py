@@ -17,6 +17,8 @@ ROWS = (
     Quantity("engine_indicated_power", "kW", "Indicated work of all cylinders per unit of time."),
     Quantity("total_torque", "N*m",
              "Torque of all cylinders, or of a whole linkage, on the crankshaft, positive with the rotation."),
+    Quantity("total_tangential_force", "N",
+             "Sum of the tangential forces of all cylinders, positive with the rotation.", "MPa"),
     Quantity("mean_total_torque", "N*m", "Mean of the torque of all cylinders over the cycle."),
     Quantity("throw_torque", "N*m", "Torque of all cylinders of one throw."),
     Quantity("journal_torque", "N*m",

@@ -192,7 +192,7 @@ def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     paper = Canvas(current_layout().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
     for index, text in enumerate(rows):
         left, style = current_layout().left, DASHED if index == 0 else SOLID
-        paper.line([left, left + 20], [TOP + 2 + 13.4 * index] * 2, style=style, width=1.2, name="legend")
+        paper.line([left, left + 20], [TOP + 2 + 13.4 * index] * 2, style=style, width=0.9, name="legend")
         paper.text(left + 27, TOP + 5 + 13.4 * index, text, size=8.5)
     graphs: dict[str, Graph] = {}
     for index, (order, (before, after)) in enumerate(loci.items()):
@@ -219,7 +219,7 @@ def _locus(engine: Drawn, paper: Canvas, box: ChartBox, before: Locus, after: Lo
     box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.height / 32))))
     graph.frame(ticks[np.abs(ticks) < share * reach], ticks)
     middle = graph.point(0.0, 0.0)
-    paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
+    paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.45)
     drawn = [("before", before, DASHED if is_balanced else SOLID)] + ([("after", after, SOLID)] if is_balanced else [])
     for name, locus, style in drawn:
         across, up = engine.shown("free_force", locus.across), engine.shown("free_force", locus.up)

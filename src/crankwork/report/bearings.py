@@ -145,7 +145,7 @@ def _polar(
     box = graph.box
     graph.frame(round_ticks(*x, min(7, round(box.width / 45))), round_ticks(min(graph.y), max(graph.y), 7))
     origin = graph.point(0.0, 0.0)
-    paper.segments(np.array([(origin[0], box.top, origin[0], box.top + box.height)]), width=0.8)
+    paper.segments(np.array([(origin[0], box.top, origin[0], box.top + box.height)]), width=0.45)
     graph.curve("load", across, sign * down, angles=np.append(diagram.degrees, engine.cycle))
     graph.curves["pole"] = np.array([pole[0]]), sign * np.array([pole[1]])
     pole_on_paper = graph.point(pole[0], sign * pole[1])
@@ -251,7 +251,7 @@ def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
             f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), STYLES[index % len(STYLES)]
         )
     level = float(engine.shown("crankpin_load", extremes.mean))
-    graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.8)
+    graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.45)
     for name, angle, value in (("max", extremes.max_angle, extremes.max), ("min", extremes.min_angle, extremes.min)):
         mark_point(graph, name, angle, float(engine.shown("crankpin_load", value)), name)
     graph.x_title(engine.title("crank_angle"))
@@ -301,7 +301,7 @@ def _small_polar(
     box, ticks = graph.box, round_ticks(-reach, reach, min(5, max(1, round(graph.box.width / 32))))
     graph.frame(ticks, ticks, labels=labels)
     middle = graph.point(0.0, 0.0)
-    paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.8)
+    paper.segments(np.array([(middle[0], box.top, middle[0], box.top + box.height)]), width=0.45)
     across, up = engine.shown("main_journal_load", diagram.across), -engine.shown("main_journal_load", diagram.down)
     across, up = np.append(across, across[0]), np.append(up, up[0])
     graph.curve("load", across, up, width=1.0, angles=np.append(diagram.degrees, engine.cycle))

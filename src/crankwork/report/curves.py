@@ -30,7 +30,7 @@ from crankwork.show.chart import (
     over_cycle,
     round_ticks,
     sheet,
-    write_method,
+    write_remark,
 )
 from crankwork.show.chart_layout import current_layout, scaled_height
 from crankwork.show.label_placement import mark_point
@@ -108,7 +108,7 @@ def curves(
         f"{' = '.join(zero)} = 0" if zero else "",
         remark,
     ]
-    write_method(paper, style.method, "; ".join(text for text in remarks if text))
+    write_remark(paper, "; ".join(text for text in remarks if text))
     return paper.drawing(title, style.language)
 
 
@@ -192,7 +192,7 @@ def comparison_figure(results: Results, compared: Comparison, language: Language
     columns = compared.columns_at(degrees)
     other_names, named = compared.names[1:], shown_names(compared, language)
     looks = zip(named, _looks(compared.names), strict=True)
-    rows = [Row(shown, style, 1.2, colour) for shown, (_, style, colour) in looks]
+    rows = [Row(shown, style, colour=colour) for shown, (_, style, colour) in looks]
     if len(other_names) == 1:
         rows.append(Row(f"Δ: {translate('report.less', language, name=named[1], other=named[0])}", width=0.0))
     else:

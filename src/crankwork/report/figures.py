@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results
+from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.sampled_motion import sample_motion
 from crankwork.analysis.vector_polygons import driver_rates
 from crankwork.locale import translate
@@ -36,7 +37,7 @@ from crankwork.report.flywheel import (
     speed_curve,
     wittenbauer,
 )
-from crankwork.report.forces import forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
+from crankwork.report.forces import force_law, forces_over_cycle, has_force_plans, piston_forces, plans_of_forces
 from crankwork.report.gas import chamber_indicator, indicator, pressure
 from crankwork.report.harmonics import phase_stars, torque_harmonics
 from crankwork.report.lever import has_lever, lever_figure
@@ -50,12 +51,13 @@ from crankwork.report.torque import (
     has_turning_moment,
     loops,
     torque,
+    total_tangential_force,
     total_torque,
     turning_moment,
 )
 from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import Graph
-from crankwork.show.scene import DASHED, SOLID, Drawing, Style
+from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing, Style
 from crankwork.show.svg import svg
 from crankwork.show.theme import Theme
 
@@ -77,7 +79,7 @@ class Diagram(NamedTuple):
     number: str = ""  # That of a crankpin, where there are several
 
     def picture(self, machine: Drawn) -> Drawing:
-        """Return it, with the method that made it."""
+        """Return it."""
         title = kind_of(self.name) + (f"_{self.number}" if self.number else "")
         frame = self.frame(machine) if callable(self.frame) else self.frame
         remark = translate(f"drawing.{frame}", machine.language) if frame else ""
@@ -343,6 +345,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("centrodes", centrodes, every(_turning, has_centrodes)),
     Construction("indicator", chamber_indicator, lambda machine: _drawn(machine) and bool(_GAS(machine))),
     Curves("chambers", _GAS, when=_drawn),
+    Construction("process_force", force_law, lambda machine: bool(force_laws(machine.results))),
     Curves("reduced_inertia", _inertia, "quantities.reduced_inertia"),
     Curves("torques", _torques, "quantities.driving_torque", remark=_gives_work),
     Curves("friction", _friction, "tables.friction"),
@@ -358,7 +361,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("indicator", indicator, piston("gas_pressure")),
     Diagram("piston_forces", piston_forces, piston("piston_force"), is_of_forces=True),
     _forces("rod_forces", rod_force=SOLID, side_force=DASHED),
-    _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED),
+    _forces("crankpin_forces", tangential_force=SOLID, radial_force=DASHED, side_force=DASH_DOT),
     Diagram("torque", torque, piston("crank_torque")),
     Several(_crankpins, lambda machine: piston("tangential_force")(machine) or _drawn(machine)),
     Diagram("crankpin_load", crankpin_load, _listed("crankpin_wear"), is_of_forces=True),
@@ -368,6 +371,7 @@ DIAGRAMS: tuple[Entry, ...] = (
             is_of_forces=True),
     Diagram("crankpin_wear", crankpin_wear, _listed("crankpin_wear"), is_of_forces=True),
     Diagram("main_wear", main_wear, _listed("main_wear"), is_of_forces=True),
+    Diagram("total_tangential_force", total_tangential_force, _many, is_of_forces=True),
     Diagram("total_torque", total_torque, _many),
     Diagram("accumulated_torque", accumulated_torque, every(_engine, lambda machine: machine.diagrams.has_throws)),
     Diagram("excess_work", excess_work, _engine),

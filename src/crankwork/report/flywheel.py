@@ -25,7 +25,7 @@ from crankwork.report.look import (
     scale_text,
 )
 from crankwork.show.canvas import GREY, Canvas
-from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_method
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_remark
 from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_marks, label_points, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, Drawing
@@ -86,8 +86,8 @@ def _span(graph: Graph, angle: float, ends: list[float], text: str) -> None:
     """Draw a double arrow between two levels with a text above the graph, where no curve is."""
     x = float(graph.across(angle))
     top, bottom = (float(graph.down(end)) for end in ends)
-    graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.8)
-    graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.8)
+    graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.45)
+    graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.45)
     graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if angle < graph.x[1] / 2 else "end")
 
 
@@ -132,7 +132,7 @@ def wittenbauer(machine: Drawn) -> Drawing:
     degrees, columns, drive = machine.reached.degrees, machine.reached.columns, machine.results.machine.drive
     inertia, energy = columns["reduced_inertia"], columns["kinetic_energy_change"]
     wanted = Fluctuation(machine.results.solved.speed, drive.fluctuation or 0.0)
-    construction, style, language = tangents(inertia, energy, wanted), machine.style, machine.language
+    construction, language = tangents(inertia, energy, wanted), machine.language
     # slopes and angles are those of J over kg m2
     with use_units(METRIC):
         ends, scales = _ends(inertia, energy, construction)
@@ -152,7 +152,7 @@ def wittenbauer(machine: Drawn) -> Drawing:
         tan = "tg" if language == "ru" else "tan"
         formula = f"$μ_J$ $kl$/({tan} $ψ_max$ − {tan} $ψ_min$) = {shown}"
         foot = f"$kl$ = {cut} {unit_name('mm', language)}; {translate('drawing.flywheel', language)}: {formula}"
-        write_method(paper, style.method, foot)
+        write_remark(paper, foot)
         return paper.drawing(figure_title("wittenbauer", language), language)
 
 
@@ -252,5 +252,4 @@ def speed_curve(machine: Drawn) -> Drawing:
     for value, name, line in levels:
         graph.level(float(displayed_values(row, np.asarray(value))), line, name)
     graph.y_title(axis_title(row, language))
-    write_method(paper, style.method)
     return paper.drawing(figure_title("speed", language), language)

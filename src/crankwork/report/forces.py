@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Array
+from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.force_plans import ForcePolygon, PolygonForce, force_plans
 from crankwork.analysis.skeleton import skeleton
 from crankwork.locale import translate
@@ -26,18 +27,18 @@ from crankwork.report.look import (
     scale_text,
 )
 from crankwork.show.canvas import GREY, Canvas, plain
-from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, write_method
+from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_remark
 from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_marks
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Drawing, Style
 
 _HEAD, _MARGIN, _LIST, _ROW, _FOOT = 16.0, 22.0, 150.0, 13.5, 34.0
 # the tallest plan, and all of them together [pt]
 _HIGHEST, _WHOLE = 230.0, 560.0
 # a paper wider than this has two plans side by side [pt]
 _TWO = 560.0
-# how far apart forces are drawn that lie along each other, and what is as near as that [pt]
-_LANE, _NEAR, _LANES = 6.0, 4.0, (0, 1, -1, 2, -2, 3, -3)
+# how far apart forces are drawn that coincide, and what does: nothing else is set aside, so that plans close [pt]
+_LANE, _NEAR, _LANES = 6.0, 0.8, (0, 1, -1, 2, -2, 3, -3)
 _LOAD, _REACTION = 0.9, 1.6
 # a group of fewer forces has no plan, only two that are equal
 _FEWEST, _MOST = 3, 4
@@ -81,6 +82,24 @@ def curves_over_cycle(
     return paper, {curves[0].key: graph}
 
 
+def force_law(machine: Drawn) -> Drawing:
+    """Return the forces of processes over the displacement of the pieces that they act on."""
+    key, laws = "process_force", force_laws(machine.results)
+    shown = {
+        name: (machine.shown("slider_displacement", places), machine.shown(key, values))
+        for name, (places, values) in laws.items()
+    }
+    rows = [Row(plain(name), STYLES[k % 4]) for k, name in enumerate(shown)] if len(shown) > 1 else []
+    paper, box = sheet(HEIGHT, rows)
+    across, up = (limits(*values, is_place=not k) for k, values in enumerate(zip(*shown.values(), strict=True)))
+    graph = Graph(paper, box, across, up, machine.language)
+    graph.frame(round_ticks(*across), graph.up_ticks)
+    for k, (name, law) in enumerate(shown.items()):
+        graph.curve(f"{key}.{name}", *law, STYLES[k % 4])
+    machine.name_axes(graph, "slider_displacement", key)
+    return paper.drawing(figure_title(key, machine.language), machine.language)
+
+
 def _plans(machine: Drawn) -> list[ForcePolygon]:
     reached = machine.reached
     plans = force_plans(machine.results, float(reached.degrees[reached.row]))
@@ -116,7 +135,7 @@ def plans_of_forces(machine: Drawn) -> Drawing:
     shown = f"{position_sign(style)} = {position_text(degrees, style)}"
     paper.text(current_layout().width - 14, paper.height - 20, shown, anchor="end")
     remarks = ["force_plan", *(["own_scales"] if len(scales) > 1 else [])]
-    write_method(paper, style.method, "; ".join(translate(f"drawing.{remark}", style.language) for remark in remarks))
+    write_remark(paper, "; ".join(translate(f"drawing.{remark}", style.language) for remark in remarks))
     return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
 
 

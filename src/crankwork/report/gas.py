@@ -14,7 +14,7 @@ from crankwork.analysis.gas_chambers import indicators
 from crankwork.locale import translate
 from crankwork.report.look import Drawn, axis_title, displayed_values, quantity_of
 from crankwork.show.canvas import Canvas, plain
-from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text, write_method
+from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES, Drawing
 
@@ -173,6 +173,22 @@ def _inset(engine: Drawn, graph: Graph, volume: Array, values: Array) -> Graph |
     return inset
 
 
+def gas_exchange(engine: Drawn, paper: Canvas, box: ChartBox, volume: Array, pressure: Array) -> None:
+    """Draw the loop of gas exchange of four strokes larger, with the absolute pressure of the surroundings."""
+    calm = (engine.degrees < _CALM[0]) | (engine.degrees > _CALM[1])
+    if engine.cycle != FOUR_STROKE or np.ptp(pressure[calm]) > _FLAT * np.ptp(pressure):
+        return
+    ends = limits(pressure[calm], margin=0.3, is_place=True)
+    graph = Graph(paper, box, (0.0, 1.06 * float(np.max(volume))), ends, engine.language)
+    graph.frame(np.array([]), round_ticks(*ends, 5))
+    graph.curve("gas_exchange", *_within(graph, volume, pressure), angles=engine.degrees)
+    ambient = float(engine.shown("ambient_pressure", engine.results.solved.space.ambient))
+    graph.level(ambient, DASH_DOT, "ambient")
+    small_text(paper, graph.box.left + graph.box.width, float(graph.down(ambient)) - 3,
+               engine.symbol("ambient_pressure"), "end")  # fmt: skip
+    graph.set_quantity(f"{engine.symbol('diagram_pressure')}, {engine.unit('diagram_pressure')}")
+
+
 def _within(graph: Graph, x: Array, y: Array) -> tuple[Array, Array]:
     """Return a curve with gaps where it leaves the graph."""
     low, high = sorted(graph.y)
@@ -220,5 +236,4 @@ def chamber_indicator(machine: Drawn) -> Drawing:
         graph.curve(name, across, up, STYLES[k % 4], angles=angles)
     graph.x_title(axis_title(volume, style.language))
     graph.y_title(axis_title(pressure, style.language))
-    write_method(paper, style.method)
     return paper.drawing(translate("figures.indicator", style.language), style.language)

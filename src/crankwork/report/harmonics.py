@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from crankwork.analysis import Array
 from crankwork.locale import translate
 from crankwork.report.balance import Bars, bar_graph, swatches
 from crankwork.report.look import Drawn
@@ -52,7 +51,7 @@ def torque_harmonics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 
 
 def phase_stars(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the phase stars of the orders up to 6, equal directions end to end, with the sum of each."""
+    """Return the phase stars of the orders up to 6, all unit vectors of one length, with the mean of each."""
     stars = engine.diagrams.phase_stars
     columns = 4 if len(stars) > 6 else 3
     lines = -(-len(stars) // columns)
@@ -80,27 +79,22 @@ def _star(paper: Canvas, box: ChartBox, vectors: Sequence[complex], total: compl
     directions: dict[tuple[float, float], list[int]] = {}
     for number, vector in enumerate(vectors, start=1):
         directions.setdefault((round(vector.real, 6) + 0.0, round(vector.imag, 6) + 0.0), []).append(number)
-    longest = max(*(len(numbers_of_ray) for numbers_of_ray in directions.values()), abs(total))
-    reach = longest * (1 + 22 / (box.width / 2 - 22))
+    # the mean has full length where all cylinders agree
+    total /= len(vectors)
+    reach = 1 + 22 / (box.width / 2 - 22)
     graph = Graph(paper, box, (-reach, reach), (-reach, reach), engine.language, to_scale=False)
     middle = graph.point(0.0, 0.0)
     if abs(total) > 1e-9:
         end = graph.point(total.imag, total.real)
-        paper.arrow(middle, end, width=3.2, colour="#a8a8a8")
-    graph.curves["sum"] = np.array([total.imag]), np.array([total.real])
+        paper.arrow(middle, end, width=5.0, colour="#a8a8a8")
+    graph.curves["mean"] = np.array([total.imag]), np.array([total.real])
     ends = []
     for (up, across), numbers in directions.items():
-        for k in range(len(numbers)):
-            paper.arrow(graph.point(k * across, k * up), graph.point((k + 1) * across, (k + 1) * up), width=0.8)
-        end = graph.point(len(numbers) * across, len(numbers) * up)
+        end = graph.point(across, up)
+        paper.arrow(middle, end, width=0.8)
         ends.append((",".join(str(number) for number in numbers), *end))
     paper.dot(*middle, 1.6)
     label_marks(paper, ends, size=7.0, dot=0.0)
-    graph.curves["ends"] = _ends(directions)
-    return graph
-
-
-def _ends(directions: Mapping[tuple[float, float], Sequence[int]]) -> tuple[Array, Array]:
-    lengths = np.array([len(numbers) for numbers in directions.values()])
     up, across = np.array(list(directions)).T
-    return across * lengths, up * lengths
+    graph.curves["ends"] = across, up
+    return graph

@@ -18,7 +18,7 @@ from crankwork.report.display import displayed, key_unit, symbol
 from crankwork.report.look import Drawn, figure_title, math_symbol, position_text, scale_text
 from crankwork.report.plans import draw_vectors, node_name
 from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines, plain, text_width
-from crankwork.show.chart import ChartBox, Graph, write_method
+from crankwork.show.chart import ChartBox, Graph, write_remark
 from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
@@ -78,7 +78,7 @@ def lever_figure(machine: Drawn) -> Drawing:
     paper.text(14, high + 4, scale_text("μ_v", scale, "m/s", language))
     for index, row in enumerate(rows):
         paper.text(14, high + 4 + _ROW * (index + 1), row)
-    write_method(paper, style.method, translate("drawing.lever", language))
+    write_remark(paper, translate("drawing.lever", language))
     title = f"{figure_title('zhukovsky_lever', language)}, {position_text(degrees, style)}"
     return paper.drawing(title, language)
 
@@ -87,11 +87,12 @@ def _named(lever: Lever, numbers: dict[str, int], language: Language) -> list[_N
     """Return the forces with their symbols, that which balances last."""
     seen: Counter[str] = Counter()
     named = []
-    for count, acting in enumerate(lever.forces, 1):
+    for acting in lever.forces:
         base = "F_" if acting.kind == "load" else f"{symbol('link_inertia_force', language)},"
         name = f"{base}{numbers.get(acting.link, acting.link)}"
         letter, _, index = name.partition("_")
-        named.append(_Named(acting, math_symbol(f"{letter}{_PRIME * seen[name]}_{index}"), f"$h_{count}$"))
+        force, arm = (math_symbol(f"{sign}{_PRIME * seen[name]}_{index}") for sign in (letter, "h"))
+        named.append(_Named(acting, force, arm))
         seen[name] += 1
     end = next((name for name, node in lever.plan.nodes.items() if np.allclose(node, lever.balancing.end)), "a")
     index = symbol("balancing_torque", language).partition("_")[2]

@@ -19,15 +19,14 @@ from crankwork.analysis.sampled_motion import reached_angles
 from crankwork.analysis.vector_polygons import worked_position
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import ProcedureValue, breakpoints_of
-from crankwork.locale import has_text, translate
+from crankwork.locale import capital, has_text, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, row_name, symbol
-from crankwork.report.summary import results_method
 from crankwork.show.canvas import GREY, Canvas, plain
-from crankwork.show.chart import ChartBox, Graph, round_ticks, write_method
+from crankwork.show.chart import ChartBox, Graph, round_ticks, write_remark
 from crankwork.show.scene import DASH_DOT, Drawing, printable
 from crankwork.units import from_si
 
@@ -48,17 +47,16 @@ def figure_title(name: str, language: Language) -> str:
     """Return the title of a figure, for its caption."""
     kind = kind_of(name)
     number = name.removeprefix(kind).removeprefix("_")
-    # some are called what their table is
-    room = "figures" if has_text(f"figures.{kind}") else "tables"
-    return translate(f"{room}.{kind}", language) + (f", {number}" if number else "")
+    # some are called what their table or their quantity is
+    room = next(room for room in ("figures", "tables", "quantities") if has_text(f"{room}.{kind}"))
+    return capital(translate(f"{room}.{kind}", language)) + (f", {number}" if number else "")
 
 
 class Style(NamedTuple):
-    """How a figure is written: language, order of the links by number, how the numbers were made."""
+    """How a figure is written: language, order of the links by number."""
 
     language: Language = "en"
     links: tuple[str, ...] = ()
-    method: str = ""
     period: float = 0.0  # Of the law that drives; curves are over time then, and not over the crank angle [s]
     limits: tuple[float, ...] = ()  # Dead positions of a crank that turns back [deg]
     turns: str = "crank"  # What the angle is of: a linkage has a crank, no crankshaft
@@ -158,7 +156,7 @@ def drive_graph(
     )
     for limit in dead:
         x = float(graph.across(limit))
-        paper.line([x, x], [graph.box.top, graph.box.top + graph.box.height], style=DASH_DOT, width=0.8, colour=GREY)
+        paper.line([x, x], [graph.box.top, graph.box.top + graph.box.height], style=DASH_DOT, width=0.45, colour=GREY)
     if is_last:
         sign = math_symbol(QUANTITIES["crank_angle"].symbol(style.language))
         angle = f"{translate(f'drawing.angle_of_{style.turns}', style.language)} {sign}, °"
@@ -199,15 +197,14 @@ class Drawn:
     def style(self) -> Style:
         """How its figures are written."""
         results, machine = self.results, self.results.machine
-        method = results_method(results, self.language)
         if machine.turning is not None:
-            return Style(self.language, (), method, turns="shaft")
+            return Style(self.language, turns="shaft")
         if machine.linkage is None:
-            return Style(self.language, (), method, results.period)
+            return Style(self.language, period=results.period)
         links, _ = structure(machine.linkage)
         ends = [results.summary[key] for key in ("crank_range_start", "crank_range_end") if key in results.summary]
         names = () if links is None else links.links
-        return Style(self.language, names, method, results.period, tuple(np.degrees(ends).tolist()))
+        return Style(self.language, names, results.period, tuple(np.degrees(ends).tolist()))
 
     @cached_property
     def reached(self) -> Reached:
@@ -284,10 +281,10 @@ class Drawn:
         return number(float(f"{value:.{digits}g}"), self.language, digits=max(digits, 9))
 
     def finished(self, name: str, paper: Canvas, remark: str = "", *, forces: bool = False, owner: str = "") -> Drawing:
-        """Return a figure, with the method that made it; `owner`: what it is of, for its title."""
+        """Return a figure with its title; `owner`: what it is of."""
         if forces and self.per_area:
             remark = "; ".join(text for text in (remark, translate("report.per_area", self.language)) if text)
-        write_method(paper, results_method(self.results, self.language), remark)
+        write_remark(paper, remark)
         title = figure_title(name, self.language)
         return paper.drawing(f"{title}, {owner}" if owner else title, self.language)
 

@@ -17,7 +17,8 @@ from crankwork.quantities import QUANTITIES
 from crankwork.quantities.key import key_of
 from crankwork.report.display import symbol
 from crankwork.report.forces import Line
-from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text
+from crankwork.report.gas import gas_exchange, mark_points, named_points
+from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text, scale_text
 from crankwork.show.canvas import GREY, Canvas, plain
 from crankwork.show.chart import (
     BOTTOM,
@@ -30,9 +31,8 @@ from crankwork.show.chart import (
     over_cycle,
     round_ticks,
     sheet,
-    write_method,
 )
-from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.chart_layout import current_layout, points_per_mm, scaled_height
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 
@@ -40,6 +40,7 @@ _PANEL, _PANEL_GAP = 126.0, 38.0
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
 _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
+_INDICATOR = 230.0
 _HIGH, _AROUND, _LINK = 300.0, 0.6, "#8c8c8c"
 # dashes that short centrodes show, too
 _ROLLING = (3.0, 1.5)
@@ -50,8 +51,7 @@ _LEAST = 1e-6
 
 
 def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return three panels over one revolution; an approximate method shows the two orders it is made of."""
-    turn = engine.degrees <= 360
+    """Return three panels over the cycle; an approximate method shows the two orders it is made of."""
     has_orders = "piston_velocity_first_order" in engine.columns
     gap = _PANEL_GAP if has_orders else 20.0
     head = 16.0 if has_orders else 4.0
@@ -63,15 +63,15 @@ def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         keys = {f"piston_{noun}": SOLID}
         if has_orders:
             keys |= {f"piston_{noun}_first_order": DASHED, f"piston_{noun}_second_order": DASH_DOT}
-        curves = [Line(key, engine.values(key)[turn], style) for key, style in keys.items()]
+        curves = [Line(key, engine.values(key), style) for key, style in keys.items()]
         box = ChartBox(current_layout().left, top, current_layout().inner, panel)
         ends = limits(*(curve.values for curve in curves))
-        graph = over_cycle(paper, box, ends, 360.0, engine.language, numbers=row == 2)
+        graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=row == 2)
         for index, curve in enumerate(curves):
-            graph.curve(curve.key, engine.degrees[turn], curve.values, curve.style)
+            graph.curve(curve.key, engine.degrees, curve.values, curve.style)
             if has_orders:
                 left = box.left + 8 + 70 * index
-                paper.line([left, left + 20], [box.top - 10] * 2, style=curve.style, width=1.2, name="legend")
+                paper.line([left, left + 20], [box.top - 10] * 2, style=curve.style, width=0.9, name="legend")
                 paper.text(left + 27, box.top - 7, engine.symbol(curve.key), size=8.5)
         graph.y_title(engine.title(f"piston_{noun}"), 42.0)
         graphs[noun] = graph
@@ -159,6 +159,66 @@ def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, m
             graph.paper.dot(end, y, 1.4)
 
 
+def indicator_brix(machine: Drawn) -> Drawing:
+    """Return absolute pressure over volume with Brix's half circle below it, and beside it over the crank angle."""
+    space, degrees = machine.results.solved.space, machine.degrees
+    zero = float(machine.shown("gas_pressure", space.gauge(0.0)))
+    volume, pressure = machine.values("cylinder_volume"), machine.values("gas_pressure") - zero
+    ends, reach = limits(pressure), 1.06 * float(np.max(volume))
+    layout, high = current_layout(), scaled_height(_INDICATOR)
+    wide = 0.44 * layout.inner
+    paper = Canvas(layout.width, TOP + high + BOTTOM + wide / 2 + _MARGIN)
+    left = Graph(paper, ChartBox(layout.left, TOP, wide, high), (0.0, reach), ends, machine.language)
+    place = ChartBox(layout.left + wide + _TITLES, TOP, layout.inner - wide - _TITLES, high)
+    right = Graph(paper, place, (0.0, machine.cycle), ends, machine.language, "crank_angle")
+    ticks = left.up_ticks
+    left.frame(round_ticks(0.0, reach, 6), ticks)
+    right.frame(np.arange(0.0, machine.cycle + 1, 90.0), ticks)
+    left.curve("indicator", volume, pressure, angles=degrees)
+    right.curve("pressure", degrees, pressure)
+    for graph in (left, right):
+        graph.level(-zero, DASH_DOT, "ambient")
+    points = named_points(machine)
+    mark_points(left, [(name, float(np.interp(angle, degrees, volume)), value - zero) for name, angle, value in points])
+    mark_points(right, [(name, angle, value - zero) for name, angle, value in points])
+    unit = machine.unit("diagram_pressure")
+    left.y_title(f"{machine.symbol('diagram_pressure')}, {unit}", 30.0)
+    left.x_title(machine.title("cylinder_volume"))
+    right.set_quantity(f"{machine.symbol('diagram_pressure')}, {unit}")
+    right.x_title(machine.title("crank_angle"))
+    _half_circle(machine, left)
+    below = ChartBox(place.left, TOP + high + BOTTOM, right.box.width, wide / 2)
+    gas_exchange(machine, paper, below, volume, pressure)
+    return paper.drawing(figure_title("indicator_brix", machine.language), machine.language)
+
+
+def _half_circle(machine: Drawn, graph: Graph) -> None:
+    """Draw the half circle of Brix between the volumes at the dead centres, and its points up to the diagram."""
+    space, lengths, paper = machine.results.solved.space, machine.results.solved.lengths, graph.paper
+    ends = machine.shown("cylinder_volume", np.array([space.clearance, space.clearance + space.swept]))
+    first, last = graph.across(ends).tolist()
+    radius, centre, level = (last - first) / 2, (first + last) / 2, graph.box.top + graph.box.height + BOTTOM
+    points = brix_points(lengths, np.arange(0.0, 180.0 + _STEP, _STEP))
+    pole = centre - radius * float(points.pole[1]), level
+    x, y = centre - radius * points.up, level + radius * points.across
+    around = np.radians(np.arange(0.0, 181.0, 3.0))
+    paper.line(centre - radius * np.cos(around), level + radius * np.sin(around), width=0.9, name="circle")
+    paper.segments(np.array([(first, level, last, level)]), width=0.5)
+    paper.segments(np.column_stack([np.full_like(x, pole[0]), np.full_like(y, pole[1]), x, y]), width=0.5)
+    foot = np.full_like(x, graph.box.top + graph.box.height)
+    paper.segments(np.column_stack([x, y, x, foot]), width=0.4, colour=GREY)
+    marks = [(machine.number(_STEP * k), *place) for k, place in enumerate(zip(x.tolist(), y.tolist(), strict=True))]
+    label_marks(paper, [*marks, ("O", centre, level), ("O′", *pole)], size=7.0, dot=1.2)
+    text = f"OO′ = {machine.symbol('rod_ratio')}{machine.symbol('crank_radius')}/2"
+    text += f";  {machine.symbol('ambient_pressure')} = {machine.value('ambient_pressure', space.ambient)}"
+    if current_layout().is_sheet:
+        millimetres = (last - first) / points_per_mm()
+        value = float(f"{machine.shown('stroke', space.swept / space.area) / millimetres:.4g}")
+        sign = machine.symbol("piston_displacement").strip("$")
+        text += f";  {scale_text(f'μ_{sign}', value, 'mm', machine.language)}"
+    paper.text(centre, level + radius + 22, text, size=8, anchor="middle")
+
+
 def tolle(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the acceleration over the displacement, and the tangents that envelop it by Tolle's construction."""
     lengths = engine.results.solved.lengths
@@ -193,7 +253,7 @@ def tolle(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     graph.curves["parabola"] = parabola
     if differs:
         graph.curve("parabola", *parabola, DOTTED, width=1.0)
-    graph.curve("acceleration", x, y, width=1.6)
+    graph.curve("acceleration", x, y, width=0.9)
     places = [(name, *graph.point(*place)) for name, place in corners.items()]
     label_marks(paper, [*places, *_numbered(graph, tangents)], frame=box)
     graph.x_title(engine.title("piston_displacement"))
@@ -256,7 +316,6 @@ def centrodes(machine: Drawn) -> Drawing:
     unit = unit_name(QUANTITIES["point_x"].unit, style.language)
     graph.x_title(f"$x$, {unit}")
     graph.y_title(f"$y$, {unit}")
-    write_method(paper, style.method)
     return paper.drawing(figure_title("centrodes", style.language), style.language)
 
 

@@ -26,7 +26,7 @@ from crankwork.report.look import (
     scale_text,
 )
 from crankwork.show.canvas import WIDER, Canvas, plain, text_width
-from crankwork.show.chart import ChartBox, Graph, write_method
+from crankwork.show.chart import ChartBox, Graph, write_remark
 from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_points
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
@@ -168,7 +168,7 @@ def _figure(
         paper.text(14, high - 20, scale_shown)
         shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
         paper.text(current_layout().width - 14, high - 20, shown, anchor="end")
-        write_method(paper, style.method, _remark(plan, kind, language))
+        write_remark(paper, _remark(plan, kind, language))
     _nodes(graph, plan, kind.pole, unit)
     return paper.drawing(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
 

@@ -23,7 +23,7 @@ from crankwork.report.look import (
     scale_text,
 )
 from crankwork.show.canvas import BLACK, Canvas, plain, text_width
-from crankwork.show.chart import ChartBox, Graph, write_method
+from crankwork.show.chart import ChartBox, Graph
 from crankwork.show.chart_layout import FINE, current_layout, font_size, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_marks, label_points
 from crankwork.show.scene import DASH_DOT, SOLID, Drawing
@@ -88,7 +88,6 @@ def position_plans(
     hand.text(0.03 * hand.width, foot, scale_text("μ_l", paper, "mm", style.language))
     shown = f"{position_sign(style, f'_{main}')} = {position_text(float(degrees[main]), style)}"
     hand.text(0.97 * hand.width, foot, shown, anchor="end")
-    write_method(hand, style.method)
     made = hand.drawing(figure_title("position_plans", style.language), style.language)
     return made._replace(plots=tuple(plot._replace(metre=1e3 / paper) for plot in made.plots))
 

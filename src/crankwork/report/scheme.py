@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
+from crankwork.analysis import Array
 from crankwork.quantities import Language
 from crankwork.report.display import symbol
 from crankwork.show.canvas import Canvas
-from crankwork.show.scene import DASH_DOT, Drawing
+from crankwork.show.scene import DASH_DOT, Anchor, Drawing
 
 # paper, centre of the crank, and the lengths that are drawn, of no machine [pt]
 _WIDTH, _HEIGHT = 260.0, 310.0
@@ -40,21 +41,21 @@ def crank_gear_scheme(title: str, language: Language = "en") -> Drawing:
     for key, start, reach, (right, down) in forces:
         end = start + reach
         canvas.arrow(start.tolist(), end.tolist(), width=1.4, colour=_ACCENT)
-        anchor = "end" if right < 0 else "start"
+        anchor: Anchor = "end" if right < 0 else "start"
         text = f"${symbol(key, language)}$"
         canvas.text(end[0] + right, end[1] + down, text, size=10.0, anchor=anchor, colour=_ACCENT)
     return canvas.drawing(title, language)
 
 
-def _mechanism(canvas: Canvas, pin: np.ndarray, piston: np.ndarray) -> None:
+def _mechanism(canvas: Canvas, pin: Array, piston: Array) -> None:
     """Draw axis, crank circle, crank, rod, piston and cylinder walls."""
     (x, y), top = _CENTRE, piston[1] - _PISTON / 2 - 30.0
     canvas.line([x, x], [top - 12.0, y + _CRANK + 10.0], style=DASH_DOT, width=0.45)
     circle = np.linspace(0.0, 2 * math.pi, 121)
     canvas.line(x + _CRANK * np.sin(circle), y - _CRANK * np.cos(circle), style=(4.0, 4.0), width=0.45)
-    for wall, way in ((x - _BORE / 2, -1.0), (x + _BORE / 2, 1.0)):
+    for wall, side in ((x - _BORE / 2, -1.0), (x + _BORE / 2, 1.0)):
         canvas.line([wall, wall], [top, piston[1] + 46.0], width=0.9)
-        ends = [(wall, at, wall + way * 6.0, at - 6.0) for at in np.arange(top + 6.0, piston[1] + 46.0, 8.0)]
+        ends = [(wall, lower, wall + side * 6.0, lower - 6.0) for lower in np.arange(top + 6.0, piston[1] + 46.0, 8.0)]
         canvas.segments(np.array(ends), width=0.45)
     half = _BORE / 2 - 1.5
     left, right, up, down = x - half, x + half, piston[1] - _PISTON / 2, piston[1] + _PISTON / 2
@@ -62,10 +63,10 @@ def _mechanism(canvas: Canvas, pin: np.ndarray, piston: np.ndarray) -> None:
     canvas.line([piston[0], pin[0]], [piston[1], pin[1]], width=1.8)
     canvas.line([x, pin[0]], [y, pin[1]], width=1.8)
     for place in (_CENTRE, pin, piston):
-        canvas.dot(*place.tolist(), radius=3.0, fill="#ffffff", width=0.9)
+        canvas.dot(place[0], place[1], 3.0, fill="#ffffff", width=0.9)
 
 
-def _angles(canvas: Canvas, tilt: float, piston: np.ndarray, language: Language) -> None:
+def _angles(canvas: Canvas, tilt: float, piston: Array, language: Language) -> None:
     """Draw crank angle, rod angle and the sense of rotation."""
     (x, y), radius = _CENTRE, 26.0
     turn = np.linspace(0.0, _ANGLE, 25)
@@ -90,23 +91,21 @@ def _angles(canvas: Canvas, tilt: float, piston: np.ndarray, language: Language)
     )  # fmt: skip
 
 
-def _head(canvas: Canvas, centre: np.ndarray, radius: float, angle: float) -> None:
+def _head(canvas: Canvas, centre: Array, radius: float, angle: float) -> None:
     """Draw the head of a clockwise arrow on a circle, which ends at an angle from the axis."""
     back = angle - 7.0 / radius
-    start, end = (centre + radius * np.array([math.sin(at), -math.cos(at)]) for at in (back, angle))
+    start, end = (centre + radius * np.array([math.sin(turned), -math.cos(turned)]) for turned in (back, angle))
     canvas.arrow(start.tolist(), end.tolist(), width=0.5)
 
 
-def _lengths(
-    canvas: Canvas, pin: np.ndarray, piston: np.ndarray, rod: np.ndarray, across: np.ndarray, language: Language
-) -> None:
+def _lengths(canvas: Canvas, pin: Array, piston: Array, rod: Array, across: Array, language: Language) -> None:
     """Name crank and rod, and draw the displacement of the piston from its upper end."""
     middle = _CENTRE + 0.3 * (pin - _CENTRE) + 10.0 * across
-    canvas.text(*middle.tolist(), f"${symbol('crank_radius', language)}$", size=10.0)
+    canvas.text(middle[0], middle[1], f"${symbol('crank_radius', language)}$", size=10.0)
     middle = piston + 0.62 * _ROD * rod + np.array([7.0, -2.0])
-    canvas.text(*middle.tolist(), f"${symbol('rod_length', language)}$", size=10.0)
-    level, at = _CENTRE[1] - _CRANK - _ROD, _CENTRE[0] + _BORE / 2 + 16.0
+    canvas.text(middle[0], middle[1], f"${symbol('rod_length', language)}$", size=10.0)
+    level, right = _CENTRE[1] - _CRANK - _ROD, _CENTRE[0] + _BORE / 2 + 16.0
     for height in (level, piston[1]):
-        canvas.line([_CENTRE[0], at + 4.0], [height, height], width=0.45)
-    canvas.arrow((at, level), (at, piston[1]), width=0.5)
-    canvas.text(at + 5.0, (level + piston[1]) / 2 + 3.0, f"${symbol('piston_displacement', language)}$", size=10.0)
+        canvas.line([_CENTRE[0], right + 4.0], [height, height], width=0.45)
+    canvas.arrow((right, level), (right, piston[1]), width=0.5)
+    canvas.text(right + 5.0, (level + piston[1]) / 2 + 3.0, f"${symbol('piston_displacement', language)}$", size=10.0)

@@ -17,7 +17,7 @@ from crankwork.report.display import row_name
 from crankwork.report.forces import Line, curves_over_cycle
 from crankwork.report.gas import FOUR_STROKE
 from crankwork.report.look import Drawn, angle_ticks, axis_title, displayed_values, figure_title, math_symbol
-from crankwork.show.canvas import BLACK, Canvas, plain, text_width
+from crankwork.show.canvas import Canvas, plain, text_width
 from crankwork.show.chart import (
     BOTTOM,
     TOP,
@@ -31,18 +31,15 @@ from crankwork.show.chart import (
     sheet,
     small_text,
     true_slices,
-    write_method,
+    write_remark,
 )
 from crankwork.show.chart_layout import current_layout, scaled_height
-from crankwork.show.label_placement import label_marks, label_points
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, Style
+from crankwork.show.label_placement import label_points
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
 from crankwork.units import from_si
 
-_MANY, _FIRING, _PANEL_GAP = 8, 15.0, 15.0
-_THIN, _NAMED = 0.8, 1.3
-# of the torques of cylinders, and what is lighter than black
-_DASHES: tuple[Style, ...] = (DOTTED, DASH_DOT, (3.0, 2.0), (12.0, 2.0, 1.5, 2.0, 1.5, 2.0))
-_LIGHTER = "#808080"
+_FIRING, _PANEL_GAP = 15.0, 15.0
+_THIN, _NAMED = 0.45, 0.9
 _UPPER, _LOWER, _GAP = 216.0, 144.0, 16.0
 _MOST_TICKS = 12
 _MOST_NAMED = 24
@@ -66,53 +63,40 @@ def torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 
 
 def total_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
-    """Return the torque of each cylinder, thin, and their sum with its mean."""
-    language, torque = engine.language, engine.diagrams.torque
-    each = engine.shown("crank_torque", engine.diagrams.torques)
-    shown = each if len(each) <= _MANY else each[:1]
-    total = engine.shown("total_torque", torque.total(np.radians(engine.diagrams.degrees)))
-    total[-1] = total[0]
+    """Return the torque of all cylinders with its mean, and that of cylinder 1."""
     mean = float(engine.shown("mean_total_torque", engine.diagrams.excess.mean_torque))
-    mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
-    rows = [
-        Row(engine.named("total_torque"), width=_NAMED),
-        Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED),
-        *_of_cylinders(engine, len(shown)),
-        Row(f"▼ – {translate('drawing.fires', language)}", width=0.0),
-    ]
+    return _summed(engine, "total_torque", "crank_torque", mean)
+
+
+def total_tangential_force(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return the sum of the tangential forces of all cylinders, and that of cylinder 1."""
+    return _summed(engine, "total_tangential_force", "tangential_force")
+
+
+def _summed(engine: Drawn, key: str, own: str, mean: float | None = None) -> tuple[Canvas, Mapping[str, Graph]]:
+    """Return a sum over the cylinders and its mean, with the first of what is summed, and where cylinders fire."""
+    degrees, first = engine.diagrams.degrees, engine.diagrams.engine.of(1, own).key
+    columns = engine.diagrams.values(key, first)
+    total, cylinder = (engine.shown(name, columns[name]) for name in (key, first))
+    total[-1] = total[0]
+    rows = [Row(engine.named(key), width=_NAMED)]
+    if mean is not None:
+        mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
+        rows.append(Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED))
+    which = translate("drawing.cylinder", engine.language, number=1)
+    rows.append(Row(f"{engine.named(own)}, {which}", DOTTED, _THIN))
+    rows.append(Row(f"▼ – {translate('drawing.fires', engine.language)}", width=0.0))
     paper, box = sheet(225.0 + _FIRING, rows)
     box = box._replace(top=box.top + _FIRING, height=box.height - _FIRING)
-    graph = over_cycle(paper, box, limits(total, shown), engine.cycle, language)
+    graph = over_cycle(paper, box, limits(total, cylinder), engine.cycle, engine.language)
     firings(engine, graph)
-    for index, torque_curve in enumerate(shown):
-        style, colour = _look(index)
-        graph.curve(f"cylinder_{index + 1}", engine.diagrams.degrees, torque_curve, style, width=_THIN, colour=colour)
-    graph.curve("total", engine.diagrams.degrees, total, width=_NAMED)
-    graph.level(mean, DASHED, "mean")
+    graph.curve("cylinder_1", degrees, cylinder, DOTTED, width=_THIN)
+    graph.curve("total", degrees, total, width=_NAMED)
+    if mean is not None:
+        graph.level(mean, DASHED, "mean")
     graph.x_title(engine.title("crank_angle"))
-    graph.y_title(f"{engine.symbol('total_torque')}, {engine.symbol('crank_torque')}, {engine.unit('total_torque')}")
-    if len(shown) > 1:
-        peaks = [(index, int(np.argmax(torque_curve))) for index, torque_curve in enumerate(shown)]
-        tips = [(str(k + 1), *graph.point(engine.diagrams.degrees[peak], shown[k][peak])) for k, peak in peaks]
-        label_marks(paper, tips, size=7.5, dot=1.2, frame=graph.box)
-    return paper, {"total_torque": graph}
-
-
-def _look(cylinder: int) -> tuple[Style, str]:
-    """Return dashes and shade of the torque of a cylinder, no two alike of as many as are shown."""
-    return _DASHES[cylinder % len(_DASHES)], (BLACK, _LIGHTER)[cylinder // len(_DASHES)]
-
-
-def _of_cylinders(engine: Drawn, count: int) -> list[Row]:
-    """Return the legend of the torques of so many cylinders, one line for each dash pattern."""
-    rows = []
-    for first in range(min(count, len(_DASHES))):
-        numbers = ", ".join(str(index + 1) for index in range(first, count, len(_DASHES)))
-        key = "drawing.cylinders" if "," in numbers else "drawing.cylinder"
-        which = translate(key, engine.language, number=numbers)
-        other = _LIGHTER if "," in numbers else ""
-        rows.append(Row(f"{engine.named('crank_torque')}, {which}", _DASHES[first], _THIN, other=other))
-    return rows
+    graph.y_title(f"{engine.symbol(key)}, {engine.symbol(own)}, {engine.unit(key)}")
+    return paper, {key: graph}
 
 
 def accumulated_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -179,9 +163,8 @@ def turning_moment(machine: Drawn) -> Drawing:
     _torques(paper, upper, drawn, language)
     _energy(paper, lower, results, drawn, language)
     excess = results.summary["excess_work"]
-    write_method(
+    write_remark(
         paper,
-        machine.style.method,
         f"{math_symbol(QUANTITIES['excess_work'].symbol(language))} = {_work(excess, language)}",
     )
     return paper.drawing(figure_title("turning_moment", language), language)
@@ -267,7 +250,7 @@ def _energy(paper: Canvas, box: ChartBox, results: Results, drawn: TurningDiagra
     columns = results.listings["energy_extremes"].columns
     angle, energy = np.degrees(columns["crank_angle"]), displayed_values(row, columns["kinetic_energy_change"])
     for find, line, name in ((np.argmax, DASH_DOT, "max"), (np.argmin, DOTTED, "min")):
-        graph.curve(name, graph.x, [float(energy[int(find(energy))])] * 2, line, width=0.8)
+        graph.curve(name, graph.x, [float(energy[int(find(energy))])] * 2, line, width=0.45)
     if angle.size <= _MOST_NAMED:
         for x, y in zip(angle, energy, strict=True):
             paper.dot(*graph.point(x, y), 1.3)
@@ -296,5 +279,4 @@ def loops(machine: Drawn) -> Drawing:
     label_points(graph, names)
     graph.x_title(axis_title(QUANTITIES["loop_number"], language))
     graph.y_title(axis_title(row, language))
-    write_method(paper, machine.style.method)
     return paper.drawing(figure_title("loops", language), language)

@@ -41,16 +41,12 @@ class ChartBox(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour.
-
-    `other`: colour of a second line with the same dashes.
-    """
+    """A row of a legend: text, style (`CIRCLE`, `DOT`, `ARROW`), width of the line [pt] or 0 for none, its colour."""
 
     text: str
     style: Style = SOLID
-    width: float = 1.2
+    width: float = 0.9
     colour: str = BLACK
-    other: str = ""
 
 
 def round_ticks(low: float, high: float, most: int = 8) -> Array:
@@ -147,7 +143,7 @@ class Graph:
         y: Sequence[float] | Array,
         style: Style = SOLID,
         *,
-        width: float = 1.2,
+        width: float = 0.9,
         colour: str = BLACK,
         angles: Array | None = None,
     ) -> None:
@@ -181,7 +177,7 @@ class Graph:
         is_inside = min(self.y) < 0 < max(self.y)
         level = float(self.down(0.0)) if is_inside else bottom
         marks = [(x, level - 2.5, x, level + 2.5) for x in across] + [(left - 3.5, y, left, y) for y in down]
-        self.paper.segments(np.array([(left, top, left, bottom), (left, level, right, level), *marks]), width=0.8)
+        self.paper.segments(np.array([(left, top, left, bottom), (left, level, right, level), *marks]), width=0.45)
         if labels[0]:
             for value, x in zip(x_ticks, across, strict=True):
                 self.paper.text(x, bottom + 12.5, self._number(value, 0), size=_TICK, anchor="middle")
@@ -244,7 +240,7 @@ class Graph:
 
     def level(self, value: float, style: Style = DASH_DOT, name: str = "") -> None:
         """Draw a horizontal line across the graph at a value. [its unit]"""
-        self.curve(name, [self.x[0], self.x[1]], [value, value], style, width=0.8 if style == DASH_DOT else 1.2)
+        self.curve(name, [self.x[0], self.x[1]], [value, value], style, width=0.45 if style == DASH_DOT else 0.9)
 
 
 def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
@@ -274,10 +270,8 @@ def legend(paper: Canvas, rows: Sequence[Row], top: float) -> None:
         elif row is not None and row.style == ARROW:
             paper.arrow((left, level + 6), (left + 20, level + 6), width=row.width)
         elif row is not None and row.width:
-            lines = [(6.0, row.colour)] if not row.other else [(4.0, row.colour), (8.0, row.other)]
-            for down, colour in lines:
-                ends = [left, left + 20], [level + down] * 2
-                paper.line(*ends, style=row.style, width=row.width, colour=colour, name="legend")
+            ends = [left, left + 20], [level + 6] * 2
+            paper.line(*ends, style=row.style, width=row.width, colour=row.colour, name="legend")
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 
 
@@ -319,22 +313,21 @@ def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> 
     return paper, ChartBox(layout.left, TOP + above, layout.inner, height)
 
 
-def write_method(paper: Canvas, method: str, remark: str = "") -> None:
-    """Write the method of calculation at the lower right, and a remark at the lower left, or above it."""
+def write_remark(paper: Canvas, remark: str) -> None:
+    """Write a remark under a figure."""
+    if not remark:
+        return
     if current_layout().is_sheet:
-        # a sheet states the method once
-        if remark:
-            layout, foot = current_layout(), max(box[4] for box in paper.texts) + 13
-            for index, row in enumerate(fitted_lines(remark, 8, layout.width / WIDER)):
-                paper.text(layout.left + layout.inner / 2, foot + 12 * index, row, size=8, anchor="middle")
+        layout, foot = current_layout(), max(box[4] for box in paper.texts) + 13
+        for index, row in enumerate(fitted_lines(remark, 8, layout.width / WIDER)):
+            paper.text(layout.left + layout.inner / 2, foot + 12 * index, row, size=8, anchor="middle")
         return
     size = 7.0
-    foot = paper.height - 6
-    if WIDER * (text_width(method, size) + text_width(remark, size)) > 0.94 * paper.width:
-        paper.height += _FOOT_ROW
-    paper.text(paper.width * 0.985, paper.height - 6, method, size=size, anchor="end", colour=GREY)
-    if remark:
-        paper.text(paper.width * 0.02, foot, remark, size=size, colour=GREY)
+    rows = fitted_lines(remark, size, 0.94 * paper.width / WIDER)
+    paper.height += _FOOT_ROW * (len(rows) - 1)
+    for index, row in enumerate(rows):
+        foot = paper.height - 6 - _FOOT_ROW * (len(rows) - 1 - index)
+        paper.text(paper.width * 0.02, foot, row, size=size, colour=GREY)
 
 
 def small_text(paper: Canvas, x: float, y: float, text: str, anchor: Anchor = "middle") -> None:

@@ -23,7 +23,7 @@ class ChartLayout(NamedTuple):
     `is_rough`: only the size of the drawing is needed, so names of points, whose placement takes long, are left out.
     """
 
-    width: float = 460.8
+    width: float = 481.9
     left: float = 70.6
     right: float = 18.0
     tall: float = 1.0

@@ -68,7 +68,7 @@ def _histogram(study: Study, key: str, histogram: Histogram, language: Language)
     steps, heights = np.repeat(edges, 2), np.concatenate([[0.0], np.repeat(histogram.counts, 2), [0.0]])
     graph.shade(steps, heights)
     graph.frame(round_ticks(*x), graph.up_ticks)
-    graph.curve("count", steps, heights, width=0.8)
+    graph.curve("count", steps, heights, width=0.45)
     for level, style in ((stated, DASHED), *((end, DASH_DOT) for end in dict.fromkeys(ends))):
         graph.curve("", [level, level], [0.0, top], style, width=1.0)
     graph.x_title(axis_title(key, language))
@@ -164,7 +164,7 @@ def _parallels(study: Study, aggregate: StudyAggregate, language: Language) -> I
 def _parallel(axes: list[_Axis], background: int, best: Index, title: str, language: Language) -> Drawing:
     rows = [
         Row(translate("study.best_line", language), width=2.0),
-        Row(translate("study.best_lines", language, count=str(best.size)), width=0.8),
+        Row(translate("study.best_lines", language, count=str(best.size)), width=0.45),
         Row(translate("study.some", language), width=0.6, colour=_FAINT),
     ]
     edge = 56.0
@@ -176,7 +176,7 @@ def _parallel(axes: list[_Axis], background: int, best: Index, title: str, langu
     down = np.array([bottom - (bottom - top) * axis.at for axis in axes])
     for index in range(background):
         paper.line(across, down[:, index], width=0.3, colour=_FAINT)
-    paper.segments(np.array([(x, top, x, bottom) for x in across]), width=0.8, colour=GREY)
+    paper.segments(np.array([(x, top, x, bottom) for x in across]), width=0.45, colour=GREY)
     for index in range(down.shape[1] - 1, background - 1, -1):
         paper.line(across, down[:, index], width=1.8 if index == background else 0.6)
     for x, coordinate, name in zip(across.tolist(), axes, names, strict=True):
@@ -231,7 +231,7 @@ def _bars(study: Study, key: str, indices: Array, language: Language) -> Drawing
             high = low + 0.32
             corners = np.array([0.0, value, value, 0.0]), row + np.array([low, low, high, high])
             fill(*corners)
-            graph.curve("", np.append(corners[0], 0.0), np.append(corners[1], row + low), width=0.8)
+            graph.curve("", np.append(corners[0], 0.0), np.append(corners[1], row + low), width=0.45)
             middle = row + (low + high) / 2
             graph.curve("", [max(value - error, 0.0), value + error], [middle, middle], width=1.4)
         y = float(graph.down(row + 0.5)) + 3

@@ -19,6 +19,7 @@ from crankwork.quantities import Language
 from crankwork.report.display import for_readers
 from crankwork.report.figures import diagrams
 from crankwork.report.look import Drawn, drawn_of, kind_of
+from crankwork.report.motion import indicator_brix
 from crankwork.report.summary import results_method
 from crankwork.show.scene import Drawing
 
@@ -38,10 +39,12 @@ _DATA = (
 )  # fmt: skip
 # kinds of figures on each sheet, by the key of its title
 _SHEETS: dict[str, tuple[str, tuple[str, ...]]] = {
-    "engine-motion": ("sheets.first_sheet", ("indicator", "pressure", "brix", "tolle", "kinematics", "data")),
+    "engine-motion": ("sheets.first_sheet", (
+        "indicator_brix", "indicator", "pressure", "brix", "tolle", "kinematics", "data",
+    )),
     "engine-forces": ("headings.dynamics", (
-        "piston_forces", "rod_forces", "crankpin_forces", "torque", "total_torque", "crankpin_load", "crankpin_polar",
-        "crankpin_wear",
+        "piston_forces", "rod_forces", "crankpin_forces", "torque", "total_tangential_force", "total_torque",
+        "crankpin_load", "crankpin_polar", "crankpin_wear",
     )),
     "engine-shaft": ("sheets.shaft_sheet", (
         "accumulated_torque", "excess_work", "crank_speed", "big_end_polar", "main_journal_polar", "main_wear",
@@ -59,7 +62,7 @@ _OF_LINKS: dict[str, tuple[str, tuple[str, ...]]] = {
         "force_plans", "zhukovsky_lever", "reactions", "joint_forces", "friction",
     )),
     "linkage-dynamics": ("sheets.linkage_dynamics", (
-        "torques", "reduced_inertia", "wittenbauer", "speed", "indicator", "chambers", "transient",
+        "process_force", "torques", "reduced_inertia", "wittenbauer", "speed", "indicator", "chambers", "transient",
     )),
 }  # fmt: skip
 
@@ -72,13 +75,7 @@ def drawn_sheets(
     # sheets say what the note says, which takes a crank gear of its own as an engine of one cylinder
     results = with_engine_results(results)
     machine = drawn_of(results, language, per_area=per_area)
-    known: Pictures = {name: partial(figure.picture, machine) for name, figure in diagrams(machine).items()}
-    if machine.has_piston:
-        known["data"] = partial(_data, machine)
-        if "total_torque" in known:
-            known.pop("torque")
-    if results.machine.linkage is not None:
-        known |= of_links(results, language)
+    known = _pictures(results, machine, language)
     subjects: list[tuple[str, str, list[Picture]]] = []
     for name, (title, kinds) in (_SHEETS if machine.has_piston else _OF_LINKS).items():
         pictures = [Picture(key, known[key]) for kind in kinds for key in known if kind_of(key) == kind]
@@ -97,6 +94,24 @@ def drawn_sheets(
     for name, title, pictures in subjects:
         sheets += sheets_with(name, title, pictures, paper, language)
     return numbered(sheets, paper)
+
+
+def _pictures(results: Results, machine: Drawn, language: Language) -> Pictures:
+    """Return what the sheets of a machine choose from."""
+    known: Pictures = {name: partial(figure.picture, machine) for name, figure in diagrams(machine).items()}
+    if machine.has_piston:
+        known["data"] = partial(_data, machine)
+        if "total_torque" in known:
+            known.pop("torque")
+            # one and the same curve to two scales: schools draw one of them
+            known.pop("total_torque" if language == "vi" else "total_tangential_force")
+        space = results.solved.space
+        if "indicator" in known and space.factor == 1:
+            # the pressure at one scale over volume and angle, with its circle
+            known = {"indicator_brix": partial(indicator_brix, machine), **known}
+            for name in ("indicator", "pressure", "brix"):
+                del known[name]
+    return known | (of_links(results, language) if results.machine.linkage is not None else {})
 
 
 def _data(engine: Drawn) -> Drawing:
