@@ -96,8 +96,8 @@ def test_the_table_of_forces_is_the_published_one():
 
 def test_a_note_counts_what_it_shows():
     one = note(FOUR, "ru", figures=True)
-    # all that are drawn, and the machine
-    assert figures(one).keys() == {"machine", *drawn_figures(results(FOUR), language="ru")}
+    # all that are drawn, the machine and the senses of its angles and forces
+    assert figures(one).keys() == {"machine", "scheme", *drawn_figures(results(FOUR), language="ru")}
     assert len(tables(one)) >= 20
     assert len(blocks(one, Equation)) > 180
     # as many rows as there are angles, motion for one turn only

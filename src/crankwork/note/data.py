@@ -71,9 +71,9 @@ def _how(material: Material) -> Iterator[Block]:
 def _scheme(material: Material) -> Iterator[Block]:
     """Yield the crank gear with the senses in which its angles and forces are counted."""
     if material.options.figures and "piston_force" in material.results.columns:
-        title = material.words.title("scheme")
+        title, language = material.words.title("scheme"), material.words.language
         yield material.words.paragraph("scheme_drawn", figure=Reference("f:scheme"))
-        yield Figure(crank_gear_scheme(title, material.words.language), title, title, label="f:scheme")
+        yield Figure(crank_gear_scheme(title, language), title, translate("seen.scheme", language), label="f:scheme")
 
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:

@@ -38,7 +38,7 @@ _CONSTRUCTED = (
     "wittenbauer",
 )  # fmt: skip
 # what a note shows the formula of when it is not to show all
-_ESSENTIAL = frozenset((
+ESSENTIAL = frozenset((
     "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",
     "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure",
     "compression_temperature", "combustion_celsius", "combustion_pressure", "expansion_pressure",
@@ -216,7 +216,7 @@ class Material:
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
         if not self.full:
-            selected = [row for row in selected if _kind(row) in _ESSENTIAL]
+            selected = [row for row in selected if _kind(row) in ESSENTIAL]
         # of families, such as the journals of a shaft, a table has the others
         return self.worked(_first(selected) if first or self.has_piston or not self.full else selected)
 
@@ -323,7 +323,8 @@ class Material:
     def remaining_figures(self) -> list[str]:
         """Return the names of figures that no section has shown."""
         left = [name for name in self.drawn if name not in self._shown_figures]
-        return [name for name in left if self.has_engine or not name.startswith("main_")]
+        # a crank gear without an engine has no journals of its own
+        return [name for name in left if self.has_engine or not self.has_piston or not name.startswith("main_")]
 
     def remaining_lines(self) -> list[Block]:
         """Return equations of lines that no section has shown: single values, and formulas that are new."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from crankwork.note.material import Material
 
 # kind of figure: the single values that its sentence tells, of which each must be known
-_READ: Mapping[str, tuple[str, ...]] = {
+_VALUES: Mapping[str, tuple[str, ...]] = {
     "kinematics": ("piston_velocity_max", "piston_acceleration_max"),
     "pressure": ("gas_pressure_max",),
     "piston_forces": ("piston_force_max", "piston_force_min"),
@@ -61,16 +61,16 @@ def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
 
 def _known(kind: str, material: Material, pin: str) -> dict[str, tuple[float, float | None]]:
     """Return the values that a sentence tells, with the angles where they are reached; none unless all are known."""
-    summary, values = material.summary, dict[str, tuple[float, float | None]]()
-    for key in _READ.get(kind, ()):
+    summary, listed = material.summary, dict[str, tuple[float, float | None]]()
+    for key in _VALUES.get(kind, ()):
         own = next((name for name in (key, f"{key}.{pin}") if name in summary), None)
         if own is None:
             return {}
         place = key_of(own).derived("_angle")
         if key.endswith(("_max", "_min")) and place not in summary:
             return {}
-        values[key] = (summary[own], summary.get(place))
-    return values
+        listed[key] = (summary[own], summary.get(place))
+    return listed
 
 
 def _of_joints(material: Material) -> Paragraph | None:

@@ -138,7 +138,7 @@ SECTIONS = (
         When(_SEVERAL, (Shown(("total_tangential_force", "total_torque"), (_all_cylinders,)),)),
         When(_ONE, (
             Shown(("total_torque",)),
-            When(draws("torque"), (Text("see_figure", {"figures": Reference("f:torque")}),)),
+            When(every(full, draws("torque")), (Text("see_figure", {"figures": Reference("f:torque")}),)),
         )),
         When(every(full, _SEVERAL), HARMONICS),
     ), every(has("total_torque_max"), either(_SEVERAL, every(_ONE, school("vi"))))),
