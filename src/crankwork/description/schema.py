@@ -343,8 +343,8 @@ class TableSpec(NamedTuple):
         if is_reported or any(alternative in value for alternative in alternatives) or self._foreign(entry, values):
             return
         # what is there tells which alternative is meant
-        beside = {other for stated in value if stated in self.keys for other in self.keys[stated].only}
-        alternatives = tuple(key for key in alternatives if key in beside) or alternatives
+        depended = {other for stated in value if stated in self.keys for other in self.keys[stated].only}
+        alternatives = tuple(key for key in alternatives if key in depended) or alternatives
         advice = tuple(_advice(alternative, self.keys[alternative], prefix) for alternative in alternatives)
         reader.add_error(f"{prefix}{alternatives[0]}", ErrorMessage("missing", advice=advice))
 

@@ -74,9 +74,9 @@ def _by_sides(text: str, message: ErrorMessage) -> ErrorMessage:
     match = _SIDES.fullmatch(text) if len(text) < _LONG else None
     if match is None:
         return message
-    value, upper, lower = (float(re.sub(r"\s", "", part.translate(_PLAIN_SIGNS))) for part in match.group(1, 3, 5))
+    value, upper, other = (float(re.sub(r"\s", "", part.translate(_PLAIN_SIGNS))) for part in match.group(1, 3, 5))
     units_named = {f" {unit}" for unit in match.group(2, 4, 6) if unit}
-    written = f"{value + (upper + lower) / 2:.12g} ± {abs(upper - lower) / 2:.12g}{''.join(units_named)}"
+    written = f"{value + (upper + other) / 2:.12g} ± {abs(upper - other) / 2:.12g}{''.join(units_named)}"
     return ErrorMessage("tolerance_sides", text=text, written=written) if len(units_named) < 2 else message
 
 

@@ -57,7 +57,7 @@ _QUARTER = 15.0
 # change over a cycle that is none, by the greatest pressure
 _CONSTANT = 0.02
 # lines that a notice lists
-_MOST_TOLD = 5
+_MOST_LINES = 5
 # errors that bend a compression line too: offset of the pressure [Pa], change of the exponent
 _OFF, _CHANGE = 5e3, 0.045
 # offset that is reported, over the pressure at the start, and how far from that of the surroundings it is theirs [Pa]
@@ -205,10 +205,10 @@ def _straightest(
     for shift, line, after in zip(shifts.tolist(), lines, lines[1:], strict=False):
         if line is None or after is None or line.bend * after.bend > 0:
             continue
-        if all(_EXPONENTS[0] <= one.exponent <= _EXPONENTS[1] for one in (line, after)):
-            candidates.append((line.noise, shift, shift + line.bend / (line.bend - after.bend or 1.0)))
-    least = 2 * min((noise for noise, *_ in candidates), default=0.0)
-    return min((found for noise, _, found in candidates if noise <= least), key=abs, default=None)
+        if all(_EXPONENTS[0] <= either.exponent <= _EXPONENTS[1] for either in (line, after)):
+            candidates.append((line.noise, shift + line.bend / (line.bend - after.bend or 1.0)))
+    least = 2 * min((noise for noise, _ in candidates), default=0.0)
+    return min((exact for noise, exact in candidates if noise <= least), key=abs, default=None)
 
 
 class _Compression(NamedTuple):
@@ -248,7 +248,7 @@ def _spikes(measured: MeasuredPressure) -> Iterator[NoticeData]:
     for pressure in measured.pressure.reshape(len(measured.degrees), -1).T:
         off = _off(pressure)
         if np.any(off):
-            worst = np.argsort(-off)[: min(_MOST_TOLD, int(np.sum(off > 0)))]
+            worst = np.argsort(-off)[: min(_MOST_LINES, int(np.sum(off > 0)))]
             lines = ", ".join(str(measured.rows[line]) for line in worst.tolist())
             yield "pressure_spike", {"line": lines, "step": float(pressure[worst[0]]), "count": float(np.sum(off > 0))}
 
