@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis import Results, analyse
-from crankwork.analysis.assumptions import is_display
+from crankwork.analysis.assumptions import _DISPLAY
 from crankwork.description.machine_file import Setting, apply_override, entry_at, file_keys, read_machine
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader, split_deviation
@@ -40,7 +40,7 @@ def _stated(value: Any, kind: object, path: str) -> Iterator[tuple[str, Any, obj
     elif isinstance(value, list):
         for number, item in enumerate(value, start=1):
             yield from _stated(item, entry_at(kind, number), f"{path}[{number}]")
-    elif not is_display(path):
+    elif not _DISPLAY.fullmatch(path):
         yield path, value, kind
 
 
@@ -69,7 +69,7 @@ def _defaults(value: Any, read: Any, kind: object, path: str) -> Iterator[tuple[
         for name in table.keys:
             full = f"{path}.{name}" if path else name
             default = None if name in value else table.written_default(name, read)
-            if default is not None and not is_display(full):
+            if default is not None and not _DISPLAY.fullmatch(full):
                 yield full, default, table.keys[name].kind
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import crankwork
 
 
@@ -21,3 +23,6 @@ links.right = { joins = ["D", "C"], length = "210 mm" }
 positions.C = ["110 mm", "200 mm"]
 loads = [{ kind = "torque", link = "second", torque = ["7 N*m"] }]
 """
+
+# a cylinder of an engine whose diagram is drawn point by point
+POINTS_ENGINE = Path(__file__).with_name("machines").joinpath("points-engine.toml").read_text("utf-8")

@@ -312,6 +312,9 @@ def test_a_weight_is_a_mass_where_one_is_asked_for() -> None:
     weight = parse("19.6133 N", ("mass",))
     assert (weight.value, weight.unit, weight.notice) == (pytest.approx(2.0, rel=1e-15), "kg", "weight")
     assert parse("5 kgf", ("mass", "mass_per_area")).value == pytest.approx(5.0, rel=1e-15)
+    # the gravity of a course sheet: G2 = 30 N and g = 10 m/s2 are 3 kg there
+    assert parse("30 N", ("mass",), gravity=10.0).value == pytest.approx(3.0, rel=1e-15)
+    assert parse("5 kgf", ("mass",), gravity=10.0).value == pytest.approx(5.0, rel=1e-15)
     assert parse("5 N", ("force",)).notice == ""
     with pytest.raises(ValueError, match="force"):
         parse("5 N", ("length",))

@@ -269,13 +269,18 @@ def spellings(dimension: str) -> list[str]:
 
 
 def parse(
-    text: str, dimensions: tuple[str, ...], *, decimal_comma: bool = False, metric_hp: bool = False
+    text: str,
+    dimensions: tuple[str, ...],
+    *,
+    decimal_comma: bool = False,
+    metric_hp: bool = False,
+    gravity: float = KGF,
 ) -> ParsedQuantity:
     """Parse a quantity.
 
     `dimensions`: the valid dimensions; the first is used in the advice; a weight is accepted for a mass;
     `decimal_comma`: read `1,1 kg` as 1.1 kg. Otherwise a comma is an error, because it also separates thousands;
-    `metric_hp`: read hp as 735.5 W instead of asking which one is meant.
+    `metric_hp`: read hp as 735.5 W instead of asking which one is meant; `gravity`: makes a mass of newtons [m/s2].
 
     Examples
     --------
@@ -314,7 +319,7 @@ def parse(
     if not math.isfinite(value):
         raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
     return (
-        ParsedQuantity(value / KGF, "mass", "kg", "weight")
+        ParsedQuantity(value / (gravity if "N" in spelling else KGF), "mass", "kg", "weight")
         if is_weight
         else ParsedQuantity(value, unit.dimension, spelling, notice)
     )

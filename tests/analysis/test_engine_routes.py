@@ -9,7 +9,8 @@ import numpy as np
 
 import crankwork
 from crankwork.dynamics.masses import CrankGearMasses
-from crankwork.formula.expression import FORMULAS, replaced_formula
+from crankwork.formula.expression import FORMULAS
+from replaced import replaced_formula
 
 MACHINES = Path(__file__).parents[1] / "machines"
 EXAMPLES = Path(__file__).parents[2] / "examples"

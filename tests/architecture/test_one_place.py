@@ -6,10 +6,11 @@ import crankwork
 from architecture.one_place import LIST, listed, places, several
 from crankwork.quantities import QUANTITIES
 from crankwork.quantities.key import key_of
+from machine_texts import POINTS_ENGINE
 
 # what other rooms give the keys of
 _OF_KINEMATICS = {"side_factor", "rod_factor", "radial_factor", "tangential_factor"}
-_MACHINES = ("engine", "slider-crank", "compressor", "turning-moment")
+_MACHINES = ("slider-crank", "compressor", "turning-moment")
 
 
 def test_quantities_get_no_further_places() -> None:
@@ -22,6 +23,7 @@ def test_quantities_get_no_further_places() -> None:
 
 
 def test_every_quantity_of_results_has_a_place() -> None:
-    traces = [crankwork.analyse(crankwork.Description(crankwork.template(name))).trace for name in _MACHINES]
+    texts = [POINTS_ENGINE, *map(crankwork.template, _MACHINES)]
+    traces = [crankwork.analyse(crankwork.Description(text)).trace for text in texts]
     quantities = {key_of(key).quantity for trace in traces for key in trace} & {*QUANTITIES}
     assert quantities - {*places()} == _OF_KINEMATICS

@@ -27,8 +27,8 @@ PINNED = {
         "linkage": "587b6d3c978c",
         "machine": "93e6fd34e1f6",
     },
-    "formulas": "274ffc63bbc6",
-    "quantities": "12e3fdacadf2",
+    "formulas": "29245a9434cd",
+    "quantities": "e8556442faa7",
     "defaults": "6b294094b813",
 }
 

@@ -17,10 +17,11 @@ from crankwork.description.toml_edit import toml
 from crankwork.description.toml_positions import TomlPositions
 from crankwork.errors import CrankworkError, InputError, UnknownKeyError
 from each import for_each
+from machine_texts import POINTS_ENGINE
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 TEXTS = [template(name) for name in template_names()] + [path.read_text("utf-8") for path in EXAMPLES]
-ENGINE = template("engine")
+ENGINE = POINTS_ENGINE
 
 
 def comments(text):

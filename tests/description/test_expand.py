@@ -20,6 +20,7 @@ from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import Input, in_order
 from each import for_each
 from expansions import ROOT, differences, machine_files, of_linkage
+from machine_texts import POINTS_ENGINE
 from shown import in_parts
 
 plausible_file = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible.py"))["plausible_file"]
@@ -298,7 +299,7 @@ def test_links_with_given_motion_are_reduced_to_the_crank(tmp_path):
 
 
 def test_a_mistake_is_told_before_anything_is_written_out(tmp_path):
-    path = written(tmp_path, template("engine").replace('"45 mm"', '"45 apples"'))
+    path = written(tmp_path, POINTS_ENGINE.replace('"45 mm"', '"45 apples"'))
     with pytest.raises(InputError, match=r"crank\.radius"):
         expanded(path)
 
@@ -327,14 +328,14 @@ def test_random_files_stand_for_themselves(tmp_path):
 def test_measured_pressure_is_that_of_a_chamber(tmp_path):
     samples = "".join(f"{angle},{1 + math.exp(-(((angle - 370) / 40) ** 2)):.6f}\n" for angle in range(0, 721, 5))
     (tmp_path / "pressure.csv").write_text(samples, "utf-8")
-    text = template("engine")
+    text = POINTS_ENGINE
     start, end = text.index("[gas.points]"), text.index("[method]")
     measured = '[gas.measured]\nfile = "pressure.csv"\npressure_unit = "bar"\nshift = "0 deg"\n\n'
     numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text[:start] + measured + text[end:])
 
 
 def test_an_engine_of_one_cylinder_is_a_crank_gear(tmp_path):
-    text = template("engine").replace("[method]", '[engine]\nlayout = "inline"\ncylinders = 1\n\n[method]')
+    text = POINTS_ENGINE.replace("[method]", '[engine]\nlayout = "inline"\ncylinders = 1\n\n[method]')
     numbers_of_a_gear_are_those_of_its_linkage(tmp_path, text)
 
 

@@ -24,6 +24,7 @@ from crankwork.errors import CrankworkError
 from crankwork.locale import texts
 from crankwork.study.study_file import study_schema
 from each import for_each
+from machine_texts import POINTS_ENGINE
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 WRITTEN = sorted((Path(crankwork.__file__).parent / TEMPLATES).glob("*.toml"))
@@ -231,7 +232,7 @@ def test_an_alternative_in_a_comment_is_the_same_machine(name, key, alternative)
 
 
 def test_a_measured_pressure_takes_the_place_of_points_and_pieces(tmp_path) -> None:
-    text = template("engine")
+    text = POINTS_ENGINE
     start, end = text.index("[gas.points]"), text.index("# [gas.measured]")
     tail = "\n".join(line.removeprefix("# ") if 0 < number < 4 else line for number, line in enumerate(
         text[end:].removeprefix("# ").split("\n"))
@@ -255,7 +256,7 @@ def _names(schema: object) -> set[str]:
 
 @for_each("path", WRITTEN, ids=lambda path: path.stem)
 def test_what_a_template_says_in_words_stands_in_the_languages(path) -> None:
-    known = _names(SCHEMA) | {"exact", "textbook", "series", "n1", "n2", "true"}
+    known = _names(SCHEMA) | {"exact", "textbook", "series", "n1", "n2", "p_a", "p_z", "p_r", "true"}
     comments = " ".join(re.findall(r"#(.*)", path.read_text("utf-8")))
     plain = re.sub(r"\{[a-z][\w.]*\}|\"[^\"]*\"", "", comments)
     assert {word for word in re.findall(r"[^\W\d]\w+(?:-\w+)*", plain) if word not in known} == set()

@@ -13,6 +13,7 @@ import pytest
 
 from crankwork import cli
 from crankwork.description.machine_file import template
+from machine_texts import POINTS_ENGINE
 
 
 class Answer(NamedTuple):
@@ -59,10 +60,10 @@ def crankwork(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str
 
 @pytest.fixture
 def machine_file(tmp_path: Path) -> Callable[..., str]:
-    """Write a machine file: a template with pieces of its text replaced, or a text."""
+    """Write a machine file: a template, or an engine with a diagram of points, with pieces of its text replaced."""
 
-    def write(*changes: tuple[str, str], name: str = "engine", text: str | None = None) -> str:
-        source = template(name) if text is None else text
+    def write(*changes: tuple[str, str], name: str = "", text: str | None = None) -> str:
+        source = text or (template(name) if name else POINTS_ENGINE)
         for old, new in changes:
             assert source.count(old) == 1, f"{old!r} stands {source.count(old)} times"
             source = source.replace(old, new)

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 import crankwork as package
-from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
 from crankwork.studio.session import Session
 from each import for_each
+from machine_texts import POINTS_ENGINE
 
-ENGINE = template("engine")
+ENGINE = POINTS_ENGINE
 ORDER = '\n[engine]\nlayout = "inline"\ncylinders = 4\nfiring_order = {}\n'
 # what stands in the template and what is written in its place; several are several mistakes at once
 FAULTY = {

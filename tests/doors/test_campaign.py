@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from crankwork.description.machine_file import template
 from crankwork.errors import CrankworkError
+from machine_texts import POINTS_ENGINE
 
 CAMPAIGN = runpy.run_path(str(Path(__file__).with_name("campaign.py")))
 FAULTS, hostile_file, outcome = (CAMPAIGN[name] for name in ("FAULTS", "hostile_file", "outcome"))
@@ -87,7 +87,7 @@ def test_no_list_of_a_file_gets_into_itself() -> None:
 
 
 def test_each_kind_of_fault_is_noticed(monkeypatch) -> None:
-    text = template("engine")
+    text = POINTS_ENGINE
     assert outcome(text).kind == "accepted"
     faults = {_divide: "traceback", _warn: "warning", _wait: "hang", _fill: "memory", _refuse: "message",
               _say_no_more: "message"}  # fmt: skip
@@ -108,4 +108,4 @@ def test_values_that_are_not_finite_are_noticed_where_nothing_is_said_of_them(mo
         return results
 
     monkeypatch.setitem(outcome.__globals__, "analyse", spoilt)
-    assert outcome(template("engine")) == ("silent", "not finite: piston_velocity")
+    assert outcome(POINTS_ENGINE) == ("silent", "not finite: piston_velocity")

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from crankwork.description.machine_file import template
+from machine_texts import POINTS_ENGINE
 
 
 def test_methods_stand_beside_the_own_one_in_summary_table_and_figure(crankwork, machine_file):
@@ -46,7 +47,7 @@ def test_another_file_is_put_beside_as_it_is_and_may_have_any_name(crankwork, ma
     # that of a method, and that of the file itself
     Path("other").mkdir()
     for name in ("textbook.toml", "other/my.toml"):
-        Path(name).write_text(template("engine").replace('"160 mm"', '"140 mm"'), encoding="utf-8")
+        Path(name).write_text(POINTS_ENGINE.replace('"160 mm"', '"140 mm"'), encoding="utf-8")
     asked = ("run", machine_file(), "--set", "crank.speed=2000 rpm", "--compare")
     answer = crankwork(*asked, "textbook.toml")
     assert answer.code == 0
@@ -69,7 +70,7 @@ def test_in_every_language_and_in_a_note(crankwork, machine_file):
 
 
 def test_what_cannot_be_compared_is_refused(machine_file, check_refusals):
-    Path("same.toml").write_text(template("engine"), encoding="utf-8")
+    Path("same.toml").write_text(POINTS_ENGINE, encoding="utf-8")
     crank_gear = "--compare textbook: approximate methods exist for a crank gear"
     for name, refusals in {
         "four-bar": [

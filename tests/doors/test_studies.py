@@ -10,6 +10,7 @@ import sys
 import pytest
 
 from crankwork.description.machine_file import template
+from machine_texts import POINTS_ENGINE
 
 STUDY = """\
 machine = "machine.toml"
@@ -174,7 +175,7 @@ def test_the_best_design_is_a_machine_file_with_its_comments(crankwork, study, t
 
 def test_tables_of_the_best_machine_are_found_from_its_folder(crankwork, study, tmp_path):
     name = study(SEARCH.replace("stroke = { at_least", "swept_volume = { at_least").replace("90 mm", "600 cm3"))
-    engine = template("engine")
+    engine = POINTS_ENGINE
     measured = '[gas.measured]\nfile = "pressure.csv"\npressure_unit = "bar"\nshift = "0 deg"\n\n'
     engine = engine[: engine.index("[gas.points]")] + measured + engine[engine.index("[method]") :]
     (tmp_path / "machine.toml").write_text(engine, encoding="utf-8")

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 import crankwork as package
-from crankwork.description.machine_file import template
 from crankwork.description.schema import NumberOr
 from crankwork.description.value_types import Number, Quantity, Reader
 from crankwork.studio.session import Session
 from each import for_each
+from machine_texts import POINTS_ENGINE
 
 SPEED = 'speed = "3000 rpm"'
 LINES = 'write speed = "9.42478 rad/s" or speed = "9.42478 rev/s"'
@@ -33,7 +33,7 @@ side_force_max = "minimise"
 @for_each("unit", ["1/s", "с⁻¹", "Hz", "s^-1"])
 @for_each("form", ["1", "2"])
 def test_a_speed_per_second_is_asked_about_in_files_and_options(crankwork, check_mistakes, unit, form):
-    source = template("engine").replace("format = 2", f"format = {form}")
+    source = POINTS_ENGINE.replace("format = 2", f"format = {form}")
     Path("my.toml").write_text(source.replace(SPEED, f'speed = "9.42478 {unit}"'), encoding="utf-8")
     for language, words in WORDS.items():
         answer = crankwork("check", "my.toml", "--lang", language)
@@ -56,7 +56,7 @@ def test_either_line_that_is_offered_is_accepted(machine_file, written, factor):
 
 
 def test_a_line_out_of_range_is_not_offered():
-    description = package.Description(template("engine"))
+    description = package.Description(POINTS_ENGINE)
     description["crank.speed"] = "9000 1/s"
     with pytest.raises(package.InputError, match=r'write speed = "9000 rad/s"$'):
         description.machine()
@@ -82,7 +82,7 @@ def test_the_frequency_of_the_mains_is_per_second():
 
 
 def test_a_fraction_is_a_number():
-    description = package.Description(template("engine"))
+    description = package.Description(POINTS_ENGINE)
     description["rod.ratio"] = "1/4"
     assert package.analyse(description.machine()).summary["rod_ratio"] == 0.25
     description["rod.ratio"] = "1/0"
@@ -99,7 +99,7 @@ def test_a_fraction_is_a_number_beside_quantities_too():
 
 @for_each("unit", ["c⁻¹", "1/c", "s^{-1}", "hertz", "Герц"])
 def test_other_spellings_per_second_are_asked_about_too(unit):
-    description = package.Description(template("engine"))
+    description = package.Description(POINTS_ENGINE)
     description["crank.speed"] = f"9.42478 {unit}"
     with pytest.raises(package.InputError, match="radians or revolutions") as raised:
         description.machine()
@@ -108,7 +108,7 @@ def test_other_spellings_per_second_are_asked_about_too(unit):
 
 @for_each(("text", "nearest"), [("3000 RPM", "3000 rpm"), ("50 RAD/S", "50 rad/s")])
 def test_a_unit_in_capitals_is_told_with_the_usual_one(text, nearest):
-    description = package.Description(template("engine"))
+    description = package.Description(POINTS_ENGINE)
     description["crank.speed"] = text
     with pytest.raises(package.InputError, match=f'did you mean "{nearest}"'):
         description.machine()
@@ -125,7 +125,7 @@ def test_a_unit_in_capitals_is_told_with_the_usual_one(text, nearest):
     ],
 )
 def test_limits_of_two_sizes_are_refused_with_a_line_of_the_same_limits(key, text, low, high, scale):
-    description = package.Description(template("engine"))
+    description = package.Description(POINTS_ENGINE)
     description[key] = text
     with pytest.raises(package.InputError, match="two limits of its own") as raised:
         description.machine()
@@ -140,11 +140,12 @@ def test_limits_of_two_sizes_are_refused_with_a_line_of_the_same_limits(key, tex
     ("source", "latin", "mixed"),
     [
         ("four-bar", 'pin = "A"', 'pin = "А"'),
-        ("engine", '"a", "c1"', '"а", "c1"'),
-        ("engine", '"polytropic"', '"pоlytropic"'),
+        ("points", '"a", "c1"', '"а", "c1"'),
+        ("points", '"polytropic"', '"pоlytropic"'),
     ],
 )
 def test_names_and_words_with_letters_of_the_other_alphabet_are_told_by_them(source, latin, mixed):
     letter = next(letter for letter in mixed if ord(letter) > 1000)
+    text = POINTS_ENGINE if source == "points" else package.template(source)
     with pytest.raises(package.InputError, match=f"Cyrillic letter {letter}.*; write "):
-        package.Description(template(source).replace(latin, mixed)).machine()
+        package.Description(text.replace(latin, mixed)).machine()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from crankwork.dynamics.reduction import reduced_torque
-from crankwork.errors import GeometryError
+from crankwork.errors import GeometryError, InputError
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
@@ -25,6 +25,7 @@ from crankwork.loads.load_curve import LoadCurve
 from crankwork.mechanism.catalog import crank_shaper, four_bar, slotted_press
 from crankwork.mechanism.mechanism import Crank, Mechanism, body_at
 from each import for_each
+from machine_texts import analysed
 
 pytestmark = pytest.mark.elsewhere
 
@@ -246,3 +247,39 @@ def test_a_load_on_nothing_names_what_there_is(shaper, load):
 
 def test_no_loads():
     assert applied_loads(CRANK, TURNING, []).forces == ()
+
+
+_JUMPING = """
+fixed_points.O = ["0 mm", "0 mm"]
+crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "60 rpm" }
+links.rod = { joins = ["A", "B"], length = "200 mm" }
+sliders.ram = { pin = "B", guide = "bed" }
+guides.bed = { through = ["0 mm", "0 mm"], angle = "0 deg" }
+positions.B = ["200 mm", "0 mm"]
+loads = [{ kind = "process", slider = "ram", start = "150 mm", at = AT, force = ["10 kN", "10 kN", "25 kN", "25 kN"] }]
+"""
+
+
+def test_a_stroke_given_twice_is_a_jump_of_the_force() -> None:
+    """By the area under the force, 10 kN over 20 mm and 25 kN over 20 mm: 700 J in each turn."""
+    results = analysed(_JUMPING.replace("AT", '["40 mm", "60 mm", "60 mm", "80 mm"]'))
+    assert results["mean_torque"] * 2 * np.pi == pytest.approx(700.0, rel=1e-9)
+    # on the way out the ram is 210 mm from the pivot, 60 mm of its stroke, where r^2 + x^2 - 2 r x cos = l^2
+    jump = 360.0 - np.degrees(np.arccos((0.05**2 + 0.21**2 - 0.2**2) / (2 * 0.05 * 0.21)))
+    before, after = np.abs(results.columns_at([jump - 1e-6, jump + 1e-6])["static_torque"])
+    assert after / before == pytest.approx(2.5, rel=1e-5)
+
+
+@for_each(
+    "at",
+    [
+        '["40 mm", "60 mm", "50 mm", "80 mm"]',
+        '["40 mm", "40 mm", "60 mm", "80 mm"]',
+        '["40 mm", "60 mm", "60 mm", "60 mm"]',
+        '["40 mm", "60 mm", "60 mm", "80 mm"], curve = "smooth"',
+        '["40 deg", "60 deg", "60 deg", "80 deg"], against = "angle"',
+    ],
+)
+def test_a_jump_stands_between_straight_parts_over_the_stroke(at: str) -> None:
+    with pytest.raises(InputError, match="must rise"):
+        analysed(_JUMPING.replace("AT", at))

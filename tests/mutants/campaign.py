@@ -32,7 +32,8 @@ import hypothesis
 import pytest
 from _pytest.runner import runtestprotocol
 
-from crankwork.formula.expression import FORMULAS, Formula, replaced_formula
+from crankwork.formula.expression import FORMULAS, Formula
+from replaced import replaced_formula
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent

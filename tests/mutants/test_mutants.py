@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from crankwork.formula.expression import FORMULAS, Formula, record, replaced_formula, text
+from crankwork.formula.expression import FORMULAS, Formula, record, text
 from crankwork.formula.traced_value import given
 from crankwork.loads.gas import clearance_volume, piston_area
+from replaced import replaced_formula
 
 HERE = Path(__file__).parent
 MUTANTS = runpy.run_path(str(HERE / "mutants.py"))

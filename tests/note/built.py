@@ -21,6 +21,7 @@ from crankwork.note.document import Note
 from crankwork.note.lines import Group, lines_of
 from crankwork.note.options import NoteOptions
 from crankwork.quantities import Language
+from machine_texts import POINTS_ENGINE
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -136,6 +137,8 @@ def source(name: str) -> str:
             assert old in text
             text = text.replace(old, new)
         return text
+    if name == "engine of points":
+        return POINTS_ENGINE
     if name == "gas alone":
         lines = crankwork.template("engine").splitlines()
         return "\n".join(one for one in lines if "mass" not in one and "small_end_share" not in one)

@@ -192,7 +192,7 @@ def test_forces_are_those_of_the_columns_at_any_angle(method):
 
 
 def test_ends_of_polytropes_are_those_of_the_diagram():
-    steps, diagram = lines("engine template: exact", "gas"), results("engine template: exact").solved.space.diagram
+    steps, diagram = lines("engine of points: exact", "gas"), results("engine of points: exact").solved.space.diagram
     ends = [segment for segment in diagram.segments if segment.law == "polytropic"]
     shown = [steps[f"diagram_pressure.{point}"].value for point in ("c1", "b1")]
     assert shown == pytest.approx([segment.pressures[-1] for segment in ends], rel=1e-13)
@@ -233,7 +233,7 @@ def test_a_chain_of_efficiencies_multiplies_to_that_of_the_chain():
 
 
 def test_a_measured_pressure_is_given_and_not_calculated():
-    engine, degrees = machine("engine template"), np.arange(721.0)
+    engine, degrees = machine("engine of points"), np.arange(721.0)
     pressure = 1e5 + 3e6 * np.exp(-(((degrees - 372) / 25) ** 2))
     measured = MeasuredPressure(degrees, pressure, range(2, 723))
     found = crankwork.analyse(replace(engine, gas=replace(engine.gas, points={}, pieces=(), measured=measured)))

@@ -36,7 +36,7 @@ _TRACED = re.compile(
 _FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
 _FACE = re.compile(r"\.faces\[1\]")
 _SAMPLES, _ROUNDING, _EVEN = 721, 1e-9, 1e-6
-_CORNERS = ("petrol", "diesel", "otto", "ideal-diesel", "dual")
+_CORNERS = ("petrol", "diesel", "otto", "ideal-diesel", "dual", "assigned-petrol", "assigned-diesel")
 
 
 class Assumption(NamedTuple):
@@ -159,11 +159,6 @@ def _taken(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Assump
             yield Assumption("taken", (path,), node.value, quantity=quantity)
 
 
-def is_display(path: str) -> bool:
-    """Return whether a key of a file changes no result: texts, tables and drawings."""
-    return _DISPLAY.fullmatch(path) is not None
-
-
 def leaves(results: Results) -> dict[str, tuple[Input, str]]:
     """Return the inputs that results depend on, by path, with the key of their quantity."""
     inputs: dict[str, tuple[Input, str]] = {}
@@ -193,6 +188,14 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
     (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path, stated, results)),
     (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing.peak", stated, results)),
+    (
+        r".*cycle\.(rise|rise_share|peak_level)",
+        lambda results, stated, path: not _idle_convention(path, stated, results),
+    ),
+    (
+        r".*cycle\.blow_down",
+        lambda results, stated, path: not _idle_convention(path, stated, results, "exhaust_opens"),
+    ),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
 )
 
@@ -273,7 +276,10 @@ def _idle_order(results: Results, stated: Mapping[str, FileInput], path: str) ->
     return "" if listing is not None and f"balance_shafts.{stated[path].value}" in listing.names else "no_order"
 
 
-def _idle_uneven(results: Results, *_: object) -> str:
+def _idle_uneven(results: Results, stated: Mapping[str, FileInput], _: str) -> str:
+    if not any(path.startswith(("engine.firing_order", "engine.throws")) for path in stated):
+        # the customary order is permitted as it is
+        return "unused"
     layout = results.machine.engine.layout if results.machine.engine is not None else None
     angles = sorted(place.firing_angle for place in layout.places) if layout is not None else []
     gaps = np.diff([*angles, angles[0] + layout.cycle]) if layout is not None else np.array([0.0, 1.0])
@@ -322,10 +328,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"engine\.strokes", lambda results, *_: "strokes_of_gas" if results.machine.gas is not None else ""),
     (r"flywheel\.(fluctuation|percent)", _idle_wheel),
     # places of the links of one that is drawn turn with it
-    (
-        r"cylinder\.inclination",
-        lambda results, *_: "" if _has_weights(results) or results.machine.linkage else "weights_off",
-    ),
+    (r"cylinder\.inclination", lambda known, *_: "" if known.machine.linkage or _has_weights(known) else "weights_off"),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),
@@ -336,8 +339,11 @@ def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) ->
     """Return why an event of the valves has no effect in a calculated cycle; empty if it has."""
     table, _, name = path.rpartition(".")
     cycle = table.removesuffix(".timing")
-    kind, corners = (stated.get(f"{cycle}.{key}", FileInput(None)).value for key in ("kind", "corners"))
-    is_rounded = corners == "rounded" or (corners is None and any(path.startswith(f"{table}.") for path in stated))
+    kind, corners, school = (
+        stated.get(f"{cycle}.{key}", FileInput(None)).value for key in ("kind", "corners", "school")
+    )
+    has_timing = any(path.startswith(f"{cycle}.timing.") for path in stated)
+    is_rounded = school != "none" and (corners == "rounded" or (corners is None and has_timing))
     if (kind in _CORNERS or name == "peak") and not (is_rounded and kind in _CORNERS):
         return "sharp_corners"
     if results.machine.cycle > 360.0:
@@ -347,6 +353,12 @@ def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) ->
     first, second = (numbers.get(f"{table}.{key}", InputNumber(0.0)).value for key in (name, other))
     # one that is not far from the other may become the later one
     return "closes_first" if other and 2 * first < second else ""
+
+
+def _idle_convention(path: str, stated: Mapping[str, FileInput], results: Results, event: str = "ignition") -> bool:
+    """Return whether a convention of rounding has no effect: without the event whose corner it rounds."""
+    timing = f"{path.rpartition('.')[0]}.timing"
+    return f"{timing}.{event}" not in stated or bool(_idle_event(f"{timing}.peak", stated, results))
 
 
 def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iterator[IdleInput]:

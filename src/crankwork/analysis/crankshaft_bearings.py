@@ -245,17 +245,6 @@ def reciprocating_masses(engine: MultiCylinderEngine) -> Array:
     return np.array([each_mass.reciprocating for each_mass in engine.each_masses])
 
 
-def bearing_columns(trace: Mapping[str, TracedValue]) -> tuple[str, ...]:
-    """Return the keys of the loads in the tables: sizes, and those of the crankpins by component."""
-    return tuple(key for key in trace if key.startswith(_COLUMNS) and key.count(".") < 2)
-
-
-_COLUMNS = (
-    "crankpin_radial_force.", "crankpin_tangential_force.", "crankpin_load.", "big_end_load", "small_end_load",
-    "main_journal_load.",
-)  # fmt: skip
-
-
 def master_joints(engine: MultiCylinderEngine, loads: Mapping[str, TracedValue]) -> Iterator[TracedValue]:
     """Yield the forces in the joints of every distinct master rod, under the keys of a single rod.
 

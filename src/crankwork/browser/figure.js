@@ -1,6 +1,6 @@
 // A diagram to read: cursor and dots, the numbers under them, zoom, curves shown and hidden by the legend.
 import { Curve } from "./curves.js";
-import { placeOf, told } from "./numbers.js";
+import { nearest, placeOf, told } from "./numbers.js";
 
 /** @typedef {import("./curves.js").Plot} Plot */
 /** @typedef {import("./cursor.js").Cursor} Cursor */
@@ -8,8 +8,8 @@ import { placeOf, told } from "./numbers.js";
 
 /**
  * Graphs of a drawing, what each row of its legend tells of, names of curves, and what it shows in words; whether it
- * differs where sliders move, and cannot follow.
- * @typedef {{plots: Plot[], legend: string[][], told?: string, filed?: boolean}} FigureData
+ * differs where sliders move, and cannot follow; where the cursor stands when a plan of one position is true.
+ * @typedef {{plots: Plot[], legend: string[][], told?: string, filed?: boolean, at?: number}} FigureData
  */
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -36,6 +36,12 @@ export class Figure {
     this.curves = paths.filter((one) => one.dataset.curve !== "legend").map((one) => new Curve(one, data.plots));
     this.moving = this.curves.filter((one) => one.angles);
     if (data.filed) svg.closest("figure")?.classList.add("filed");
+    const { at } = data;
+    // a plan is faint while the machine stands elsewhere, and a click takes the machine to it
+    if (at !== undefined) {
+      cursor.follow(() => svg.classList.toggle("apart", nearest(cursor.rows, at) !== cursor.row));
+      svg.addEventListener("click", () => cursor.snap(at));
+    }
     this.home = [svg.viewBox.baseVal.x, svg.viewBox.baseVal.y, svg.viewBox.baseVal.width, svg.viewBox.baseVal.height];
     // an image may hold nothing that is pressed
     svg.setAttribute("role", "group");

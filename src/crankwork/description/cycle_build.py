@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Literal, NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Gas
 from crankwork.mechanism.cells import NoCellsError, crank_cells
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.working_cycle.assignment import AssignedData, assigned_cycle
 from crankwork.working_cycle.calculated_cycle import CalculatedCycle, CalculatedPressure
 from crankwork.working_cycle.cycle_data import GrinevetskyData
 from crankwork.working_cycle.fuels import FUELS, Fuel
@@ -31,12 +32,12 @@ from crankwork.working_cycle.ideal import IdealData, ideal_cycle
 from crankwork.working_cycle.pressure_models import CornerPressure, HeatReleasePressure, MisfirePressure
 from crankwork.working_cycle.rounding import Rounding, Timing
 
-_IDEAL = ("otto", "ideal-diesel", "dual")
+_IDEAL, _ASSIGNED = ("otto", "ideal-diesel", "dual"), ("assigned-petrol", "assigned-diesel")
 _TURN = 360.0
 # where a chamber states what an engine states elsewhere
 _PLACES = {
     "cycle": "cycle", "cycle.cycle": "period", "cycle.ambient_pressure": "ambient", "cylinder.bore": "faces[1].bore",
-    "cylinder.compression_ratio": "compression_ratio",
+    "cylinder.compression_ratio": "compression_ratio", "cylinder.clearance_volume": "clearance_volume",
 }  # fmt: skip
 
 
@@ -57,6 +58,7 @@ class CylinderSize(NamedTuple):
     stroke: float | None = None  # [m]
     lengths: SliderCrank | None = None  # Of crank and rod, without offset, in any unit
     chamber: str = ""  # Path of its chamber in the description, in a linkage
+    clearance: float | None = None  # [m3]
 
 
 def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
@@ -64,7 +66,7 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
     table, cylinder = values["cycle"], values["cylinder"]
     if "kind" not in table:
         return None
-    if cylinder["compression_ratio"] is None:
+    if cylinder["compression_ratio"] is None and "total_volume" not in table:
         if not reader.has_errors("cylinder.compression_ratio", "cylinder.clearance_volume"):
             reader.add_error("cylinder.compression_ratio", ErrorMessage("cycle_ratio"))
         return None
@@ -72,7 +74,7 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
         return None
     size = CylinderSize(
         cylinder["compression_ratio"], values["crank"]["speed"].value, int(values["engine"]["cylinders"] or 1),
-        cylinder.si("bore"), _stroke_of_piston(values), _rod_of(values),
+        cylinder.si("bore"), _stroke_of_piston(values), _rod_of(values), clearance=cylinder.si("clearance_volume"),
     )  # fmt: skip
     pressure = calculated_pressure(table, size, pi, "cycle", reader)
     if pressure is None:
@@ -96,6 +98,8 @@ def calculated_pressure(
     table: Values, size: CylinderSize, pi: float, path: str, reader: Reader
 ) -> CornerPressure | HeatReleasePressure | None:
     """Return the pressure of a calculated cycle, or None after complaints; `path`: of its table."""
+    if table["kind"] in _ASSIGNED and reader.has_errors(*(f"{path}.{key}" for key in CYCLE.keys)):
+        return None
     try:
         return _built(table, size, pi)
     except CrankworkError as error:
@@ -118,9 +122,12 @@ def _built(table: Values, size: CylinderSize, pi: float) -> CornerPressure | Hea
     if kind in _IDEAL:
         state = {"pressure": table.si("intake_pressure"), "temperature": table.si("intake_temperature")}
         cycle = ideal_cycle(table.made(IdealData, compression_ratio=size.ratio, **state, angle=angle))
+    elif kind in _ASSIGNED:
+        cycle = assigned_cycle(_assigned(table, size, angle))
     else:
         cycle = grinevetsky(_data(table, size, angle, timing, pi))
-    rounds = (table["corners"] or ("rounded" if "timing" in table else "sharp")) == "rounded"
+    corners = table["corners"] or ("rounded" if "timing" in table else "sharp")
+    rounds = corners == "rounded" and table["school"] != "none"
     return CornerPressure(cycle, timing if rounds else None, _rounding(table))
 
 
@@ -131,8 +138,19 @@ def _timing(table: Values, angle: float) -> Timing:
 
 
 def _rounding(table: Values) -> Rounding:
-    school = cast("Literal['ru', 'vi']", table["school"])
-    return Rounding(school=school, peak_angle=table["timing"].degrees("peak"), peak_level=table["peak_level"])
+    return table.made(Rounding, peak_angle=table["timing"].degrees("peak"))
+
+
+def _assigned(table: Values, size: CylinderSize, angle: float) -> AssignedData:
+    """Return what an assignment gives of a cycle."""
+    volumes = {"compression_ratio": size.ratio, "clearance_volume": None}
+    if "total_volume" in table:
+        if size.clearance is None or size.ratio is not None:
+            raise CrankworkError(ErrorMessage("total_volume_alone"))
+        if table.si("total_volume") <= size.clearance:
+            raise CrankworkError(ErrorMessage("total_volume_small", least=size.clearance * 1e6))
+        volumes["clearance_volume"] = size.clearance
+    return table.made(AssignedData, angle=angle, **volumes)
 
 
 def _data(table: Values, cylinder: CylinderSize, angle: float, timing: Timing, pi: float) -> GrinevetskyData:
@@ -329,7 +347,7 @@ def _of_cycle(
     rod = known[0] if known and turns_fully(known[0]) else None
     size = CylinderSize(
         chamber["compression_ratio"], speed, len(names), chamber.si("bore"), None if rod is None else rod.stroke,
-        None if rod is None else rod._replace(offset=0.0), f"chambers.{names[0]}",
+        None if rod is None else rod._replace(offset=0.0), f"chambers.{names[0]}", chamber.si("clearance_volume"),
     )  # fmt: skip
     around = {"cycle": chamber["period"], "ambient_pressure": chamber.but(pressures="absolute")["ambient"]}
     table = Values({**chamber["cycle"], **around}, CYCLE)
@@ -337,7 +355,7 @@ def _of_cycle(
         path = f"chambers.{name}"
         if reader.has_errors(path):
             continue
-        if chamber["compression_ratio"] is None and table["kind"] != "wiebe":
+        if chamber["compression_ratio"] is None and table["kind"] != "wiebe" and "total_volume" not in table:
             reader.add_error(f"{path}.compression_ratio", ErrorMessage("cycle_ratio"))
         elif {"clearance_volume", "compression_ratio"}.isdisjoint(chamber):
             reader.add_error(path, ErrorMessage("gas_volume"))

@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import cast
 
 from crankwork.description.cylinder_pressure_build import ReadMeasured, build_diagram, check_parts, has_diagram
-from crankwork.description.schema import Values, shown
-from crankwork.description.value_types import Reader
+from crankwork.description.schema import Values
+from crankwork.description.value_types import Reader, shown
 from crankwork.formula.traced_value import given
 from crankwork.loads.indicator import DiagramPoint, Piece
 from crankwork.loads.pressure_processing import PEAKS, centred, peak_angle

@@ -7,6 +7,7 @@ import math
 from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, NameOr, TableSpec
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
+from crankwork.working_cycle.rounding import PEAK_LEVEL, SCHOOLS
 
 _LENGTH = Quantity(("length",), 1e-4, 100.0)
 _SPACING = Quantity(("length",), 0.0, 100.0)
@@ -117,36 +118,56 @@ _TIMING = TableSpec("timing", {
 })  # fmt: skip
 
 _REAL, _IDEAL = ("petrol", "diesel"), ("otto", "ideal-diesel", "dual")
+_PETROL, _DIESEL = _ASSIGNED = "assigned-petrol", "assigned-diesel"
+_OF_ASSIGNED, _OF_EXPONENTS = {"kind": _ASSIGNED}, {"kind": _REAL + _ASSIGNED}
 _OF_REAL, _OF_IDEAL, _OF_WIEBE = {"kind": _REAL}, {"kind": _IDEAL}, {"kind": ("wiebe",)}
 _RATIOS = DefaultBy("kind", dict.fromkeys(_IDEAL, 1.4) | {"wiebe": 1.33})
 _INTAKE = DefaultBy("kind", dict.fromkeys(_IDEAL, "0.1 MPa") | {"wiebe": "0.09 MPa"})
 _WARM = DefaultBy("kind", dict.fromkeys(_IDEAL, "300 K") | {"wiebe": "340 K"})
-_CORNERS, _CLOSED = {"kind": _REAL + _IDEAL}, {"kind": (*_IDEAL, "wiebe")}
+_CORNERS, _CLOSED = {"kind": _REAL + _IDEAL + _ASSIGNED}, {"kind": (*_IDEAL, "wiebe")}
+_LEVELS = {kind: PEAK_LEVEL["petrol" if kind in ("petrol", "otto", _PETROL) else "diesel"] for kind in _CORNERS["kind"]}
+
+
+def _by_school(name: str) -> DefaultBy:
+    """Return the default of a convention by the school that has it."""
+    records = {key: record for key, record in SCHOOLS.items() if isinstance(record.get("source"), str)}
+    return DefaultBy("school", {school: record[name] for school, record in records.items() if name in record})
+
+
 CYCLE = TableSpec("cycle", {
-    "kind": KeySpec(Choice((*_REAL, *_IDEAL, "wiebe")), required=True),
+    "kind": KeySpec(Choice((*_REAL, *_IDEAL, *_ASSIGNED, "wiebe")), required=True),
     "cycle": KeySpec(Choice(("720 deg", "360 deg")), default="720 deg"),
     "fuel": KeySpec(NameOr(_FUEL), only=_OF_REAL),
     "excess_air": KeySpec(Number(0.2, 20.0), only=_OF_REAL),
-    "ambient_pressure": KeySpec(_PRESSURE, default="0.1 MPa"),
+    "ambient_pressure": KeySpec(Quantity(("pressure",), 0.0, 1e9), default="0.1 MPa"),
     "ambient_temperature": KeySpec(_TEMPERATURE, default="293 K", only=_OF_REAL),
     "charge_pressure": KeySpec(_PRESSURE, only=_OF_REAL),
     "charge_temperature": KeySpec(_TEMPERATURE, only=_OF_REAL),
-    "intake_pressure": KeySpec(_PRESSURE, default=_INTAKE),
+    "intake_pressure": KeySpec(_PRESSURE, required=_ASSIGNED, default=_INTAKE),
     "intake_temperature": KeySpec(_TEMPERATURE, default=_WARM, only=_CLOSED),
     "intake_loss_factor": KeySpec(Number(0.0, 50.0), only=_OF_REAL),
     "intake_speed": KeySpec(Quantity(("velocity",), 0.0, 1000.0), only=_OF_REAL),
     "residual_pressure": KeySpec(
-        _PRESSURE, default=DefaultBy("kind", {"wiebe": "0.11 MPa"}), only={"kind": (*_REAL, "wiebe")}
+        _PRESSURE, _ASSIGNED, default=DefaultBy("kind", {"wiebe": "0.11 MPa"}),
+        only={"kind": (*_REAL, *_ASSIGNED, "wiebe")},
     ),
     "residual_temperature": KeySpec(_TEMPERATURE, only=_OF_REAL),
     "heating": KeySpec(_RISE, only=_OF_REAL),
     "charge_up": KeySpec(Number(0.5, 1.5), default=1.0, only=_OF_REAL),
     "scavenging": KeySpec(Number(0.0, 1.5), default=1.0, only=_OF_REAL),
-    "compression_exponent": KeySpec(_EXPONENT, only=_OF_REAL),
-    "expansion_exponent": KeySpec(_EXPONENT, only=_OF_REAL),
+    "compression_exponent": KeySpec(_EXPONENT, _ASSIGNED, ("compression_pressure",), only=_OF_EXPONENTS),
+    "compression_pressure": KeySpec(_PRESSURE, instead_of=("compression_exponent",), only=_OF_ASSIGNED),
+    "peak_pressure": KeySpec(_PRESSURE, _ASSIGNED, ("pressure_ratio",), only=_OF_ASSIGNED),
+    "expansion_exponent": KeySpec(_EXPONENT, _ASSIGNED, ("expansion_pressure",), only=_OF_EXPONENTS),
+    "expansion_pressure": KeySpec(_PRESSURE, instead_of=("expansion_exponent",), only=_OF_ASSIGNED),
+    "total_volume": KeySpec(Quantity(("volume",), 1e-15, 1e3), only=_OF_ASSIGNED),
     "heat_use": KeySpec(Number(0.2, 1.2), only=_OF_REAL),
-    "pressure_ratio": KeySpec(Number(1.0, 5.0), only={"kind": ("diesel", *_IDEAL)}),
-    "cut_off": KeySpec(Number(1.0, 10.0), only=_OF_IDEAL),
+    "pressure_ratio": KeySpec(
+        Number(1.0, 10.0), instead_of=("peak_pressure",), only={"kind": ("diesel", *_IDEAL, *_ASSIGNED)}
+    ),
+    "cut_off": KeySpec(
+        Number(1.0, 10.0), (_DIESEL,), default=DefaultBy("kind", {_PETROL: 1.0}), only={"kind": _IDEAL + _ASSIGNED}
+    ),
     "heat": KeySpec(Quantity(("specific_energy",), 0.0, 1e8), only=_OF_IDEAL),
     "peak_temperature": KeySpec(_TEMPERATURE, only=_OF_IDEAL),
     "adiabatic_exponent": KeySpec(Number(1.01, 2.0), default=_RATIOS, only=_CLOSED),
@@ -157,8 +178,11 @@ CYCLE = TableSpec("cycle", {
     "stroke_bore_ratio": KeySpec(Number(0.2, 5.0), default=1.0, only=_OF_REAL),
     "lost_stroke": KeySpec(Number(0.0, 0.6), only=_OF_REAL),
     "corners": KeySpec(Choice(("rounded", "sharp")), only=_CORNERS),
-    "peak_level": KeySpec(Number(0.5, 1.0), only=_CORNERS),
-    "school": KeySpec(Choice(("ru", "vi")), default="ru", only=_CORNERS),
+    "peak_level": KeySpec(Number(0.5, 1.0), default=DefaultBy("kind", _LEVELS), only=_CORNERS),
+    "school": KeySpec(Choice(("ru", "vi", "none")), default="ru", only=_CORNERS),
+    "rise": KeySpec(Number(1.0, 3.0), instead_of=("rise_share",), default=_by_school("rise"), only=_CORNERS),
+    "rise_share": KeySpec(_SHARE, instead_of=("rise",), default=_by_school("rise_share"), only=_CORNERS),
+    "blow_down": KeySpec(Choice(("exhaust", "intake")), default=_by_school("blow_down"), only=_CORNERS),
     "timing": KeySpec(_TIMING),
     "combustion_start": KeySpec(Quantity(("angle",), -math.pi / 2, math.pi / 2), default="20 deg", only=_OF_WIEBE),
     "combustion_duration": KeySpec(Quantity(("angle",), math.radians(1), math.pi), default="50 deg", only=_OF_WIEBE),

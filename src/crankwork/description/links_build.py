@@ -362,7 +362,9 @@ def _check_table(key: str, load: Values, reader: Reader) -> None:
     wanted = "angle" if column == "torque" or load["against"] == "angle" else "length"
     if any(abscissa.dimension != wanted for abscissa in abscissas):
         reader.add_error(f"{key}.at", ErrorMessage(f"load_at_{wanted}"))
-    elif any(after.value <= before.value for before, after in itertools.pairwise(abscissas)):
+    elif not _rises(
+        [abscissa.value for abscissa in abscissas], jumps=wanted == "length" and load["curve"] == "straight"
+    ):
         reader.add_error(f"{key}.at", ErrorMessage("load_at_rises"))
     elif wanted == "angle" and abscissas[-1].value - abscissas[0].value > _REVOLUTION:
         reader.add_error(f"{key}.at", ErrorMessage("load_at_turn"))
@@ -370,6 +372,15 @@ def _check_table(key: str, load: Values, reader: Reader) -> None:
         reader.add_error(
             f"{key}.at", ErrorMessage("load_at_count", count=len(abscissas), others=len(values), column=column)
         )
+
+
+def _rises(abscissas: list[float], *, jumps: bool) -> bool:
+    """Return whether abscissas rise; where jumps may be, two that are equal make one, between parts with a length."""
+    steps = [after - before for before, after in itertools.pairwise(abscissas)]
+    if not jumps:
+        return all(step > 0 for step in steps)
+    apart = all(first > 0 or second > 0 for first, second in itertools.pairwise(steps))
+    return all(step >= 0 for step in steps) and apart and steps[0] > 0 and steps[-1] > 0
 
 
 def _load(load: Values) -> Load:

@@ -97,12 +97,12 @@ def read_machine(
     settings = settings_of(overrides)
     for setting in settings:
         apply_override(values, setting)
-    reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
+    reader = Reader.of(values)
     machine = _build(values, reader, folder)
     if mistakes or reader.problems or machine is None:
         for path, letters, latin in mistaken_names(values):
-            told = Problem(path, ErrorMessage("key_look_alike", letters=letters, written=latin))
-            reader.problems = [*(problem for problem in reader.problems if problem.key != path), told]
+            mistake = Problem(path, ErrorMessage("key_look_alike", letters=letters, written=latin))
+            reader.problems = [*(problem for problem in reader.problems if problem.key != path), mistake]
         raise input_error(source, name, reader, settings, mistakes)
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     notices = (*machine.notices, *reader.notices)
@@ -114,7 +114,7 @@ def read_machine(
 
 def are_readable(values: dict[str, Any]) -> bool:
     """Return whether all values of a file have the types of their keys."""
-    reader = Reader(decimal_comma=values.get("decimal_mark") == ",", metric_hp=values.get("format", 1) == 1)
+    reader = Reader.of(values)
     return file_keys(values).read(values, "", reader) is not None and not reader.problems
 
 
@@ -179,7 +179,7 @@ def _linkage_form(
     if not _is_unchanged(machine, stated) or not machine.method.is_exact:
         return None
     method = {key: value for key, value in values.get("method", {}).items() if key != "kinematics"}
-    reader = Reader(decimal_comma=decimal_comma, metric_hp=values.get("format", 1) == 1)
+    reader = Reader(decimal_comma=decimal_comma, metric_hp=values.get("format", 1) == 1, gravity=machine.method.gravity)
     linkage = _build(linkage_values({**values, "method": method}, machine), reader, folder)
     if linkage is None or reader.problems:
         return None
@@ -205,7 +205,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
         stated = next(key for key in LOADING if key in values)
         reader.add_error("method.kinematics", ErrorMessage("loaded_exact", method=machine.method.name, key=stated))
         return None
-    own = Reader(decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
+    own = Reader(decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp, gravity=reader.gravity)
     linkage = _build(linkage_values(values, machine), own, folder)
     for problem in own.problems:
         reader.add_error(key_of_engine(problem.key, values), problem.message)

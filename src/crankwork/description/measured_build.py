@@ -174,18 +174,15 @@ def treatment_of(values: Values, path: str, reader: Reader, *, absolute: bool) -
 
 def _columns(table: FileTable, values: Values) -> _Columns:
     """Return the columns to read, and their units; raise if the machine file must name them."""
-    mistakes = list[ErrorMessage]()
-    angle, pressures = -1, tuple[int, ...]()
-    try:
-        angle, *_ = _chosen(table, values, "angle", ())
-    except CrankworkError as error:
-        mistakes += error.args
-    try:
-        pressures = _chosen(table, values, "pressure", (angle,))
-    except CrankworkError as error:
-        mistakes += error.args
+    mistakes, chosen = list[ErrorMessage](), list[tuple[int, ...]]([(-1,)])
+    for kind in ("angle", "pressure"):
+        try:
+            chosen.append(_chosen(table, values, kind, chosen[-1]))
+        except CrankworkError as error:
+            mistakes += error.args
     if mistakes:
         raise CrankworkError(*dict.fromkeys(mistakes))
+    (angle, *_), pressures = chosen[1:]
     notices: list[NoticeData] = []
     more = f"..{table.label(pressures[-1])}" if len(pressures) > 1 else ""
     taken = table.label(pressures[0]) + more

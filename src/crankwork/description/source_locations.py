@@ -53,9 +53,7 @@ class _File:
         for setting in settings:
             apply_override(self._values, setting)
         self._keys = file_keys(self._values)
-        is_old = self._values.get("format", 1) == 1
-        reader = Reader(decimal_comma=self._values.get("decimal_mark") == ",", metric_hp=is_old)
-        self._stated = stated_numbers(self._keys.read(self._values, "", reader) or {})
+        self._stated = stated_numbers(self._keys.read(self._values, "", Reader.of(self._values)) or {})
 
     def origin(self, path: str, numbers: Iterable[float]) -> Origin:
         """Return the origin of a value that the calculation attributes to a path.

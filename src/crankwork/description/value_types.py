@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
+from collections.abc import Mapping
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, Self
 
 from crankwork import units
 from crankwork.errors import Problem
@@ -73,9 +74,9 @@ def _by_sides(text: str, message: ErrorMessage) -> ErrorMessage:
     match = _SIDES.fullmatch(text) if len(text) < _LONG else None
     if match is None:
         return message
-    value, one, other = (float(re.sub(r"\s", "", part.translate(_PLAIN_SIGNS))) for part in match.group(1, 3, 5))
+    value, upper, lower = (float(re.sub(r"\s", "", part.translate(_PLAIN_SIGNS))) for part in match.group(1, 3, 5))
     units_named = {f" {unit}" for unit in match.group(2, 4, 6) if unit}
-    written = f"{value + (one + other) / 2:.12g} ± {abs(one - other) / 2:.12g}{''.join(units_named)}"
+    written = f"{value + (upper + lower) / 2:.12g} ± {abs(upper - lower) / 2:.12g}{''.join(units_named)}"
     return ErrorMessage("tolerance_sides", text=text, written=written) if len(units_named) < 2 else message
 
 
@@ -93,16 +94,28 @@ class Reader:
     `problems` holds the first of them; `more` counts the others.
     """
 
-    def __init__(self, *, decimal_comma: bool = False, metric_hp: bool = False) -> None:
+    def __init__(self, *, decimal_comma: bool = False, metric_hp: bool = False, gravity: float = units.KGF) -> None:
         self.problems: list[Problem] = []
         self.notices: list[tuple[str, dict[str, float | str]]] = []
         # standard deviations of values, and the tolerances from which they follow, by key [SI]
         self.deviations: dict[str, float] = {}
         self.tolerances: dict[str, float] = {}
         self.more = 0
-        self.decimal_comma, self.metric_hp = decimal_comma, metric_hp
+        self.decimal_comma, self.metric_hp, self.gravity = decimal_comma, metric_hp, gravity
         self._blamed: set[str] = set()
         self._suspects: set[str] = set()
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> Self:
+        """Return the reader of a file, with the decimal mark, horsepower and gravity that it states."""
+        comma, method = values.get("decimal_mark") == ",", values.get("method")
+        gravity = method.get("gravity") if isinstance(method, dict) else None
+        try:
+            acceleration = units.parse(str(gravity), ("acceleration",), decimal_comma=comma).value
+        except ValueError:
+            acceleration = 0.0
+        old = values.get("format", 1) == 1
+        return cls(decimal_comma=comma, metric_hp=old, gravity=acceleration if acceleration > 0 else units.KGF)
 
     def add_error(self, key: str, message: str, *more: str, meant: str = "") -> None:
         """Add a mistake, or all mistakes of a file; only those added first to a key are kept.
@@ -169,7 +182,10 @@ class Quantity(NamedTuple):
             return None
         value, deviation = split_deviation(value)
         try:
-            parsed = units.parse(value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp)
+            parsed = units.parse(
+                value, self.dimensions, decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp,
+                gravity=reader.gravity,
+            )  # fmt: skip
         except ValueError as error:
             reader.add_error(key, _by_sides(value, self._advised(error.args[0], value, key, reader)))
             return None
@@ -179,7 +195,14 @@ class Quantity(NamedTuple):
         if deviation is not None and not self._deviates(parsed, deviation, key, reader):
             return None
         if parsed.notice:
-            reader.notices.append((parsed.notice, {"path": key, "text": value.strip(), "value": parsed.value}))
+            gravity = reader.gravity if any(letter in value for letter in "NН") else units.KGF
+            values: dict[str, float | str] = {
+                "path": key,
+                "text": value.strip(),
+                "value": parsed.value,
+                "gravity": gravity,
+            }
+            reader.notices.append((parsed.notice, values))
         return MeasuredValue(parsed.value if abs(parsed.value) > _SMALLEST else 0.0, parsed.dimension, parsed.unit)
 
     def _deviates(self, parsed: units.ParsedQuantity, deviation: Deviation, key: str, reader: Reader) -> bool:

@@ -13,8 +13,7 @@ import math
 import operator
 import re
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, TypeVar, cast
@@ -116,20 +115,6 @@ def formula(
         return cast("Function", compute_or_trace)
 
     return register
-
-
-@contextmanager
-def replaced_formula(entry: Formula, function: Callable[..., Any]) -> Iterator[None]:
-    """Let another function be a formula for a while, wherever it is called, traced or replayed.
-
-    `function`: what is called in its place, with the same arguments.
-    """
-    own = entry.function
-    object.__setattr__(entry, "function", functools.wraps(own)(function))
-    try:
-        yield
-    finally:
-        object.__setattr__(entry, "function", own)
 
 
 class Expression:

@@ -26,7 +26,7 @@ from crankwork.loads.measured_pressure import (
 from crankwork.locale import ErrorMessage
 
 # notices that a description has to answer
-QUESTIONS = ("measured_strokes", "measured_centre", "measured_reversed", "measured_driven", "measured_constant")
+QUESTIONS = ("measured_strokes", "measured_centre", "measured_reversed", "measured_constant")
 # lower than any gauge pressure [Pa]
 _VACUUM = -110e3
 _EVEN = 1e-3
@@ -153,13 +153,11 @@ def _other_strokes(
             end = float(both[0][_end_of(both[1] > least + _DELIVERY * (highest - least))])
             return late, _quarter(-centred(end - centre, period), _QUARTER), False
         correction = _straightest(both, around.volume_at, (cycle, centre), late)
-        if correction is None:
-            return late, _quarter(-late, near), False
-        return late, _quarter(correction, 2.0), True
+        more = _quarter(-late, near) if correction is None else _quarter(correction, 2.0)
+        return late, more, correction is not None
 
     mirrored = (-degrees[::-1], pressure[::-1])
-    late, more, is_known = placed(samples)
-    _, back, is_known_back = placed(mirrored)
+    (late, more, is_known), (_, back, is_known_back) = placed(samples), placed(mirrored)
     is_near, gained = abs(late) <= near, work(mirrored, back)
     # one that is driven takes little work beside its peak
     is_against = is_slow if sign < 0 else work(samples, more) < -_DRIVEN < gained
@@ -169,8 +167,7 @@ def _other_strokes(
     if is_against or (is_near and abs(more) < 1):
         # angles that are counted against the rotation have the shift that is there with the other sign
         turned = "" if abs(back - 2 * shift) < 2 else f', shift = "{_wrapped(back - shift):g} deg"'
-        code = "measured_reversed" if sign > 0 else "measured_driven"
-        yield code, {"lines": f"reversed = true{turned}", "own": own}
+        yield "measured_reversed", {"lines": f"reversed = true{turned}", "own": own}
         return
     angles = {"angle": _in_cycle(late + centre, cycle), "firing": _in_cycle(centre, cycle)}
     code = "measured_strokes" if cycle > _TURN and around.has_strokes else "measured_centre"
@@ -192,8 +189,7 @@ def _end_of(high: NDArray[np.bool_]) -> int:
     """Return the index of the last sample of the longest run within a closed cycle."""
     ends = np.flatnonzero(high & ~np.roll(high, -1))
     starts = np.flatnonzero(high & ~np.roll(high, 1))
-    lengths = [int(np.min((end - starts) % len(high))) for end in ends]
-    return int(ends[int(np.argmax(lengths))])
+    return int(max(ends, key=lambda end: np.min((end - starts) % len(high))))
 
 
 def _straightest(

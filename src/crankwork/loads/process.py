@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -152,12 +153,13 @@ def link_torque(load: TorqueOnLink, motion: Motion, path: str = "") -> AppliedLo
 class StatedTable:
     """A table of loads as a column, constant beyond its ends, which rounding may pass.
 
-    `path`: where a description states the load.
+    `path`: where a description states the load; `before`: points of the load before those of the table.
     """
 
     table: LoadTable
     key: str
     path: str
+    before: int = 0
 
     def __call__(self, abscissas: Array) -> Array:
         """Return the values at some abscissas."""
@@ -176,7 +178,7 @@ class StatedTable:
         first = int(np.clip(np.searchsorted(x, abscissa - turn, side="right") - 1, 0, len(x) - 2))
 
         def point(k: int) -> CurvePoint:
-            number = k % len(self.table.at) + 1
+            number = self.before + k % len(self.table.at) + 1
             column = "torque" if self.path.endswith(".torque") else "force"
             stated = f"{self.path.removesuffix(column)}at[{number}]"
             value = given("", float(y[k]), f"{self.path}[{number}]")
@@ -208,16 +210,25 @@ def curve_over_column(curve: Curve, over: CycleInterpolant, column: str, key: st
     passed = [angle for corner in corners for angle in over.crossings(column, corner).tolist()]
     if not isinstance(curve, LoadTable):
         return TracedValue(Tabulated(curve, "given", passed, argument=known), key)
+    # an abscissa given twice is a jump: each part has a law of its own
+    jumps = [index for index, (before, after) in enumerate(pairwise(curve.at), start=1) if before == after]
+    parts = list(pairwise((0, *jumps, len(curve.at))))
+    tables = [replace(curve, at=curve.at[first:end], values=curve.values[first:end]) for first, end in parts]
+    laws = [
+        TracedValue(Tabulated(StatedTable(table, key, path, first), "given", passed, argument=known), key)
+        for table, (first, _) in zip(tables, parts, strict=True)
+    ]
     low, high = curve.at[0], curve.at[-1]
-    law = TracedValue(Tabulated(StatedTable(curve, key, path), "given", passed, argument=known), key)
     margin = _MARGIN * max(abs(low), abs(high))
-    ends = sorted([*over.crossings(column, low - margin).tolist(), *over.crossings(column, high + margin).tolist()])
+    bounds = [low - margin, *(curve.at[index] for index in jumps), high + margin]
+    ends = sorted(angle for bound in bounds for angle in over.crossings(column, bound).tolist())
     ends = [*ends, float(over.edges[-1])]
     values = over.at(column, (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
-    is_inside = (values > low - margin) & (values < high + margin)
-    if is_inside.all():
-        return law
-    return TracedValue(Piecewise(ends, tuple(law if inside else absent(key) for inside in is_inside)), key)
+    places = np.searchsorted(bounds, values).tolist()
+    if set(places) == {1} and len(laws) == 1:
+        return laws[0]
+    laws = [absent(key), *laws, absent(key)]
+    return TracedValue(Piecewise(ends, tuple(laws[place] for place in places)), key)
 
 
 def _corners(curve: Curve) -> tuple[float, ...]:

@@ -13,11 +13,13 @@ import numpy as np
 
 from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding_noise import without_rounding
+from crankwork.analysis.vector_polygons import worked_position
 from crankwork.locale import capital, translate
 from crankwork.locale.numbers import unit_name
 from crankwork.note.equations import value_symbol
 from crankwork.quantities import Language
 from crankwork.report.display import displayed_column, in_own_units, key_unit, label
+from crankwork.report.figures import AT_ONE_POSITION
 from crankwork.show.animation import Animation
 from crankwork.show.animation import data as moving_data
 from crankwork.show.inline import STYLE, colours, figure_data, html_symbol
@@ -114,9 +116,16 @@ def page_data(
         "axis": axis,
         "rows": _column(axis, rows, language),
         "columns": {key: _column(key, column, language) for key, column in known.items()},
-        "figures": {name: figure_data(drawing) for name, drawing in drawn.items()},
+        "figures": {name: figure_data(drawing) | _at(name, results) for name, drawing in drawn.items()},
         **({} if film is None else {"film": _film_data(film, results.period)}),
     }
+
+
+def _at(name: str, results: Results) -> dict[str, float]:
+    """Return where the cursor stands when a figure of one position is true, nothing for others. [deg], [s]"""
+    if name not in AT_ONE_POSITION:
+        return {}
+    return {"at": worked_position(results) * (results.period / 360.0 if results.period else 1.0)}
 
 
 def _column(key: str, values: Array, language: Language) -> dict[str, Any]:

@@ -20,6 +20,7 @@ ROWS = (
     Quantity("piston_rod_diameter", "mm", "Diameter of the rod of a double-acting piston."),
     Quantity("piston_area", "cm2", "Area of the piston crown, pi D^2 / 4, of a face less that of a rod."),
     Quantity("clearance_volume", "cm3", "Least volume of the working space."),
+    Quantity("total_volume", "cm3", "Volume of the working space where compression begins, as a sheet states it."),
     Quantity("swept_volume", "cm3", "Piston area times stroke: the largest volume less the least."),
     Quantity("compression_ratio", "", "Total volume over clearance volume."),
     Quantity("cylinder_volume", "cm3", "Volume of the working space, above the piston or between faces."),

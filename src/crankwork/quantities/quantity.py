@@ -83,9 +83,15 @@ def owned_name(name: str, owner: str) -> str:
     --------
     >>> owned_name("velocity of a point", "B"), owned_name("угол поворота звена", "rod"), owned_name("joint force", "A")
     ('velocity of point B', 'угол поворота звена rod', 'joint force, A')
+    >>> owned_name("ход ползуна", "ползун"), owned_name("угол поворота звена", "звено 3")
+    ('ход ползуна', 'угол поворота звена 3')
     """
     if not owner:
         return name
+    noun, (first, *further) = name.rsplit(maxsplit=1)[-1], owner.split()
+    if len(first) > 3 and noun[:4] == first.lower()[:4] and abs(len(noun) - len(first)) < 3:
+        # a slider that is called slider is told once
+        return " ".join([name, *further])
     result = OWNED.search(name)
     if not result:
         return f"{name}, {owner}"

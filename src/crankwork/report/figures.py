@@ -63,6 +63,8 @@ from crankwork.show.theme import Theme
 
 # curves of a panel, and of what there is more is drawn in further figures
 _PER_PANEL = 4
+# what shows a machine at the position that is worked
+AT_ONE_POSITION = frozenset({"velocity_plan", "acceleration_plan", "force_plans", "zhukovsky_lever", "centrodes"})
 Needs = Callable[[Drawn], bool]
 Draw = Callable[[Drawn], tuple[Canvas, Mapping[str, Graph]]]
 

@@ -180,7 +180,8 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
         text = f"{_symbol(force, numbers, language)} = {shown} {unit_name(row.unit, language)}"
         paper.text(left + width, top + _HEAD + 12 + _ROW * count, text, size=8.5)
     names = {own_number: name for name, own_number in numbers.items()}
-    for count, key in enumerate(key_of_links(names, (numbers[link] for link in plan.links if link in numbers))):
+    keys = key_of_links(names, (numbers[link] for link in plan.links if link in numbers), language)
+    for count, key in enumerate(keys):
         paper.text(left + width, top + _HEAD + 12 + _ROW * (len(plan.forces) + count), key, size=8.5)
     return scale
 

@@ -24,7 +24,7 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.quantities.key import key_of
-from crankwork.report.display import displayed, key_unit, row_name, symbol
+from crankwork.report.display import displayed, key_unit, link_label, row_name, symbol
 from crankwork.show.canvas import GREY, Canvas, plain
 from crankwork.show.chart import ChartBox, Graph, round_ticks, write_remark
 from crankwork.show.scene import DASH_DOT, Drawing, printable
@@ -81,9 +81,9 @@ def math_symbol(sign: str, power: str = "") -> str:
     return plain(f"{base} {index}") + (f"^{{{power[1:]}}}" if power else "")
 
 
-def key_of_links(names: Mapping[int, str], numbers: Iterable[int]) -> list[str]:
+def key_of_links(names: Mapping[int, str], numbers: Iterable[int], language: Language) -> list[str]:
     """Return the names of the links with these numbers on a plan, since tables use names."""
-    shown = {number: printable(names[number], 20) for number in numbers if number in names}
+    shown = {number: printable(link_label(names[number], language), 20) for number in numbers if number in names}
     return [f"{number} – {plain(name)}" for number, name in shown.items() if name != str(number)]
 
 

@@ -134,11 +134,7 @@ def _figure(
     language, seen, size = style.language, _seen(plan), size_of(plan)
     # only beside one plan there is room for a list
     side = current_layout().width - (_LIST_WIDTH if position is None else 0.0)
-    rows = (
-        []
-        if position is not None
-        else [*_rows(seen, plan, kind, language), *key_of_links(dict(enumerate(style.links, start=1)), plan.turning)]
-    )
+    rows = [] if position is not None else [*_rows(seen, plan, kind, language), *_link_names(style, plan)]
     # long names stand beside the outermost ends, those of one end together
     ends: dict[tuple[float, ...], str] = {}
     for name, node in plan.nodes.items():
@@ -171,6 +167,10 @@ def _figure(
         write_remark(paper, _remark(plan, kind, language))
     _nodes(graph, plan, kind.pole, unit)
     return paper.drawing(f"{figure_title(kind.title, language)}, {position_text(float(degrees), style)}", language)
+
+
+def _link_names(style: Style, plan: VectorPolygon) -> list[str]:
+    return key_of_links(dict(enumerate(style.links, start=1)), plan.turning, style.language)
 
 
 def _remark(plan: VectorPolygon, kind: _Kind, language: Language) -> str:

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple, Protocol
 from crankwork.formula.traced_value import FormulaCall, Sum, TracedValue, absent, in_order
 from crankwork.loads.indicator import IndicatorDiagram, VolumeAt
 
-CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual"]
+CycleKind = Literal["petrol", "diesel", "otto", "ideal-diesel", "dual", "assigned-petrol", "assigned-diesel"]
 Notice = tuple[str, Mapping[str, float | str]]
 
 
@@ -28,6 +28,7 @@ class Corners(NamedTuple):
     n2: TracedValue
     epsilon: TracedValue  # Compression ratio of the closed cylinder [-]
     psi: TracedValue = absent("lost_stroke")  # Share of the stroke that the ports of a two-stroke engine take [-]
+    V_a: TracedValue = absent("total_volume")  # Stated volume where compression begins [m3]
 
 
 @dataclass(frozen=True, eq=False)

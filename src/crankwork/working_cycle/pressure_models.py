@@ -143,7 +143,8 @@ def _numbers(corners: Corners) -> dict[str, float]:
 
 def _with_traced_segments(diagram: IndicatorDiagram, corners: Corners) -> IndicatorDiagram:
     """Return a diagram whose segments refer to the traced pressures and exponents of the calculation."""
-    lines = {"a": (corners.p_a, corners.n1, corners.psi), "z": (corners.p_z, corners.n2, corners.rho)}
+    start = corners.psi if corners.V_a.is_absent else corners.V_a
+    lines = {"a": (corners.p_a, corners.n1, start), "z": (corners.p_z, corners.n2, corners.rho)}
     constants = {pressure.value: (pressure,) for pressure in (corners.p_z, corners.p_r, corners.p_a)}
 
     def with_inputs(segment: Segment) -> Segment:
@@ -497,8 +498,8 @@ def _four_strokes(corners: Corners, top: float, bottom: float, angle_of: _AngleO
     points = {
         "r": DiagramPoint(top, corners.p_r.value),
         "d": DiagramPoint(top, corners.p_a.value),
-        "a": DiagramPoint(bottom, corners.p_a.value),
-        "b": DiagramPoint(bottom + 360, corners.p_b.value),
+        "a": DiagramPoint(bottom, corners.p_a.value, corners.V_a.value or None),
+        "b": DiagramPoint(bottom + 360, corners.p_b.value, corners.V_a.value or None),
         "e": DiagramPoint(bottom + 360, corners.p_r.value),
         "r'": DiagramPoint(top + 720, corners.p_r.value),
     }

@@ -1,12 +1,11 @@
 """The theoretical diagram with corners rounded by valves, ignition and combustion.
 
-Two schools: the Russian one puts c'' at a ratio to the end of compression and b'' halfway between b and the
-exhaust line; the Vietnamese one puts c'' a third of the way up to the peak and b'' in the middle of ab. A corner whose
-timing is zero stays sharp.
+The conventions of schools are records of `schools.toml`. A corner whose timing is zero stays sharp.
 """
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -24,6 +23,7 @@ from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.loads.traced_diagram import TracedVolume
 from crankwork.locale import ErrorMessage
+from crankwork.resources import read_resource
 from crankwork.working_cycle.calculated_cycle import Notice
 from crankwork.working_cycle.gas_exchange import clip_segment, from_before_zero
 from crankwork.working_cycle.rounded_pieces import (
@@ -36,7 +36,8 @@ from crankwork.working_cycle.rounded_pieces import (
 
 __all__ = ["RoundedDiagram", "Rounding", "Timing", "filling_factor", "rounded_diagram", "theoretical_work"]
 _LEVELS = {"petrol": (0.80, 0.95), "diesel": (0.80, 1.0)}
-_LEVEL = {"petrol": 0.85, "diesel": 1.0}
+SCHOOLS: Mapping[str, Any] = tomllib.loads(read_resource("working_cycle", "schools.toml"))
+PEAK_LEVEL: Mapping[str, float] = SCHOOLS["peak_level"]
 _USUAL_FILLING = (0.90, 0.98)
 _USUAL_RISE = (1.15, 1.25)
 _USUAL_PEAK = (10.0, 15.0)
@@ -121,7 +122,7 @@ def _peak_level(corners: RoundedCorners) -> tuple[float, tuple[Notice, ...]]:
     rounding = corners.rounding
     target = rounding.filling_factor
     if target is None or not corners.timing.ignition_advance:
-        return _LEVEL[corners.kind] if rounding.peak_level is None else rounding.peak_level, ()
+        return PEAK_LEVEL[corners.kind] if rounding.peak_level is None else rounding.peak_level, ()
     low, high = _LEVELS[corners.kind]
     for level in (low, high):
         obtained = _at_level(corners, level)[3]
@@ -226,6 +227,7 @@ def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: t
     centre, where expansion ends [deg]. Source: kolchin_demidov_2008, ch. 4.
     """
     start, least, end = (float(volume) for volume in volume_at(np.array(angles)))
+    start = theory.get("V_a") or start
     burnt = theory.get("rho", 1.0) * least
     lines = ((theory["p_a"], start, least, theory["n1"]), (theory["p_z"], burnt, end, theory["n2"]))
     work = theory["p_z"] * (burnt - least)
@@ -257,8 +259,8 @@ def _unusual(corners: RoundedCorners, filling: float) -> list[Notice]:
     rounding, values = corners.rounding, []
     if corners.timing.ignition_advance:
         values += [("round_peak", rounding.peak_angle, _USUAL_PEAK)]
-        if rounding.school == "ru":
-            values += [("round_rise", rounding.rise, _USUAL_RISE)]
+        if rounding.ratio_of_rise is not None:
+            values += [("round_rise", rounding.ratio_of_rise, _USUAL_RISE)]
         values += [("round_filling", filling, _USUAL_FILLING)]
     return [
         (code, {"value": value, "low": low, "high": high})
@@ -358,6 +360,8 @@ def corners_of(
     start = dead_centres[1] + (max(timing.intake_closes, timing.exhaust_closes) if is_two_stroke else 0.0)
     volumes = volume_at(np.array([top, start]))
     clearance, start_volume = volumes.tolist()
+    if to_number(theory.get("V_a", 0.0)):
+        start_volume = theory["V_a"]
     rho = theory.get("rho", 1.0)
     return RoundedCorners(
         theory,
@@ -423,7 +427,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
             DiagramPart("polytropic", (z, opened), exponent=theory["n2"], reference="~burnt"),
         ]
     peak = level * theory["p_z"]
-    highest = NamedPoint("z_d" if corners.rounding.school == "ru" else "z'", top + corners.rounding.peak_angle, peak)
+    highest = NamedPoint(SCHOOLS[corners.rounding.school]["highest"], top + corners.rounding.peak_angle, peak)
     joined, falls_to = highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak)
     joined = select(falls_to - joined, falls_to, joined)
     if to_number(joined) >= to_number(corners.opens) or highest.angle <= top:
@@ -447,12 +451,13 @@ def _rising(corners: RoundedCorners, peak: Value) -> list[NamedPoint]:
     start = compression_parts(corners)[-1].points[-1]
     angles = [start.angle + share * (corners.top - start.angle) for share in _RISING]
     compressed, *lines = corners.compression(corners.top, *angles)
-    if corners.rounding.school == "ru":
+    ratio = corners.rounding.ratio_of_rise
+    if ratio is not None:
         # a small rise of pressure has no room for the usual one
-        usual, half = corners.rounding.rise * compressed, (compressed + peak) / 2
+        usual, half = ratio * compressed, (compressed + peak) / 2
         middle = select(half - usual, usual, half)
     else:
-        middle = compressed + (peak - compressed) / 3
+        middle = compressed + corners.rounding.share_of_rise * (peak - compressed)
     low, centre, high = (to_number(pressure) for pressure in (compressed, middle, peak))
     if not low < centre < high:
         raise CrankworkError(ErrorMessage("middle_outside", middle=centre / 1e6, compressed=low / 1e6, peak=high / 1e6))
@@ -491,7 +496,7 @@ def exchange_parts(corners: RoundedCorners) -> list[DiagramPart]:
         raise CrankworkError(ErrorMessage("exhaust_nothing", exhaust=timing.exhaust_opens, intake=timing.intake_opens))
     blown = []
     if timing.exhaust_opens:
-        other = low if corners.rounding.school == "ru" else charge
+        other = low if corners.rounding.other_line == "exhaust" else charge
         middle = NamedPoint("b''", corners.bottom, (expanded + other) / 2)
         blown = _blow_down(corners, (opened, middle, out))
     return [
@@ -534,11 +539,29 @@ class Timing:
 class Rounding:
     """How corners are rounded."""
 
-    school: Literal["ru", "vi"] = "ru"  # `ru` or `vi`
+    school: str = "ru"  # Whose conventions hold where nothing else is given
     # Greatest pressure: after top dead centre, and over p_z (0.85 petrol, 1 diesel if left out) [deg], [-]
     peak_angle: float = 12.0
     peak_level: float | None = None
     join_after: float = 8.0  # From there to the expansion line, at least [deg]
-    rise: float = 1.2  # Pressure at c'' over that at c, of the Russian school [-]
+    # Pressure at c'' over that at c, or share of the way from c to the peak at which it lies [-]
+    rise: float | None = None
+    rise_share: float | None = None
+    blow_down: str | None = None  # The line halfway to which b'' lies, `exhaust` or `intake`
     filling_factor: float | None = None  # Target for which the peak level is solved [-]
     tolerance: float = 1e-4  # Largest deviation from the target [-]
+
+    @property
+    def ratio_of_rise(self) -> float | None:
+        """Pressure at c'' over that at c, None if a share places it. [-]"""
+        return SCHOOLS[self.school].get("rise") if self.rise is None is self.rise_share else self.rise
+
+    @property
+    def share_of_rise(self) -> float:
+        """Share of the way from c to the peak at which c'' lies. [-]"""
+        return float(SCHOOLS[self.school]["rise_share"] if self.rise_share is None else self.rise_share)
+
+    @property
+    def other_line(self) -> str:
+        """The line halfway to which b'' lies from b."""
+        return str(self.blow_down or SCHOOLS[self.school]["blow_down"])
