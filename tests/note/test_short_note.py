@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,8 @@ from crankwork.note.contents import note_of, written_note
 from crankwork.note.document import Contents, Equation, Figure, Heading, Note, Paragraph, TitlePage
 from crankwork.note.numbering import equation_source, numbering
 from crankwork.note.options import NoteOptions
+from crankwork.note.readings import reading
+from crankwork.note.wording import Words
 from crankwork.quantities import LANGUAGES, Language
 from crankwork.report.display import key_unit
 from crankwork.report.drawing import film_of
@@ -236,6 +239,16 @@ def test_figures_are_followed_by_what_is_read_from_them():
             assert len(printed) == count, (kind, printed)
 
     assert failing(CASES, check) == {}
+
+
+def test_the_peak_of_a_torque_that_is_mostly_negative_is_its_least_value():
+    # as of a compressor
+    summary = {"total_torque_max": 10.0, "total_torque_min": -30.0, "mean_torque": -5.0}
+    summary |= {"total_torque_max_angle": 1.0, "total_torque_min_angle": 2.0}
+    for language in LANGUAGES:
+        told = reading("total_torque", SimpleNamespace(words=Words(language), summary=summary, per_area=False))
+        assert numbers_of(told)[-1] == 6.0
+        assert numbers_of(told)[-2] == -5.0
 
 
 # --- what a file asks for, and what is written

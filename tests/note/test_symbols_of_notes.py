@@ -17,6 +17,7 @@ from crankwork.note.layout import Upright
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import LANGUAGES, QUANTITIES
 from crankwork.report.display import symbol as key_symbol
+from each import for_each
 from note.built import SOME, broken, looked_at, note, schools, source
 from notes import blocks, nomenclature, printed, tables
 
@@ -146,6 +147,22 @@ def test_a_symbol_without_explanation_is_found():
         shown = tuple(replace(table, rows=rows) if block is table else block for block in one.blocks)
         assert len(rows) == len(nomenclature(one)) - 1
         assert unexplained(replace(one, blocks=shown)), missing
+
+
+@for_each(
+    ("name", "language", "letter", "both"),
+    [
+        ("petrol-four", "ru", "S", {"ход поршня", "сила вдоль шатуна"}),
+        ("petrol-four", "vi", "α", {"góc quay trục khuỷu", "hệ số dư lượng không khí"}),
+        ("petrol-four", "vi", "β", {"góc lắc thanh truyền", "hệ số thay đổi phân tử thực tế"}),
+        ("double-acting-steam", "en", "n", {"moving links", "rotational speed, rpm"}),
+        # a derivative and the transfer function that it is are one thing
+        ("spark-engine", "en", "x″", {"second transfer function of the piston, m"}),
+    ],
+)
+def test_a_letter_that_books_give_two_things_is_listed_with_both(name, language, letter, both):
+    listed = [row[1] for row in nomenclature(note(name, language)) if row[0].content == letter]
+    assert sorted(listed) == sorted(both)
 
 
 def test_the_numbers_of_a_substance_stay_at_their_letters():
