@@ -101,8 +101,8 @@ def read_machine(
     machine = _build(values, reader, folder)
     if mistakes or reader.problems or machine is None:
         for path, letters, latin in mistaken_names(values):
-            look_alike = Problem(path, ErrorMessage("key_look_alike", letters=letters, written=latin))
-            reader.problems = [*(problem for problem in reader.problems if problem.key != path), look_alike]
+            mistake = Problem(path, ErrorMessage("key_look_alike", letters=letters, written=latin))
+            reader.problems = [*(problem for problem in reader.problems if problem.key != path), mistake]
         raise input_error(source, name, reader, settings, mistakes)
     digest = hashlib.sha256("\0".join([source, *map(str, settings)]).encode("utf-8", "surrogatepass")).hexdigest()
     notices = (*machine.notices, *reader.notices)
