@@ -379,8 +379,8 @@ def _rises(abscissas: list[float], *, jumps: bool) -> bool:
     steps = [after - before for before, after in itertools.pairwise(abscissas)]
     if not jumps:
         return all(step > 0 for step in steps)
-    apart = all(first > 0 or second > 0 for first, second in itertools.pairwise(steps))
-    return all(step >= 0 for step in steps) and apart and steps[0] > 0 and steps[-1] > 0
+    has_lengths = all(first > 0 or second > 0 for first, second in itertools.pairwise(steps))
+    return all(step >= 0 for step in steps) and has_lengths and steps[0] > 0 and steps[-1] > 0
 
 
 def _load(load: Values) -> Load:

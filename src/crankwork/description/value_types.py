@@ -196,8 +196,8 @@ class Quantity(NamedTuple):
             return None
         if parsed.notice:
             gravity = reader.gravity if any(letter in value for letter in "NН") else units.KGF
-            told = {"path": key, "text": value.strip(), "value": parsed.value, "gravity": gravity}
-            reader.notices.append((parsed.notice, told))
+            notice_values = {"path": key, "text": value.strip(), "value": parsed.value, "gravity": gravity}
+            reader.notices.append((parsed.notice, notice_values))
         return MeasuredValue(parsed.value if abs(parsed.value) > _SMALLEST else 0.0, parsed.dimension, parsed.unit)
 
     def _deviates(self, parsed: units.ParsedQuantity, deviation: Deviation, key: str, reader: Reader) -> bool:
