@@ -66,10 +66,9 @@ _NUMBERS = (
     "flywheel_inertia.exact", "speed_fluctuation", "piston_velocity_max", "piston_acceleration_max",
     "piston_acceleration_min",
 )  # fmt: skip
-_SAME = {"shaft_power": ("motor_power",)}
+# what is left out beside another: a flywheel may follow from another excess work than that of the shaft
+_SAME = {"shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",)}
 _GLANCE = 10
-# the option that gives everything
-_FULL = "--full"
 
 # the label of the heading that a list of the symbols follows
 NOMENCLATURE = "nomenclature"
@@ -219,9 +218,9 @@ def _left_out(material: Material) -> Iterator[Block]:
     step = words.amount(math.radians(material.results.machine.table_step), "deg")
     left = [figure_title(name, words.language) for name in dict.fromkeys(map(kind_of, material.remaining_figures()))]
     if left:
-        yield words.paragraph("left_out", option=_FULL, step=step, figures="; ".join(left))
+        yield words.paragraph("left_out", step=step, figures="; ".join(left))
     else:
-        yield words.paragraph("left_out_formulas", option=_FULL, step=step)
+        yield words.paragraph("left_out_formulas", step=step)
 
 
 def _conclusion(material: Material) -> Iterator[Block]:

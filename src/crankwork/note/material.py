@@ -39,6 +39,7 @@ _CONSTRUCTED = (
 )  # fmt: skip
 # what a note shows the formula of when it is not to show all
 ESSENTIAL = frozenset((
+    "mobility", "bearing_force_x", "bearing_force_y", "big_end_load", "small_end_load",
     "speed", "mean_piston_speed", "piston_displacement", "piston_velocity", "piston_acceleration", "rod_angle",
     "residual_fraction", "intake_temperature", "volumetric_efficiency", "compression_pressure",
     "compression_temperature", "combustion_celsius", "combustion_pressure", "expansion_pressure",
@@ -66,10 +67,10 @@ _SEE = {
 }  # fmt: skip
 # figures of a note that does not show all, and those that a school asks for beside them
 _MAIN_FIGURES = frozenset((
-    "kinematics", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar", "crankpin_wear",
+    "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar", "crankpin_wear",
     "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan", "acceleration_plan",
     "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison", "turning_moment",
-    "driver", "chambers", "speed",
+    "driver", "chambers", "speed", "sliders",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
@@ -216,7 +217,9 @@ class Material:
         if self.has_piston:
             selected = [row for row in selected if not isinstance(row, ValueLine) or _kind(row) not in _TABLED]
         if not self.full:
-            selected = [row for row in selected if _kind(row) in ESSENTIAL]
+            # places of points stand with the motion
+            places = () if group in ("motion", "driver") else ("point_x", "point_y")
+            selected = [row for row in selected if _kind(row) in ESSENTIAL and _kind(row) not in places]
         # of families, such as the journals of a shaft, a table has the others
         return self.worked(_first(selected) if first or self.has_piston or not self.full else selected)
 

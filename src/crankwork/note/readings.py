@@ -23,7 +23,6 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
     "crankpin_forces": ("tangential_force_max", "tangential_force_min"),
     "total_torque": ("total_torque_max", "total_torque_min"),
     "crankpin_polar": ("crankpin_load_max", "mean_crankpin_load"),
-    "excess_work": ("excess_work",),
     "torques": ("driving_torque_max", "driving_torque_min"),
     "reduced_inertia": ("reduced_inertia_max", "reduced_inertia_min"),
 }

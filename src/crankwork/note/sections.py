@@ -74,8 +74,8 @@ _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     # between the data and the checks the twelve sections that such notes have
     "vi": (
         "summary", "data", "cycle", "indicator", "displacement", "velocity", "acceleration", "inertia",
-        "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "comparison", "checks",
-        "conclusion", "nomenclature", "sources", "appendix",
+        "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness", "comparison",
+        "checks", "conclusion", "nomenclature", "sources", "appendix",
     ),
     "en": (
         "summary", "data", "method", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains",

@@ -23,6 +23,8 @@ _LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10
 # columns of numbers beside position and crank angle that fit on a page
 _MOST = 9
 _TURN = 360.0
+# what is rounding beside the largest value of a column
+_NOISE = 1e-9
 # rows and steps of a short table
 _FEW, _STEPS = 13, 12
 
@@ -117,6 +119,11 @@ def listing_table(material: Material, name: str, caption: str) -> Table | None:
     # a crank mechanism by itself has no known journals
     hidden = "" if material.has_engine else "main_journal"
     rows = [k for k, row in enumerate(listing.names) if not (hidden and row.startswith(hidden))]
+    if not material.full:
+        # a row of nothing but rounding is left to the full note
+        sizes = [np.abs(np.nan_to_num(values)) for values in listing.columns.values() if values.dtype.kind == "f"]
+        seen = [k for k in rows if any(size[k] > _NOISE * size.max() for size in sizes)]
+        rows = seen or rows
     if listing.names:
         columns.append(Column((words.column("row"),), [_row_text(listing.names[k], words) for k in rows]))
     for key, values in listing.columns.items():
