@@ -5,6 +5,7 @@ import pytest
 from crankwork import Description, analyse, template
 from effects import mistold
 from expansions import ROOT, machine_files
+from machine_texts import POINTS_ENGINE
 
 FILES = machine_files("examples")
 # computed again some hundred times each
@@ -52,7 +53,7 @@ def test_a_force_beyond_the_stroke_is_told():
 
 
 def test_an_inclination_without_weights_is_told():
-    description = Description(template("engine"))
+    description = Description(POINTS_ENGINE)
     description["cylinder.inclination"] = "30 deg"
     assert idle(analyse(description)) == {"cylinder.inclination": "weights_off"}
 
@@ -72,7 +73,7 @@ def test_parts_without_mass_beside_others_are_told():
 
 
 def test_valve_timing_of_a_release_of_heat_is_told():
-    description = Description(template("engine"))
+    description = Description(POINTS_ENGINE)
     del description["gas"]
     description.replace(
         {

@@ -283,7 +283,7 @@ class TestMeasured:
         [chambers.gas]
         slider = "yoke"
         area = "20 cm2"
-        measured = {{ file = "{file}", pressure_unit = "bar" }}
+        measured = {{ file = "{file}", pressure_unit = "bar", shift = "0 deg" }}
     """
 
     def read(self, folder, step):

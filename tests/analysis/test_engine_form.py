@@ -24,6 +24,7 @@ from crankwork.locale import LANGUAGES, in_language
 from crankwork.machine import Machine
 from each import for_each
 from expansions import ROOT, differences, machine_files, mirrored, renamed, shuffled, turned, written
+from machine_texts import POINTS_ENGINE
 from shown import in_parts
 
 smooth_engine = runpy.run_path(str(ROOT / "tests" / "doors" / "plausible_engines.py"))["smooth_engine"]
@@ -114,10 +115,10 @@ def test_every_part_of_an_engine_comes_back(tmp_path, text, changes, settings):
 def test_measured_pressure_comes_back(tmp_path):
     samples = "".join(f"{angle},{1 + math.exp(-(((angle - 370) / 40) ** 2)):.6f}\n" for angle in range(0, 721, 5))
     (tmp_path / "pressure.csv").write_text(samples, "utf-8")
-    start, end = ENGINE.index("[gas.points]"), ENGINE.index("[method]")
+    start, end = POINTS_ENGINE.index("[gas.points]"), POINTS_ENGINE.index("[method]")
     measured = '[gas.measured]\nfile = "pressure.csv"\npressure_unit = "bar"\nshift = "0 deg"\n\n'
     path = tmp_path / "machine.toml"
-    path.write_text(ENGINE[:start] + measured + ENGINE[end:], "utf-8")
+    path.write_text(POINTS_ENGINE[:start] + measured + POINTS_ENGINE[end:], "utf-8")
     linkage = read_machine(expanded(path), folder=tmp_path)
     form = engine_form(linkage)
     assert form is not None

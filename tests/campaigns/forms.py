@@ -31,6 +31,7 @@ from crankwork.description.machine_file import read_machine, template
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import breakpoints_of
 from expansions import ROOT, WAYS, Shares, differences, differences_as_drawn, machine_files, written
+from machine_texts import POINTS_ENGINE
 
 smooth_engine = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible_engines.py"))["smooth_engine"]
 # tables that are shorthand, by one of which an engine is known
@@ -60,7 +61,7 @@ def _tried(draw: random.Random) -> Values:
     if draw.random() < 0.3:
         values.pop("cycle", None)
     if "cycle" not in values and engine.get("strokes", 4) == 4 and "articulated" not in engine:
-        gas = tomllib.loads(template("engine"))["gas"]
+        gas = tomllib.loads(POINTS_ENGINE)["gas"]
         gas["points"]["z"]["pressure"] = f"{draw.uniform(4, 9):.6g} MPa"
         values["gas"] = gas
     if {"cycle", "gas"} & values.keys() and engine.get("cylinders", 1) > 1 and draw.random() < 0.3:

@@ -10,6 +10,7 @@ from crankwork.description.schema import Values
 from crankwork.description.value_types import Reader, shown
 from crankwork.formula.traced_value import given
 from crankwork.loads.indicator import DiagramPoint, Piece
+from crankwork.loads.measured_pressure import FEWEST
 from crankwork.loads.pressure_processing import PEAKS, centred, peak_angle
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Engine, Gas
@@ -93,6 +94,9 @@ def _check_order(gases: dict[int, Gas], table: Values, reader: Reader) -> None:
     """Report pressures of several cylinders that suit the firing order in another order only."""
     samples = {number: gas.measured for number, gas in gases.items() if gas.measured is not None}
     if len(samples) < len(gases) or len(gases) < 2:
+        return
+    # the diagram refuses a file of fewer
+    if any(len(measured.degrees) < FEWEST for measured in samples.values()):
         return
     cycle, peaks = gases[min(gases)].cycle, {number: peak_angle(measured) for number, measured in samples.items()}
 

@@ -23,7 +23,7 @@ _OFTEN = {720.0: (360.0,), 360.0: (720.0,)}
 # share of the range of pressures by which equal cycles differ at most
 _EQUAL_CYCLES = 0.5
 # samples of one cycle
-_FEWEST, _MOST = 8, 50_000
+FEWEST, _MOST = 8, 50_000
 # shortest recorded part of a cycle if the rest is stated [deg]
 _CLOSED = 60.0
 # larger than any gas pressure [Pa]
@@ -131,7 +131,7 @@ def _of_column(degrees: Array, pressure: Array, cycles: tuple[float, int], offse
 
 
 def _check_size(measured: MeasuredPressure, columns: Array, key: str) -> None:
-    if len(measured.degrees) < _FEWEST:
+    if len(measured.degrees) < FEWEST:
         raise DiagramError(key, ErrorMessage("samples_few", count=len(measured.degrees)))
     worst = int(np.argmax(np.max(np.abs(columns), axis=1)))
     largest = float(np.max(np.abs(columns[worst])))
