@@ -53,7 +53,7 @@ READ = {
 }  # fmt: skip
 # pages of the PDF in each language
 PAGES = {
-    "petrol-four": (19, 21, 20), "spark-engine": (13, 15, 16), "press-geometry": (15, 16, 15),
+    "petrol-four": (20, 21, 22), "spark-engine": (14, 15, 18), "press-geometry": (16, 17, 16),
     "slider-crank": (4, 4, 6), "press": (6, 6, 6),
 }  # fmt: skip
 NUMBER = re.compile(r"(−?\d+(?:[.,]\d+)?)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?")

@@ -68,9 +68,9 @@ _SEE = {
 # figures of a note that does not show all, and those that a school asks for beside them
 _MAIN_FIGURES = frozenset((
     "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
-    "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan", "acceleration_plan",
-    "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison", "turning_moment",
-    "driver", "chambers", "speed", "sliders",
+    "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan",
+    "acceleration_plan", "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison",
+    "turning_moment", "driver", "chambers", "speed", "sliders",
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
@@ -221,7 +221,9 @@ class Material:
             places = () if group in ("motion", "driver") else ("point_x", "point_y")
             selected = [row for row in selected if _kind(row) in ESSENTIAL and _kind(row) not in places]
         # of families, such as the journals of a shaft, a table has the others
-        return self.worked(_first(selected) if first or self.has_piston or not self.full else selected)
+        if first or not self.full:
+            return self.worked(_first(selected))
+        return self.worked(_first(selected, by_part=True) if self.has_piston else selected)
 
     def worked(
         self, lines: Iterable[Line], marks: Mapping[str, str] | None = None, *, again: bool = False
@@ -381,11 +383,16 @@ def _formula_name(line: Line) -> str:
     return line.formula.name if line.formula.source else "".join(letter for letter in line.key if not letter.isdigit())
 
 
-def _first(lines: list[Line]) -> Iterator[Line]:
-    """Yield the first line of each formula, and for each quantity the first value without one."""
-    seen: set[tuple[str, str]] = set()
+def _first(lines: list[Line], *, by_part: bool = False) -> Iterator[Line]:
+    """Yield the first line of each formula, and for each quantity the first value without one.
+
+    `by_part`: also of each kind of part, such as the masses that rotate, whatever its number is.
+    """
+    seen: set[tuple[str, str, str]] = set()
     for line in lines:
-        mark = (_formula_name(line), key_of(line.key).quantity)
+        kind, owner = key_of(line.key)
+        part = "".join(letter for letter in owner if letter.isalpha()) if by_part else ""
+        mark = (_formula_name(line), kind, part)
         if mark not in seen:
             seen.add(mark)
             yield line
