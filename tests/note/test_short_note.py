@@ -41,18 +41,16 @@ EXTREMES = {
     "torques": (("driving_torque", "max"), ("driving_torque", "min")),
     "reduced_inertia": (("reduced_inertia", "max"), ("reduced_inertia", "min")),
 }
-OTHERS = {"excess_work", "joint_forces"}
+OTHERS = {"joint_forces"}
 READ = {
     "petrol-four": {
-        "pressure", "kinematics", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar", "excess_work",
+        "pressure", "kinematics", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
     },
-    "spark-engine": {"pressure", "kinematics", "piston_forces", "crankpin_forces", "crankpin_polar", "excess_work"},
+    "spark-engine": {"pressure", "kinematics", "piston_forces", "crankpin_forces", "crankpin_polar"},
     "press-geometry": {"torques", "reduced_inertia", "joint_forces", "crankpin_polar"},
     "slider-crank": {"kinematics"},
     "press": {"torques", "reduced_inertia"},
 }  # fmt: skip
-# in the Vietnamese order these figures stand in the appendix, which only the full note has
-SUNK = {"vi": {"excess_work"}}
 # pages of the PDF in each language
 PAGES = {
     "petrol-four": (19, 21, 20), "spark-engine": (13, 15, 16), "press-geometry": (15, 16, 15),
@@ -131,11 +129,10 @@ def test_what_is_left_out_are_the_figures_that_the_full_note_has_beside():
         language = case[1]
         few, many = ({kind_of(figure) for figure in figures(one(*case))} for one in (short, whole))
         assert few <= many
-        begins = translate("sentences.left_out", language, option="--full", step="", figures="").partition("(")[0]
+        begins = translate("sentences.left_out", language, step="", figures="").partition(":")[0]
         told = ["".join(map(str, block.runs)) for block in blocks(short(*case), Paragraph)
                 if str(block.runs[0]).startswith(begins)]  # fmt: skip
         assert len(told) == 1
-        assert "(--full)" in told[0]
         named = {title.strip().rstrip(".") for title in told[0].rpartition(": ")[2].split(";")}
         titles = {figure_title(kind, language) for kind in many - few}
         assert named == titles or not titles
@@ -196,9 +193,6 @@ def expected(name: str, kind: str, *, per_area: bool) -> list[tuple[float, list[
         pins = [key for key in found.columns if key.startswith("joint_force.")]
         value, angles = max((extremes(name, key, "max") for key in pins), key=lambda pair: pair[0])
         return [(shown("joint_force", value), angles)]
-    if kind == "excess_work":
-        column = found.columns_at(np.linspace(0.0, 720.0, 72001), ("kinetic_energy_change",))["kinetic_energy_change"]
-        return [(shown("excess_work", float(np.ptp(column))), [])]
     for key, end in EXTREMES[kind]:
         value, angles = extremes(name, own_key(name, key), end)
         told.append((shown(key, value), angles))
@@ -223,7 +217,7 @@ def test_figures_are_followed_by_what_is_read_from_them():
             if isinstance(block, Figure) and block.name in {*EXTREMES, *OTHERS}:
                 assert isinstance(after, Paragraph), block.name
                 read[block.name] = numbers_of(after)
-        assert read.keys() == READ[name] - SUNK.get(language, set())
+        assert read.keys() == READ[name]
         for kind, printed in read.items():
             wanted = expected(name, kind, per_area=language == "vi" and name != "press-geometry")
             for value, angles in wanted:

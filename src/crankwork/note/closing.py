@@ -11,7 +11,7 @@ import numpy as np
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.locale import translate
-from crankwork.note import balance, bearings, flywheel
+from crankwork.note import balance, bearings
 from crankwork.note.data import GEAR, cycle_keys
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
 from crankwork.note.material import Material
@@ -83,11 +83,7 @@ _MOTION = (
 
 
 # what stands in the appendix in the Vietnamese order
-_SINKING = [
-    section
-    for section in (*bearings.SECTIONS, *balance.SECTIONS, *flywheel.SECTIONS)
-    if section.name in ("mains", "balance", "evenness")
-]
+_SINKING = [section for section in (*bearings.SECTIONS, *balance.SECTIONS) if section.name in ("mains", "balance")]
 
 
 def _is_place(key: str) -> bool:

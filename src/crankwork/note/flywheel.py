@@ -121,7 +121,7 @@ _OF_ENERGY = has("excess_work.mertsalov")
 _STEADY = Text("steady", {"speed": amount("steady_speed", "rpm"), "fluctuation": number("steady_fluctuation")})
 SECTIONS = (
     Section("evenness", (
-        Head("evenness", sinks=True), When(_OF_ENERGY, (Text("evenness_of_all"),)),
+        Head("evenness"), When(_OF_ENERGY, (Text("evenness_of_all"),)),
         When(lacks(_OF_ENERGY), (Text("evenness"),)), Lines("uniformity"),
         When(every(_is_wanted, has("flywheel_inertia.exact")), _FOUND),
         When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),

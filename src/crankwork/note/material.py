@@ -67,8 +67,8 @@ _SEE = {
 }  # fmt: skip
 # figures of a note that does not show all, and those that a school asks for beside them
 _MAIN_FIGURES = frozenset((
-    "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar", "crankpin_wear",
-    "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan", "acceleration_plan",
+    "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
+    "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan", "acceleration_plan",
     "torques", "joint_forces", "force_plans", "reduced_inertia", "wittenbauer", "comparison", "turning_moment",
     "driver", "chambers", "speed", "sliders",
 ))  # fmt: skip

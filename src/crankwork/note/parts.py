@@ -35,7 +35,7 @@ class Head:
     def __call__(self, material: Material) -> Iterator[Block]:
         """Yield it."""
         # the Vietnamese order has such sections in the appendix
-        lower = self.sinks and material.order == "vi" and material.full
+        lower = self.sinks and material.order == "vi"
         yield material.words.heading(self.key, 2 if lower else self.level, numbered=not lower)
 
 
