@@ -24,6 +24,8 @@ from expansions import written
 
 # a change is more than this part of a value, and of the largest of its dimension
 LIMIT, ROUNDING = 1e-9, 1e-13
+# notices that all there is to a key silences: engine.uneven
+_PERMITTED = {"uneven_intervals"}
 # what stands for a value of zero, in SI
 _SCALES = {"length": 1e-3, "angle": 0.01, "mass": 0.01, "inertia": 1e-5, "pressure": 1e3, "force": 10.0, "torque": 1.0}
 
@@ -113,7 +115,9 @@ def computed(values: Mapping[str, Any], folder: Path) -> Results:
 
 
 def has_changed(first: Results, second: Results) -> bool:
-    """Return whether any summary value, column or entry of a table differs."""
+    """Return whether any summary value, column or entry of a table differs, or a notice that a key permits."""
+    if _permitted(first) != _permitted(second):
+        return True
     one, other = _values_of(first), _values_of(second)
     if any(np.any({**one, **other}[key]) for key in one.keys() ^ other.keys()):
         return True
@@ -128,6 +132,10 @@ def has_changed(first: Results, second: Results) -> bool:
         if np.any(np.isnan(value) != np.isnan(other[key])) or np.any(apart > limit):
             return True
     return False
+
+
+def _permitted(results: Results) -> set[str]:
+    return {notice.code for notice in results.notices} & _PERMITTED
 
 
 def _unit(key: str) -> str:

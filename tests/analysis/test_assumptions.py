@@ -109,6 +109,14 @@ def test_uneven_intervals_permitted_for_nothing_and_numbers_of_banks_with_one_cy
     assert (told["engine.numbering"], told.get("engine.uneven")) == ("one_a_bank", None)
 
 
+def test_uneven_intervals_are_told_by_the_dead_centres_of_offset_cylinders():
+    description = Description(FILES["narrow-v6"])
+    assert "engine.uneven" not in idle(analyse(description))
+    # without them they follow from even firing
+    del description["engine.throws"]
+    assert idle(analyse(description))["engine.uneven"] == "even_intervals"
+
+
 def test_fixed_points_and_guides_that_no_part_names_are_told():
     description = Description(template("four-bar"))
     description["fixed_points.Q"] = ["300 mm", "10 mm"]

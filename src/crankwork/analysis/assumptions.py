@@ -281,7 +281,9 @@ def _idle_uneven(results: Results, stated: Mapping[str, FileInput], _: str) -> s
         # the customary order is permitted as it is
         return "unused"
     layout = results.machine.engine.layout if results.machine.engine is not None else None
-    angles = sorted(place.firing_angle for place in layout.places) if layout is not None else []
+    # cylinders fire at their own dead centres, which an offset moves
+    tops = [(place.firing_angle + place.top) % layout.cycle for place in layout.places] if layout is not None else []
+    angles = sorted(tops)
     gaps = np.diff([*angles, angles[0] + layout.cycle]) if layout is not None else np.array([0.0, 1.0])
     return "even_intervals" if np.ptp(gaps) <= _EVEN else ""
 
