@@ -61,7 +61,7 @@ def test_sections_stand_in_the_order_of_each_school():
         "Đồ thị tổng lực tiếp tuyến ΣT",
         "Đồ thị phụ tải tác dụng trên chốt khuỷu", "Đồ thị khai triển phụ tải Q–α",
         "Đồ thị phụ tải tác dụng lên đầu to thanh truyền", "Đồ thị mài mòn chốt khuỷu",
-        "Kiểm tra kết quả", "Ký hiệu",
+        "Độ không đồng đều của tốc độ và bánh đà", "Kiểm tra kết quả", "Ký hiệu",
     ]  # fmt: skip
     assert headings(note(SPARK, "vi"))[:2] == ["Các kết quả chính", "Bảng thông số cho trước"]
     assert headings(note(FOUR, "vi"))[:3] == ["Các kết quả chính", "Bảng thông số cho trước", "Tính toán nhiệt"]
