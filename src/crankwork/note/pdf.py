@@ -85,7 +85,7 @@ _SETTINGS = """
 #let above(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.6em, words)
 #let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
 """
-_TOGETHER = 24
+_TOGETHER = 20
 # of drawings, whose letters are then 8 pt
 _REDUCED = 0.87
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
