@@ -32,7 +32,6 @@ from crankwork.note.document import (
     Block,
     Contents,
     Equation,
-    Heading,
     ItemList,
     Math,
     Note,
@@ -49,8 +48,6 @@ from crankwork.note.options import NoteOptions
 from crankwork.note.parts import Section, written
 from crankwork.note.tables import symbol_table
 
-# headings of contents that fill a page to more than three fifths
-_OWN_PAGE = 24
 # who stands on a cover, in the order of each language, and who signs beside the name
 _PEOPLE: dict[Language, tuple[str, ...]] = {
     "en": ("author", "student_number", "group", "supervisor", "checked_by", "standards_by", "approved_by"),
@@ -119,14 +116,10 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     parts = itertools.chain.from_iterable(known[name].parts for name in chosen or _order(material) if name in known)
     blocks = tuple(_with_nomenclature(_cited_once(written(parts, material)), material))
     title, subtitle = _titles(material)
-    # on a page of their own where they fill it: Typst then sets the rest once, not again with every page found
-    listed = sum(isinstance(block, Heading) and block.level <= 2 for block in blocks)
     title_page = cover(document, options.language, words.title(subtitle))
     front: list[Block] = [title_page]
     if options.full or not title_page.is_plain:
-        front.append(Contents())
-        if listed >= _OWN_PAGE:
-            front.append(PageBreak())
+        front += [Contents(), PageBreak()]
     return Note(
         options.title or material.machine.title or words.title(title),
         options.language,
