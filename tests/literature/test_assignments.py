@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.working_cycle.rounding import SCHOOLS
+from crankwork.working_cycle.schools import SCHOOLS
 from each import for_each
 
 HERE = Path(__file__).parent

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankwork.analysis.form_paths import linkage_paths
 from crankwork.formula.traced_value import Input, in_order
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.load_curve import LoadCurve
@@ -232,6 +231,9 @@ def idle_inputs(results: Results) -> tuple[IdleInput, ...]:
     in_trace = set(leaves(results))
     if results.machine.linkage is not None and _is_engine(stated):
         # the trace of an engine with friction or loads names the parts of the linkage that it is
+        # few machines are calculated as another form
+        from crankwork.analysis.form_paths import linkage_paths  # noqa: PLC0415 - loaded where it is needed
+
         parts, ends = {key: _FACE.sub("", part) for key, part in linkage_paths(results.machine).items()}, (".", "[")
         in_trace |= {key for key in stated if key not in parts and not key.startswith("method.")}
         in_trace |= {key for key, part in parts.items() for path in in_trace

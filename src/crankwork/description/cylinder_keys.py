@@ -7,7 +7,7 @@ import math
 from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, NameOr, TableSpec
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
-from crankwork.working_cycle.rounding import PEAK_LEVEL, SCHOOLS
+from crankwork.working_cycle.schools import PEAK_LEVEL, SCHOOLS
 
 _LENGTH = Quantity(("length",), 1e-4, 100.0)
 _SPACING = Quantity(("length",), 0.0, 100.0)

@@ -5,7 +5,6 @@ The conventions of schools are records of `schools.toml`. A corner whose timing 
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -23,7 +22,6 @@ from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment, VolumeAt, solve_diagram
 from crankwork.loads.traced_diagram import TracedVolume
 from crankwork.locale import ErrorMessage
-from crankwork.resources import read_resource
 from crankwork.working_cycle.calculated_cycle import Notice
 from crankwork.working_cycle.gas_exchange import clip_segment, from_before_zero
 from crankwork.working_cycle.rounded_pieces import (
@@ -33,11 +31,10 @@ from crankwork.working_cycle.rounded_pieces import (
     traced_pressure_of_parts,
     without_auxiliary,
 )
+from crankwork.working_cycle.schools import PEAK_LEVEL, SCHOOLS
 
 __all__ = ["RoundedDiagram", "Rounding", "Timing", "filling_factor", "rounded_diagram", "theoretical_work"]
 _LEVELS = {"petrol": (0.80, 0.95), "diesel": (0.80, 1.0)}
-SCHOOLS: Mapping[str, Any] = tomllib.loads(read_resource("working_cycle", "schools.toml"))
-PEAK_LEVEL: Mapping[str, float] = SCHOOLS["peak_level"]
 _USUAL_FILLING = (0.90, 0.98)
 _USUAL_RISE = (1.15, 1.25)
 _USUAL_PEAK = (10.0, 15.0)
