@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -34,7 +35,7 @@ from crankwork.show.chart import (
 )
 from crankwork.show.chart_layout import current_layout, points_per_mm, scaled_height
 from crankwork.show.label_placement import label_marks
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, flow_rows
 
 _PANEL, _PANEL_GAP = 126.0, 38.0
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
@@ -42,6 +43,8 @@ _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
 # height of an indicator diagram, and what a number of its axes takes
 _INDICATOR, _NUMBER = 230.0, 24.0
+# height of the loop of gas exchange at least
+_LOOP = 66.0
 _HIGH, _AROUND, _LINK = 300.0, 0.6, "#8c8c8c"
 # dashes that short centrodes show, too
 _ROLLING = (3.0, 1.5)
@@ -174,7 +177,7 @@ def indicator_brix(machine: Drawn) -> Drawing:
     wide = left.box.width
     place = ChartBox(layout.left + wide + _TITLES, TOP, layout.inner - wide - _TITLES, high)
     right = Graph(paper, place, (0.0, machine.cycle), ends, machine.language, "crank_angle")
-    paper.height = TOP + left.box.height + BOTTOM + wide / 2 + _MARGIN
+    paper.height = TOP + left.box.height + BOTTOM + max(wide / 2, _LOOP) + _MARGIN
     ticks = left.up_ticks
     titles = [_short(machine.title(key), graph) for key, graph in (("cylinder_volume", left), ("crank_angle", right))]
     marks = _half_circle(machine, left)
@@ -196,7 +199,7 @@ def indicator_brix(machine: Drawn) -> Drawing:
     right.set_quantity(f"{machine.symbol('diagram_pressure')}, {unit}")
     right.x_title(titles[1])
     label_marks(paper, marks, size=7.0, dot=1.2)
-    below = ChartBox(place.left, TOP + left.box.height + BOTTOM, right.box.width, wide / 2)
+    below = ChartBox(place.left, TOP + left.box.height + BOTTOM, right.box.width, max(wide / 2, _LOOP))
     gas_exchange(machine, paper, below, volume, pressure)
     return paper.drawing(figure_title("indicator_brix", machine.language), machine.language)
 
@@ -235,14 +238,17 @@ def _half_circle(machine: Drawn, graph: Graph) -> list[tuple[str, float, float]]
     foot = np.full_like(x, graph.box.top + graph.box.height)
     paper.segments(np.column_stack([x, y, x, foot]), width=0.4, colour=GREY)
     marks = [(machine.number(_STEP * k), *place) for k, place in enumerate(zip(x.tolist(), y.tolist(), strict=True))]
-    text = f"OO′ = {machine.symbol('rod_ratio')}{machine.symbol('crank_radius')}/2"
-    text += f";  {machine.symbol('ambient_pressure')} = {machine.value('ambient_pressure', space.ambient)}"
+    said = [
+        f"OO′ = {machine.symbol('rod_ratio')}{machine.symbol('crank_radius')}/2",
+        f"{machine.symbol('ambient_pressure')} = {machine.value('ambient_pressure', space.ambient)}",
+    ]
     if current_layout().is_sheet:
         millimetres = (last - first) / points_per_mm()
         value = float(f"{machine.shown('stroke', space.swept / space.area) / millimetres:.4g}")
         sign = machine.symbol("piston_displacement").strip("$").partition("_")[0]
-        text += f";  {scale_text(f'μ_{sign}', value, 'mm', machine.language)}"
-    paper.text(centre, level + radius + 22, text, size=8, anchor="middle")
+        said.append(scale_text(f"μ_{sign}", value, "mm", machine.language))
+    for row, text in enumerate(flow_rows(said, ";  ", graph.box.width / WIDER, partial(text_width, size=8))):
+        paper.text(centre, level + radius + 22 + 12 * row, text, size=8, anchor="middle")
     return [*marks, ("O", centre, level), ("O′", *pole)]
 
 
