@@ -29,9 +29,9 @@ from crankwork.show.chart_layout import FINE, round_scale
 from crankwork.show.scene import ChartBox, Hatch, Polyline, extent, hatch_lines, text_width
 from each import failing, for_each
 from looks import Fault, box_of, faults
-from notes import SIGNED, lines, results, scale, sheets, texts
+from notes import ROOT, SIGNED, lines, results, scale, sheets, texts, value
 
-OVER_CYCLE = ("pressure", "piston_forces", "rod_forces", "crankpin_forces", "torque")
+OVER_CYCLE = ("indicator_brix", "piston_forces", "rod_forces", "crankpin_forces", "torque")
 LIGHT = (("spark-engine", "ru"), ("press-geometry", "en"), ("press", "vi"))
 # two rods on a pin, a rod with others on it, gears, a driven cylinder
 OTHERS = (("v8-diesel", "en"), ("radial-five", "en"), ("andrews-squeezer", "en"),
@@ -63,23 +63,35 @@ def zero(plot, axis):
 @pytest.mark.slow
 def test_pressure_measured_on_the_sheet_is_the_pressure():
     """The note of the example prints 5.083 MPa at 365 and 370 degrees and 2.42322 MPa at 360."""
-    sheet = sheets("spark-engine", "ru")[0]
-    for name in ("indicator", "pressure"):
-        drawing = sheet.figure(name).drawing
-        (line,), unit = lines(drawing, "gas_pressure"), scale(drawing, "p")
-        assert np.max(line[:, 1] - zero(drawing.plots[0], "y")) * unit == pytest.approx(5.083, rel=1e-9)
-    angles = (line[:, 0] - zero(drawing.plots[0], "x")) * scale(drawing, "φ")
+    drawing = sheets("spark-engine", "ru")[0].figure("indicator_brix").drawing
+    for name, plot in zip(("indicator", "pressure"), drawing.plots, strict=False):
+        (line,), unit = lines(drawing, name), scale(drawing, "p")
+        assert np.max(line[:, 1] - zero(plot, "y")) * unit == pytest.approx(5.083, rel=1e-9)
+    angles = (line[:, 0] - zero(plot, "x")) * scale(drawing, "φ")
     assert angles[-1] == pytest.approx(720, rel=1e-12)
     at = int(np.argmin(np.abs(angles - 360)))
-    assert (line[at, 1] - zero(drawing.plots[0], "y")) * unit == pytest.approx(2.42322, rel=1e-9)
+    assert (line[at, 1] - zero(plot, "y")) * unit == pytest.approx(2.42322, rel=1e-9)
+    # stroke and bore of 105.8 mm, clearance of 120 cm3
+    (line,), (circle,) = lines(drawing, "indicator"), lines(drawing, "circle")
+    volumes = (line[:, 0] - zero(drawing.plots[0], "x")) * scale(drawing, "V")
+    assert (np.min(volumes), np.ptp(volumes)) == pytest.approx((120, math.pi / 4 * 10.58**3), rel=1e-9)
+    written = next(found for one in texts(drawing) if (found := re.search(r"/{μ}_{S} = ([\d,]+)", one.text)))
+    assert np.ptp(circle[:, 0]) * value(written[1]) == pytest.approx(105.8, rel=5e-4)
+    # the loop of gas exchange, to the scale that stands below it, down to the intake at 0.08 MPa
+    inset = drawing.plots[2]
+    (written,) = (found for one in texts(drawing) if (found := re.search(r"/{μ}_{p} = ([\d,]+)", one.text)))
+    low = min(np.min(one[:, 1]) for one in lines(drawing, "gas_exchange"))
+    lowest = np.min(drawn_of(results("spark-engine"), "ru").values("gas_pressure"))
+    assert lowest == pytest.approx(0.08, rel=1e-3)
+    assert (low - zero(inset, "y")) * value(written[1]) == pytest.approx(lowest, rel=1e-9)
     # the angle of a cycle is drawn to two or four degrees a millimetre
     for one in sheets("spark-engine", "ru")[:2]:
         assert {scale(found.drawing, "φ") for found in one.figures if found.name in OVER_CYCLE} <= {2, 4}
     # the pressure of the surroundings is named at the end of its line
-    drawing = sheet.figure("indicator").drawing
-    inset = drawing.plots[1].box
     (place,) = (one.place for one in texts(drawing) if one.text == "/{p}_{0}")
-    assert place[0] == pytest.approx(inset.left + inset.width)
+    (line,) = [one for one in lines(drawing, "ambient") if one[0, 1] < drawing.plots[0].box.bottom]
+    assert place[0] == pytest.approx(np.max(line[:, 0])) == pytest.approx(inset.box.left + inset.box.width)
+    assert within(ChartBox(*line.min(axis=0), *np.ptp(line, axis=0)), inset.box)
 
 
 @pytest.mark.slow
@@ -284,7 +296,8 @@ def test_a_small_format_takes_every_figure():
 
 @pytest.mark.slow
 def test_a_small_engine_has_room():
-    text = template("engine").replace('radius = "45 mm"', 'radius = "12 mm"')
+    text = (ROOT / "tests/machines/points-engine.toml").read_text("utf-8")
+    text = text.replace('radius = "45 mm"', 'radius = "12 mm"')
     text = text.replace('length = "160 mm"', 'length = "40 mm"')
     text = text.replace("compression_ratio = 9.0", "compression_ratio = 22")
     for sheet in drawn_sheets(analyse(read_machine(text)), "vi", paper=SIGNED):

@@ -12,9 +12,11 @@ import numpy as np
 from crankwork.analysis import Array
 from crankwork.analysis.gas_chambers import indicators
 from crankwork.locale import translate
-from crankwork.report.look import Drawn, axis_title, displayed_values, quantity_of
+from crankwork.locale.numbers import unit_name
+from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
 from crankwork.show.canvas import Canvas, plain
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
+from crankwork.show.chart_layout import current_layout, points_per_mm
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES, Drawing
 
@@ -178,15 +180,20 @@ def gas_exchange(engine: Drawn, paper: Canvas, box: ChartBox, volume: Array, pre
     calm = (engine.degrees < _CALM[0]) | (engine.degrees > _CALM[1])
     if engine.cycle != FOUR_STROKE or np.ptp(pressure[calm]) > _FLAT * np.ptp(pressure):
         return
-    ends = limits(pressure[calm], margin=0.3, is_place=True)
+    ambient = float(engine.shown("ambient_pressure", engine.results.solved.space.ambient))
+    ends = limits(np.append(pressure[calm], ambient), margin=0.3, is_place=True)
     graph = Graph(paper, box, (0.0, 1.06 * float(np.max(volume))), ends, engine.language)
     graph.frame(np.array([]), round_ticks(*ends, 5))
     graph.curve("gas_exchange", *_within(graph, volume, pressure), angles=engine.degrees)
-    ambient = float(engine.shown("ambient_pressure", engine.results.solved.space.ambient))
     graph.level(ambient, DASH_DOT, "ambient")
     small_text(paper, graph.box.left + graph.box.width, float(graph.down(ambient)) - 3,
                engine.symbol("ambient_pressure"), "end")  # fmt: skip
-    graph.set_quantity(f"{engine.symbol('diagram_pressure')}, {engine.unit('diagram_pressure')}")
+    if current_layout().is_sheet:
+        # beside it, as that of the diagrams is another
+        value = float(f"{(graph.y[1] - graph.y[0]) / graph.box.height * points_per_mm():.5g}")
+        sign, unit = engine.symbol("diagram_pressure").strip("$"), engine.unit("diagram_pressure")
+        text = f"{math_symbol(f'μ_{sign}')} = {engine.number(value)} {unit}/{unit_name('mm', engine.language)}"
+        paper.text(graph.box.left + graph.box.width / 2, graph.box.top + graph.box.height + 12, text, anchor="middle")
 
 
 def _within(graph: Graph, x: Array, y: Array) -> tuple[Array, Array]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -19,7 +20,7 @@ from crankwork.report.display import symbol
 from crankwork.report.forces import Line
 from crankwork.report.gas import gas_exchange, mark_points, named_points
 from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text, scale_text
-from crankwork.show.canvas import GREY, Canvas, plain
+from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
 from crankwork.show.chart import (
     BOTTOM,
     DOT,
@@ -34,13 +35,16 @@ from crankwork.show.chart import (
 )
 from crankwork.show.chart_layout import current_layout, points_per_mm, scaled_height
 from crankwork.show.label_placement import label_marks
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, flow_rows
 
 _PANEL, _PANEL_GAP = 126.0, 38.0
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
 _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
-_INDICATOR = 230.0
+# height of an indicator diagram, and what a number of its axes takes
+_INDICATOR, _NUMBER = 230.0, 24.0
+# height of the loop of gas exchange at least
+_LOOP = 66.0
 _HIGH, _AROUND, _LINK = 300.0, 0.6, "#8c8c8c"
 # dashes that short centrodes show, too
 _ROLLING = (3.0, 1.5)
@@ -169,11 +173,19 @@ def indicator_brix(machine: Drawn) -> Drawing:
     wide = 0.44 * layout.inner
     paper = Canvas(layout.width, TOP + high + BOTTOM + wide / 2 + _MARGIN)
     left = Graph(paper, ChartBox(layout.left, TOP, wide, high), (0.0, reach), ends, machine.language)
+    # to a round scale it is narrower
+    wide = left.box.width
     place = ChartBox(layout.left + wide + _TITLES, TOP, layout.inner - wide - _TITLES, high)
     right = Graph(paper, place, (0.0, machine.cycle), ends, machine.language, "crank_angle")
+    paper.height = TOP + left.box.height + BOTTOM + max(wide / 2, _LOOP) + _MARGIN
     ticks = left.up_ticks
-    left.frame(round_ticks(0.0, reach, 6), ticks)
-    right.frame(np.arange(0.0, machine.cycle + 1, 90.0), ticks)
+    titles = [_short(machine.title(key), graph) for key, graph in (("cylinder_volume", left), ("crank_angle", right))]
+    marks = _half_circle(machine, left)
+    volumes = round_ticks(0.0, reach, max(2, min(6, int(wide / _NUMBER))))
+    _clear(left, volumes, titles[0], machine)
+    left.frame(volumes, ticks)
+    steps = (step for step in (90.0, 180.0) if machine.cycle / step * _NUMBER <= right.box.width)
+    right.frame(np.arange(0.0, machine.cycle + 1, next(steps, 360.0)), ticks)
     left.curve("indicator", volume, pressure, angles=degrees)
     right.curve("pressure", degrees, pressure)
     for graph in (left, right):
@@ -183,17 +195,35 @@ def indicator_brix(machine: Drawn) -> Drawing:
     mark_points(right, [(name, angle, value - zero) for name, angle, value in points])
     unit = machine.unit("diagram_pressure")
     left.y_title(f"{machine.symbol('diagram_pressure')}, {unit}", 30.0)
-    left.x_title(machine.title("cylinder_volume"))
+    left.x_title(titles[0])
     right.set_quantity(f"{machine.symbol('diagram_pressure')}, {unit}")
-    right.x_title(machine.title("crank_angle"))
-    _half_circle(machine, left)
-    below = ChartBox(place.left, TOP + high + BOTTOM, right.box.width, wide / 2)
+    right.x_title(titles[1])
+    label_marks(paper, marks, size=7.0, dot=1.2)
+    below = ChartBox(place.left, TOP + left.box.height + BOTTOM, right.box.width, max(wide / 2, _LOOP))
     gas_exchange(machine, paper, below, volume, pressure)
     return paper.drawing(figure_title("indicator_brix", machine.language), machine.language)
 
 
-def _half_circle(machine: Drawn, graph: Graph) -> None:
-    """Draw the half circle of Brix between the volumes at the dead centres, and its points up to the diagram."""
+def _short(title: str, graph: Graph) -> str:
+    """Return the title of an axis, its symbol and unit alone where the words are wider than the axis."""
+    return title if text_width(title, 9.0) * WIDER <= graph.box.width + _NUMBER else title[title.index("$") :]
+
+
+def _clear(graph: Graph, ticks: Array, title: str, machine: Drawn) -> None:
+    """Clear the ground under the numbers and the title of a horizontal axis, so that no line runs through them."""
+    texts = [(machine.number(float(tick)), float(graph.across(tick)), 12.5, 8.5) for tick in ticks]
+    texts.append((title, graph.box.left + graph.box.width / 2, 26.0, 9.0))
+    for text, middle, down, size in texts:
+        half, foot = WIDER * text_width(text, size) / 2 + 1, graph.box.top + graph.box.height + down
+        left, right, high, low = middle - half, middle + half, foot - 0.9 * size, foot + 0.4 * size
+        graph.paper.area([left, right, right, left], [high, high, low, low])
+
+
+def _half_circle(machine: Drawn, graph: Graph) -> list[tuple[str, float, float]]:
+    """Draw the half circle of Brix between the volumes at the dead centres, and lines up to the diagram.
+
+    Returned are the names of its points and where they are.
+    """
     space, lengths, paper = machine.results.solved.space, machine.results.solved.lengths, graph.paper
     ends = machine.shown("cylinder_volume", np.array([space.clearance, space.clearance + space.swept]))
     first, last = graph.across(ends).tolist()
@@ -208,15 +238,18 @@ def _half_circle(machine: Drawn, graph: Graph) -> None:
     foot = np.full_like(x, graph.box.top + graph.box.height)
     paper.segments(np.column_stack([x, y, x, foot]), width=0.4, colour=GREY)
     marks = [(machine.number(_STEP * k), *place) for k, place in enumerate(zip(x.tolist(), y.tolist(), strict=True))]
-    label_marks(paper, [*marks, ("O", centre, level), ("O′", *pole)], size=7.0, dot=1.2)
-    text = f"OO′ = {machine.symbol('rod_ratio')}{machine.symbol('crank_radius')}/2"
-    text += f";  {machine.symbol('ambient_pressure')} = {machine.value('ambient_pressure', space.ambient)}"
+    said = [
+        f"OO′ = {machine.symbol('rod_ratio')}{machine.symbol('crank_radius')}/2",
+        f"{machine.symbol('ambient_pressure')} = {machine.value('ambient_pressure', space.ambient)}",
+    ]
     if current_layout().is_sheet:
         millimetres = (last - first) / points_per_mm()
         value = float(f"{machine.shown('stroke', space.swept / space.area) / millimetres:.4g}")
-        sign = machine.symbol("piston_displacement").strip("$")
-        text += f";  {scale_text(f'μ_{sign}', value, 'mm', machine.language)}"
-    paper.text(centre, level + radius + 22, text, size=8, anchor="middle")
+        sign = machine.symbol("piston_displacement").strip("$").partition("_")[0]
+        said.append(scale_text(f"μ_{sign}", value, "mm", machine.language))
+    for row, text in enumerate(flow_rows(said, ";  ", graph.box.width / WIDER, partial(text_width, size=8))):
+        paper.text(centre, level + radius + 22 + 12 * row, text, size=8, anchor="middle")
+    return [*marks, ("O", centre, level), ("O′", *pole)]
 
 
 def tolle(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
