@@ -238,7 +238,7 @@ def _half_circle(machine: Drawn, graph: Graph) -> list[tuple[str, float, float]]
     foot = np.full_like(x, graph.box.top + graph.box.height)
     paper.segments(np.column_stack([x, y, x, foot]), width=0.4, colour=GREY)
     marks = [(machine.number(_STEP * k), *place) for k, place in enumerate(zip(x.tolist(), y.tolist(), strict=True))]
-    said = [
+    captions = [
         f"OO′ = {machine.symbol('rod_ratio')}{machine.symbol('crank_radius')}/2",
         f"{machine.symbol('ambient_pressure')} = {machine.value('ambient_pressure', space.ambient)}",
     ]
@@ -246,8 +246,8 @@ def _half_circle(machine: Drawn, graph: Graph) -> list[tuple[str, float, float]]
         millimetres = (last - first) / points_per_mm()
         value = float(f"{machine.shown('stroke', space.swept / space.area) / millimetres:.4g}")
         sign = machine.symbol("piston_displacement").strip("$").partition("_")[0]
-        said.append(scale_text(f"μ_{sign}", value, "mm", machine.language))
-    for row, text in enumerate(flow_rows(said, ";  ", graph.box.width / WIDER, partial(text_width, size=8))):
+        captions.append(scale_text(f"μ_{sign}", value, "mm", machine.language))
+    for row, text in enumerate(flow_rows(captions, ";  ", graph.box.width / WIDER, partial(text_width, size=8))):
         paper.text(centre, level + radius + 22 + 12 * row, text, size=8, anchor="middle")
     return [*marks, ("O", centre, level), ("O′", *pole)]
 
