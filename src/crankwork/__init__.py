@@ -4,7 +4,7 @@
 >>> machine = crankwork.read_machine(crankwork.template("engine"))
 >>> results = crankwork.analyse(machine)
 >>> round(results["mean_torque"], 2)
-34.94
+31.45
 """
 
 from __future__ import annotations

@@ -527,7 +527,7 @@ def test_a_pressure_that_does_not_change_is_said_to(reading, pressure):
     degrees = np.arange(720.0)
     words = reading(rows(degrees, pressure + 1e-4 * np.sin(degrees)), "petrol", BAR, 'pressures = "gauge"').words
     assert "the pressure hardly changes over the cycle" in words
-    assert 'as pressure_column, or shift = "0 deg" if it is so' in words
+    assert 'as measured.pressure_column, or shift = "0 deg" if it is so' in words
 
 
 ORDERS = [

@@ -427,7 +427,7 @@ class Results(Mapping[str, Array | float]):
         >>> import crankwork
         >>> results = crankwork.analyse(crankwork.read_machine(crankwork.template("engine")))
         >>> results.value("stroke"), round(results.value("crank_torque", at=390.5), 3)
-        (0.09, 376.47)
+        (0.09, 340.192)
         """
         key = self.current(key)
         if (holding := self.holding(key)) is not self:
