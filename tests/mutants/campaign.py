@@ -33,12 +33,12 @@ import pytest
 from _pytest.runner import runtestprotocol
 
 from crankwork.formula.expression import FORMULAS, Formula
-from replaced import replaced_formula
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
 from campaigns.detection import Map  # noqa: E402 - the folder of tests is no package
+from replaced import replaced_formula  # noqa: E402 - the folder of tests is no package
 from campaigns.faulty import in_turn  # noqa: E402
 from campaigns.marked import SOURCE, prepare  # noqa: E402
 
