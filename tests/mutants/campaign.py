@@ -38,9 +38,9 @@ HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
 from campaigns.detection import Map  # noqa: E402 - the folder of tests is no package
-from replaced import replaced_formula  # noqa: E402 - the folder of tests is no package
 from campaigns.faulty import in_turn  # noqa: E402
 from campaigns.marked import SOURCE, prepare  # noqa: E402
+from replaced import replaced_formula  # noqa: E402 - the folder of tests is no package
 
 CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "crankwork" / "mutants"
 SECONDS = 60
