@@ -10,7 +10,12 @@ import pytest
 import crankwork
 
 ROOT = Path(__file__).parents[2]
-MACHINES = (ROOT / "examples", ROOT / "src/crankwork/description/templates", ROOT / "tests/machines")
+MACHINES = (
+    ROOT / "examples",
+    ROOT / "src/crankwork/description/templates",
+    ROOT / "tests/machines",
+    ROOT / "tests/literature/assignments",
+)
 FILES = sorted(path.relative_to(ROOT).as_posix() for folder in MACHINES for path in folder.glob("*.toml"))
 
 
