@@ -149,14 +149,15 @@ COMMENTED = re.compile(r"# (?P<key>\w+) = (?P<value>\"[^\"]*\"|\[[^\]]*\]|[\w.]+
 ALTERNATIVE = re.compile(r"(?:or|add) (?P<key>\w+) = (?P<value>\"[^\"]*\"|[\d.]+)")
 
 
-HEADER = re.compile(r"# \[+(?!gas\.)[a-z_.]+\]")
+# measured pressures need a file beside them
+HEADER, ANY_HEADER = re.compile(r"# \[+(?!gas)[a-z_.]+\]"), re.compile(r"# \[+[a-z_.]+\]")
 
 
 def _header_above(lines: list[str], number: int) -> int | None:
     """Return the line of the commented table header that a commented line belongs to."""
     while number > 0 and lines[number].startswith("# "):
         number -= 1
-        if HEADER.match(lines[number]):
+        if ANY_HEADER.match(lines[number]):
             return number
     return None
 
