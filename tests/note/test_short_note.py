@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from types import SimpleNamespace
@@ -12,7 +13,7 @@ import pytest
 
 import crankwork
 from crankwork.analysis.all_cylinders import with_engine_results
-from crankwork.locale import translate
+from crankwork.locale import capital, translate
 from crankwork.note.contents import note_of, written_note
 from crankwork.note.document import Contents, Equation, Figure, Heading, Note, Paragraph, TitlePage
 from crankwork.note.numbering import equation_source, numbering
@@ -23,6 +24,7 @@ from crankwork.quantities import LANGUAGES, Language
 from crankwork.report.display import key_unit
 from crankwork.report.drawing import film_of
 from crankwork.report.look import figure_title, kind_of
+from crankwork.report.summary import warning_text
 from crankwork.units import from_si
 from each import failing
 from note.test_symbols_of_notes import unexplained
@@ -275,3 +277,14 @@ def written(name: str, language: Language) -> None:
 def test_short_notes_are_written_in_every_format_on_few_pages(names):
     cases = {case: named for case, named in CASES.items() if named[0] in names}
     assert failing(cases, lambda case: written(*case)) == {}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_check_that_fails_is_said_on_the_first_page(language):
+    right = analysed("slider-crank")
+    wrong = replace(right, checks={**right.checks, "work": 0.5})
+    said = [block.runs[0] for block in blocks(note_of(wrong, NoteOptions(language=language)), Paragraph)]
+    (warning,) = [text for text in said if isinstance(text, str) and translate("report.work", language) in text]
+    assert warning == capital(warning_text(wrong, language))
+    holds = translate("sentences.all_hold", language, count="", residual="").partition("(")[0]
+    assert not any(isinstance(text, str) and text.startswith(holds) for text in said)

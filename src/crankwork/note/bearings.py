@@ -25,6 +25,7 @@ from crankwork.note.parts import (
     every,
     full,
     has,
+    in_full,
     turning,
 )
 from crankwork.note.wording import named
@@ -97,7 +98,7 @@ _STATED = Lines("bearing_loads", _STATISTICS, intro="loads", first=True)
 _OF_ROD = Lines("bearings", _ON_ROD)
 _LOADS, _OF_WEAR = Rows("bearing_loads", "loads"), Rows("crankpin_wear", "crankpin_wear")
 _WEAR: tuple[Part, ...] = (
-    _oil_hole, Shown(("crankpin_wear",), (lambda material: _OF_WEAR(material) if material.full else None,)),
+    _oil_hole, Shown(("crankpin_wear",), (in_full(_OF_WEAR),)),
 )  # fmt: skip
 SECTIONS = (
     # polar, unrolled and wear in one

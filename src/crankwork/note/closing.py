@@ -10,7 +10,7 @@ import numpy as np
 
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.rounding_noise import without_rounding
-from crankwork.locale import translate
+from crankwork.locale import capital, translate
 from crankwork.note import balance, bearings
 from crankwork.note.data import GEAR, cycle_keys
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
@@ -27,6 +27,7 @@ from crankwork.report.display import display_key, displayed, key_unit, label
 from crankwork.report.drawing import film_of
 from crankwork.report.look import figure_title, kind_of
 from crankwork.report.notices import notice_text
+from crankwork.report.summary import warning_text
 from crankwork.report.tables import any_nonzero
 
 # results of a crank gear that stand in the conclusion, in their order; the others stand in the appendix
@@ -66,7 +67,7 @@ _NUMBERS = (
     "flywheel_inertia.exact", "speed_fluctuation", "piston_velocity_max", "piston_acceleration_max",
     "piston_acceleration_min",
 )  # fmt: skip
-# what is left out beside another: a flywheel may follow from another excess work than that of the shaft
+# what another makes needless: a flywheel may follow from another excess work than that of the shaft
 _SAME = {"shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",)}
 _GLANCE = 10
 
@@ -203,13 +204,15 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     yield words.paragraph("see_table", tables=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
-    if results.checks:
+    if warning := warning_text(results, words.language):
+        yield Paragraph((capital(warning),))
+    elif results.checks:
         largest = words.number(100.0 * max(results.checks.values()), digits=2)
         yield words.paragraph("all_hold", count=str(len(results.checks)), residual=largest)
 
 
 def _left_out(material: Material) -> Iterator[Block]:
-    """Yield what the full note has beside this one."""
+    """Yield what only the full note has."""
     words = material.words
     step = words.amount(math.radians(material.results.machine.table_step), "deg")
     left = [figure_title(name, words.language) for name in dict.fromkeys(map(kind_of, material.remaining_figures()))]

@@ -29,6 +29,7 @@ from crankwork.note.parts import (
     Text,
     When,
     full,
+    in_full,
     machine_has,
 )
 from crankwork.note.printed_units import printed_unit
@@ -342,7 +343,7 @@ SECTIONS = (
     Section("indicator", (
         Head("indicator"), _measured, Lines("gas", intro="volumes"), When(full, (_polytropes,)),
         When(_is_absolute, (Text("absolute"),)),
-        Shown(("indicator", "pressure"), (_points, lambda material: _laws(material) if material.full else None)),
+        Shown(("indicator", "pressure"), (_points, in_full(_laws))),
         Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"), _OF_DELIVERY,
         When(lambda material: any(key.startswith("inlet_flow.") for key in material.summary), (
             Text("delivery_of_all"),

@@ -35,7 +35,7 @@ class Meaning(NamedTuple):
 
     symbol: str
     text: str
-    is_derived: bool = False  # Whether it is told by what it is made of, for want of a name
+    is_derived: bool = False  # Whether its text says only what it is made of, for want of a name
 
 
 def legend(step: FormulaLine | Formula, language: Language, known: frozenset[str] = frozenset()) -> tuple[Meaning, ...]:

@@ -65,7 +65,7 @@ _SEE = {
     "table": ("see_table", "see_tables"), "construction": ("see_construction", "see_constructions"),
     "figure": ("see_figure", "see_figures"),
 }  # fmt: skip
-# figures of a note that does not show all, and those that a school asks for beside them
+# figures of a note that does not show all, and those that a school adds to them
 _MAIN_FIGURES = frozenset((
     "kinematics", "indicator", "pressure", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
     "crankpin_wear", "main_journal_polar", "balance_orders", "excess_work", "position_plans", "velocity_plan",

@@ -26,6 +26,7 @@ from crankwork.note.parts import (
     every,
     full,
     has,
+    in_full,
 )
 from crankwork.note.tables import Column, tabulated
 from crankwork.note.wording import named
@@ -105,7 +106,7 @@ SECTIONS = (
         _REPEATS,
         Shown(("kinematics", "brix", "tolle"), (
             Over("motion", tuple(key for noun in _NOUNS for key in (*_orders(noun), noun)), one_turn=True),
-            lambda material: _OF_RODS(material) if material.full else None,
+            in_full(_OF_RODS),
         )),
         _largest_errors,
     ), has("piston_displacement")),

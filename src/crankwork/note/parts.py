@@ -176,6 +176,11 @@ def full(material: Material) -> bool:
     return material.full
 
 
+def in_full(table: Callable[[Material], Table | None]) -> Callable[[Material], Table | None]:
+    """Return a table of the note that shows everything, None in another one."""
+    return lambda material: table(material) if material.full else None
+
+
 def has(*keys: str) -> Condition:
     """Return the condition that results have a column, single value, table or listing of each name."""
     return lambda material: all(map(material.has, keys))
