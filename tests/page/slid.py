@@ -28,7 +28,10 @@ MACHINES = {
     "parallelogram's mass": ((EXAMPLES / "parallelogram.toml").read_text("utf-8"), ("links.coupler.centre[1]",)),
     # a jump that stands at a row of the tables, a diagram within another, one length, a cycle as long as its speed
     "steam": ((EXAMPLES / "double-acting-steam.toml").read_text("utf-8"), ("chambers.head.pieces[2].exponent",)),
-    "loop": ("engine", ("crank.radius", "crank.speed=1000..6000rpm")),
+    "loop": (
+        (EXAMPLES.parent / "tests/machines/points-engine.toml").read_text("utf-8"),
+        ("crank.radius", "crank.speed=1000..6000rpm"),
+    ),
     "crank": ("four-bar", ("crank.radius",)),
     "punch": ((EXAMPLES / "punching-machine.toml").read_text("utf-8"), ("crank.speed",)),
 }
