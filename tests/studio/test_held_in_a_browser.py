@@ -129,7 +129,7 @@ def test_a_legend_follows_and_a_number_slid_beyond_the_machines_around_is_asked_
     stated = legend.text_content()
     assert hold(page, "rod.length", share=0.2) == "false"
     inside, held = drawn.inner_html(), legend.text_content()
-    assert "34.94" in stated != held
+    assert "31.45" in stated != held
     let_go(page, "rod.length")
     # what is written of the mean torque is what the server writes
     assert legend.text_content() == held
