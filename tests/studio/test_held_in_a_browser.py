@@ -122,8 +122,11 @@ def _apart(point, line):
 def test_a_legend_follows_and_a_number_slid_beyond_the_machines_around_is_asked_for(seen):
     page = seen()
     # whose mean torque depends on the length of its rod
+    page.locator("#text-tab").click()
     page.locator("#source").fill((EXAMPLES.parent / "tests/machines/points-engine.toml").read_text("utf-8"))
+    page.wait_for_function("() => document.getElementById('results').innerText.includes('34.94')")
     settled(page)
+    page.locator("#form-tab").click()
     with_figure(page, "torque")
     prepared(page, "rod.length")
     drawn = page.locator("#film svg")

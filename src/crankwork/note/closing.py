@@ -204,8 +204,8 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     yield words.paragraph("see_table", tables=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
-    if warning := warning_text(results, words.language):
-        yield Paragraph((capital(warning),))
+    if results.unmet:
+        yield Paragraph((capital(warning_text(results, words.language)),))
     elif results.checks:
         largest = words.number(100.0 * max(results.checks.values()), digits=2)
         yield words.paragraph("all_hold", count=str(len(results.checks)), residual=largest)
