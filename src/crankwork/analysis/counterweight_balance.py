@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.analysis.harmonics import amplitude_of_order
+from crankwork.analysis.harmonics import amplitude_of_order, direction
+from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
 from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import shaking_force
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import ProcedureValue, Sum, TracedValue, absent, total
+from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, Sum, TracedValue, absent, given, total
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.mechanism.mechanism import Crank
 
@@ -61,19 +62,46 @@ def counterweight_balance(
     # terms that cancel leave rounding of their own size
     size = np.max(np.sum([np.abs(columns[str(n)] + np.zeros(_SAMPLES)) for n in range(len(terms))], axis=0))
     coefficients = _coefficients(x + 1j * y, size)
+    axes = _coefficients(x, size), _coefficients(y, size)
     # of a cycle of two turns there are half orders too
     counts = range(1, _ORDERS[-1] * turns + 1)
     if moment_of_all.varies:
         yield from _moment_orders(moment_of_all, _coefficients(moments), counts, turns)
     for count in counts:
+        ways = [_turning(forces, axes, count, turns, way) for way in (1, -1)]
+        sizes = [amplitude_of_harmonic(*way) for way in ways if way]
         both = abs(coefficients[count]) + abs(coefficients[-count])
-        yield f"free_force.{count / turns:g}", TracedValue(ProcedureValue(float(both), "harmonic", forces))
-    forward = complex(coefficients[driver.direction * turns])
-    moment = TracedValue(ProcedureValue(abs(forward) / trace["speed"].value ** 2, "fourier", forces))
-    yield "counterweight_moment", moment
+        formed = total("", sizes) if sizes else None
+        yield f"free_force.{count / turns:g}", TracedValue(ProcedureValue(float(both), "harmonic", forces, argument=formed))
+    forward, parts = complex(coefficients[driver.direction * turns]), _turning(forces, axes, turns, turns, driver.direction)
+    w = trace["speed"]
+    formed = amplitude_of_harmonic(*parts) / w / w if parts else None
+    moment = ProcedureValue(abs(forward) / w.value**2, "fourier", forces, argument=formed)
+    yield "counterweight_moment", TracedValue(moment)
     if forward:
         angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
-        yield "counterweight_angle", TracedValue(ProcedureValue(angle, "fourier", forces))
+        start = given("line_angle.crank", driver.start, "crank.start")
+        cos, sin = (
+            TracedValue(ProcedureValue(function(driver.start), word, (start,)))
+            for word, function in (("cosine", math.cos), ("sine", math.sin))
+        )
+        x, y = parts
+        formed = direction(-(x * cos + y * sin), x * sin - y * cos)
+        yield "counterweight_angle", TracedValue(ProcedureValue(angle, "fourier", forces, argument=formed))
+
+
+def _turning(
+    forces: tuple[TracedValue, TracedValue], axes: Sequence[NDArray[np.complex128]], count: int, turns: int, way: int
+) -> tuple[TracedValue, TracedValue] | tuple[()]:
+    """Return the part of a force that turns forward (1) or backward (-1) with an order; empty if it is rounding."""
+    waves = a_x, b_x, a_y, b_y = [
+        TracedValue(HarmonicCoefficient(2 * part, force, word, count / turns))
+        for force, axis in zip(forces, axes, strict=True)
+        for word, part in (("cosine", axis[count].real), ("sine", -axis[count].imag))
+    ]
+    if not any(wave.value for wave in waves):
+        return ()
+    return (a_x + b_y * way) * 0.5, (a_y - b_x * way) * 0.5
 
 
 def _coefficients(samples: NDArray[Any], size: float | None = None) -> NDArray[np.complex128]:

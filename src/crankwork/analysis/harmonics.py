@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
@@ -41,6 +42,11 @@ def amplitude_of_order(column: TracedValue, order: float, cosine: float, sine: f
     return amplitude
 
 
+def direction(x: TracedValue, y: TracedValue) -> TracedValue:
+    """Return the direction of a vector from the x axis. [rad]"""
+    return TracedValue(ProcedureValue(math.atan2(y.value, x.value), "direction", (x, y)))
+
+
 def traced_harmonics(harmonics: TorqueHarmonics, torque: TracedValue, kind: str = "harmonic") -> Iterator[TracedValue]:
     """Yield coefficients, amplitude and phase of every harmonic of a torque.
 
@@ -56,8 +62,9 @@ def traced_harmonics(harmonics: TorqueHarmonics, torque: TracedValue, kind: str 
         )
         amplitude = amplitude_of_harmonic(cosine, sine).named(f"{kind}_amplitude.{order:g}")
         yield from (cosine, sine, amplitude)
+        phase, parts = float(harmonics.phase[index]), (cosine, sine)
         yield TracedValue(
-            ProcedureValue(float(harmonics.phase[index]), "fourier", (cosine, sine)), f"{kind}_phase.{order:g}"
+            ProcedureValue(phase, "fourier", parts, argument=direction(*parts)), f"{kind}_phase.{order:g}"
         )
 
 

@@ -450,6 +450,8 @@ class Lowering:
                 return self.graph.apply("sin" if node.word == "sine" else "cos", self.value(node.operands[0]))
             case "mean" | "range" | "max" | "min" | "max_angle" | "min_angle" if node.operands[0].varies:
                 return self.graph.reduction(node.word, self.value(node.operands[0]))
+            case "direction":
+                return self._direction(*map(self.value, node.operands))
             case "time_ratio":
                 return self._time_ratio(*map(self.value, node.operands))
             case "harmonic_mean":
@@ -459,10 +461,23 @@ class Lowering:
             case "work":
                 pressure, volume = map(self.value, node.operands)
                 return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
+            case "harmonic" | "fourier" if self._is_zero(node):
+                return self.graph.constant(0.0)
         raise NotCompiledError("procedure", known.key or node.word)
+
+    def _is_zero(self, node: Node) -> bool:
+        """Return whether a value is zero in every design compared: what cancels leaves rounding elsewhere."""
+        return all(other.value == 0.0 for other in self._designs.counterparts(node))
+
+    def _direction(self, x: KernelValue, y: KernelValue) -> KernelValue:
+        """Return the angle of a vector from its half, by the quotient that does not cancel."""
+        apply, size = self.graph.apply, self.graph.apply("sqrt", x * x + y * y)
+        return apply("choose", x, apply("arctan", y / (size + x)), apply("arctan", (size - x) / y)) * 2.0
 
     def _harmonic(self, column: KernelValue, node: HarmonicCoefficient) -> KernelValue:
         """Return twice the mean of a column times a wave."""
+        if self._is_zero(node):
+            return self.graph.constant(0.0)
         function = {"cosine": "cos", "sine": "sin"}[node.part]
         if node.order == int(node.order):
             wave = self.graph.angle(function, int(node.order), 0.0)
