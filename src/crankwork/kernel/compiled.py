@@ -7,7 +7,7 @@ import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -100,17 +100,32 @@ class Kernel:
         delays = sorted({operand.node.by for operand in traced if isinstance(operand.node, Delayed)})
         breaks = [breakpoints_of(_reduced([trace[key] for key in keys]), cycle, start) for trace in traces]
         is_compiled = compiles() and not is_for_few
+        # what the ends of laws follow from, calculated by a kernel of its own: further inputs of this one
+        self._before: Kernel | None = None
+        beforehand = dict[int, int]()
         widths = [width for width in _WIDTHS if width * parts <= cycle] or _WIDTHS[-1:]
         for width in (cycle,) if steps else widths:
             grid, edges = _grid(breaks, delays, width, steps)
             grid = grid if rows is None else grid.with_rows(rows)
             is_shifted = any(grid.earlier(delay) is None for delay in delays)
-            lowering = Lowering(designs, angles_at, grid.degrees, is_shifted=is_shifted)
+            lower = partial(Lowering, designs, angles_at, grid.degrees, is_shifted=is_shifted)
+            lowering = lower(beforehand=beforehand)
             outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
+            if not steps and not beforehand and (reduced := lowering.reduced_before_ends()):
+                # panels are laid before any value is reduced, and an end may follow from an extreme
+                beforehand = {node: index for index, node in enumerate(reduced, start=fields.shape[1])}
+                found = [designs.counterparts(known.node) for known in reduced.values()]
+                names = [f"reduced.{index}" for index in range(len(found))]
+                earlier_traces = [
+                    {name: TracedValue(nodes[index], name) for name, nodes in zip(names, found, strict=True)}
+                    for index in range(len(traces))
+                ]
+                self._before = Kernel(earlier_traces, fields, names, angles_at, cycle=cycle, start=start, is_for_few=is_for_few)
+                lowering = lower(beforehand=beforehand)
+                outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
             if lowering.moving and steps:
                 grid = uniform_grid(lowering.zones(breaks[0]), steps)
             elif lowering.moving and edges is not None:
-                # panels are laid before any value is reduced, and an end may follow from an extreme
                 is_reduced = any(end.level > 0 for end, _ in lowering.moving)
                 edges = None if is_reduced else edges.following(lowering.moving)
                 if edges is None:
@@ -124,7 +139,8 @@ class Kernel:
             ends = [end for end, _ in lowering.moving]
             guarded = outputs | ({} if guard is None else {"": guard})
             law_ends = () if steps else ends
-            self.plan = Schedule(guarded, grid, self.fields, angles_at, law_ends, shares=is_compiled)
+            inputs = self.fields + len(beforehand)
+            self.plan = Schedule(guarded, grid, inputs, angles_at, law_ends, shares=is_compiled)
             is_running = all(value.detail in ACCUMULATED for level in self.plan.levels for value in level.reductions)
             self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
             earlier = [grid.earlier(delay) for delay in self.source.delays.of]
@@ -151,7 +167,7 @@ class Kernel:
     def run(self, designs: Array, result: BatchResult, first: int, last: int) -> None:
         """Store the single values of designs `first` to `last` in a result; threads may do so at the same time."""
         for start in range(first, last, _BATCH_SIZE):
-            batch = designs[:, start : min(start + _BATCH_SIZE, last)]
+            batch, error = self._inputs(designs[:, start : min(start + _BATCH_SIZE, last)])
             given = np.empty((self.source.given, batch.shape[1]))
             given[: len(batch)] = batch
             self._arrays.designs(0, given)
@@ -159,30 +175,44 @@ class Kernel:
                 self._module.run(given, result.values, result.truncation_error, *self._given, start)
             else:
                 self._run(given, result, start)
+            of_batch = result.truncation_error[start : start + batch.shape[1]]
+            np.maximum(of_batch, error, out=of_batch)
+
+    def _inputs(self, designs: Array) -> tuple[Array, Array]:
+        """Return fields of designs and what is calculated beforehand, shape (inputs, n), and its truncation error."""
+        if self._before is None:
+            return designs, np.zeros(designs.shape[1])
+        found = self._before(designs)
+        return np.concatenate([designs, found.values]), found.truncation_error
 
     def slopes(self, design: Array) -> tuple[Array, Array]:
         """Return single values of a design, shape (keys,), and their derivatives by its fields, (keys, fields). [SI]"""
         if any(value.detail.startswith("procedure") for level in self.plan.levels for value in level.reductions):
             raise NotCompiledError("procedure", self.keys[0])
         store, columns = self._stores(1)
-        store[: self.fields] = design[:, None]
+        inputs, _ = self._inputs(design[:, None])
+        store[: len(inputs)] = inputs
         self._arrays.designs(0, store)
         blocks = self._levels(store, columns, 1)[1]
         edges = np.full(self.plan.grid.edges.size, -1) if self._edges is None else self._edges.ends
         adjoints = [None if block is None else ReductionAdjoint(block, self.plan.grid, edges) for block in blocks]
         values = [self._of_output(value, store[:, 0]) for key, value in self.plan.outputs.items() if key]
-        return np.array(values), self._gradient(store, adjoints)
+        slopes = self._gradient(store, adjoints)
+        if self._before is not None:
+            slopes = slopes[:, : self.fields] + slopes[:, self.fields :] @ self._before.slopes(design)[1]
+        return np.array(values), slopes
 
     def truncation_error_of(self, designs: Array) -> Array:
         """Return the truncation error of the columns that each single value depends on, shape (keys, n)."""
         count = designs.shape[1]
         store, columns = self._stores(count)
-        store[: self.fields] = designs
+        inputs, before = self._inputs(designs)
+        store[: len(inputs)] = inputs
         self._arrays.designs(0, store)
         blocks = self._levels(store, columns, count)[1]
         errors = dict[int, Array]()
         for value in values_in_order(self.plan.outputs.values()):
-            error = np.max([np.zeros(count), *(errors[operand.index] for operand in value.operands)], axis=0)
+            error = np.max([before, *(errors[operand.index] for operand in value.operands)], axis=0)
             if (
                 value.kind == "reduction"
                 and value.detail != "column"
@@ -284,9 +314,8 @@ def _reduced(traced: Iterable[TracedValue]) -> list[TracedValue]:
     """Return the columns that single values are reduced from, and those that are stored."""
     traced = list(traced)
     nodes = [known.node for known in in_order(traced, into=_dependencies)]
-    columns = [
-        operand for node in nodes if isinstance(node, ProcedureValue) for operand in node.operands if operand.varies
-    ]
+    found = [node for node in nodes if isinstance(node, ProcedureValue) and node.general_form is None]
+    columns = [operand for node in found for operand in node.operands if operand.varies]
     return [*columns, *(known for known in traced if known.varies)]
 
 

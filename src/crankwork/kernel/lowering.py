@@ -60,6 +60,10 @@ _BEYOND, _MIN_BEYOND = 0.5, 0.01
 # Newton steps to an angle, and the largest last step [deg]
 _STEPS, _CONVERGED = 6, 1e-7
 
+# procedures that look at a whole column
+_REDUCTIONS = (
+    "mean", "range", "max", "min", "max_angle", "min_angle", "harmonic_mean", "tangents", "work", "fourier",
+)  # fmt: skip
 # Why a calculation is not compiled.
 Reason = Literal[
     "absent", "ways", "several_fields", "curved_field", "table", "direction", "ends", "solved", "procedure", "partial",
@@ -231,17 +235,24 @@ class Lowering:
     """Converts traced values to values of a graph.
 
     `sample_angles`: crank angles at which tables of designs are compared [deg]; `is_shifted`: whether columns of other
-    cylinders are calculated again at their own angle instead of being read from the stored column.
+    cylinders are calculated again at their own angle instead of being read from the stored column; `beforehand`: the
+    index of the input that a node is, by its id.
     """
 
     def __init__(
-        self, designs: DesignTraces, angles_at: Callable[[Any], Angles], sample_angles: Array, *, is_shifted: bool
+        self,
+        designs: DesignTraces,
+        angles_at: Callable[[Any], Angles],
+        sample_angles: Array,
+        *,
+        is_shifted: bool,
+        beforehand: Mapping[int, int] | None = None,
     ) -> None:
-        self.graph, self._sample_angles = KernelGraph(), sample_angles
+        self.graph, self._sample_angles, self._beforehand = KernelGraph(), sample_angles, beforehand or {}
         self._designs, self._angles_at, self._is_shifted = designs, angles_at, is_shifted
         # positive for designs that are within the range of the compared ones
         self._guards: list[KernelValue] = []
-        self._ends: dict[int, tuple[LawEnd, Array]] = {}
+        self._ends: dict[int, tuple[LawEnd, Array, TracedValue]] = {}
         self._values: dict[tuple[int, float | None, float], KernelValue] = {}
         self._by_angle = ByAngle(self.graph)
         self._waves: dict[tuple[str, float], _Wave] = {}
@@ -290,6 +301,9 @@ class Lowering:
         node = known.node
         key = id(node), fixed, shift
         if key in self._values:
+            return
+        if id(node) in self._beforehand:
+            self._values[key] = self.graph.input(self._beforehand[id(node)])
             return
         if node.value is not None and not self._designs.differs[id(node)]:
             self._values[key] = self.graph.constant(node.value)
@@ -392,13 +406,27 @@ class Lowering:
             return LawEnd(low, low, low)
         margin = _BEYOND * (high - low) + _MIN_BEYOND
         end = LawEnd(place.value, low - margin, high + margin, self.value(place))
-        self._ends[end.value.index if end.value else -1] = end, np.array(angles)
+        self._ends[end.value.index if end.value else -1] = end, np.array(angles), place
         return end
+
+    def reduced_before_ends(self) -> dict[int, TracedValue]:
+        """Return what must be reduced from columns before the ends of laws are known, by the ids of the nodes."""
+
+        def into(node: Node) -> Sequence[TracedValue]:
+            return () if is_reduced(node) else self._designs.dependencies(node)
+
+        def is_reduced(node: Node) -> bool:
+            is_found = isinstance(node, ProcedureValue) and node.general_form is None
+            return is_found and (isinstance(node, FunctionValue) or node.word in _REDUCTIONS)
+
+        places = [place for end, _, place in self._ends.values() if end.value is not None and end.value.level > 0]
+        below = {id(known.node): known for known in in_order(places, into=into) if is_reduced(known.node)}
+        return {index: known for index, known in below.items() if self._designs.differs[index]}
 
     @property
     def moving(self) -> list[tuple[KernelValue, Array]]:
         """Ends of laws that depend on the design, and their crank angles in the compared designs. [deg]"""
-        return [(end.value, angles) for end, angles in self._ends.values() if end.value is not None]
+        return [(end.value, angles) for end, angles, _ in self._ends.values() if end.value is not None]
 
     def zones(self, breaks: Array) -> Array:
         """Return breakpoints, with those between which designs choose their law. [deg]"""
@@ -410,7 +438,7 @@ class Lowering:
 
     def guard(self, *, is_sampled: bool) -> KernelValue | None:
         """Return a value that is infinite for designs outside the range of the compared ones; None if none can be."""
-        ends = [(end, end.value) for end, _ in self._ends.values() if is_sampled and end.value is not None]
+        ends = [(end, end.value) for end, *_ in self._ends.values() if is_sampled and end.value is not None]
         guards = [*self._guards, *((value - end.low) * (end.high - value) for end, value in ends)]
         result = self.graph.constant(0.0)
         for guard in guards:
