@@ -20,7 +20,16 @@ from crankwork.analysis.prepared import Notice
 from crankwork.errors import MethodError
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import FunctionValue, ProcedureValue, Tabulated, TracedValue, absent, given
+from crankwork.formula.traced_value import (
+    FormulaCall,
+    FunctionValue,
+    ProcedureValue,
+    Tabulated,
+    TracedValue,
+    absent,
+    given,
+    select,
+)
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine
@@ -297,7 +306,11 @@ def _wheel(method: str, work: TracedValue, balance: Balance, w: TracedValue, wan
 
 def _needed(wheel: TracedValue) -> TracedValue:
     """Return a flywheel, zero where the machine turns evenly enough without one."""
-    return wheel if wheel.value > 0 else TracedValue(ProcedureValue(0.0, "none", (wheel,)))
+    needed, node = select(wheel, wheel, 0.0), wheel.node
+    if wheel.value <= 0:
+        return TracedValue(ProcedureValue(0.0, "none", (wheel,), argument=needed))
+    assert isinstance(node, FormulaCall)  # noqa: S101 - a needed flywheel comes from a formula
+    return TracedValue(FormulaCall(node.formula, node.inputs, needed), wheel.key)
 
 
 def _rotor(motor: GearedMotor) -> dict[str, TracedValue]:

@@ -188,6 +188,9 @@ class DesignTraces:
 
 def _have_same_structure(first: Node, second: Node) -> bool:
     """Return whether two nodes have the same structure, so that only their numbers may differ."""
+    if all(isinstance(node, FormulaCall | ProcedureValue) and node.general_form is not None for node in (first, second)):
+        # their general forms are compared
+        return True
     if type(first) is not type(second) or len(first.operands) != len(second.operands):
         return False
     match first, second:
@@ -416,8 +419,9 @@ class Lowering:
             return () if is_reduced(node) else self._designs.dependencies(node)
 
         def is_reduced(node: Node) -> bool:
-            is_found = isinstance(node, ProcedureValue) and node.general_form is None
-            return is_found and (isinstance(node, FunctionValue) or node.word in _REDUCTIONS)
+            if not isinstance(node, ProcedureValue) or node.general_form is not None:
+                return False
+            return isinstance(node, FunctionValue) or node.word in _REDUCTIONS
 
         places = [place for end, _, place in self._ends.values() if end.value is not None and end.value.level > 0]
         below = {id(known.node): known for known in in_order(places, into=into) if is_reduced(known.node)}
