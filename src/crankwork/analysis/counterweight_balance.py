@@ -72,21 +72,22 @@ def counterweight_balance(
         sizes = [amplitude_of_harmonic(*way) for way in ways if way]
         both = abs(coefficients[count]) + abs(coefficients[-count])
         formed = total("", sizes) if sizes else None
-        yield f"free_force.{count / turns:g}", TracedValue(ProcedureValue(float(both), "harmonic", forces, argument=formed))
-    forward, parts = complex(coefficients[driver.direction * turns]), _turning(forces, axes, turns, turns, driver.direction)
-    w = trace["speed"]
+        force = ProcedureValue(float(both), "harmonic", forces, argument=formed)
+        yield f"free_force.{count / turns:g}", TracedValue(force)
+    w, way = trace["speed"], driver.direction
+    forward, parts = complex(coefficients[way * turns]), _turning(forces, axes, turns, turns, way)
     formed = amplitude_of_harmonic(*parts) / w / w if parts else None
     moment = ProcedureValue(abs(forward) / w.value**2, "fourier", forces, argument=formed)
     yield "counterweight_moment", TracedValue(moment)
-    if forward:
+    if forward and parts:
         angle = math.remainder(cmath.phase(-forward) - driver.start, math.tau)
         start = given("line_angle.crank", driver.start, "crank.start")
         cos, sin = (
             TracedValue(ProcedureValue(function(driver.start), word, (start,)))
             for word, function in (("cosine", math.cos), ("sine", math.sin))
         )
-        x, y = parts
-        formed = direction(-(x * cos + y * sin), x * sin - y * cos)
+        across, up = parts
+        formed = direction(-(across * cos + up * sin), across * sin - up * cos)
         yield "counterweight_angle", TracedValue(ProcedureValue(angle, "fourier", forces, argument=formed))
 
 

@@ -24,7 +24,7 @@ from crankwork.dynamics.reduction import (
     static_torque,
 )
 from crankwork.dynamics.torque_formulas import balancing_torque_of_parts
-from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given
+from crankwork.formula.traced_value import Piecewise, TracedValue, absent, given, reached
 from crankwork.kinematics import kinematic_coefficients as rates
 from crankwork.kinematics.dyads import is_zero
 from crankwork.kinematics.instant_centres import instant_centres
@@ -179,7 +179,8 @@ def _driving(
         return motor
     ends, is_brake = interpolant_of(motion.grid)({"": balancing}).sign_intervals("")
     brake: TracedValue = driving_torque_as_brake(static, dynamic, eta)
-    return TracedValue(Piecewise(ends, tuple(brake if item else motor for item in is_brake)), "driving_torque")
+    places: list[TracedValue | float] = [*(reached(balancing, end) for end in ends[:-1]), ends[-1]]
+    return TracedValue(Piecewise(places, tuple(brake if item else motor for item in is_brake)), "driving_torque")
 
 
 def _forces(solved: PreparedLinkage, running: OperatingState) -> tuple[TracedValue, dict[str, TracedValue]]:

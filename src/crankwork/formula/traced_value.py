@@ -397,6 +397,11 @@ def to_number(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
     return value.value if isinstance(value, TracedValue) else value
 
 
+def reached(column: TracedValue, degrees: float, level: float = 0.0) -> TracedValue:
+    """Return the crank angle at which a column reaches a level. [deg]"""
+    return TracedValue(ProcedureValue(degrees, "reached", (column,), degrees, given("", level)))
+
+
 def select(condition: Any, first: Any, second: Any) -> Any:  # noqa: ANN401 - numbers, arrays of them, or of traced values
     """Return the first of two values where another is above zero, else the second."""
     if any(isinstance(value, np.ndarray) and value.dtype == object for value in (condition, first, second)):

@@ -113,14 +113,10 @@ class Kernel:
             outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
             if not steps and not beforehand and (reduced := lowering.reduced_before_ends()):
                 # panels are laid before any value is reduced, and an end may follow from an extreme
-                beforehand = {node: index for index, node in enumerate(reduced, start=fields.shape[1])}
-                found = [designs.counterparts(known.node) for known in reduced.values()]
-                names = [f"reduced.{index}" for index in range(len(found))]
-                earlier_traces = [
-                    {name: TracedValue(nodes[index], name) for name, nodes in zip(names, found, strict=True)}
-                    for index in range(len(traces))
-                ]
-                self._before = Kernel(earlier_traces, fields, names, angles_at, cycle=cycle, start=start, is_for_few=is_for_few)
+                beforehand = {node: index for index, node in enumerate(reduced, start=self.fields)}
+                self._before = Kernel(
+                    *_traces_of(designs, reduced.values()), angles_at, cycle=cycle, start=start, is_for_few=is_for_few
+                )
                 lowering = lower(beforehand=beforehand)
                 outputs = {key: _of_cycle(known, lowering.value(known)) for key, known in wanted.items()}
             if lowering.moving and steps:
@@ -141,21 +137,25 @@ class Kernel:
             law_ends = () if steps else ends
             inputs = self.fields + len(beforehand)
             self.plan = Schedule(guarded, grid, inputs, angles_at, law_ends, shares=is_compiled)
-            is_running = all(value.detail in ACCUMULATED for level in self.plan.levels for value in level.reductions)
-            self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
-            earlier = [grid.earlier(delay) for delay in self.source.delays.of]
-            places = np.array(earlier, dtype=np.intp).reshape(len(earlier), grid.degrees.size)
-            # unsigned, so that no index counts from the end
-            below = (indices.astype(np.uintp) for indices in (places, self.source.order))
-            self._given = self.plan.table, *below, grid.weights, grid.degrees
-            self._module, self._arrays = None, Arrays(self.source, places)
-            self._exact = None if steps else PolynomialReductions(grid, _POLYNOMIALS)
-            self._reduced = LevelReductions(self.source, self._exact or SampledReductions(grid), parts)
+            self._carry_out(grid, is_compiled=is_compiled, steps=steps, parts=parts)
             self.keys = tuple(outputs)
             # evaluated with arrays, so that only the accepted grid is compiled
             if steps or float(np.max(self(fields.T).truncation_error)) <= enough:
                 break
         self._module = compiled(self.source.text) if is_compiled else None
+
+    def _carry_out(self, grid: Grid, *, is_compiled: bool, steps: int | None, parts: int) -> None:
+        """Write the schedule out, and set what carries it out with arrays."""
+        is_running = all(value.detail in ACCUMULATED for level in self.plan.levels for value in level.reductions)
+        self.source = Source(self.plan, is_reduced=is_compiled and steps is not None and is_running)
+        earlier = [grid.earlier(delay) for delay in self.source.delays.of]
+        places = np.array(earlier, dtype=np.intp).reshape(len(earlier), grid.degrees.size)
+        # unsigned, so that no index counts from the end
+        below = (indices.astype(np.uintp) for indices in (places, self.source.order))
+        self._given = self.plan.table, *below, grid.weights, grid.degrees
+        self._module, self._arrays = None, Arrays(self.source, places)
+        self._exact = None if steps else PolynomialReductions(grid, _POLYNOMIALS)
+        self._reduced = LevelReductions(self.source, self._exact or SampledReductions(grid), parts)
 
     def __call__(self, designs: Array) -> BatchResult:
         """Return the single values of designs, shape (fields, n). [SI]"""
@@ -295,6 +295,18 @@ class Kernel:
     def script(self) -> Script:
         """Return the schedule as JavaScript."""
         return Script(self.source, _POLYNOMIALS)
+
+
+def _traces_of(
+    designs: DesignTraces, wanted: Iterable[TracedValue]
+) -> tuple[list[dict[str, TracedValue]], Array, list[str]]:
+    """Return traces that have these values of each design, with the fields and the keys."""
+    nodes = {f"reduced.{index}": designs.counterparts(known.node) for index, known in enumerate(wanted)}
+    traces = [
+        {key: TracedValue(of_design[index], key) for key, of_design in nodes.items()}
+        for index in range(len(designs.traces))
+    ]
+    return traces, designs.fields, list(nodes)
 
 
 def _of_cycle(known: TracedValue, value: KernelValue) -> KernelValue:

@@ -156,13 +156,22 @@ class KernelGraph:
         """Return a column delayed by an angle. [deg]"""
         return self._node("delayed", (column,), delay) if column.depends_on_angle else column
 
-    def at_angle(self, column: KernelValue, degrees: KernelValue) -> KernelValue:
-        """Return the value of a column at a crank angle that depends on the design. [deg]"""
+    def at_angle(self, column: KernelValue, degrees: KernelValue, near: float) -> KernelValue:
+        """Return the value of a column at a crank angle that depends on the design. [deg]
+
+        `near`: that angle in the stated design, whose laws are taken.
+        """
         results: dict[int, KernelValue] = {}
         for value in in_order([column], into=lambda node: node.depends_on_angle):
             if value.kind == "angle":
                 function, multiple, shift = value.detail
                 results[value.index] = self._of_angle(function, degrees * float(multiple) + shift)
+            elif value.kind == "pieces" and not value.detail[1]:
+                ends = value.detail[0]
+                law = next((k for k, end in enumerate(ends) if near <= end.stated), len(ends) - 1)
+                results[value.index] = results[value.operands[law].index]
+            elif value.kind == "delayed" and not value.detail:
+                results[value.index] = results[value.operands[0].index]
             elif value.depends_on_angle:
                 if value.kind in ("pieces", "delayed"):
                     raise TypeError(f"{value!r} is none of one crank angle")

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.errors import CrankworkError
-from crankwork.formula.replay import Angles
+from crankwork.formula.replay import Angles, replay
 from crankwork.formula.traced_value import (
     AngleFunction,
     AngleUnwrap,
@@ -126,7 +126,9 @@ class DesignTraces:
             if id(first) in self._matched:
                 continue
             for other in nodes[1:]:
-                if not _have_same_structure(first, other):
+                # of general forms these are compared
+                are_general = _has_general_form(first) and _has_general_form(other)
+                if not are_general and not _have_same_structure(first, other):
                     raise NotCompiledError("ways", name)
             self._matched[id(first)] = nodes
             new.append(id(first))
@@ -186,11 +188,12 @@ class DesignTraces:
         return graph.input(moved[0]) * float(slope) + float(offset)
 
 
+def _has_general_form(node: Node) -> bool:
+    return isinstance(node, FormulaCall | ProcedureValue) and node.general_form is not None
+
+
 def _have_same_structure(first: Node, second: Node) -> bool:
     """Return whether two nodes have the same structure, so that only their numbers may differ."""
-    if all(isinstance(node, FormulaCall | ProcedureValue) and node.general_form is not None for node in (first, second)):
-        # their general forms are compared
-        return True
     if type(first) is not type(second) or len(first.operands) != len(second.operands):
         return False
     match first, second:
@@ -331,10 +334,8 @@ class Lowering:
                 return self._as_value(functools.reduce(operator.add, map(value_of, node.operands)))
             case Conditional():
                 return self.graph.apply("choose", *map(value_of, node.operands))
-            case FunctionValue():
-                return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
-            case HarmonicCoefficient():
-                return self._harmonic(self.value(node.operands[0]), node)
+            case ProcedureValue(word="harmonic" | "fourier") if self._is_zero(node):
+                return self.graph.constant(0.0)
             case ProcedureValue():
                 return self._found(known, node) if node.general_form is None else self.value(node.general_form)
             case Root() | Component():
@@ -353,6 +354,8 @@ class Lowering:
                 return self._as_value(value_of(self._designs.general_form(node)))
             case Piecewise():
                 return self._pieces(known, node, value_of, shift, fixed)
+            case Tabulated(by=argument) if argument is not None:
+                return self._table_over(node, value_of(argument), shift, fixed)
             case Tabulated() if fixed is None:
                 return self._table(node, shift)
             case AngleUnwrap() if fixed is None:
@@ -402,14 +405,18 @@ class Lowering:
         if not isinstance(place, TracedValue) or not self._designs.differs[id(place.node)]:
             angle = place.value if isinstance(place, TracedValue) else place
             return LawEnd(angle, angle, angle)
-        angles = [node.value or 0.0 for node in self._designs.counterparts(place.node)]
-        low, high = min(angles), max(angles)
-        if self._designs.fields.shape[1] == 1 and high - low <= _TOLERANCE * high:
+        angles = np.array([node.value or 0.0 for node in self._designs.counterparts(place.node)])
+        return self._law_end(angles, self.value(place), place)
+
+    def _law_end(self, angles: Array, value: KernelValue | None, place: TracedValue) -> LawEnd:
+        """Return the end of a law that is at these angles in the compared designs; `place`: what it follows from."""
+        low, high = float(angles.min()), float(angles.max())
+        if value is None or (self._designs.fields.shape[1] == 1 and high - low <= _TOLERANCE * high):
             # depends on the one number that differs, but is constant
             return LawEnd(low, low, low)
         margin = _BEYOND * (high - low) + _MIN_BEYOND
-        end = LawEnd(place.value, low - margin, high + margin, self.value(place))
-        self._ends[end.value.index if end.value else -1] = end, np.array(angles), place
+        end = LawEnd(float(angles[0]), low - margin, high + margin, value)
+        self._ends[value.index] = end, angles, place
         return end
 
     def reduced_before_ends(self) -> dict[int, TracedValue]:
@@ -451,9 +458,37 @@ class Lowering:
 
     def _table(self, node: Tabulated, shift: float) -> KernelValue:
         """Return a table over the crank angle that is the same for all designs."""
-        if node.by is not None or not self._are_near(node, lambda table: table.function, 0.0):
+        if not self._are_near(node, lambda table: table.function, 0.0):
             raise NotCompiledError("table", node.word)
         return self.graph.reading(node.function, shift)
+
+    def _table_over(self, node: Tabulated, x: KernelValue, shift: float, fixed: float | None) -> KernelValue:
+        """Return a table of points over a column: a law between each two angles at which the column passes a point."""
+        function: Any = node.function
+        argument, others = node.by, self._designs.counterparts(node)
+        is_same = all(isinstance(other, Tabulated) and other.function == function for other in others)
+        if argument is None or not is_same or not hasattr(function, "law_at"):
+            raise NotCompiledError("table", node.word)
+        knots = np.array([other.knots for other in others if isinstance(other, Tabulated)])
+        knots = knots[:, np.argsort(knots[0])]
+        if np.any(np.diff(knots, axis=1) < 0):
+            raise NotCompiledError("ways", argument.key)
+        last = max(float(self._sample_angles[-1]), float(knots[0, -1])) if knots.size else 0.0
+        edges = np.array([0.0, *knots[0], last])
+        at_knots, between = (
+            replay(argument, self._angles_at(angles)) + np.zeros(len(angles))
+            for angles in (knots[0], [fixed] if fixed is not None else (edges[1:] + edges[:-1]) / 2)
+        )
+        ends = []
+        for angles, value in zip(knots.T, at_knots.tolist(), strict=True):
+            corner = function.corner_near(value)
+            is_fixed = not self._designs.differs[id(argument.node)]
+            end = None if is_fixed else self._angle_where(argument, self.graph.constant(corner), angles.tolist())
+            ends.append(self._law_end(angles, end, argument))
+        if fixed is not None and any(end.low <= fixed <= end.high for end in ends if end.value is not None):
+            raise NotCompiledError("ends", argument.key)
+        laws = [self._as_value(function.law_at(value)(x)) for value in between.tolist()]
+        return self.graph.pieces((*ends, LawEnd(math.inf, math.inf, math.inf)), tuple(laws), shift) if ends else laws[0]
 
     def _half_turns(self, node: AngleUnwrap, value_of: Any, shift: float) -> KernelValue:  # noqa: ANN401
         """Return the half turns of a direction that is close to that of the stated design."""
@@ -471,21 +506,30 @@ class Lowering:
         return all(bool(np.all(np.abs(values - stated) <= limit)) for values in compared)
 
     def _found(self, known: TracedValue, node: ProcedureValue) -> KernelValue:
+        match node:
+            case FunctionValue():
+                return self.graph.procedure(node.function, node.part, map(self.value, node.operands))
+            case HarmonicCoefficient():
+                return self._harmonic(self.value(node.operands[0]), node)
+        return self._of_word(known, node)
+
+    def _of_word(self, known: TracedValue, node: ProcedureValue) -> KernelValue:
+        """Lower what a procedure found that is told by its word alone."""
         match node.word:
             case "at" if node.by is not None and self._designs.differs[id(node.by.node)]:
-                return self._at(node.operands[0], self.value(node.by))
+                return self._at(node.operands[0], self.value(node.by), node.at or 0.0)
             case "at" if len({getattr(other, "at", None) for other in self._designs.counterparts(node)}) == 1:
                 return self.value(node.operands[0], fixed=node.at)
             case "reached" if node.by is not None:
-                return self._reached(node, self.value(node.by))
+                angles = [counterpart.value or 0.0 for counterpart in self._designs.counterparts(node)]
+                return self._angle_where(node.operands[0], self.value(node.by), angles)
             case "sine" | "cosine":
                 return self.graph.apply("sin" if node.word == "sine" else "cos", self.value(node.operands[0]))
             case "mean" | "range" | "max" | "min" | "max_angle" | "min_angle" if node.operands[0].varies:
                 return self.graph.reduction(node.word, self.value(node.operands[0]))
-            case "direction":
-                return self._direction(*map(self.value, node.operands))
-            case "time_ratio":
-                return self._time_ratio(*map(self.value, node.operands))
+            case "direction" | "time_ratio":
+                method = self._direction if node.word == "direction" else self._time_ratio
+                return method(*map(self.value, node.operands))
             case "harmonic_mean":
                 return 1.0 / self.graph.reduction("mean", 1.0 / self.value(node.operands[0]))
             case "tangents":
@@ -493,8 +537,6 @@ class Lowering:
             case "work":
                 pressure, volume = map(self.value, node.operands)
                 return self.graph.reduction("integral", pressure * self._by_angle.of(volume))
-            case "harmonic" | "fourier" if self._is_zero(node):
-                return self.graph.constant(0.0)
         raise NotCompiledError("procedure", known.key or node.word)
 
     def _is_zero(self, node: Node) -> bool:
@@ -508,8 +550,6 @@ class Lowering:
 
     def _harmonic(self, column: KernelValue, node: HarmonicCoefficient) -> KernelValue:
         """Return twice the mean of a column times a wave."""
-        if self._is_zero(node):
-            return self.graph.constant(0.0)
         function = {"cosine": "cos", "sine": "sin"}[node.part]
         if node.order == int(node.order):
             wave = self.graph.angle(function, int(node.order), 0.0)
@@ -518,24 +558,26 @@ class Lowering:
             wave = self.graph.reading(self._waves[function, node.order], 0.0)
         return self.graph.reduction("mean", column * wave) * 2.0
 
-    def _at(self, column: TracedValue, degrees: KernelValue) -> KernelValue:
+    def _at(self, column: TracedValue, degrees: KernelValue, near: float) -> KernelValue:
         try:
-            return self.graph.at_angle(self.value(column), degrees)
+            return self.graph.at_angle(self.value(column), degrees, near)
         except TypeError:
             raise NotCompiledError("ends", column.key) from None
 
-    def _reached(self, node: ProcedureValue, target: KernelValue) -> KernelValue:
-        """Return the crank angle at which a column reaches a value, by Newton's method. [deg]"""
-        column = node.operands[0]
+    def _angle_where(self, column: TracedValue, target: KernelValue, angles: Sequence[float]) -> KernelValue:
+        """Return the crank angle at which a column reaches a value, by Newton's method. [deg]
+
+        `angles`: where it does so in the compared designs, the stated one first.
+        """
+        # a volume grows ever faster after a dead centre: from the far side steps do not overshoot
+        near, start = angles[0], max(angles)
         try:
             slope = self._by_angle.of(self.value(column))
         except (KeyError, TypeError):
             raise NotCompiledError("ends", column.key) from None
-        # a volume grows ever faster after a dead centre: from the far side steps do not overshoot
-        angle = self.graph.constant(max(counterpart.value or 0.0 for counterpart in self._designs.counterparts(node)))
-        step = angle
+        step = angle = self.graph.constant(start)
         for _ in range(_STEPS):
-            step = (self._at(column, angle) - target) / self.graph.at_angle(slope, angle) * (180 / math.pi)
+            step = (self._at(column, angle, near) - target) / self.graph.at_angle(slope, angle, near) * (180 / math.pi)
             angle = angle - step
         self._guards.append(_CONVERGED**2 - step * step)
         return angle

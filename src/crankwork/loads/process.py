@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal, NamedTuple
@@ -11,12 +12,12 @@ import numpy as np
 
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value
-from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, absent, given, is_traced, named
+from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, absent, given, is_traced, named, reached
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.traced_motion import angle_of, interpolant_of
 from crankwork.loads.applied_loads import AppliedLoads, check_name, force_along_guide, force_at, torque_on
-from crankwork.loads.interpolation import CurvePoint, curve_between
+from crankwork.loads.interpolation import CurvePoint, cubic_between, curve_between, line_between
 from crankwork.loads.load_curve import Curve
 from crankwork.loads.load_curve import LoadCurve as LoadTable
 from crankwork.loads.monotone import monotone_slopes
@@ -111,9 +112,10 @@ def _traced(load: ProcessForce, travel: _Travel, motion: Motion, name: str, path
     (*ends, last), is_back = over.sign_intervals("rate")
     # the force acts at rest: an interval of the return stroke does not own its end
     ends = [_rounded(end, over.breaks, back=back) for end, back in zip(ends, is_back, strict=False)]
+    places: list[TracedValue | float] = [reached(travel.position_1, end) for end in ends]
     if is_back[-1] and not is_back[0]:
-        ends, is_back = [*ends, math.nextafter(last, 0.0)], [*is_back, False]
-    return TracedValue(Piecewise([*ends, last], tuple(absent(key) if back else force for back in is_back)), key)
+        places, is_back = [*places, math.nextafter(last, 0.0)], [*is_back, False]
+    return TracedValue(Piecewise([*places, last], tuple(absent(key) if back else force for back in is_back)), key)
 
 
 def _rounded(end: float, breaks: Array, *, back: bool) -> float:
@@ -165,8 +167,25 @@ class StatedTable:
         """Return the values at some abscissas."""
         return self.table(abscissas if self.table.period else np.clip(abscissas, self.table.at[0], self.table.at[-1]))
 
-    def between(self, abscissa: float, argument: TracedValue) -> TracedValue:
-        """Return the value at one abscissa, interpolated between two points."""
+    def corner_near(self, abscissa: float) -> float:
+        """Return the abscissa of the point that is nearest to an abscissa."""
+        x, _, _, turn, _ = self._around(abscissa)
+        return float(x[np.argmin(np.abs(x + turn - abscissa))]) + turn
+
+    def law_at(self, abscissa: float) -> Callable[[Value], Value]:
+        """Return the law between the points around an abscissa, as a function of the abscissa."""
+        x, y, slopes, turn, first = self._around(abscissa)
+        if not self.table.period and not x[0] < abscissa < x[-1]:
+            return lambda _: float(y[0] if abscissa <= x[0] else y[-1])
+        begin, length = float(x[first]) + turn, float(x[first + 1] - x[first])
+        ordinates = float(y[first]), float(y[first + 1])
+        if self.table.interpolation == "linear":
+            return lambda value: line_between(*ordinates, (value - begin) / length)
+        rises = float(slopes[first]) * length, float(slopes[first + 1]) * length
+        return lambda value: cubic_between(ordinates, rises, (value - begin) / length)
+
+    def _around(self, abscissa: float) -> tuple[Array, Array, Array, float, int]:
+        """Return points and slopes of one period, its start, and the number of the point before an abscissa."""
         x, y, period = np.array(self.table.at), np.array(self.table.values), self.table.period
         turn = 0.0
         if period:
@@ -175,7 +194,11 @@ class StatedTable:
                 x, y = np.append(x, x[0] + period), np.append(y, y[0])
         is_straight = self.table.interpolation == "linear"
         slopes = np.zeros_like(y) if is_straight else monotone_slopes(x, y, periodic=bool(period))
-        first = int(np.clip(np.searchsorted(x, abscissa - turn, side="right") - 1, 0, len(x) - 2))
+        return x, y, slopes, turn, int(np.clip(np.searchsorted(x, abscissa - turn, side="right") - 1, 0, len(x) - 2))
+
+    def between(self, abscissa: float, argument: TracedValue) -> TracedValue:
+        """Return the value at one abscissa, interpolated between two points."""
+        x, y, slopes, turn, first = self._around(abscissa)
 
         def point(k: int) -> CurvePoint:
             number = self.before + k % len(self.table.at) + 1
@@ -184,6 +207,7 @@ class StatedTable:
             value = given("", float(y[k]), f"{self.path}[{number}]")
             return CurvePoint(given("", float(x[k]) + turn, stated), value, float(slopes[k]))
 
+        is_straight = self.table.interpolation == "linear"
         return curve_between(self.key, argument, point(first), point(first + 1), is_straight=is_straight)
 
 
@@ -221,14 +245,15 @@ def curve_over_column(curve: Curve, over: CycleInterpolant, column: str, key: st
     low, high = curve.at[0], curve.at[-1]
     margin = _MARGIN * max(abs(low), abs(high))
     bounds = [low - margin, *(curve.at[index] for index in jumps), high + margin]
-    ends = sorted(angle for bound in bounds for angle in over.crossings(column, bound).tolist())
-    ends = [*ends, float(over.edges[-1])]
+    passed_at = sorted((angle, bound) for bound in bounds for angle in over.crossings(column, bound).tolist())
+    ends = [*(angle for angle, _ in passed_at), float(over.edges[-1])]
     values = over.at(column, (np.array([over.edges[0], *ends[:-1]]) + np.array(ends)) / 2)
     places = np.searchsorted(bounds, values).tolist()
     if set(places) == {1} and len(laws) == 1:
         return laws[0]
     laws = [absent(key), *laws, absent(key)]
-    return TracedValue(Piecewise(ends, tuple(laws[place] for place in places)), key)
+    places_of = [*(reached(known, angle, bound) for angle, bound in passed_at), ends[-1]]
+    return TracedValue(Piecewise(places_of, tuple(laws[place] for place in places)), key)
 
 
 def _corners(curve: Curve) -> tuple[float, ...]:
