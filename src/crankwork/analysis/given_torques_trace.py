@@ -120,19 +120,20 @@ class _Torque:
         path, name = f"{self._table}.strokes[{number}]", f"{self._key}.stretch_{number}"
         work, over, end = self.work(number), self._over(stroke, number), math.degrees(stroke.over)
         zero, angle = absent(self._key), TracedAngle().angle
+        ends: list[TracedValue | float] = [over * math.degrees(1.0)]
         if stroke.shape == "constant":
-            laws, ends = [torque_of_work(work, over)], [end]
+            laws = [torque_of_work(work, over)]
         else:
             peak: TracedValue = peak_torque_of_work(work, over).named(f"{self._key}.peak")
             start = absent("crank_angle")
             top = (given("peak_share", stroke.peak, f"{path}.peak") * over).named("crank_angle.peak")
-            laws, ends = [], []
+            laws = []
             if stroke.peak > 0:
                 laws.append(torque_between_points(zero, peak, angle, start, top))
-                ends.append(stroke.peak * end)
             if stroke.peak < 1:
                 laws.append(torque_between_points(peak, zero, angle, top, over))
-                ends.append(end)
+            if len(laws) == 2:
+                ends.insert(0, top * math.degrees(1.0))
         if end < self._cycle - 1e-9:
             laws, ends = [*laws, zero], [*ends, self._cycle]
         single = TracedValue(Piecewise(ends, tuple(laws)), name)

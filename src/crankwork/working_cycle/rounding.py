@@ -15,7 +15,7 @@ from numpy.polynomial import legendre
 
 from crankwork.errors import CrankworkError
 from crankwork.formula.expression import Value
-from crankwork.formula.traced_value import FunctionValue, TracedValue, select, to_number
+from crankwork.formula.traced_value import FunctionValue, TracedValue, given, select, to_number
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads.gas import polytropic_pressure
@@ -300,6 +300,7 @@ class RoundedCorners(NamedTuple):
 
     theory: Mapping[str, Value]
     timing: Timing
+    angles: Timing  # The same, traced where the diagram is
     rounding: Rounding
     volume_at: VolumeAt | TracedVolume
     dead_centres: tuple[float, float]
@@ -354,7 +355,9 @@ def corners_of(
     dead_centres = from_before_zero(dead_centres)
     top, bottom = dead_centres[0] + 360.0, dead_centres[1] + 360.0
     is_two_stroke = timing.cycle == 360.0
-    start = dead_centres[1] + (max(timing.intake_closes, timing.exhaust_closes) if is_two_stroke else 0.0)
+    angles = _traced(timing) if isinstance(volume_at, TracedVolume) else timing
+    closes = max(angles.intake_closes, angles.exhaust_closes, key=to_number)
+    start = closes + dead_centres[1] if is_two_stroke else dead_centres[1]
     volumes = volume_at(np.array([top, start]))
     clearance, start_volume = volumes.tolist()
     if to_number(theory.get("V_a", 0.0)):
@@ -363,6 +366,7 @@ def corners_of(
     return RoundedCorners(
         theory,
         timing,
+        angles,
         rounding,
         volume_at,
         dead_centres,
@@ -370,11 +374,19 @@ def corners_of(
         start,
         top,
         bottom,
-        bottom - timing.exhaust_opens,
+        bottom - angles.exhaust_opens,
         clearance,
         start_volume,
         rho * clearance,
     )
+
+
+def _traced(timing: Timing) -> Timing:
+    """Return a timing whose angles are traced, as far as they are stated."""
+    stated = {name: value for name, value in vars(timing).items() if value and name != "cycle"}
+    paths = {name: f"cycle.timing.{name.removesuffix('_advance')}" for name in stated}
+    angles: dict[str, Any] = {name: given("", value, paths[name], "deg") for name, value in stated.items()}
+    return replace(timing, **angles)
 
 
 def _check(theory: Mapping[str, Value], timing: Timing) -> None:
@@ -393,21 +405,21 @@ def _check(theory: Mapping[str, Value], timing: Timing) -> None:
 
 def compression_parts(corners: RoundedCorners) -> list[DiagramPart]:
     """Return the compression line from a, in parts that end at the named points on it."""
-    timing = corners.timing
+    timing, angles = corners.timing, corners.angles
     events = [("a", corners.start)]
     if timing.cycle > 360 and timing.intake_closes:
-        events.append(("a''", corners.start + timing.intake_closes))
+        events.append(("a''", corners.start + angles.intake_closes))
     if timing.ignition_advance:
-        events.append(("c'", corners.top - timing.ignition_advance))
+        events.append(("c'", corners.top - angles.ignition_advance))
         if timing.ignition_delay:
-            events.append(("f", corners.top - timing.ignition_advance + timing.ignition_delay))
+            events.append(("f", corners.top - angles.ignition_advance + angles.ignition_delay))
     else:
         events.append(("c", corners.top))
-    names, angles = zip(*events, strict=True)
-    numbers = [to_number(angle) for angle in angles]
+    names, places = zip(*events, strict=True)
+    numbers = [to_number(angle) for angle in places]
     if any(after <= before for before, after in pairwise(numbers)):
         raise CrankworkError(ErrorMessage("events_crossed", names=list(names), angles=numbers))
-    points = list(map(NamedPoint, names, angles, corners.compression(*angles)))
+    points = list(map(NamedPoint, names, places, corners.compression(*places)))
     exponent = corners.theory["n1"]
     return [DiagramPart("polytropic", pair, exponent=exponent, reference="~start") for pair in pairwise(points)]
 
@@ -427,7 +439,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
     highest = NamedPoint(SCHOOLS[corners.rounding.school]["highest"], top + corners.rounding.peak_angle, peak)
     joined, falls_to = highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak)
     joined = select(falls_to - joined, falls_to, joined)
-    if to_number(joined) >= to_number(corners.opens) or highest.angle <= top:
+    if to_number(joined) >= to_number(corners.opens) or to_number(highest.angle) <= top:
         raise CrankworkError(ErrorMessage("peak_late", angle=corners.rounding.peak_angle))
     opened_pressure, joined_pressure = corners.expansion(corners.opens, joined)
     opened, join = _opened(corners, opened_pressure), NamedPoint("~g", joined, joined_pressure)
@@ -475,21 +487,21 @@ def _falls_to(corners: RoundedCorners, pressure: Value) -> Value:
 
 def exchange_parts(corners: RoundedCorners) -> list[DiagramPart]:
     """Return exhaust and intake from the opening of the exhaust to a of the next cycle."""
-    theory, timing = corners.theory, corners.timing
+    theory, timing, angles = corners.theory, corners.timing, corners.angles
     low, charge = theory["p_r"], theory["p_a"]
     pressure, expanded = corners.expansion(corners.opens, corners.bottom)
     opened = _opened(corners, pressure)
     closed = NamedPoint("a", corners.start + timing.cycle, charge)
     if timing.cycle == 360:
-        out = NamedPoint("~s", corners.bottom - timing.intake_opens, low)
-        turned = NamedPoint("~t", max(corners.bottom, out.angle), low)
+        out = NamedPoint("~s", corners.bottom - angles.intake_opens, low)
+        turned = NamedPoint("~t", max(corners.bottom, out.angle, key=to_number), low)
         blown = _blow_down(corners, (opened, out))
         return [*blown, DiagramPart("constant", (out, turned)), DiagramPart("rounded", (turned, closed))]
-    out = NamedPoint("~s", corners.bottom + timing.exhaust_opens, low)
+    out = NamedPoint("~s", corners.bottom + angles.exhaust_opens, low)
     turn = corners.dead_centres[0] + 720.0
-    left = NamedPoint("r'" if timing.intake_opens else "r", turn - timing.intake_opens, low)
-    entered = NamedPoint("a'" if timing.exhaust_closes else "~a", turn + timing.exhaust_closes, charge)
-    if left.angle < out.angle:
+    left = NamedPoint("r'" if timing.intake_opens else "r", turn - angles.intake_opens, low)
+    entered = NamedPoint("a'" if timing.exhaust_closes else "~a", turn + angles.exhaust_closes, charge)
+    if to_number(left.angle) < to_number(out.angle):
         raise CrankworkError(ErrorMessage("exhaust_nothing", exhaust=timing.exhaust_opens, intake=timing.intake_opens))
     blown = []
     if timing.exhaust_opens:
@@ -509,7 +521,7 @@ def _blow_down(corners: RoundedCorners, points: tuple[NamedPoint, ...]) -> list[
         # without combustion the pressure may rise to that of the exhaust
         points = (points[0], points[-1])
     pressures = [to_number(point.pressure) for point in points]
-    if points[-1].angle <= points[0].angle:
+    if to_number(points[-1].angle) <= to_number(points[0].angle):
         return []
     if corners.kind != "motored" and any(after >= before for before, after in pairwise(pressures)):
         raise CrankworkError(ErrorMessage("blow_down_rising", pressures=[pressure / 1e6 for pressure in pressures]))
