@@ -168,18 +168,17 @@ class DesignTraces:
     def linear_dependence(self, node: Input, graph: KernelGraph) -> KernelValue:
         """Return an input as a linear function of the one field that changes it."""
         values = np.array([counterpart.value for counterpart in self.counterparts(node)], dtype=float)
-        moved = [
-            field
-            for field in range(self.fields.shape[1])
-            if len({values[0], values[1 + 2 * field], values[2 + 2 * field]}) > 1
-        ]
+        size = float(np.max(np.abs(values)))
+        pairs = np.abs(values[1 : 1 + 2 * self.fields.shape[1]].reshape(-1, 2) - values[0]).max(axis=1)
+        moved = np.flatnonzero(pairs > _TOLERANCE * size).tolist()
+        if not moved and np.ptp(values) <= _TOLERANCE * size:
+            return graph.constant(values[0])
         if len(moved) != 1:
             raise NotCompiledError("several_fields", node.path)
         x = self.fields[:, moved[0]]
         low, high = 1 + 2 * moved[0], 2 + 2 * moved[0]
         slope = (values[high] - values[low]) / (x[high] - x[low])
         offset = values[0] - slope * x[0]
-        size = float(np.max(np.abs(values)))
         if np.max(np.abs(slope * x + offset - values)) > _TOLERANCE * size:
             raise NotCompiledError("curved_field", node.path)
         if abs(offset) <= _TOLERANCE * size:
