@@ -62,13 +62,13 @@ def test_designs_that_cannot_be_assembled_are_counted_by_reason():
 
 
 def test_what_does_not_compile_is_analysed_one_by_one():
-    d = crankwork.load(EXAMPLES / "spark-engine.toml")
-    found = crankwork.sweep(d, {"rod.ratio": [0.25, 0.26]}, ["piston_velocity_error"])
+    d = crankwork.load(EXAMPLES / "radial-five.toml")
+    found = crankwork.sweep(d, {"rod.mass": ["2 kg", "2.1 kg"]}, ["best_balanced_share"])
     assert found.reason == "procedure"
     assert found.one_by_one == 2
-    for ratio, value in zip((0.25, 0.26), found.values["piston_velocity_error"], strict=True):
-        d["rod.ratio"] = ratio
-        assert value == crankwork.analyse(d).summary["piston_velocity_error"]
+    for mass, value in zip(("2 kg", "2.1 kg"), found.values["best_balanced_share"], strict=True):
+        d["rod.mass"] = mass
+        assert value == crankwork.analyse(d).summary["best_balanced_share"]
 
 
 def test_a_kernel_that_says_something_else_than_analyses_is_not_believed(monkeypatch):

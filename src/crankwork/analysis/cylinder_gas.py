@@ -11,7 +11,7 @@ from crankwork.analysis import traced_inputs
 from crankwork.analysis.piston_kinematics import CylinderKinematics
 from crankwork.analysis.prepared import PreparedCylinder, WorkingSpace
 from crankwork.formula.expression import Value
-from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, delayed, given
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, delayed, given, reached
 from crankwork.kinematics.slider_crank import top_dead_centre_angle
 from crankwork.loads import gas
 from crankwork.loads.pressure import at_angle, polytrope_origin, pressure_on_piston, traced_pressure
@@ -69,18 +69,21 @@ def gas_trace(solved: PreparedCylinder, space: WorkingSpace, moving: CylinderKin
         back = given("back_pressure", space.back_pressure, "gas.back_pressure")
     force = gas.gas_force(pressure, area, back, rod_area)
     values = {item.key: item for item in (volume, read, pressure, force)} | _ends_of_polytropes(solved, space, volume)
-    return values | _filling(solved, space, (of_cycle, volume))
+    return values | _filling(solved, space, (of_cycle, volume), _dead_centres(solved, trace))
 
 
 def _filling(
-    solved: PreparedCylinder, space: WorkingSpace, columns: tuple[TracedValue, TracedValue]
+    solved: PreparedCylinder,
+    space: WorkingSpace,
+    columns: tuple[TracedValue, TracedValue],
+    dead_centres: tuple[Value, Value],
 ) -> dict[str, TracedValue]:
     """Return the filling factor of a rounded diagram."""
     key, given_gas = "filling_factor.diagram", solved.machine.gas
     if space.calculated is None or key not in space.calculated.trace or given_gas is None:
         return {}
     filling = getattr(given_gas.calculated, "filling_factor", None)
-    return {} if filling is None else {key: filling(space.calculated.trace[key].value, columns, solved.stroke[1:])}
+    return {} if filling is None else {key: filling(space.calculated.trace[key].value, columns, dead_centres)}
 
 
 def _general_form(
@@ -92,11 +95,18 @@ def _general_form(
         return None
     if given_gas.calculated is not None:
         traced = given_gas.calculated.traced
-        return None if traced is None else partial(traced, volume, solved.stroke[1:])
+        return None if traced is None else partial(traced, volume, _dead_centres(solved, trace))
     size = trace["clearance_volume"], trace["swept_volume"]
     valves = None if given_gas.valves is None else StatedValves(given_gas.valves, "gas.valves")
     data = DiagramInput(given_gas.points, given_gas.pieces, given_gas.path, volume, *size, valves, _begins(solved))
     return partial(data.general_form, space.diagram)
+
+
+def _dead_centres(solved: PreparedCylinder, trace: Mapping[str, TracedValue]) -> tuple[Value, Value]:
+    """Return the crank angles of top and bottom dead centre, traced where they depend on lengths. [deg]"""
+    rate = trace.get("piston_transfer_1")
+    top, bottom = (angle if rate is None or not angle % 180.0 else reached(rate, angle) for angle in solved.stroke[1:])
+    return top, bottom
 
 
 def _begins(solved: PreparedCylinder) -> Value:

@@ -426,11 +426,9 @@ def _at_time(extreme: str, angle: TracedValue, law: Law) -> dict[str, TracedValu
     key, node = key_of(extreme).derived("_time"), angle.node
     if not isinstance(node, ProcedureValue) or node.at is None:
         return {}
-    return {
-        key: TracedValue(
-            ProcedureValue(node.at / 360.0 * law.period, node.word.replace("angle", "time"), node.operands, node.at)
-        )
-    }
+    time, word = node.at / 360.0 * law.period, node.word.replace("angle", "time")
+    share = angle * given("period", law.period, "driver.period") / math.tau
+    return {key: TracedValue(ProcedureValue(time, word, node.operands, node.at, share))}
 
 
 def _checks(solved: PreparedLinkage, motion: Motion) -> dict[str, float]:

@@ -145,9 +145,10 @@ def articulated_motion(lengths: SliderCrank, rod: ArticulatedRod, grid: CrankGri
     cylinder [rad]. Source: taylor_1985, ch. 8; artobolevsky_1988, ch. 4.
     """
     top: Value = articulated_stroke(SliderCrank(*map(to_number, lengths)), rod).top
-    if is_traced(*lengths):
-        top = TracedValue(ProcedureValue(top, "dead_centre", lengths), "pin_distance.top")
     motion = _motion(lengths, rod, grid)
+    if is_traced(*lengths):
+        largest = TracedValue(ProcedureValue(top, "max", (motion.piston.position,)))
+        top = TracedValue(ProcedureValue(top, "dead_centre", lengths, argument=largest), "pin_distance.top")
     x = top - motion.piston.position
     return motion._replace(piston=Transfer(x, *motion.piston[1:]))
 

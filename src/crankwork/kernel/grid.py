@@ -122,18 +122,18 @@ class Edges(NamedTuple):
 
     def following(self, ends: Sequence[tuple[object, Array]]) -> Edges | None:
         """Return edges that follow ends of laws, whose crank angles are given for all designs; None if they cannot."""
-        if len({of_design.size for of_design in self.breaks}) > 1:
+        stated, *others = self.breaks
+        cycle = float(stated[-1] - stated[0])
+        shifts = np.array([angles - angles[0] for _, angles in ends]).T[1:]
+        # nothing that ends there moves, or one of the ends does
+        moved: NDArray[np.bool_] = np.all([
+            [_is_among(stated + shift, of_design, cycle) for shift in (0.0, *of_ends)]
+            for of_design, of_ends in zip(others, shifts, strict=False)
+        ], axis=0)  # fmt: skip
+        moved[0, [0, -1]] = True
+        if not moved.any(axis=0).all():
             return None
-        breaks = np.array(self.breaks)
-        cycle, followed = breaks[0, -1] - breaks[0, 0], np.full(breaks.shape[1], -1)
-        for index in np.flatnonzero(np.ptp(breaks, axis=0) > _ANGLE_TOLERANCE):
-            moved = breaks[:, index] - breaks[0, index]
-            for end, (_, angles) in enumerate(ends):
-                difference = moved - (angles - angles[0])
-                if np.all(np.abs(difference - cycle * np.rint(difference / cycle)) < _ANGLE_TOLERANCE):
-                    followed[index] = end
-            if followed[index] < 0:
-                return None
+        followed = np.argmax(moved, axis=0) - 1
         return self._replace(followed_end=followed, stated=np.array([angles[0] for _, angles in ends]))
 
     @property
@@ -158,6 +158,15 @@ class Edges(NamedTuple):
         share = np.concatenate([np.arange(count) / count for count in self.parts])[:, None]
         inner = breaks[interval] + (breaks[interval + 1] - breaks[interval]) * share
         return np.concatenate([inner, breaks[-1:]])
+
+
+def _is_among(angles: Array, breaks: Array, cycle: float) -> NDArray[np.bool_]:
+    """Return whether each angle is one of the breakpoints of a cycle. [deg]"""
+    start = breaks[0]
+    inside = np.mod(angles - start, cycle) + start
+    place = np.clip(np.searchsorted(breaks, inside), 1, breaks.size - 1)
+    near = np.minimum(np.abs(breaks[place] - inside), np.abs(breaks[place - 1] - inside))
+    return np.asarray(near < _ANGLE_TOLERANCE)
 
 
 def lobatto_grid(edges: Array, moves: NDArray[np.bool_], polynomials: Polynomials) -> Grid:

@@ -63,6 +63,7 @@ _STEPS, _CONVERGED = 6, 1e-7
 # procedures that look at a whole column
 _REDUCTIONS = (
     "mean", "range", "max", "min", "max_angle", "min_angle", "harmonic_mean", "tangents", "work", "fourier",
+    "error",
 )  # fmt: skip
 # Why a calculation is not compiled.
 Reason = Literal[
@@ -526,9 +527,13 @@ class Lowering:
                 return self.graph.apply("sin" if node.word == "sine" else "cos", self.value(node.operands[0]))
             case "mean" | "range" | "max" | "min" | "max_angle" | "min_angle" if node.operands[0].varies:
                 return self.graph.reduction(node.word, self.value(node.operands[0]))
-            case "direction" | "time_ratio":
-                method = self._direction if node.word == "direction" else self._time_ratio
-                return method(*map(self.value, node.operands))
+            case "direction" | "time_ratio" | "error":
+                methods: dict[str, Callable[..., KernelValue]] = {
+                    "direction": self._direction,
+                    "time_ratio": self._time_ratio,
+                    "error": self._largest_size,
+                }
+                return methods[node.word](*map(self.value, node.operands))
             case "harmonic_mean":
                 return 1.0 / self.graph.reduction("mean", 1.0 / self.value(node.operands[0]))
             case "tangents":
@@ -580,6 +585,10 @@ class Lowering:
             angle = angle - step
         self._guards.append(_CONVERGED**2 - step * step)
         return angle
+
+    def _largest_size(self, column: KernelValue) -> KernelValue:
+        high, low = self.graph.reduction("max", column), self.graph.reduction("min", column)
+        return self.graph.apply("choose", high + low, high, -low)
 
     def _time_ratio(self, high: KernelValue, low: KernelValue) -> KernelValue:
         """Return the longer way between two crank angles over the shorter one, regardless of full turns."""

@@ -10,7 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from crankwork.formula.traced_value import TracedValue
+from crankwork.formula.expression import Value
+from crankwork.formula.traced_value import TracedValue, to_number
 from crankwork.kinematics.crank_grid import Array
 from crankwork.loads.indicator import Segment
 from crankwork.loads.monotone import hermite, hermite_slope
@@ -68,14 +69,14 @@ def _around(ends: Array, inside: Array) -> Array:
     return np.concatenate([ends[:1], inside, ends[1:]])
 
 
-def from_before_zero(dead_centres: tuple[float, float]) -> tuple[float, float]:
+def from_before_zero(dead_centres: tuple[Value, Value]) -> tuple[Value, Value]:
     """Return the dead centres, a top dead centre that lies before 0 as a negative angle. [deg]
 
     Top within half a revolution of 0, bottom after it.
     """
     top, bottom = dead_centres
-    top = top - 360.0 if top > 180.0 else top
-    return top, bottom - 360.0 if bottom > top + 360.0 else bottom
+    top = top - 360.0 if to_number(top) > 180.0 else top
+    return top, bottom - 360.0 if to_number(bottom) > to_number(top) + 360.0 else bottom
 
 
 def within_cycle(segments: Sequence[Segment], cycle: float) -> tuple[Segment, ...]:

@@ -15,6 +15,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from crankwork.formula.calculation import Calculation
+from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dead_centres import solve_monotone
@@ -100,13 +101,13 @@ class CornerPressure:
         rounded = _with_traced_segments(result.diagram, cycle.corners)
         return Calculated(rounded, trace, (*notices, *result.notices), sharp)
 
-    def traced(self, volume: TracedValue, dead_centres: tuple[float, float]) -> TracedValue:
+    def traced(self, volume: TracedValue, dead_centres: tuple[Value, Value]) -> TracedValue:
         """Return the pressure over the crank angle as a traced column of the volume of a cylinder."""
         timing = Timing(cycle=self.cycle.angle) if self.timing is None else self.timing
         return traced_rounded_pressure(_theory(self.cycle.corners), timing, self.rounding, volume, dead_centres)
 
     def filling_factor(
-        self, value: float, columns: tuple[TracedValue, TracedValue], dead_centres: tuple[float, float]
+        self, value: float, columns: tuple[TracedValue, TracedValue], dead_centres: tuple[Value, Value]
     ) -> TracedValue:
         """Return the filling factor of the rounded diagram, traced to the columns of pressure and volume."""
         timing = self.timing or Timing(cycle=self.cycle.angle)

@@ -79,7 +79,7 @@ def traced_rounded_pressure(
     timing: Timing,
     rounding: Rounding,
     volume: TracedValue,
-    dead_centres: tuple[float, float],
+    dead_centres: tuple[Value, Value],
 ) -> TracedValue:
     """Return the pressure of the rounded diagram as a traced column; sharp without timing."""
     corners = corners_of(theory, timing, rounding, TracedVolume(volume), dead_centres)
@@ -88,7 +88,8 @@ def traced_rounded_pressure(
         # only the share of the stroke that the ports take is given
         shut = theory["epsilon"] * corners.clearance
         opens, shuts = (
-            TracedVolume(volume).reached(shut, corners.top, end) for end in (corners.bottom, corners.bottom - 360.0)
+            TracedVolume(volume).reached(shut, to_number(corners.top), to_number(end))
+            for end in (corners.bottom, corners.bottom - 360.0)
         )
         corners = corners._replace(start=shuts, opens=opens, start_volume=shut)
         ends = NamedPoint("e", opens, theory["p_a"]), NamedPoint("a", shuts + timing.cycle, theory["p_a"])
@@ -175,17 +176,19 @@ class FillingOfPolynomials:
     """Filling factor of a diagram that is given by polynomials over one cycle.
 
     `names` of the pressures and exponents of the theory; `angles` of compression start, top dead centre and expansion
-    end; the `cycle`. [deg]
+    end, None for those that follow the numbers of the theory; the `cycle`. [deg]
     """
 
     names: tuple[str, ...]
-    angles: tuple[float, float, float]
+    angles: tuple[float | None, ...]
     cycle: float
 
     def __call__(self, edges: Array, series: Array) -> tuple[float]:
         """Return the factor; `series`: Legendre coefficients of pressure, volume, and of each number of the theory."""
         pressure, volume, *stated = series
-        start, _, end = self.angles
+        following = iter(stated[len(self.names) :])
+        angles = [float(next(following)[0, 0]) if angle is None else angle for angle in self.angles]
+        start, top, end = angles
         inside = np.mod(np.degrees(edges[1:] + edges[:-1]) / 2 - start, self.cycle) < end - start
         nodes, weights = legendre.leggauss(pressure.shape[-1])
         p = legendre.legval(nodes, pressure[inside].T)
@@ -197,8 +200,8 @@ class FillingOfPolynomials:
             u = (2 * angle - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
             return np.asarray(legendre.legval(u, volume[panel].T, tensor=False))
 
-        theory = {name: float(coefficients[0, 0]) for name, coefficients in zip(self.names, stated, strict=True)}
-        return (float(((p * V_1) @ weights).sum()) / theoretical_work(theory, volume_at, self.angles),)
+        theory = {name: float(coefficients[0, 0]) for name, coefficients in zip(self.names, stated, strict=False)}
+        return (float(((p * V_1) @ weights).sum()) / theoretical_work(theory, volume_at, (start, top, end)),)
 
 
 def traced_filling_factor(
@@ -206,15 +209,17 @@ def traced_filling_factor(
     theory: Mapping[str, TracedValue],
     timing: Timing,
     columns: tuple[TracedValue, TracedValue],
-    centres: tuple[float, float],
+    centres: tuple[Value, Value],
 ) -> TracedValue:
     """Return the filling factor as the value of a function of the columns of pressure and volume."""
     corners = corners_of(theory, timing, Rounding(), TracedVolume(columns[1]), centres)
-    end = corners.bottom if timing.cycle > 360 else to_number(corners.opens)
-    function = FillingOfPolynomials(tuple(theory), (to_number(corners.start), corners.top, end), timing.cycle)
-    return TracedValue(
-        FunctionValue(value, "integral", (*columns, *theory.values()), function, 0), "filling_factor.diagram"
-    )
+    end = corners.bottom if timing.cycle > 360 else corners.opens
+    places = corners.start, corners.top, end
+    following = [place for place in places if isinstance(place, TracedValue)]
+    plain = tuple(None if isinstance(place, TracedValue) else float(place) for place in places)
+    function = FillingOfPolynomials(tuple(theory), plain, timing.cycle)
+    operands = (*columns, *theory.values(), *following)
+    return TracedValue(FunctionValue(value, "integral", operands, function, 0), "filling_factor.diagram")
 
 
 def theoretical_work(theory: Mapping[str, float], volume_at: VolumeAt, angles: tuple[float, float, float]) -> float:
@@ -303,11 +308,11 @@ class RoundedCorners(NamedTuple):
     angles: Timing  # The same, traced where the diagram is
     rounding: Rounding
     volume_at: VolumeAt | TracedVolume
-    dead_centres: tuple[float, float]
+    dead_centres: tuple[Value, Value]
     kind: Literal["petrol", "diesel", "motored"]
     start: Value
-    top: float
-    bottom: float
+    top: Value
+    bottom: Value
     opens: Value
     clearance: Value
     start_volume: Value
@@ -339,7 +344,7 @@ class RoundedCorners(NamedTuple):
     def angle_of_volume(self, volume: Value) -> Value:
         """Return the angle at which the expansion reaches a volume. [deg]"""
         if isinstance(self.volume_at, TracedVolume):
-            return self.volume_at.reached(volume, self.top, self.bottom)
+            return self.volume_at.reached(volume, to_number(self.top), to_number(self.bottom))
         return solve_monotone(self.volume_at, volume, self.top, self.bottom)
 
 
@@ -348,17 +353,19 @@ def corners_of(
     timing: Timing,
     rounding: Rounding,
     volume_at: VolumeAt | TracedVolume,
-    dead_centres: tuple[float, float],
+    dead_centres: tuple[Value, Value],
 ) -> RoundedCorners:
     """Return the corners of a theoretical diagram."""
     _check(theory, timing)
+    is_traced = isinstance(volume_at, TracedVolume)
     dead_centres = from_before_zero(dead_centres)
     top, bottom = dead_centres[0] + 360.0, dead_centres[1] + 360.0
     is_two_stroke = timing.cycle == 360.0
-    angles = _traced(timing) if isinstance(volume_at, TracedVolume) else timing
+    angles = _traced(timing) if is_traced else timing
     closes = max(angles.intake_closes, angles.exhaust_closes, key=to_number)
     start = closes + dead_centres[1] if is_two_stroke else dead_centres[1]
-    volumes = volume_at(np.array([top, start]))
+    places: Any = (top, start)
+    volumes = volume_at(places if is_traced else np.array(places))
     clearance, start_volume = volumes.tolist()
     if to_number(theory.get("V_a", 0.0)):
         start_volume = theory["V_a"]
@@ -439,7 +446,7 @@ def burning_parts(corners: RoundedCorners, level: float) -> list[DiagramPart]:
     highest = NamedPoint(SCHOOLS[corners.rounding.school]["highest"], top + corners.rounding.peak_angle, peak)
     joined, falls_to = highest.angle + corners.rounding.join_after, _falls_to(corners, _JOIN_BELOW * peak)
     joined = select(falls_to - joined, falls_to, joined)
-    if to_number(joined) >= to_number(corners.opens) or to_number(highest.angle) <= top:
+    if to_number(joined) >= to_number(corners.opens) or to_number(highest.angle) <= to_number(top):
         raise CrankworkError(ErrorMessage("peak_late", angle=corners.rounding.peak_angle))
     opened_pressure, joined_pressure = corners.expansion(corners.opens, joined)
     opened, join = _opened(corners, opened_pressure), NamedPoint("~g", joined, joined_pressure)
