@@ -9,7 +9,6 @@ import pytest
 
 import crankwork
 from crankwork.description.document import Description
-from crankwork.errors import CrankworkError
 from crankwork.kernel import compiled
 
 CAMPAIGN = runpy.run_path(str(Path(__file__).with_name("campaign.py")))
