@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from crankwork.analysis.harmonics import amplitude_of_order, direction
-from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
+from crankwork.analysis.harmonics import amplitude_of_order, direction, size_of_sum
 from crankwork.dynamics.link_loads import arm, inertia_loads, moment_of
 from crankwork.dynamics.operating_state import OperatingState
 from crankwork.dynamics.reaction import shaking_force
@@ -68,15 +67,15 @@ def counterweight_balance(
     if moment_of_all.varies:
         yield from _moment_orders(moment_of_all, _coefficients(moments), counts, turns)
     for count in counts:
-        ways = [_turning(forces, axes, count, turns, way) for way in (1, -1)]
-        sizes = [amplitude_of_harmonic(*way) for way in ways if way]
+        parts_of_order = [_turning(forces, axes, count, turns, sense) for sense in (1, -1)]
+        sizes = [size_of_sum(part) for part in parts_of_order if part]
         both = abs(coefficients[count]) + abs(coefficients[-count])
         formed = total("", sizes) if sizes else None
         force = ProcedureValue(float(both), "harmonic", forces, argument=formed)
         yield f"free_force.{count / turns:g}", TracedValue(force)
-    w, way = trace["speed"], driver.direction
-    forward, parts = complex(coefficients[way * turns]), _turning(forces, axes, turns, turns, way)
-    formed = amplitude_of_harmonic(*parts) / w / w if parts else None
+    w, sense = trace["speed"], driver.direction
+    forward, parts = complex(coefficients[sense * turns]), _turning(forces, axes, turns, turns, sense)
+    formed = size_of_sum(parts) / w / w if parts else None
     moment = ProcedureValue(abs(forward) / w.value**2, "fourier", forces, argument=formed)
     yield "counterweight_moment", TracedValue(moment)
     if forward and parts:
@@ -86,23 +85,27 @@ def counterweight_balance(
             TracedValue(ProcedureValue(function(driver.start), word, (start,)))
             for word, function in (("cosine", math.cos), ("sine", math.sin))
         )
-        across, up = parts
+        across, up = (
+            total("", [wave * take(part) for wave, part in parts if take(part)]) for take in (np.real, np.imag)
+        )
         formed = direction(-(across * cos + up * sin), across * sin - up * cos)
         yield "counterweight_angle", TracedValue(ProcedureValue(angle, "fourier", forces, argument=formed))
 
 
 def _turning(
-    forces: tuple[TracedValue, TracedValue], axes: Sequence[NDArray[np.complex128]], count: int, turns: int, way: int
-) -> tuple[TracedValue, TracedValue] | tuple[()]:
-    """Return the part of a force that turns forward (1) or backward (-1) with an order; empty if it is rounding."""
-    waves = a_x, b_x, a_y, b_y = [
+    forces: tuple[TracedValue, TracedValue], axes: Sequence[NDArray[np.complex128]], count: int, turns: int, sense: int
+) -> list[tuple[TracedValue, complex]]:
+    """Return the waves of an order and the vectors by which they turn forward (1) or backward (-1) together.
+
+    Empty if they are rounding.
+    """
+    vectors = (0.5, -0.5j * sense, 0.5j, 0.5 * sense)
+    waves = [
         TracedValue(HarmonicCoefficient(2 * part, force, word, count / turns))
         for force, axis in zip(forces, axes, strict=True)
         for word, part in (("cosine", axis[count].real), ("sine", -axis[count].imag))
     ]
-    if not any(wave.value for wave in waves):
-        return ()
-    return (a_x + b_y * way) * 0.5, (a_y - b_x * way) * 0.5
+    return list(zip(waves, vectors, strict=True)) if any(wave.value for wave in waves) else []
 
 
 def _coefficients(samples: NDArray[Any], size: float | None = None) -> NDArray[np.complex128]:

@@ -16,7 +16,7 @@ from crankwork.analysis.crankshaft_bearings import (
     rotating_masses,
 )
 from crankwork.analysis.cylinders import MultiCylinderEngine
-from crankwork.analysis.harmonics import amplitude_of_order
+from crankwork.analysis.harmonics import amplitude_of_order, size_of_sum
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.balance import (
     ALL_ORDERS,
@@ -35,7 +35,6 @@ from crankwork.cylinders.counterweights import Unbalance, counterweight_moment, 
 from crankwork.cylinders.ellipse import Ellipse, OrderBalance, balance_sum, unit_vectors
 from crankwork.cylinders.journal_loads import unbalance_force
 from crankwork.cylinders.layout import Layout
-from crankwork.cylinders.torque_harmonics import amplitude_of_harmonic
 from crankwork.formula.replay import Samples, replay
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, given, in_order, total
 from crankwork.kinematics.crank_grid import CrankGrid
@@ -230,20 +229,10 @@ def _residual_formulas(
             [(force, getattr(getattr(item, kind), field) / force.value) for force, item in terms]
             for field in Ellipse._fields
         ]  # fmt: skip
-        sizes = [_size_of(products) for products in sums if any(factor for _, factor in products)]
+        sizes = [size_of_sum(products) for products in sums if any(factor for _, factor in products)]
         if sizes:
             result[kind] = total("", sizes)
     return result
-
-
-def _size_of(products: Sequence[tuple[TracedValue, complex]]) -> TracedValue:
-    """Return the magnitude of a sum of forces times vectors of the layout, which are rounded."""
-    x, y = (
-        total("", [force * round(part, _DIGITS) for (force, _), part in zip(products, parts, strict=True)])
-        for parts in ([item.real for _, item in products], [item.imag for _, item in products])
-    )
-    size: TracedValue = amplitude_of_harmonic(x, y)
-    return size
 
 
 def _order_forces(engine: MultiCylinderEngine, balance: EngineBalance) -> dict[str, TracedValue]:

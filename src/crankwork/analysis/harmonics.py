@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from crankwork.analysis.results import Listing
 from crankwork.cylinders.torque_harmonics import TorqueHarmonics, amplitude_of_harmonic, curve_harmonics
 from crankwork.formula.cycle_interpolant import CycleInterpolant
-from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue
+from crankwork.formula.traced_value import HarmonicCoefficient, ProcedureValue, TracedValue, total
 from crankwork.quantities.key import key_of
 from crankwork.shaft.curve import Curve
 
@@ -19,6 +19,8 @@ _ORDERS = 12
 _ROUNDING = 1e-16
 # share of the torque of the largest joint force below which a torque is rounding
 _NEGLIGIBLE = 1e-12
+# digits to which vectors of a layout are rounded
+_DIGITS = 13
 
 
 def order_count(cycle: float) -> int:
@@ -45,6 +47,16 @@ def amplitude_of_order(column: TracedValue, order: float, cosine: float, sine: f
 def direction(x: TracedValue, y: TracedValue) -> TracedValue:
     """Return the direction of a vector from the x axis. [rad]"""
     return TracedValue(ProcedureValue(math.atan2(y.value, x.value), "direction", (x, y)))
+
+
+def size_of_sum(products: Sequence[tuple[TracedValue, complex]]) -> TracedValue:
+    """Return the magnitude of a sum of forces times vectors of the layout, which are rounded."""
+    x, y = (
+        total("", [force * round(part, _DIGITS) for (force, _), part in zip(products, parts, strict=True)])
+        for parts in ([item.real for _, item in products], [item.imag for _, item in products])
+    )
+    size: TracedValue = amplitude_of_harmonic(x, y)
+    return size
 
 
 def traced_harmonics(harmonics: TorqueHarmonics, torque: TracedValue, kind: str = "harmonic") -> Iterator[TracedValue]:

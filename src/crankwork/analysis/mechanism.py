@@ -427,7 +427,7 @@ def _at_time(extreme: str, angle: TracedValue, law: Law) -> dict[str, TracedValu
     if not isinstance(node, ProcedureValue) or node.at is None:
         return {}
     time, word = node.at / 360.0 * law.period, node.word.replace("angle", "time")
-    share = angle * given("period", law.period, "driver.period") / math.tau
+    share = angle * given("", law.period, "driver.period") / math.tau
     return {key: TracedValue(ProcedureValue(time, word, node.operands, node.at, share))}
 
 

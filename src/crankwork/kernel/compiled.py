@@ -184,8 +184,8 @@ class Kernel:
         """Return fields of designs and what is calculated beforehand, shape (inputs, n), and its truncation error."""
         if self._before is None:
             return designs, np.zeros(designs.shape[1])
-        found = self._before(designs)
-        return np.concatenate([designs, found.values]), found.truncation_error
+        before = self._before(designs)
+        return np.concatenate([designs, before.values]), before.truncation_error
 
     def slopes(self, design: Array) -> tuple[Array, Array]:
         """Return single values of a design, shape (keys,), and their derivatives by its fields, (keys, fields). [SI]"""
@@ -328,8 +328,8 @@ def _reduced(traced: Iterable[TracedValue]) -> list[TracedValue]:
     """Return the columns that single values are reduced from, and those that are stored."""
     traced = list(traced)
     nodes = [known.node for known in in_order(traced, into=_dependencies)]
-    found = [node for node in nodes if isinstance(node, ProcedureValue) and node.general_form is None]
-    columns = [operand for node in found for operand in node.operands if operand.varies]
+    reduced = [node for node in nodes if isinstance(node, ProcedureValue) and node.general_form is None]
+    columns = [operand for node in reduced for operand in node.operands if operand.varies]
     return [*columns, *(known for known in traced if known.varies)]
 
 

@@ -122,13 +122,13 @@ class Edges(NamedTuple):
 
     def following(self, ends: Sequence[tuple[object, Array]]) -> Edges | None:
         """Return edges that follow ends of laws, whose crank angles are given for all designs; None if they cannot."""
-        stated, *others = self.breaks
+        stated, *compared = self.breaks
         cycle = float(stated[-1] - stated[0])
         shifts = np.array([angles - angles[0] for _, angles in ends]).T[1:]
         # nothing that ends there moves, or one of the ends does
         moved: NDArray[np.bool_] = np.all([
             [_is_among(stated + shift, of_design, cycle) for shift in (0.0, *of_ends)]
-            for of_design, of_ends in zip(others, shifts, strict=False)
+            for of_design, of_ends in zip(compared, shifts, strict=False)
         ], axis=0)  # fmt: skip
         moved[0, [0, -1]] = True
         if not moved.any(axis=0).all():

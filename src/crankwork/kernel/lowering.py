@@ -465,11 +465,11 @@ class Lowering:
     def _table_over(self, node: Tabulated, x: KernelValue, shift: float, fixed: float | None) -> KernelValue:
         """Return a table of points over a column: a law between each two angles at which the column passes a point."""
         function: Any = node.function
-        argument, others = node.by, self._designs.counterparts(node)
-        is_same = all(isinstance(other, Tabulated) and other.function == function for other in others)
+        argument, compared = node.by, self._designs.counterparts(node)
+        is_same = all(isinstance(other, Tabulated) and other.function == function for other in compared)
         if argument is None or not is_same or not hasattr(function, "law_at"):
             raise NotCompiledError("table", node.word)
-        knots = np.array([other.knots for other in others if isinstance(other, Tabulated)])
+        knots = np.array([other.knots for other in compared if isinstance(other, Tabulated)])
         knots = knots[:, np.argsort(knots[0])]
         if np.any(np.diff(knots, axis=1) < 0):
             raise NotCompiledError("ways", argument.key)
