@@ -252,6 +252,9 @@ def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace
     number = results.machine.stated.get(path)
     if number is None or not number.value or _FACE.sub("", path) in in_trace or not _TRACED.fullmatch(path):
         return ""
+    if path == "method.gravity" and any(notice.code == "weight" for notice in results.notices):
+        # makes masses of weights
+        return ""
     return "weights_off" if path == "method.gravity" and not _has_weights(results) else "unused"
 
 

@@ -97,6 +97,14 @@ _TRANSIENT = TableSpec("transient", {
     "restitution": KeySpec(Number(0.0, 1.0), default=0.0, only={"stops": ()}),
 })  # fmt: skip
 
+
+def started(keys: TableSpec, crank: TableSpec) -> TableSpec:
+    """Return the keys of a file of a machine let go, whose speed follows from its torques; `crank`: its table."""
+    speed = crank.keys["speed"]._replace(required=False, default="1 rad/s")
+    own = keys.keys["crank"]._replace(kind=crank._replace(keys={**crank.keys, "speed": speed}))
+    return keys._replace(keys={**keys.keys, "crank": own})
+
+
 # those of a machine beside its mechanism and its gas
 LOADING = {
     "loads": KeySpec(ListOf(_LOAD)),

@@ -180,9 +180,10 @@ def _measured(material: Material) -> Iterator[Block]:
     if gas is None or gas.measured is None:
         return
     cycles = next((item.values["cycles"] for item in material.results.notices if item.code == "cycles_averaged"), 1)
+    source = {"file": gas.measured.file} if gas.measured.file else {}
     yield words.paragraph(
-        "measured",
-        file=gas.measured.file or "–",
+        "measured" if source else "measured_given",
+        **source,
         samples=words.number(len(gas.measured.degrees)),
         cycles=words.number(float(cycles)),
         table=Reference("t:measured"),
