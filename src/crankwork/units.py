@@ -328,7 +328,7 @@ def parse(
     if not math.isfinite(value):
         raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
     return (
-        ParsedQuantity(value / (gravity if "N" in spelling else KGF), "mass", "kg", "weight")
+        ParsedQuantity(value / (gravity if {"N", "Н"} & {*spelling} else KGF), "mass", "kg", "weight")
         if is_weight
         else ParsedQuantity(value, unit.dimension, spelling, notice)
     )

@@ -10,7 +10,7 @@ import math
 from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
-from crankwork.description.load_keys import LOADING, SHEET, started
+from crankwork.description.load_keys import LOADING, SHEET, with_defaults
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text, UnitOf
 from crankwork.method import STANDARD_GRAVITY
@@ -195,17 +195,12 @@ MACHINE_FILE = TableSpec("file", {
 })  # fmt: skip
 
 
-def _optional(table: TableSpec, *names: str) -> TableSpec:
-    keys = {key: spec._replace(required=spec.required and key not in names) for key, spec in table.keys.items()}
-    return table._replace(keys=keys)
-
-
 # for files in which a required power gives bore and stroke
-SIZED_FILE = MACHINE_FILE._replace(keys={
-    **MACHINE_FILE.keys,
-    "crank": KeySpec(_optional(_CRANK, "radius"), required=True),
-    "cylinder": KeySpec(_optional(_CYLINDER, "bore")),
-})  # fmt: skip
+_SIZED = with_defaults(MACHINE_FILE, "crank", _CRANK, radius=None)
+SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
+
+# for a calculation of a working cycle alone, which only the motion beside it needs a rod for
+CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for keys in (MACHINE_FILE, SIZED_FILE))
 
 
 def with_loading(keys: TableSpec) -> TableSpec:
@@ -214,4 +209,4 @@ def with_loading(keys: TableSpec) -> TableSpec:
 
 
 LOADED_FILE, LOADED_SIZED_FILE = map(with_loading, (MACHINE_FILE, SIZED_FILE))
-STARTED_ENGINE = started(LOADED_FILE, _CRANK)
+STARTED_ENGINE = with_defaults(LOADED_FILE, "crank", _CRANK, speed="1 rad/s")

@@ -30,7 +30,7 @@ from crankwork.description.load_keys import (
     SPEED,
     TIME,
     TORQUE,
-    started,
+    with_defaults,
 )
 from crankwork.description.schema import KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Number, Quantity, Text
@@ -215,7 +215,8 @@ LINKAGE_FILE = TableSpec("file", {
     "table": KeySpec(TABLE),
 })  # fmt: skip
 
-STARTED_FILE = started(LINKAGE_FILE, _CRANK)
+# of a machine let go, whose speed follows from its torques
+STARTED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
 _OF_CRANKSHAFT = ("shaft", "bearings", "balance")

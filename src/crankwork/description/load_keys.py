@@ -98,11 +98,12 @@ _TRANSIENT = TableSpec("transient", {
 })  # fmt: skip
 
 
-def started(keys: TableSpec, crank: TableSpec) -> TableSpec:
-    """Return the keys of a file of a machine let go, whose speed follows from its torques; `crank`: its table."""
-    speed = crank.keys["speed"]._replace(required=False, default="1 rad/s")
-    own = keys.keys["crank"]._replace(kind=crank._replace(keys={**crank.keys, "speed": speed}))
-    return keys._replace(keys={**keys.keys, "crank": own})
+def with_defaults(keys: TableSpec, name: str, table: TableSpec, **defaults: object) -> TableSpec:
+    """Return the keys of a file in which keys of one of its tables have other defaults and need not be stated."""
+    own = {key: table.keys[key]._replace(required=False, default=default) for key, default in defaults.items()}
+    table = table._replace(keys={**table.keys, **own})
+    entry = KeySpec(table, required=any(key.required for key in table.keys.values()))
+    return keys._replace(keys={**keys.keys, name: entry})
 
 
 # those of a machine beside its mechanism and its gas

@@ -22,11 +22,13 @@ from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.file_inputs import file_inputs
 from crankwork.description.keys import (
+    CYCLE_FILE,
     FORMATS,
     LOADED_FILE,
     LOADED_SIZED_FILE,
     MACHINE_FILE,
     METHOD,
+    SIZED_CYCLE_FILE,
     SIZED_FILE,
     STARTED_ENGINE,
 )
@@ -49,13 +51,13 @@ if TYPE_CHECKING:
     from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
-_ENGINES = (MACHINE_FILE, SIZED_FILE)
+_ENGINES = (MACHINE_FILE, SIZED_FILE, CYCLE_FILE, SIZED_CYCLE_FILE)
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
 _LOADED, _LINKAGES = (
     (LOADED_FILE, LOADED_SIZED_FILE, STARTED_ENGINE),
     (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED),
 )
-FILES = (MACHINE_FILE, SIZED_FILE, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
+FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -310,8 +312,12 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else STARTED_FILE if is_started else LINKAGE_FILE
     cycle, is_loaded = values.get("cycle"), not LOADING.keys().isdisjoint(values)
+    is_cycle = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
+    is_alone = is_cycle and not is_loaded and {"rod", "piston"}.isdisjoint(values)
     if isinstance(cycle, dict) and "power" in cycle:
-        return LOADED_SIZED_FILE if is_loaded else SIZED_FILE
+        return SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
+    if is_alone:
+        return CYCLE_FILE
     return STARTED_ENGINE if is_started else LOADED_FILE if is_loaded else MACHINE_FILE
 
 

@@ -380,7 +380,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("crank_speed", crank_speed, every(_engine, lambda machine: machine.diagrams.torque.speed is not None)),
     Diagram("torque_harmonics", torque_harmonics, _listed("torque_harmonics")),
     Diagram("phase_stars", phase_stars, _many),
-    Diagram("balance_orders", balance_orders, _engine),
+    Diagram("balance_orders", balance_orders, every(_engine, lambda machine: "inertia_force" in machine.columns)),
     Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(machine.diagrams.loci))),
     Construction("transient", _transient, every(_drawn, has("transient"))),
     Construction("speed", speed_curve, _speed),

@@ -89,7 +89,7 @@ def recovery_torque(J_sum: Value, delta: Value, w: Value, t_rec: Value) -> Value
 
 @dataclass(frozen=True)
 class RimSpec:
-    """What is known of a rim: of speed, stress and diameter one or the section, of ratio, width and thickness what is given."""
+    """What is known of a rim: speed, stress or diameter, and what is given of the section; or the section alone."""
 
     diameter: float | None = None  # Mean [m]
     speed: float | None = None  # At that diameter [m/s]
