@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from crankwork.description.cylinder_keys import OWN_SIZES
 from crankwork.description.document import Description, load
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.load_keys import LOADING
-from crankwork.description.machine_file import file_keys, idle_keys, read, settings_of
+from crankwork.description.machine_file import file_keys, idle_keys, read, settings_of, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.shorthand import given_motion_tables, linkage_tables, linkage_values
 from crankwork.description.toml_edit import key_text, toml, with_value
@@ -46,7 +47,10 @@ def engine_of(description: Description) -> Machine:
     """Return the engine of a file, without loads, friction and motor."""
     # with these it may have sections of another note
     left_out = {*LOADING, "document"}
-    alone = {key: value for key, value in description.values.items() if key not in left_out}
+    alone = {key: value for key, value in with_first_sizes(description.values, Reader()).items() if key not in left_out}
+    alone["crank"] = {"speed": "1 rad/s", **alone["crank"]}
+    if "engine" in alone:
+        alone["engine"] = {key: value for key, value in alone["engine"].items() if key not in OWN_SIZES}
     return Description(alone, description.name, folder=description.folder).machine()
 
 

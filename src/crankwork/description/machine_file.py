@@ -138,7 +138,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         # its keys may have other meanings
         reader.add_error("format", ErrorMessage("format_unknown", newest=str(FORMATS[-1])))
         return None
-    keys, values = file_keys(values), _with_first(values, reader)
+    keys, values = file_keys(values), with_first_sizes(values, reader)
     read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader, folder)
     weighs = any(code == "weight" for code, _ in reader.notices)
@@ -162,7 +162,7 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     return replace(machine, document=stated_document(read_values), inputs=functools.partial(_inputs, values))
 
 
-def _with_first(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
+def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
     """Return the values of a file with the sizes of cylinder 1, where each cylinder has its own; report both stated."""
     engine = values.get("engine")
     if not isinstance(engine, dict):
