@@ -31,7 +31,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
         description[setting.key] = setting.value
     values, keys = description.values, file_keys(description.values)
     if "transfer" in keys.keys:
-        columns = resolve_file_columns(values, keys, Reader(), Path(path).parent)
+        columns = resolve_file_columns(values, keys, Reader.of(values), Path(path).parent)
         description = Description(_text(given_motion_tables(columns)), description.name)
     elif "rod" in keys.keys:
         description = Description(_text(linkage_tables(values, engine_of(description))), description.name)
@@ -70,7 +70,7 @@ def _text(tables: Iterable[tuple[str, Any]]) -> str:
 def _with_defaults(description: Description, mark: str) -> str:
     """Return the text with every default that applies, each on a line with a mark, or named behind its inline table."""
     keys, text = file_keys(description.values), description.dump()
-    values = keys.read(description.values, "", Reader()) or Values({}, keys)
+    values = keys.read(description.values, "", Reader.of(description.values)) or Values({}, keys)
     for name in _ALWAYS:
         kind = keys.keys[name].kind if name in keys.keys else None
         if isinstance(kind, TableSpec) and name not in values:

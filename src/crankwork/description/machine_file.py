@@ -194,7 +194,7 @@ def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
 def _inputs(values: dict[str, Any]) -> FileInputs:
     """Return what the values of a file state, and their defaults."""
     keys = file_keys(values)
-    return file_inputs(keys.read(values, "", Reader()) or Values({}, keys), values)
+    return file_inputs(keys.read(values, "", Reader.of(values)) or Values({}, keys), values)
 
 
 # what a linkage form is made of
