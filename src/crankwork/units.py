@@ -54,6 +54,7 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "mass": [
         (1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (_LB, "lb lbm"), (_LB / 16, "oz"), (_SLUG, "slug"),
         (2000 * _LB, "ton(US)"), (2240 * _LB, "ton(UK)"), (KGF, "kgf*s2/m kG*s2/m кгс·с2/м"),
+        (_LBF / _IN, "blob blobs lbf*s2/in"),
     ],
     "mass_per_area": [
         (10.0, "g/cm2 г/см2"), (1.0, "kg/m2 кг/м2"), (1e4, "kg/cm2 кг/см2"), (_LB / _IN**2, "lb/in2"),

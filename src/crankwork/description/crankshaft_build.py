@@ -93,8 +93,7 @@ def _layout(
     usual = _usual(table, strokes)
     order = [int(number) for number in table["firing_order"] if number]
     is_pair = usual is None and cylinders == 2 and not burns
-    if not order and is_pair:
-        order = [1, 2]
+    order = order or [1, 2] * is_pair
     if not order and kind != "radial":
         if usual is None:
             raise LayoutError("engine.firing_order", _no_order(table, strokes))

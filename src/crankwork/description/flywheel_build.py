@@ -21,9 +21,8 @@ def read_flywheel(values: Values, drive: Drive, speed: float | None, reader: Rea
     rim = values["rim"]
     if "rim" in values and {"diameter", "speed", "stress"}.isdisjoint(rim) and not {*_SECTION} <= set(rim):
         # a section of a density has the diameter that its inertia needs
-        if not reader.has_errors("flywheel.rim.diameter"):
-            advice = ('diameter = "1 m"', 'speed = "30 m/s"', 'stress = "5 MPa"')
-            reader.add_error("flywheel.rim.diameter", ErrorMessage("missing", advice=advice))
+        advice = ('diameter = "1 m"', 'speed = "30 m/s"', 'stress = "5 MPa"')
+        reader.add_error("flywheel.rim.diameter", ErrorMessage("missing", advice=advice))
         return drive
     wheel = FlywheelSpec(
         mass=values.si("mass"),

@@ -215,7 +215,6 @@ LINKAGE_FILE = TableSpec("file", {
     "table": KeySpec(TABLE),
 })  # fmt: skip
 
-# of a machine let go, whose speed follows from its torques
 STARTED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need

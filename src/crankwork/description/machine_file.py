@@ -312,13 +312,11 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else STARTED_FILE if is_started else LINKAGE_FILE
     cycle, is_loaded = values.get("cycle"), not LOADING.keys().isdisjoint(values)
-    is_cycle = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
-    is_alone = is_cycle and not is_loaded and {"rod", "piston"}.isdisjoint(values)
+    is_calculated = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
+    is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
     if isinstance(cycle, dict) and "power" in cycle:
         return SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
-    if is_alone:
-        return CYCLE_FILE
-    return STARTED_ENGINE if is_started else LOADED_FILE if is_loaded else MACHINE_FILE
+    return CYCLE_FILE if is_alone else STARTED_ENGINE if is_started else LOADED_FILE if is_loaded else MACHINE_FILE
 
 
 def parse(source: str, name: str) -> dict[str, Any]:

@@ -136,8 +136,7 @@ def _listed(values: Values, reader: Reader, path: str, folder: Path) -> Measured
         reader.add_error(f"{path}.file", *error.args)
         return None
     if "pressure_unit" not in values:
-        if not reader.has_errors(f"{path}.pressure_unit"):
-            reader.add_error(f"{path}.pressure_unit", ErrorMessage("missing", advice=('pressure_unit = "MPa"',)))
+        reader.add_error(f"{path}.pressure_unit", ErrorMessage("missing", advice=('pressure_unit = "MPa"',)))
         return None
     pressure = np.array([number for _, number in numbers], dtype=float) * UNITS[values["pressure_unit"]].factor
     degrees = values.degrees("start") + values.degrees("step") * np.arange(len(pressure))
@@ -160,8 +159,7 @@ def in_file(key: str, mistake: ErrorMessage, values: Values) -> ErrorMessage:
     if not measured:
         return mistake
     table = functools.reduce(dict.__getitem__, owner.split("."), values)
-    file = table["measured"]["file"]
-    return ErrorMessage("in_file", file=file, mistake=mistake) if file else mistake
+    return ErrorMessage("in_file", file=table["measured"]["file"] or "values", mistake=mistake)
 
 
 def add_questions(notices: Iterable[NoticeData], values: Values, reader: Reader) -> None:

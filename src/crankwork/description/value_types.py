@@ -292,17 +292,14 @@ class Quantity(NamedTuple):
 
 
 class Number(NamedTuple):
-    """A plain number between `low` and `high`, an integer if `whole`; `message_kind` begins the name of its message.
-
-    `percent`: what one per cent is as the number.
-    """
+    """A plain number between `low` and `high`, an integer if `whole`; `message_kind` begins the name of its message."""
 
     low: float
     high: float
     above: bool = False
     whole: bool = False
     message_kind: str = "number"
-    percent: float = 0.01
+    percent: float = 0.01  # What one per cent is as the number
 
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""

@@ -180,10 +180,9 @@ def _measured(material: Material) -> Iterator[Block]:
     if gas is None or gas.measured is None:
         return
     cycles = next((item.values["cycles"] for item in material.results.notices if item.code == "cycles_averaged"), 1)
-    source = {"file": gas.measured.file} if gas.measured.file else {}
     yield words.paragraph(
-        "measured" if source else "measured_given",
-        **source,
+        "measured" if gas.measured.file else "measured_given",
+        file=gas.measured.file,
         samples=words.number(len(gas.measured.degrees)),
         cycles=words.number(float(cycles)),
         table=Reference("t:measured"),
