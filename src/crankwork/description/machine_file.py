@@ -16,22 +16,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
 from crankwork.analysis import prepare
+from crankwork.description import keys as engine_files
 from crankwork.description.build import build_machine
 from crankwork.description.cylinder_keys import OWN_SIZES
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.file_inputs import file_inputs
-from crankwork.description.keys import (
-    CYCLE_FILE,
-    FORMATS,
-    LOADED_FILE,
-    LOADED_SIZED_FILE,
-    MACHINE_FILE,
-    METHOD,
-    SIZED_CYCLE_FILE,
-    SIZED_FILE,
-    STARTED_ENGINE,
-)
+from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, METHOD, SIZED_FILE
 from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, STARTED_FILE, TRANSFER_FILE
 from crankwork.description.load_keys import LOADING
 from crankwork.description.measured_build import add_questions, in_file, read_measured
@@ -51,12 +42,10 @@ if TYPE_CHECKING:
     from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
-_ENGINES = (MACHINE_FILE, SIZED_FILE, CYCLE_FILE, SIZED_CYCLE_FILE)
+_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE)
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
-_LOADED, _LINKAGES = (
-    (LOADED_FILE, LOADED_SIZED_FILE, STARTED_ENGINE),
-    (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED),
-)
+_LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
+_LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
 FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
@@ -315,8 +304,16 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     is_calculated = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
     is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
     if isinstance(cycle, dict) and "power" in cycle:
-        return SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
-    return CYCLE_FILE if is_alone else STARTED_ENGINE if is_started else LOADED_FILE if is_loaded else MACHINE_FILE
+        return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
+    return (
+        engine_files.CYCLE_FILE
+        if is_alone
+        else engine_files.STARTED_ENGINE
+        if is_started
+        else LOADED_FILE
+        if is_loaded
+        else MACHINE_FILE
+    )
 
 
 def parse(source: str, name: str) -> dict[str, Any]:

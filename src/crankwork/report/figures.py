@@ -12,7 +12,7 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.sampled_motion import sample_motion
-from crankwork.analysis.vector_polygons import driver_rates
+from crankwork.analysis.vector_polygons import driver_rates, position_step
 from crankwork.locale import translate
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
@@ -258,8 +258,8 @@ def _positions(machine: Drawn) -> Drawing:
     """Return position plans over the whole motion."""
     reached = machine.reached
     ends = None if reached.is_whole else (float(reached.degrees[0]), float(reached.degrees[-1]))
-    mechanism = machine.results.machine.mechanism
-    return position_plans(mechanism, ends, float(reached.degrees[reached.row]), machine.style)
+    mechanism, step = machine.results.machine.mechanism, position_step(machine.results.machine)
+    return position_plans(mechanism, ends, float(reached.degrees[reached.row]), machine.style, step)
 
 
 def _plan(order: int) -> Callable[[Drawn], Drawing]:
