@@ -1,5 +1,6 @@
 """Assignments entered as their sheets state them; the folder `assignments` has the files, each with its source."""
 
+import re
 from dataclasses import replace
 from functools import cache
 from math import log
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import crankwork
+from crankwork.analysis.vector_polygons import positions
 from crankwork.working_cycle.schools import SCHOOLS
 from each import for_each
 
@@ -398,6 +400,8 @@ def test_two_static_forces_balance_by_both_ways() -> None:
     power = 5600 * columns["slider_velocity.piston_1"] + 2200 * columns["slider_velocity.piston_2"]
     assert np.abs(columns["balancing_torque"] * 60 * np.pi) == pytest.approx(np.abs(power), rel=1e-9, abs=1e-6)
     assert results["mean_torque"] == pytest.approx(0, abs=1e-9)
+    # plans stand at the eight positions of the sheet
+    assert list(positions(results.machine)[:8]) == list(degrees)
 
 
 def test_a_weight_in_newtons_of_any_alphabet_has_the_gravity_of_the_sheet(tmp_path: Path) -> None:
@@ -435,3 +439,30 @@ def test_pressures_without_angles_are_those_of_a_file_with_them(tmp_path: Path) 
         results.append(crankwork.analyse(crankwork.read(tmp_path / "machine.toml")))
     first, *others = (np.asarray(result["gas_pressure"]) for result in results)
     assert all(np.array_equal(first, other) for other in others)
+
+
+@for_each(
+    ("old", "new", "key", "value"),
+    [
+        ("excess_air = 0.9", 'excess_air = "90 %"', "excess_air", 0.9),
+        ('heating_value = "10400 kcal/kg"', 'heating_value = "43 542,72 kJ/kg"', "fuel_heating_value", 43.54272e6),
+    ],
+)
+def test_numbers_are_read_as_sheets_print_them(tmp_path: Path, old: str, new: str, key: str, value: float) -> None:
+    comma = ("format = 2\n", 'format = 2\ndecimal_mark = ","\n')
+    assert _changed(tmp_path, (old, new), comma, name="vi_toyota_1rz")[key] == pytest.approx(value, rel=1e-12)
+
+
+def test_a_percentage_of_a_percentage_is_no_share(tmp_path: Path) -> None:
+    results = _changed(tmp_path, ('fluctuation = "1/50"', 'percent = "1 %"'), name="uk_compressor")
+    assert results["speed_fluctuation"] == pytest.approx(0.02, rel=1e-9)
+
+
+def test_a_firing_order_stands_as_sheets_write_it(tmp_path: Path) -> None:
+    orders = [_changed(tmp_path, ("[1, 3, 4, 2]", order)) for order in ("[1, 3, 4, 2]", '"1-3-4-2"', '"1 – 3 – 4 – 2"')]
+    assert len({results.machine.engine.layout.firing_order for results in orders if results.machine.engine}) == 1
+
+
+def test_headings_with_other_letters_are_answered_with_their_quotation_marks(tmp_path: Path) -> None:
+    with pytest.raises(crankwork.InputError, match=re.escape('write [links."шатун"]')):
+        _changed(tmp_path, ("[links.rod]", "[links.шатун]"), name="en_case1_transient")
