@@ -23,8 +23,6 @@ from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Bearings, Engine
 
-_TURN = 360.0
-
 
 def build_engine(
     values: Values, lengths: tuple[float, float, float] | None, cycle: float, reader: Reader
@@ -42,7 +40,7 @@ def build_engine(
     if reader.has_errors(*(f"engine.{key}" for key in doubtful)) or len(table) < 2:
         return None
     try:
-        burns = "cycle" in values or ("gas" in values and "valves" not in values["gas"] and cycle > _TURN)
+        burns = "cycle" in values or ("gas" in values and "valves" not in values["gas"] and cycle > 360.0)
         layout, notices = _layout(table, round(cycle / 180), _tops(table, lengths), burns=burns)
     except LayoutError as error:
         reader.add_error(error.key, error.args[0])
