@@ -466,3 +466,11 @@ def test_a_firing_order_stands_as_sheets_write_it(tmp_path: Path) -> None:
 def test_headings_with_other_letters_are_answered_with_their_quotation_marks(tmp_path: Path) -> None:
     with pytest.raises(crankwork.InputError, match=re.escape('write [links."шатун"]')):
         _changed(tmp_path, ("[links.rod]", "[links.шатун]"), name="en_case1_transient")
+
+
+def test_a_slot_begins_where_its_lever_does() -> None:
+    text = crankwork.template("crank-shaper")
+    named = text.replace('slot = { link = "lever" }', 'slot = { link = "lever", through = "B" }')
+    assert named != text
+    plain, other = (crankwork.analyse(crankwork.read_machine(source)) for source in (text, named))
+    assert other.summary == plain.summary
