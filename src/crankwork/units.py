@@ -44,7 +44,8 @@ _RPM = math.pi / 30
 # dimension: {SI size: all spellings}. The first spelling is the suggested one.
 _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "angle": [(math.pi / 180, "deg ° градус град độ"), (1.0, "rad рад")],
-    "length": [(1e-3, "mm мм"), (1e-2, "cm см"), (1.0, "m м"), (1e-6, "um µm μm мкм"), (_IN, "in inch"), (_FT, "ft")],
+    "length": [(1e-3, "mm мм"), (1e-2, "cm см"), (1.0, "m м"), (0.1, "dm дм"), (1e-6, "um µm μm мкм"),
+               (_IN, "in inch"), (_FT, "ft")],
     "area": [(1e-4, "cm2 см2"), (1e-6, "mm2 мм2"), (1.0, "m2 м2"), (_IN**2, "in2"), (_FT**2, "ft2")],
     "volume": [
         (1e-6, "cm3 cc см3"), (1e-3, "l L dm3 л дм3"), (1e-9, "mm3 мм3"), (1.0, "m3 м3"), (_IN**3, "in3 cu.in"),
@@ -52,7 +53,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "mass": [
         (1.0, "kg кг"), (1e-3, "g г"), (1e3, "t т"), (_LB, "lb lbm"), (_LB / 16, "oz"), (_SLUG, "slug"),
-        (2000 * _LB, "ton(US)"), (2240 * _LB, "ton(UK)"),
+        (2000 * _LB, "ton(US)"), (2240 * _LB, "ton(UK)"), (KGF, "kgf*s2/m kG*s2/m кгс·с2/м"),
+        (_LBF / _IN, "blob blobs lbf*s2/in"),
     ],
     "mass_per_area": [
         (10.0, "g/cm2 г/см2"), (1.0, "kg/m2 кг/м2"), (1e4, "kg/cm2 кг/см2"), (_LB / _IN**2, "lb/in2"),
@@ -61,15 +63,17 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     "inertia": [
         (1.0, "kg*m2 kgm2 кг·м²"), (1e-4, "kg*cm2 кг·см²"), (1e-6, "kg*mm2 кг·мм²"), (1e-7, "g*cm2 г·см²"),
         (_LB * _FT**2, "lb*ft2 lbm*ft2"), (_LB * _IN**2, "lb*in2 lbm*in2"), (_SLUG * _FT**2, "slug*ft2 lbf*ft*s2"),
-        (_LBF * _IN, "lbf*in*s2"),
+        (_LBF * _IN, "lbf*in*s2"), (KGF, "kgf*m*s2 kG*m*s2 кгс·м·с2"),
     ],
     "speed": [
-        (_RPM, "rpm r/min rev/min 1/min об/мин 1/мин vg/ph vòng/phút v/ph v/p"), (1.0, "rad/s рад/с"),
+        (_RPM, "rpm r/min rev/min 1/min об/мин 1/мин об/хв 1/хв vg/ph vòng/phút vg/phút v/phút v/ph v/p U/min tr/min"),
+        (1.0, "rad/s рад/с"),
         (2 * math.pi, "rev/s r/s rps об/с vg/s vòng/s"), (math.pi / 180, "°/s deg/s град/с độ/s"),
     ],
     "frequency": [(2 * math.pi, "Hz 1/s Гц 1/с")],
     "angular_acceleration": [(1.0, "rad/s2 рад/с2")],
-    "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (_FT, "ft/s"), (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
+    "velocity": [(1.0, "m/s м/с"), (1e-3, "mm/s мм/с"), (1 / 3.6, "km/h км/ч"), (_FT, "ft/s"),
+                 (_FT / 60, "ft/min fpm"), (_IN, "in/s")],
     "acceleration": [(1.0, "m/s2 м/с2"), (1e-3, "mm/s2 мм/с2"), (_FT, "ft/s2"), (_IN, "in/s2")],
     "pressure": [
         (1e6, "MPa МПа MN/m2 МН/м2 N/mm2 Н/мм2"), (1e3, "kPa кПа kN/m2"), (1.0, "Pa Па N/m2"), (1e5, "bar бар"),
@@ -84,16 +88,17 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
     ],
     "angular_damping": [(1.0, "N*m*s/rad N*m*s Н·м·с/рад Н·м·с"), (_LBF * _FT, "lbf*ft*s/rad lbf*ft*s")],
     "force": [
-        (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (KGF, "kgf кгс kG"), (_LBF, "lbf"), (1e3 * _LBF, "kip klbf"),
+        (1.0, "N Н"), (1e3, "kN кН"), (1e6, "MN МН"), (10.0, "daN даН"), (KGF, "kgf кгс kG"), (1e3 * KGF, "tf тс"),
+        (_LBF, "lbf"), (1e3 * _LBF, "kip klbf"),
         (_LBF / 16, "ozf"),
     ],
     "torque": [
-        (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
+        (1.0, "N*m Nm Н·м Нм"), (1e3, "kN*m kNm кН·м"), (KGF, "kgf*m kG*m кгс·м"), (_LBF * _FT, "lbf*ft lb-ft"),
         (_LBF * _IN, "lbf*in lb-in"),
     ],
     "energy": [
         (1.0, "J Дж"), (1e3, "kJ кДж"), (1e6, "MJ МДж"), (_LBF * _FT, "ft*lbf ft-lb"), (_LBF * _IN, "in*lbf"),
-        (1055.05585262, "Btu"),
+        (1055.05585262, "Btu"), (4186.8, "kcal ккал"),
     ],
     "energy_per_area": [(1e6, "J/mm2 Дж/мм2"), (1e4, "J/cm2 Дж/см2"), (1.0, "J/m2 Дж/м2")],
     "torque_per_length": [(1e3, "N*m/mm Н·м/мм"), (1e2, "N*m/cm Н·м/см"), (1.0, "N*m/m Н·м/м")],
@@ -102,7 +107,8 @@ _SPELLINGS: dict[str, list[tuple[float, str]]] = {
         (1.0, "rad/m рад/м"),
     ],
     "temperature": [(1.0, "K К")],
-    "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb")],
+    "specific_energy": [(1e6, "MJ/kg МДж/кг"), (1e3, "kJ/kg кДж/кг"), (1.0, "J/kg Дж/кг"), (2326.0, "Btu/lb"),
+                        (4186.8, "kcal/kg ккал/кг")],
     "mass_moment": [
         (1.0, "kg*m кг·м"), (1e-3, "kg*mm кг·мм"), (1e-5, "g*cm г·см"), (_LB * _FT, "lb*ft"), (_LB * _IN, "lb*in"),
         (_LB / 16 * _IN, "oz*in"),
@@ -260,6 +266,9 @@ _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 _UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
 _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}){_UNIT}")
 _WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?){_UNIT}")
+# three digits to a group, and a multiple of pi: `10 000 N/m`, `60π rad/s`, `2π/3 rad`
+_GROUPS = re.compile(r"\s*[+-]?\d{1,3}(?:[ \u00a0\u2009\u202f]\d{3})+(?!\d)")
+_PI = re.compile(r"\s*([+-]?)(\d+(?:\.\d+)?)?\s*[*·]?\s*(?:π|pi\b)(?:\s*/\s*(\d+))?")
 _BARE = re.compile(rf"{_NUMBER}|[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?")
 
 
@@ -289,7 +298,8 @@ def parse(
     """
     example = EXAMPLES[dimensions[0]]
     text = unicodedata.normalize("NFC", text) if len(text) <= _MAX_LENGTH else text
-    match = (_WITH_COMMA.match(text) or _QUANTITY.match(text)) if len(text) <= _MAX_LENGTH else None
+    plain = _plain_number(text) if len(text) <= _MAX_LENGTH else ""
+    match = _WITH_COMMA.match(plain) or _QUANTITY.match(plain)
     if match is None:
         raise ValueError(ErrorMessage("no_quantity", text=_short(text), example=example))
     number, name = match["number"].replace(",", "."), match["unit"]
@@ -319,10 +329,19 @@ def parse(
     if not math.isfinite(value):
         raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
     return (
-        ParsedQuantity(value / (gravity if "N" in spelling else KGF), "mass", "kg", "weight")
+        ParsedQuantity(value / (gravity if {"N", "Н"} & {*spelling} else KGF), "mass", "kg", "weight")
         if is_weight
         else ParsedQuantity(value, unit.dimension, spelling, notice)
     )
+
+
+def _plain_number(text: str) -> str:
+    """Return a quantity whose number has neither groups of digits nor a multiple of pi."""
+    text = _GROUPS.sub(lambda digits: re.sub(r"\s", "", digits[0]), text, count=1)
+    if match := _PI.match(text):
+        number = float(match[2] or 1) * math.pi / float(match[3] or 1)
+        return f"{match[1]}{number!r}{text[match.end() :]}"
+    return text
 
 
 def _ask_which(spelling: str, dimensions: tuple[str, ...], number: str, name: str) -> None:

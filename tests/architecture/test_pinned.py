@@ -27,7 +27,7 @@ PINNED = {
         "linkage": "587b6d3c978c",
         "machine": "93e6fd34e1f6",
     },
-    "formulas": "29245a9434cd",
+    "formulas": "40a255f6be48",
     "quantities": "e8556442faa7",
     "defaults": "6b294094b813",
 }

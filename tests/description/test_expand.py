@@ -7,6 +7,7 @@ import re
 import runpy
 import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -369,3 +370,17 @@ def test_an_engine_with_loads_and_friction_is_written_out_as_what_it_is_read_as(
     assert one.friction
     assert one.transient is not None
     assert one.drive.rated_power == pytest.approx(30 * 735.49875)
+
+
+def test_values_with_a_decimal_comma_are_written_out_as_stated(tmp_path: Path) -> None:
+    """The ambient pressure of a compressor, which has a default."""
+    text = (Path(__file__).parents[1] / "literature" / "assignments" / "uk_compressor.toml").read_text(encoding="utf-8")
+    path = tmp_path / "machine.toml"
+    path.write_text(text, encoding="utf-8")
+    written = tmp_path / "expanded.toml"
+    written.write_text(expanded(path), encoding="utf-8")
+    assert written.read_text(encoding="utf-8").count('ambient = "0,1 МПа"') == 2
+    results = [analyse(read(file)) for file in (path, written)]
+    assert results[0].summary == pytest.approx(results[1].summary, rel=1e-12)
+    stated = {key for item in results[0].assumptions for key in item.keys}
+    assert not {"gas.ambient", "crank.stroke", "flywheel.fluctuation"} & stated

@@ -31,7 +31,7 @@ FAULTY = {
     "no unit": [('"45 mm"', "45")],
     "a misspelt key": [('radius = "45 mm"', 'raduis = "45 mm"')],
     "a misspelt table": [("[piston]", "[pistn]")],
-    "a firing order as text": [("[table]", ORDER.format('"1-3-4-2"') + "[table]")],
+    "a firing order as text": [("[table]", ORDER.format('"1, 3, 4, 2"') + "[table]")],
     "many of syntax and of values": [
         ('radius = "45 mm"', "radius = 45 mm"), ('mass = "0.55 kg"', "mass = 0,55 kg"),
         ('bore = "85 mm"', "bore = “85 mm”"), ('length = "160 mm"', 'length = "160 мm"'), ("[gas]", "[gаs]"),

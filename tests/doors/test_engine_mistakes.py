@@ -42,7 +42,7 @@ MISTAKES = {
     "order too short": ("petrol-four", ORDER, "firing_order = [1, 3, 4]", "engine.firing_order", "leaves out"),
     "no such cylinder": ("petrol-four", ORDER, "firing_order = [1, 3, 5, 2]", "engine.firing_order",
                          "there is no cylinder 5"),
-    "order as text": ("petrol-four", ORDER, 'firing_order = "1-3-4-2"', "engine.firing_order", "must be a list"),
+    "order as text": ("petrol-four", ORDER, 'firing_order = "1, 3, 4, 2"', "engine.firing_order", "must be a list"),
     "half a cylinder": ("petrol-four", "cylinders = 4", "cylinders = 4.5", "engine.cylinders", "write a whole number"),
     "no cylinders": ("petrol-four", "cylinders = 4\n", "", "engine.cylinders", "is missing"),
     "other layout": ("petrol-four", '"inline"', '"star"', "engine.layout", 'write "inline", "V"'),

@@ -1,5 +1,6 @@
 """Assignments entered as their sheets state them; the folder `assignments` has the files, each with its source."""
 
+import re
 from dataclasses import replace
 from functools import cache
 from math import log
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import crankwork
+from crankwork.analysis.vector_polygons import positions
 from crankwork.working_cycle.schools import SCHOOLS
 from each import for_each
 
@@ -210,3 +212,265 @@ def test_weights_in_newtons_are_masses_by_the_gravity_of_the_sheet(tmp_path: Pat
         results = _changed(tmp_path, heavy, ("[engine]", '[method]\ngravity = "10 m/s2"\n[engine]'))
         assert results["reciprocating_mass"] == pytest.approx(mass + 0.3, rel=1e-12)
         assert {one.values["gravity"] for one in results.notices if one.code == "weight"} == {10.0}
+
+
+def test_a_force_table_shows_that_its_rod_force_is_multiplied_by_the_cosine() -> None:
+    """Printed P_ш in MN against P_д / cos β; it is P_д cos β with a cosine of two digits, negative past 180 degrees."""
+    printed = {
+        30: -0.00418, 60: -0.00259, 90: 0.00153, 120: 0.00414, 150: 0.00523, 240: -0.00517, 270: -0.00256, 420: -0.015,
+        450: -0.01331, 480: -0.01242, 510: -0.01307, 570: 0.01202, 600: 0.00906, 630: 0.00384,
+    }  # fmt: skip
+    results = entered("ru_force_table")
+    columns = results.columns_at([float(angle) for angle in printed])
+    force, right = (np.asarray(columns[key]) / results["piston_area"] / 1e6 for key in ("piston_force", "rod_force"))
+    cosine = np.cos(np.asarray(columns["rod_angle"]))
+    angles, values = np.array([*printed]), np.array([*printed.values()])
+    sign = np.where((angles > 180) & (angles < 540), -1, 1)
+    assert values == pytest.approx(sign * force * cosine, rel=0.006)
+    assert right == pytest.approx(force / cosine, rel=1e-12)
+    # right values lie by the square of the cosine higher, up to 6 per cent
+    assert np.max(np.abs(right / (sign * values))) == pytest.approx(1 / 0.97**2, rel=0.003)
+
+
+def test_a_stirling_engine_has_the_printed_power_and_pressures() -> None:
+    """255.05 W by both methods and 0.47 to 1.18 MPa; the torque printed beside them does not give that power."""
+    results = entered("en_stirling")
+    assert results["indicated_power"] == pytest.approx(255.05, abs=0.05)
+    assert results["mean_torque"] * 650 * np.pi / 30 == pytest.approx(results["indicated_power"], rel=1e-9)
+    absolute = np.asarray(results["diagram_pressure.hot"]) / 1e6
+    assert (round(float(np.min(absolute)), 2), round(float(np.max(absolute)), 2)) == (0.47, 1.18)
+    # a rim of that section: m = rho pi D b t, J = m D^2 / 4
+    diameter = results["rim_diameter"]
+    assert results["rim_mass"] == pytest.approx(7750 * np.pi * diameter * 0.025 * 0.05, rel=1e-9)
+    assert results["flywheel_inertia"] == pytest.approx(results["rim_mass"] * diameter**2 / 4, rel=1e-9)
+
+
+@cache
+def _four_bar_at_60_degrees() -> dict[str, np.ndarray]:
+    """Return accelerations and pin forces of the homework by vectors and nine equations of Newton and Euler."""
+    r2, r3, r4, ground, q, w, a = 1.0, 2.06, 2.33, 2.22, np.radians(60), 10.0, 5.0
+    pin = r2 * np.exp(1j * q)
+    across = ground - pin
+    beside = np.arccos((r3**2 + abs(across) ** 2 - r4**2) / (2 * r3 * abs(across)))
+    coupler = r3 * np.exp(1j * (np.angle(across) + beside))
+    rocker = pin + coupler - ground
+    a_pin = pin * (1j * a - w**2)
+    # i w3 c - i w4 d = -i w p, the same for the accelerations
+    matrix = np.array([[(1j * coupler).real, -(1j * rocker).real], [(1j * coupler).imag, -(1j * rocker).imag]])
+    v_pin = 1j * w * pin
+    w3, w4 = np.linalg.solve(matrix, [-v_pin.real, -v_pin.imag])
+    rest = -a_pin + coupler * w3**2 - rocker * w4**2
+    a3, a4 = np.linalg.solve(matrix, [rest.real, rest.imag])
+    turn = coupler / r3
+    g2, g4 = pin / 2, rocker / 2
+    g3, p = (turn * complex(x, y) for x, y in ((1.561008, -0.527122), (2.622932, -1.576017)))
+    acc = (g2 * (1j * a - w**2), a_pin + g3 * (1j * a3 - w3**2), g4 * (1j * a4 - w4**2))
+    m, J = (9.8125, 219.9657, 22.863125), (0.82, 10.35, 50.13)
+    load = -100j
+    # unknown: F12 on the crank, F32 on the crank, F43 on the coupler, F14 on the rocker, T12
+    left, right = np.zeros((9, 9)), np.zeros(9)
+
+    def moment(arm: complex) -> list[float]:
+        return [-arm.imag, arm.real]
+
+    for row, (mass, accel) in enumerate(zip(m, acc, strict=True)):
+        right[3 * row], right[3 * row + 1] = (mass * accel).real, (mass * accel).imag
+    right[3:5] -= load.real, load.imag
+    right[2], right[8] = J[0] * a, J[2] * a4
+    right[5] = J[1] * a3 - ((p - g3).conjugate() * load).imag
+    for row, column, sign, arm in ((0, 0, 1, -g2), (0, 2, 1, pin - g2), (3, 2, -1, -g3), (3, 4, 1, coupler - g3),
+                                   (6, 4, -1, rocker - g4), (6, 6, 1, -g4)):  # fmt: skip
+        left[row : row + 2, column : column + 2] += sign * np.eye(2)
+        left[row + 2, column : column + 2] += np.multiply(sign, moment(arm))
+    left[2, 8] = 1
+    found = np.linalg.solve(left, right)
+    return {"forces": np.hypot(found[:8:2], found[1:8:2]), "torque": found[8:], "rates": np.array([w3, w4, a3, a4])}
+
+
+def test_a_four_bar_with_masses_has_the_forces_of_newton_and_euler() -> None:
+    columns, expected = entered("en_hw6_fourbar").columns_at([60.0]), _four_bar_at_60_degrees()
+    kinds = ("link_angular_velocity", "link_angular_acceleration")
+    rates = [float(columns[f"{kind}.{link}"][0]) for kind in kinds for link in ("coupler", "rocker")]
+    assert rates == pytest.approx(expected["rates"], rel=1e-9)
+    assert [float(columns[f"joint_force.{pin}"][0]) for pin in ("O2", "A", "B", "O4")] == pytest.approx(
+        expected["forces"], rel=1e-9
+    )
+    assert float(columns["balancing_torque"][0]) == pytest.approx(expected["torque"][0], rel=1e-9)
+
+
+def test_an_offset_slider_moves_as_its_sheet_writes_it() -> None:
+    """The slider at 30 cos q + 100 cos(arcsin((40 - 30 sin q) / 100)), by differences."""
+    degrees, step, speed = np.array([15.0, 100.0, 250.0]), 1e-4, 100 * np.pi / 30
+
+    def place(q: np.ndarray) -> np.ndarray:
+        return 0.3 * np.cos(q) + np.sqrt(1 - (0.4 - 0.3 * np.sin(q)) ** 2)
+
+    before, here, after = (place(np.radians(degrees) + shift) for shift in (-step, 0, step))
+    columns = entered("en_hw6_slider").columns_at(degrees)
+    assert columns["point_x.B"] == pytest.approx(here, rel=1e-12)
+    assert columns["point_acceleration_x.B"] == pytest.approx(
+        (before - 2 * here + after) / step**2 * speed**2, rel=1e-5
+    )
+    assert columns["point_acceleration_y.B"] == pytest.approx(0, abs=1e-9)
+
+
+def test_a_slider_crank_without_a_speed_turns_as_its_energy_says() -> None:
+    """By Runge-Kutta of J w' = M - J' w^2 / 2 with inertia, spring, dashpot and weights of the sheet."""
+    results = entered("en_case1_transient")
+
+    def places(q: complex) -> tuple[complex, complex, complex, complex]:
+        # x of the slider, x and y of the middle of the rod, angle of the rod
+        across = 0.2 * np.sin(q)
+        x = 0.2 * np.cos(q) + np.sqrt(0.25 - across**2)
+        return x, (0.2 * np.cos(q) + x) / 2, across / 2, -np.arcsin(across / 0.5)
+
+    def state(q: float) -> tuple[np.ndarray, np.ndarray, float]:
+        step = 1e-5
+        before, here, after = (np.array(places(q + shift)) for shift in (-step, 0.0, step))
+        return (after - before) / (2 * step), (after - 2 * here + before) / step**2, float(here[0])
+
+    mass = np.array([2.0, 3.0, 3.0, 3 * 0.25 / 12])
+
+    def rate(y: np.ndarray) -> np.ndarray:
+        first, second, x = state(float(y[0]))
+        inertia = 0.04 / 3 + np.sum(mass * first**2)
+        force = -10_000 * (x - 0.5) - 1_000 * first[0] * y[1]
+        weight = -9.81 * (0.1 * np.cos(y[0]) + 3 * first[2])
+        return np.array([y[1], (500 + force * first[0] + weight - np.sum(mass * first * second) * y[1] ** 2) / inertia])
+
+    y, h = np.array([np.radians(30), 0.0]), 5e-4
+    for _ in range(4000):
+        k1 = rate(y)
+        k2 = rate(y + h / 2 * k1)
+        k3 = rate(y + h / 2 * k2)
+        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(y + h * k3))
+    run = results.listings["transient"].columns
+    assert run["crank_angle"][-1] == pytest.approx(y[0] - np.radians(30), rel=1e-5)
+    assert run["crank_speed"][-1] == pytest.approx(y[1], rel=1e-4)
+    assert [item.value for item in results.assumptions if "crank.speed" in item.keys] == ["1 rad/s"]
+
+
+def test_a_rod_that_no_sheet_states_is_an_assumption_of_a_thermal_calculation() -> None:
+    """L0 of 15 kg and L of 13.5 kg; 1.998 l; the ratio of the rod is told."""
+    results = entered("vi_toyota_1rz")
+    assert results["air_mass_needed"] == pytest.approx(15, abs=0.1)
+    assert results["displacement"] == pytest.approx(1.998e-3, abs=5e-7)
+    assert results["fuel_heating_value"] == pytest.approx(10400 * 4186.8, rel=1e-12)
+    assert [item.value for item in results.assumptions if "rod.ratio" in item.keys] == [0.25]
+
+
+def test_a_two_stage_compressor_has_the_work_of_its_stages() -> None:
+    """Areas of both diagrams by their polytropes; the stages differ in bore, piston and clearance."""
+    results, n = entered("uk_compressor"), 1.35
+    for name, bore, clearance, low, high in (("1", 0.12, 45e-6, 1e5, 3e5), ("2", 0.075, 18e-6, 3e5, 9e5)):
+        swept = np.pi * bore**2 / 4 * 0.08
+        drawn = swept + clearance - clearance * (high / low) ** (1 / n)
+        work = n / (n - 1) * low * drawn * ((high / low) ** ((n - 1) / n) - 1)
+        assert results[f"indicated_work.cylinder_{name}"] == pytest.approx(-work, rel=1e-9)
+    # with the same piston the second stage would have 2.55 kg
+    masses = {body.link: body.mass for body in results.machine.mechanism.bodies if body.link.startswith("piston")}
+    assert masses == pytest.approx({"piston_1": 2.5, "piston_2": 2.0})
+
+
+def test_a_sheet_without_masses_or_speed_is_asked_for_what_is_missing(tmp_path: Path) -> None:
+    with pytest.raises(crankwork.InputError, match=r"crank\.speed: is missing"):
+        _changed(tmp_path, ('speed = "960 об/хв"\n', ""), name="uk_compressor")
+
+
+@for_each(
+    ("changes", "message"),
+    [
+        ((("[gas]\n", '[cylinder]\nbore = "0,1 м"\n[gas]\n'),), "engine.bores: says the same as cylinder.bore"),
+        ((('bores = ["0,12 м", "0,075 м"]', 'bores = ["0,12 м"]'),), "engine.bores"),
+        ((('pressures = "absolute"\n', ""), ('ambient = "0,1 МПа"\n', "")), "gas.cylinders.1.valves"),
+    ],
+)
+def test_sizes_of_cylinders_that_contradict_others_are_refused(
+    tmp_path: Path, changes: tuple[tuple[str, str], ...], message: str
+) -> None:
+    with pytest.raises(crankwork.InputError, match=message):
+        _changed(tmp_path, *changes, name="uk_compressor")
+
+
+def test_two_static_forces_balance_by_both_ways() -> None:
+    """Virtual work of 5600 and 2200 N at the pistons, without masses, against the joint forces."""
+    results = entered("vi_vengine")
+    degrees = np.arange(0.0, 360.0, 45.0)
+    columns = results.columns_at(degrees)
+    power = 5600 * columns["slider_velocity.piston_1"] + 2200 * columns["slider_velocity.piston_2"]
+    assert np.abs(columns["balancing_torque"] * 60 * np.pi) == pytest.approx(np.abs(power), rel=1e-9, abs=1e-6)
+    assert results["mean_torque"] == pytest.approx(0, abs=1e-9)
+    # plans stand at the eight positions of the sheet
+    assert list(positions(results.machine)[:8]) == list(degrees)
+
+
+def test_a_weight_in_newtons_of_any_alphabet_has_the_gravity_of_the_sheet(tmp_path: Path) -> None:
+    results = _changed(
+        tmp_path, ('mass = "0.8 kg"', 'mass = "30 Н"'), ("[engine]", '[method]\ngravity = "10 m/s2"\n[engine]')
+    )
+    assert results["reciprocating_mass"] == pytest.approx(3.3, rel=1e-12)
+    assert not [item for item in results.without_effect if item.key == "method.gravity"]
+
+
+def test_a_note_of_a_cycle_without_masses_is_written() -> None:
+    note = crankwork.note_of(entered("vi_toyota_1rz"))
+    assert note
+
+
+def test_pressures_without_angles_are_those_of_a_file_with_them(tmp_path: Path) -> None:
+    """The same numbers as a list in a file, as a list in the machine file and as two columns."""
+    pressures = [
+        round(0.05 + 3.5 * float(np.exp(-((((angle + 180) % 720 - 360) / 45) ** 2))), 3) for angle in range(0, 720, 5)
+    ]
+    (tmp_path / "list.txt").write_text(
+        "p, МПа\n" + "\n".join(f"{value}".replace(".", ",") for value in pressures), encoding="utf-8"
+    )
+    rows = [f"{(180 + 5 * index)},{value}" for index, value in enumerate(pressures)]
+    (tmp_path / "table.csv").write_text("angle,pressure\n" + "\n".join(rows), encoding="utf-8")
+    spaced = 'start = "180 deg"\nstep = "5 deg"\n'
+    tables = ('file = "table.csv"', f'{spaced}file = "list.txt"', f"{spaced}values = {pressures}")
+    gas = '[gas]\ncycle = "720 deg"\n[gas.measured]\npressure_unit = "MPa"\n'
+    results = list[crankwork.Results]()
+    for table in tables:
+        text = (HERE / "assignments" / "ru_kshm_delphi.toml").read_text(encoding="utf-8")
+        (tmp_path / "machine.toml").write_text(
+            text[: text.index("[gas]")] + gas + table + "\n" + text[text.index("[method]") :], encoding="utf-8"
+        )
+        results.append(crankwork.analyse(crankwork.read(tmp_path / "machine.toml")))
+    first, *others = (np.asarray(result["gas_pressure"]) for result in results)
+    assert all(np.array_equal(first, other) for other in others)
+
+
+@for_each(
+    ("old", "new", "key", "value"),
+    [
+        ("excess_air = 0.9", 'excess_air = "90 %"', "excess_air", 0.9),
+        ('heating_value = "10400 kcal/kg"', 'heating_value = "43 542,72 kJ/kg"', "fuel_heating_value", 43.54272e6),
+    ],
+)
+def test_numbers_are_read_as_sheets_print_them(tmp_path: Path, old: str, new: str, key: str, value: float) -> None:
+    comma = ("format = 2\n", 'format = 2\ndecimal_mark = ","\n')
+    assert _changed(tmp_path, (old, new), comma, name="vi_toyota_1rz")[key] == pytest.approx(value, rel=1e-12)
+
+
+def test_a_percentage_of_a_percentage_is_no_share(tmp_path: Path) -> None:
+    results = _changed(tmp_path, ('fluctuation = "1/50"', 'percent = "1 %"'), name="uk_compressor")
+    assert results["speed_fluctuation"] == pytest.approx(0.02, rel=1e-9)
+
+
+def test_a_firing_order_stands_as_sheets_write_it(tmp_path: Path) -> None:
+    orders = [_changed(tmp_path, ("[1, 3, 4, 2]", order)) for order in ("[1, 3, 4, 2]", '"1-3-4-2"', '"1 – 3 – 4 – 2"')]
+    assert len({results.machine.engine.layout.firing_order for results in orders if results.machine.engine}) == 1
+
+
+def test_headings_with_other_letters_are_answered_with_their_quotation_marks(tmp_path: Path) -> None:
+    with pytest.raises(crankwork.InputError, match=re.escape('write [links."шатун"]')):
+        _changed(tmp_path, ("[links.rod]", "[links.шатун]"), name="en_case1_transient")
+
+
+def test_a_slot_begins_where_its_lever_does() -> None:
+    text = crankwork.template("crank-shaper")
+    named = text.replace('slot = { link = "lever" }', 'slot = { link = "lever", through = "B" }')
+    assert named != text
+    plain, other = (crankwork.analyse(crankwork.read_machine(source)) for source in (text, named))
+    assert other.summary == plain.summary

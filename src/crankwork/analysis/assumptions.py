@@ -176,12 +176,13 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"method\.gravity", lambda results, *_: "method.gravity" in leaves(results) and _has_mass(results)),
     (r"method\.weights", lambda results, *_: _has_mass(results)),
     (r"rod\.ratio_definition", lambda _, stated, __: "rod.ratio" in stated),
-    (r"engine\.strokes", lambda results, *_: results.machine.gas is None),
+    (r"engine\.strokes", lambda results, *_: results.machine.gas is None and not results.machine.chambers),
     (r"engine\.uneven", lambda *_: False),
     (r"(cycle|chambers\..*\.cycle)\.stroke_bore_ratio", lambda _, stated, __: "cycle.power" in stated),
     (r"(cycle|chambers\..*\.cycle)\.motored", lambda results, *_: _has_misfire(results)),
     (r"sliders\..*\.inertia", lambda results, _, path: _turns(results, path.split(".")[1])),
-    (r"loads\[\d+\]\.(curve|against|stroke)", lambda _, stated, path: f"{path.rpartition('.')[0]}.at[3]" in stated),
+    (r"loads\[\d+\]\.stroke", lambda *_: True),
+    (r"loads\[\d+\]\.(curve|against)", lambda _, stated, path: f"{path.rpartition('.')[0]}.at[3]" in stated),
     (r"transient\.until", lambda *_: False),
     (r"transfer\.bodies\..*\.mass", lambda _, stated, path: f"{path.removesuffix('mass')}velocity[1]" in stated),
     (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
@@ -251,6 +252,9 @@ def _idle(path: str, stated: Mapping[str, FileInput], results: Results, in_trace
         return rule(results, stated, path)
     number = results.machine.stated.get(path)
     if number is None or not number.value or _FACE.sub("", path) in in_trace or not _TRACED.fullmatch(path):
+        return ""
+    if path == "method.gravity" and any(notice.code == "weight" for notice in results.notices):
+        # makes masses of weights
         return ""
     return "weights_off" if path == "method.gravity" and not _has_weights(results) else "unused"
 

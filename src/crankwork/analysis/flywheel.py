@@ -17,6 +17,7 @@ from crankwork.shaft.flywheel_sizing import (
     mass_of_wheel,
     recovery_torque,
     rim_diameter,
+    rim_diameter_of_section,
     rim_section,
     rim_speed,
     rim_speed_of_stress,
@@ -120,8 +121,13 @@ def _rim(machine: Machine, rim: RimSpec, inertia: TracedValue, w: TracedValue) -
     """Return speed, diameter, mass and section of a rim, as far as they follow."""
     values = dict[str, TracedValue]()
     density = None if rim.density is None else _of_rim("density", rim.density)
+    part = inertia if rim.share == 1 else (_of_rim("share", rim.share) * inertia).named("rim_inertia")
     if rim.diameter is not None:
         diameter = _of_rim("diameter", rim.diameter)
+        speed = values["rim_speed"] = rim_speed(w, diameter)
+    elif rim.speed is None and rim.stress is None:
+        section = _of_rim("width", rim.width or 0.0), _of_rim("thickness", rim.thickness or 0.0)
+        diameter = values["rim_diameter"] = rim_diameter_of_section(part, density, machine.method.pi, *section)
         speed = values["rim_speed"] = rim_speed(w, diameter)
     else:
         if rim.speed is not None:
@@ -131,7 +137,6 @@ def _rim(machine: Machine, rim: RimSpec, inertia: TracedValue, w: TracedValue) -
         diameter = values["rim_diameter"] = rim_diameter(speed, w)
     if density is not None and rim.stress is None:
         values["rim_stress"] = hoop_stress(density, speed)
-    part = inertia if rim.share == 1 else (_of_rim("share", rim.share) * inertia).named("rim_inertia")
     mass = values["rim_mass"] = mass_for_inertia_of_rim(part, diameter)
     if density is None or (rim.width is not None and rim.thickness is not None):
         return values

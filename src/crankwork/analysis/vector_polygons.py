@@ -16,6 +16,7 @@ from crankwork.mechanism.mechanism import Mechanism
 
 # between the positions of a linkage [deg]
 POSITION_STEP = 30.0
+_FINEST, _COARSEST = 15.0, 90.0
 # columns without a value at many positions
 _IN_PLACES = ("instant_centre_", "instantaneous_efficiency")
 Kind = Literal["absolute", "relative", "normal", "tangential", "coriolis", "sliding"]
@@ -63,10 +64,16 @@ class DriverRates(NamedTuple):
     second: Array
 
 
+def position_step(machine: Machine) -> float:
+    """Return the step of the positions of a linkage: that of its tables where plans can have it, else 30. [deg]"""
+    step = machine.table_step
+    return step if _FINEST <= step <= _COARSEST and not machine.cycle % step else POSITION_STEP
+
+
 def positions(machine: Machine) -> Array:
-    """Return the positions of a linkage, every 30 degrees, as far as it reaches them. [deg]"""
-    reached, _ = reached_angles(machine, 1.0)
-    angles = np.arange(0.0, machine.cycle + POSITION_STEP, POSITION_STEP)
+    """Return the positions of a linkage as far as it reaches them. [deg]"""
+    (reached, _), step = reached_angles(machine, 1.0), position_step(machine)
+    angles = np.arange(0.0, machine.cycle + step, step)
     inside = angles[(angles >= reached[0]) & (angles <= reached[-1])]
     # a linkage that reaches none of these angles is shown at angles of its range
     return inside if inside.size else reached[::5]

@@ -57,7 +57,7 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
     own = not _OWN_GAS.isdisjoint(values["engine"]) or "cylinders" in values["gas"]
     if own or values["gas"]["measured"]["columns"]:
         engine, gas = _with_own_gas(values, engine, gas, reader, read_measured)
-    speed = crank_speed(crank["speed"], method) if "speed" in crank else 0.0
+    speed = crank_speed(crank["speed"], method) if crank["speed"] else 0.0
     if "recovery" in flywheel and masses and (masses.piston or masses.rod_small_end) and method.name != "textbook":
         reader.add_error("flywheel.recovery", ErrorMessage("recovery_of_linkage"))
     drive = read_flywheel(flywheel, Drive(), speed, reader, pi=method.pi)

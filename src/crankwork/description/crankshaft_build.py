@@ -40,7 +40,8 @@ def build_engine(
     if reader.has_errors(*(f"engine.{key}" for key in doubtful)) or len(table) < 2:
         return None
     try:
-        layout, notices = _layout(table, round(cycle / 180), _tops(table, lengths))
+        burns = "cycle" in values or ("gas" in values and "valves" not in values["gas"] and cycle > 360.0)
+        layout, notices = _layout(table, round(cycle / 180), _tops(table, lengths), burns=burns)
     except LayoutError as error:
         reader.add_error(error.key, error.args[0])
         return None
@@ -81,19 +82,23 @@ def _tops(table: Values, lengths: tuple[float, float, float] | None) -> tuple[fl
     return tuple(math.degrees(math.asin(offset / (lengths[0] + lengths[1]))) for offset in offsets)
 
 
-def _layout(table: Values, strokes: int, tops: tuple[float, ...]) -> tuple[Layout, tuple[LayoutNotice, ...]]:
-    """Return the layout that the keys describe."""
+def _layout(
+    table: Values, strokes: int, tops: tuple[float, ...], *, burns: bool
+) -> tuple[Layout, tuple[LayoutNotice, ...]]:
+    """Return the layout that the keys describe; where nothing burns, two cylinders need no even intervals."""
     kind, cylinders = table["layout"], int(table["cylinders"])
     throws = table.degrees("throws") if "throws" in table else None
     usual = _usual(table, strokes)
     order = [int(number) for number in table["firing_order"] if number]
+    is_pair = usual is None and cylinders == 2 and not burns
+    order = order or [1, 2] * is_pair
     if not order and kind != "radial":
         if usual is None:
             raise LayoutError("engine.firing_order", _no_order(table, strokes))
         order = list(usual.order)
         throws = throws or list(usual.throws)
     options: dict[str, Any] = {
-        "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"], "tops": tops,
+        "spacing": table.si("spacing") or 0.0, "strokes": strokes, "uneven": table["uneven"] or is_pair, "tops": tops,
     }  # fmt: skip
     articulated = "articulated" in table
     match kind:

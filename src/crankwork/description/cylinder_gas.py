@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import cast
 
+from crankwork.description import cylinder_pressure_build
 from crankwork.description.cylinder_pressure_build import ReadMeasured, build_diagram, check_parts, has_diagram
-from crankwork.description.schema import Values
+from crankwork.description.schema import Values, no_effect_message
 from crankwork.description.value_types import Reader, shown
 from crankwork.formula.traced_value import given
 from crankwork.loads.indicator import DiagramPoint, Piece
@@ -17,6 +18,7 @@ from crankwork.machine import Engine, Gas
 from crankwork.working_cycle.pressure_models import CornerPressure, HeatReleasePressure, MisfirePressure
 
 _AMBIENT = "ambient"
+_TURN = 360.0
 
 
 def with_own_gas(
@@ -138,7 +140,13 @@ def _with_diagram(gas: Gas, values: Values, path: str, table: Values, reader: Re
     check_parts(values, path, reader)
     pressures = "absolute" if gas.is_absolute else table["pressures"]
     diagram = build_diagram(values.but(pressures=pressures), path, reader, read)
-    return replace(gas, **diagram._asdict(), valves=None, path=path)
+    valves = cylinder_pressure_build.build_valves(values, path, reader)
+    if valves is not None and not (gas.is_absolute and gas.cycle == _TURN):
+        key, wanted = ("cycle", "360 deg") if gas.is_absolute else ("pressures", "absolute")
+        reader.add_error(f"{path}.valves", no_effect_message(key, table[key], (wanted,)))
+    elif valves is not None:
+        diagram = cylinder_pressure_build.with_valves(diagram, valves, has_clearance=True)
+    return replace(gas, **diagram._asdict(), valves=valves, path=path)
 
 
 def _misfires(table: Values, own: dict[str, Values | None], count: int, reader: Reader) -> set[int]:

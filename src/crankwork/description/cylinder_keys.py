@@ -11,6 +11,7 @@ from crankwork.working_cycle.schools import PEAK_LEVEL, SCHOOLS
 
 _LENGTH = Quantity(("length",), 1e-4, 100.0)
 _SPACING = Quantity(("length",), 0.0, 100.0)
+_VOLUME = Quantity(("volume",), 1e-15, 1e3)
 _MASS = Quantity(("mass",), 0.0, 1e6)
 _INERTIA = Quantity(("inertia",), 0.0, 1e6)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
@@ -50,10 +51,20 @@ ENGINE = TableSpec("engine", {
     "uneven": KeySpec(Flag(), default=False),
     "own_throws": KeySpec(Flag(), default=False, only=_V),
     "offsets": KeySpec(ListOf(Quantity(("length",), -100.0, 100.0), fewest=1, most=MOST_CYLINDERS)),
+    "bores": KeySpec(ListOf(_LENGTH, fewest=1, most=MOST_CYLINDERS)),
+    "clearance_volumes": KeySpec(ListOf(_VOLUME, fewest=1, most=MOST_CYLINDERS)),
+    "piston_masses": KeySpec(ListOf(_MASS, fewest=1, most=MOST_CYLINDERS)),
     "articulated": KeySpec(_ARTICULATED, only={"layout": ("V", "radial")}),
     "misfire": KeySpec(ListOf(Number(1, MOST_CYLINDERS, whole=True), fewest=1, most=MOST_CYLINDERS)),
     "pressure_factors": KeySpec(ListOf(Number(0.0, 10.0), fewest=1, most=MOST_CYLINDERS)),
 })  # fmt: skip
+
+# lists of sizes that each cylinder has for itself, with the keys of those that all have
+OWN_SIZES = {
+    "bores": ("cylinder", "bore"),
+    "clearance_volumes": ("cylinder", "clearance_volume"),
+    "piston_masses": ("piston", "mass"),
+}
 
 BEARINGS = TableSpec("bearings", {
     **dict.fromkeys(
@@ -72,7 +83,7 @@ BALANCE = TableSpec("balance", {
 
 _SIZE = Quantity(("length",), 1e-6, 100.0)
 _RIM = TableSpec("rim", {
-    "diameter": KeySpec(_SIZE, required=True, instead_of=("speed", "stress")),
+    "diameter": KeySpec(_SIZE, instead_of=("speed", "stress")),
     "speed": KeySpec(Quantity(("velocity",), 1e-3, 1e4), instead_of=("diameter", "stress")),
     "stress": KeySpec(Quantity(("pressure",), 1.0, 1e10), instead_of=("diameter", "speed"), only={"density": ()}),
     "density": KeySpec(Quantity(("density",), 1.0, 1e5)),
@@ -84,7 +95,7 @@ _RIM = TableSpec("rim", {
 
 FLYWHEEL = TableSpec("flywheel", {
     "fluctuation": KeySpec(Number(1e-6, 1.0), instead_of=("percent", "speeds")),
-    "percent": KeySpec(Number(1e-4, 50.0), instead_of=("fluctuation", "speeds")),
+    "percent": KeySpec(Number(1e-4, 50.0, percent=1.0), instead_of=("fluctuation", "speeds")),
     "speeds": KeySpec(ListOf(Quantity(("speed",), 1e-6, 3e4), fewest=2, most=2), instead_of=("fluctuation", "percent")),
     "inertia": KeySpec(Quantity(("inertia",), 0.0, 1e9), default="0 kg*m2", instead_of=("mass",)),
     "mass": KeySpec(Quantity(("mass",), 0.0, 1e9, above=True), instead_of=("inertia",)),
@@ -160,7 +171,7 @@ CYCLE = TableSpec("cycle", {
     "peak_pressure": KeySpec(_PRESSURE, _ASSIGNED, ("pressure_ratio",), only=_OF_ASSIGNED),
     "expansion_exponent": KeySpec(_EXPONENT, _ASSIGNED, ("expansion_pressure",), only=_OF_EXPONENTS),
     "expansion_pressure": KeySpec(_PRESSURE, instead_of=("expansion_exponent",), only=_OF_ASSIGNED),
-    "total_volume": KeySpec(Quantity(("volume",), 1e-15, 1e3), only=_OF_ASSIGNED),
+    "total_volume": KeySpec(_VOLUME, only=_OF_ASSIGNED),
     "heat_use": KeySpec(Number(0.2, 1.2), only=_OF_REAL),
     "pressure_ratio": KeySpec(
         Number(1.0, 10.0), instead_of=("peak_pressure",), only={"kind": ("diesel", *_IDEAL, *_ASSIGNED)}
@@ -212,13 +223,13 @@ OF_LINKAGE = (
     (r"links\.rod(_\d+)?\.inertia", ("rod.inertia", "rod.radius_of_gyration", "rod.mass", "rod.small_end_mass")),
     (r"links\.rod(_\d+)?\.centre.*", ("rod.centre_of_mass", "rod.small_end_share", "rod.small_end_mass")),
     (r"links\.rod(_\d+)?\.mass", ("rod.mass", "rod.small_end_mass", "rod.big_end_mass")),
-    (r"sliders\.piston(_\d+)?\.mass", ("piston.mass",)),
+    (r"sliders\.piston(_\d+)?\.mass", ("piston.mass", "engine.piston_masses")),
     (r"guides\.bore(_\d+)?\..*", ("cylinder.offset", "engine.offsets", "engine.bank_angle", "cylinder.inclination")),
-    (r"chambers\.[^.]+\.(faces\[1\]\.)?bore", ("cylinder.bore",)),
+    (r"chambers\.[^.]+\.(faces\[1\]\.)?bore", ("cylinder.bore", "engine.bores")),
     (r"chambers\.[^.]+\.(faces\[1\]\.)?rod_diameter", ("cylinder.piston_rod_diameter",)),
     (
         r"chambers\.[^.]+\.(compression_ratio|clearance_volume)",
-        ("cylinder.compression_ratio", "cylinder.clearance_volume"),
+        ("cylinder.compression_ratio", "cylinder.clearance_volume", "engine.clearance_volumes"),
     ),
     (r"chambers\.[^.]+\.period", ("gas.cycle", "cycle.cycle")),
     (r"chambers\.[^.]+\.delay", ("engine.firing_order", "engine.layout")),

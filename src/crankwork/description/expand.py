@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from crankwork.description.cylinder_keys import OWN_SIZES
 from crankwork.description.document import Description, load
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.load_keys import LOADING
-from crankwork.description.machine_file import file_keys, idle_keys, read, settings_of
+from crankwork.description.machine_file import file_keys, idle_keys, read, settings_of, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.shorthand import given_motion_tables, linkage_tables, linkage_values
 from crankwork.description.toml_edit import key_text, toml, with_value
@@ -30,7 +31,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
         description[setting.key] = setting.value
     values, keys = description.values, file_keys(description.values)
     if "transfer" in keys.keys:
-        columns = resolve_file_columns(values, keys, Reader(), Path(path).parent)
+        columns = resolve_file_columns(values, keys, Reader.of(values), Path(path).parent)
         description = Description(_text(given_motion_tables(columns)), description.name)
     elif "rod" in keys.keys:
         description = Description(_text(linkage_tables(values, engine_of(description))), description.name)
@@ -46,7 +47,10 @@ def engine_of(description: Description) -> Machine:
     """Return the engine of a file, without loads, friction and motor."""
     # with these it may have sections of another note
     left_out = {*LOADING, "document"}
-    alone = {key: value for key, value in description.values.items() if key not in left_out}
+    alone = {key: value for key, value in with_first_sizes(description.values, Reader()).items() if key not in left_out}
+    alone["crank"] = {"speed": "1 rad/s", **alone["crank"]}
+    if "engine" in alone:
+        alone["engine"] = {key: value for key, value in alone["engine"].items() if key not in OWN_SIZES}
     return Description(alone, description.name, folder=description.folder).machine()
 
 
@@ -66,7 +70,7 @@ def _text(tables: Iterable[tuple[str, Any]]) -> str:
 def _with_defaults(description: Description, mark: str) -> str:
     """Return the text with every default that applies, each on a line with a mark, or named behind its inline table."""
     keys, text = file_keys(description.values), description.dump()
-    values = keys.read(description.values, "", Reader()) or Values({}, keys)
+    values = keys.read(description.values, "", Reader.of(description.values)) or Values({}, keys)
     for name in _ALWAYS:
         kind = keys.keys[name].kind if name in keys.keys else None
         if isinstance(kind, TableSpec) and name not in values:

@@ -52,9 +52,9 @@ def _defaults(values: Any, path: str) -> Iterator[tuple[str, FileInput]]:  # noq
 
 def _holds(name: str, values: Values) -> bool:
     """Return whether the defaults of a table hold where it is left out."""
-    return (
-        name == "method" or (name == "cylinder" and "rod" in values) or (name == "timing" and values["kind"] == "wiebe")
-    )
+    if name == "cylinder":
+        return "rod" in values
+    return name in ("method", "rod") or (name == "timing" and values["kind"] == "wiebe")
 
 
 def _meaning(table: TableSpec, name: str) -> str:

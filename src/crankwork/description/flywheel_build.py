@@ -12,12 +12,18 @@ from crankwork.machine import Drive
 from crankwork.shaft.flywheel_sizing import FlywheelSpec, RimSpec, inertia_of_rim, inertia_of_wheel, mass_of_rim
 
 WANTED = ("fluctuation", "percent", "speeds")
+_SECTION = ("width", "thickness", "density")
 _SAME = 5e-3
 
 
 def read_flywheel(values: Values, drive: Drive, speed: float | None, reader: Reader, *, pi: float = math.pi) -> Drive:
     """Return a drive with the flywheel of a table. `speed`: of the crank, where the description states it. [rad/s]"""
     rim = values["rim"]
+    if "rim" in values and {"diameter", "speed", "stress"}.isdisjoint(rim) and not {*_SECTION} <= set(rim):
+        # a section of a density has the diameter that its inertia needs
+        advice = ('diameter = "1 m"', 'speed = "30 m/s"', 'stress = "5 MPa"')
+        reader.add_error("flywheel.rim.diameter", ErrorMessage("missing", advice=advice))
+        return drive
     wheel = FlywheelSpec(
         mass=values.si("mass"),
         gyration_radius=values.si("radius_of_gyration"),
@@ -41,7 +47,7 @@ def read_flywheel(values: Values, drive: Drive, speed: float | None, reader: Rea
 def is_given(values: Values) -> bool:
     """Return whether a table states a flywheel, not only its required fluctuation."""
     rim = values["rim"]
-    return bool(values.si("inertia")) or "mass" in values or {"diameter", "width", "thickness", "density"} <= set(rim)
+    return bool(values.si("inertia")) or "mass" in values or {"diameter", *_SECTION} <= set(rim)
 
 
 def _inertia(values: Values, wheel: FlywheelSpec, pi: float) -> float:

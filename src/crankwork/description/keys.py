@@ -10,7 +10,7 @@ import math
 from crankwork.cylinders.layout import MOST_CYLINDERS
 from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import BALANCE, BEARINGS, CYCLE, ENGINE, FLYWHEEL
-from crankwork.description.load_keys import LOADING, SHEET
+from crankwork.description.load_keys import LOADING, SHEET, with_defaults
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, MapOf, NameOr, TableSpec, WordOr
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text, UnitOf
 from crankwork.method import STANDARD_GRAVITY
@@ -77,9 +77,14 @@ _PEG = TableSpec("peg", {
     "from": KeySpec(_ANGLE, required=True, only={"exponent": ()}, example='"270 deg"'),
     "to": KeySpec(_ANGLE, required=True, only={"exponent": ()}, example='"330 deg"'),
 })  # fmt: skip
+# of a file with a column of angles, which steps replace
+_OF_TABLE = ("angle_column", "pressure_column", "angle_unit")
 _COLUMN = NameOr(Number(1, 16_384, whole=True))
 MEASURED = TableSpec("measured", {
-    "file": KeySpec(Text(1000), required=True),
+    "file": KeySpec(Text(1000), required=True, instead_of=("values",)),
+    "values": KeySpec(ListOf(Number(-1e9, 1e9), fewest=8), instead_of=("file",), only={"step": ()}),
+    "start": KeySpec(_ANGLE, default="0 deg", only={"step": ()}),
+    "step": KeySpec(Quantity(("angle",), math.radians(0.01), math.radians(90)), instead_of=_OF_TABLE),
     "sheet": SHEET,
     "angle_column": KeySpec(_COLUMN),
     "pressure_column": KeySpec(_COLUMN),
@@ -95,7 +100,7 @@ MEASURED = TableSpec("measured", {
     "resample": KeySpec(Quantity(("angle",), math.radians(0.01), math.radians(30))),
 })  # fmt: skip
 
-_COLUMNS = KeySpec(ListOf(_COLUMN, fewest=2, most=MOST_CYLINDERS), instead_of=("pressure_column",))
+_COLUMNS = KeySpec(ListOf(_COLUMN, fewest=2, most=MOST_CYLINDERS), instead_of=("pressure_column", "step"))
 _OF_ALL = MEASURED._replace(keys={**MEASURED.keys, "columns": _COLUMNS})
 
 _OPENING = Quantity(("pressure",), 1.0, 1e10)
@@ -136,6 +141,7 @@ DIAGRAM = {
     "pieces": KeySpec(ListOf(PIECE, fewest=1, most=500)),
     "measured": KeySpec(MEASURED, instead_of=("points", "pieces")),
 }
+_OWN = {**DIAGRAM, "valves": KeySpec(VALVES, instead_of=tuple(DIAGRAM))}
 _GAS = TableSpec("gas", {
     "cycle": KeySpec(Choice(("720 deg", "360 deg")), required=True),
     "ambient": KeySpec(Quantity(("pressure",), 0.0, 1e7), default=AMBIENT, only={"pressures": ("absolute",)}),
@@ -144,7 +150,7 @@ _GAS = TableSpec("gas", {
     **DIAGRAM,
     "measured": DIAGRAM["measured"]._replace(kind=_OF_ALL),
     "valves": KeySpec(VALVES, instead_of=tuple(DIAGRAM), only={"pressures": ("absolute",), "cycle": ("360 deg",)}),
-    "cylinders": KeySpec(MapOf(TableSpec("gas", DIAGRAM), most=28)),
+    "cylinders": KeySpec(MapOf(TableSpec("gas", _OWN), most=28)),
     "motored": KeySpec(NameOr(TableSpec("gas", DIAGRAM))),
 })  # fmt: skip
 
@@ -189,17 +195,12 @@ MACHINE_FILE = TableSpec("file", {
 })  # fmt: skip
 
 
-def _optional(table: TableSpec, *names: str) -> TableSpec:
-    keys = {key: spec._replace(required=spec.required and key not in names) for key, spec in table.keys.items()}
-    return table._replace(keys=keys)
-
-
 # for files in which a required power gives bore and stroke
-SIZED_FILE = MACHINE_FILE._replace(keys={
-    **MACHINE_FILE.keys,
-    "crank": KeySpec(_optional(_CRANK, "radius"), required=True),
-    "cylinder": KeySpec(_optional(_CYLINDER, "bore")),
-})  # fmt: skip
+_SIZED = with_defaults(MACHINE_FILE, "crank", _CRANK, radius=None)
+SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
+
+# for a calculation of a working cycle alone, which only the motion beside it needs a rod for
+CYCLE_FILE, SIZED_CYCLE_FILE = (with_defaults(keys, "rod", _ROD, ratio=0.25) for keys in (MACHINE_FILE, SIZED_FILE))
 
 
 def with_loading(keys: TableSpec) -> TableSpec:
@@ -208,3 +209,4 @@ def with_loading(keys: TableSpec) -> TableSpec:
 
 
 LOADED_FILE, LOADED_SIZED_FILE = map(with_loading, (MACHINE_FILE, SIZED_FILE))
+STARTED_ENGINE = with_defaults(LOADED_FILE, "crank", _CRANK, speed="1 rad/s")

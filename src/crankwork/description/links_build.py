@@ -91,7 +91,7 @@ def build_linkage(values: Values, reader: Reader, read_measured: ReadMeasured) -
     machine = Machine(
         mechanism=mechanism,
         linkage=linkage,
-        speed=crank_speed(crank["speed"], method) if "speed" in crank else 0.0,
+        speed=crank_speed(crank["speed"], method) if crank["speed"] else 0.0,
         angular_acceleration=crank.si("angular_acceleration") or 0.0,
         title=values["title"] or "",
         loads=loads,

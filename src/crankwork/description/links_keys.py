@@ -30,6 +30,7 @@ from crankwork.description.load_keys import (
     SPEED,
     TIME,
     TORQUE,
+    with_defaults,
 )
 from crankwork.description.schema import KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Number, Quantity, Text
@@ -38,10 +39,12 @@ from crankwork.mechanism.driver import LawKind
 _PLACE = ListOf(COORDINATE, fewest=2, most=2)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
+_OF_MASS = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "centre": KeySpec(NameOr(_PLACE))}
 # bodies that turn about a pivot: all inertia counts, also that of the mass at its distance
-_TURNING = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "inertia": INERTIA._replace(default=None),
-            "centre": KeySpec(NameOr(_PLACE))}  # fmt: skip
-_MASS = {**_TURNING, "inertia": INERTIA._replace(only={"mass": ()})}
+_TURNING = {**_OF_MASS, "inertia": INERTIA._replace(default=None),
+            "inertia_about": KeySpec(Choice(("pivot", "centre")), default="pivot",
+                                     only={"inertia": (), "mass": ()})}  # fmt: skip
+_MASS = {**_OF_MASS, "inertia": INERTIA._replace(only={"mass": ()})}
 
 _CRANK = TableSpec("driving", {
     "pivot": KeySpec(NAME, required=True),
@@ -211,6 +214,8 @@ LINKAGE_FILE = TableSpec("file", {
     "method": KeySpec(METHOD),
     "table": KeySpec(TABLE),
 })  # fmt: skip
+
+STARTED_FILE = with_defaults(LINKAGE_FILE, "crank", _CRANK, speed="1 rad/s")
 
 # a crank with a law has no speed, and other drivers have no crank, whose turn the loads of bearings need
 _OF_CRANKSHAFT = ("shaft", "bearings", "balance")

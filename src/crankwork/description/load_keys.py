@@ -97,6 +97,15 @@ _TRANSIENT = TableSpec("transient", {
     "restitution": KeySpec(Number(0.0, 1.0), default=0.0, only={"stops": ()}),
 })  # fmt: skip
 
+
+def with_defaults(keys: TableSpec, name: str, table: TableSpec, **defaults: object) -> TableSpec:
+    """Return the keys of a file in which keys of one of its tables have other defaults and need not be stated."""
+    own = {key: table.keys[key]._replace(required=False, default=default) for key, default in defaults.items()}
+    table = table._replace(keys={**table.keys, **own})
+    entry = KeySpec(table, required=any(key.required for key in table.keys.values()))
+    return keys._replace(keys={**keys.keys, name: entry})
+
+
 # those of a machine beside its mechanism and its gas
 LOADING = {
     "loads": KeySpec(ListOf(_LOAD)),

@@ -16,12 +16,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
 from crankwork.analysis import prepare
+from crankwork.description import keys as engine_files
 from crankwork.description.build import build_machine
+from crankwork.description.cylinder_keys import OWN_SIZES
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.file_inputs import file_inputs
 from crankwork.description.keys import FORMATS, LOADED_FILE, LOADED_SIZED_FILE, MACHINE_FILE, METHOD, SIZED_FILE
-from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, TRANSFER_FILE
+from crankwork.description.links_keys import DRIVEN_FILE, GIVEN_MOTION_FILE, LINKAGE_FILE, STARTED_FILE, TRANSFER_FILE
 from crankwork.description.load_keys import LOADING
 from crankwork.description.measured_build import add_questions, in_file, read_measured
 from crankwork.description.schema import ListOf, MapOf, NameOr, Nested, TableSpec, Values, nearest_name
@@ -40,10 +42,11 @@ if TYPE_CHECKING:
     from crankwork.machine import FileInputs, Machine
 
 TEMPLATES = "description/templates"
-_ENGINES = (MACHINE_FILE, SIZED_FILE)
+_ENGINES = (MACHINE_FILE, SIZED_FILE, engine_files.CYCLE_FILE, engine_files.SIZED_CYCLE_FILE)
 _TABULATED = (TRANSFER_FILE, GIVEN_MOTION_FILE)
-_LOADED, _LINKAGES = (LOADED_FILE, LOADED_SIZED_FILE), (LINKAGE_FILE, DRIVEN_FILE, *_TABULATED)
-FILES = (MACHINE_FILE, SIZED_FILE, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
+_LOADED = (LOADED_FILE, LOADED_SIZED_FILE, engine_files.STARTED_ENGINE)
+_LINKAGES = (LINKAGE_FILE, STARTED_FILE, DRIVEN_FILE, *_TABULATED)
+FILES = (*_ENGINES, *_LOADED, *_LINKAGES, TURNING_FILE, PRESS_FILE)
 _MAX_PARTS = 8
 _OF_LINKAGES = ("links", "sliders", "guides", "fixed_points", "positions")
 # a name, and numbers of entries where it is a list
@@ -124,14 +127,21 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
         # its keys may have other meanings
         reader.add_error("format", ErrorMessage("format_unknown", newest=str(FORMATS[-1])))
         return None
-    keys = file_keys(values)
+    keys, values = file_keys(values), with_first_sizes(values, reader)
     read_values = keys.read(resolve_file_columns(values, keys, reader, folder), "", reader) or Values({}, keys)
     machine = _of_kind(keys, read_values, reader, folder)
+    weighs = any(code == "weight" for code, _ in reader.notices)
     for key, reason in idle_keys(keys, read_values).items():
         table, _, name = key.partition(".")
-        if name in (read_values[table] or ()):
+        if name in (read_values[table] or ()) and not (weighs and key == "method.gravity"):
             reader.add_error(key, reason)
-    if machine is not None and not reader.problems and keys in _LOADED:
+    own_sizes = OWN_SIZES.keys() & read_values["engine"] if keys not in _LINKAGES and "engine" in read_values else ()
+    for name in own_sizes:
+        reader.notices = [notice for notice in reader.notices if notice[1]["path"] != ".".join(OWN_SIZES[name])]
+        count, cylinders = len(read_values["engine"][name]), read_values["engine"]["cylinders"]
+        if cylinders and count != cylinders:
+            reader.add_error(f"engine.{name}", ErrorMessage("offsets_count", count=count, cylinders=int(cylinders)))
+    if machine is not None and not reader.problems and (keys in _LOADED or own_sizes):
         machine = _loaded(machine, values, reader, folder)
     elif machine is not None and keys in _ENGINES:
         form = functools.partial(_linkage_form, machine, values, decimal_comma=reader.decimal_comma, folder=folder)
@@ -139,6 +149,19 @@ def _build(values: dict[str, Any], reader: Reader, folder: Path) -> Machine | No
     if machine is None:
         return None
     return replace(machine, document=stated_document(read_values), inputs=functools.partial(_inputs, values))
+
+
+def with_first_sizes(values: dict[str, Any], reader: Reader) -> dict[str, Any]:
+    """Return the values of a file with the sizes of cylinder 1, where each cylinder has its own; report both stated."""
+    engine = values.get("engine")
+    if not isinstance(engine, dict):
+        return values
+    for name, (table, key) in OWN_SIZES.items():
+        if isinstance(sizes := engine.get(name), list) and sizes and isinstance(values.get(table, {}), dict):
+            if key in values.get(table, {}):
+                reader.add_error(f"engine.{name}", ErrorMessage("same", others=[f"{table}.{key}"]))
+            values = {**values, table: {**values.get(table, {}), key: sizes[0]}}
+    return values
 
 
 def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
@@ -160,7 +183,7 @@ def idle_keys(keys: TableSpec, values: Values) -> dict[str, ErrorMessage]:
 def _inputs(values: dict[str, Any]) -> FileInputs:
     """Return what the values of a file state, and their defaults."""
     keys = file_keys(values)
-    return file_inputs(keys.read(values, "", Reader()) or Values({}, keys), values)
+    return file_inputs(keys.read(values, "", Reader.of(values)) or Values({}, keys), values)
 
 
 # what a linkage form is made of
@@ -199,10 +222,10 @@ def _engine_form(stated: Machine, engine: Machine, machine: Machine) -> Machine 
 def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Path) -> Machine | None:
     """Return an engine with loads or friction as the linkage that it is; report mistakes at the keys of its file."""
     # other files do not load it
-    from crankwork.description.shorthand import key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
+    from crankwork.description.shorthand import has_own_sizes, key_of_engine, linkage_values  # noqa: PLC0415 - loaded where it is needed
 
     if not machine.method.is_exact:
-        stated = next(key for key in LOADING if key in values)
+        stated = next((key for key in LOADING if key in values), "engine")
         reader.add_error("method.kinematics", ErrorMessage("loaded_exact", method=machine.method.name, key=stated))
         return None
     own = Reader(decimal_comma=reader.decimal_comma, metric_hp=reader.metric_hp, gravity=reader.gravity)
@@ -213,7 +236,7 @@ def _loaded(machine: Machine, values: dict[str, Any], reader: Reader, folder: Pa
         return None
     notices: list[tuple[str, Mapping[str, float | str]]] = [*linkage.notices]
     notices += machine.engine.notices if machine.engine is not None else ()
-    if "loads" in values:
+    if "loads" in values or has_own_sizes(values):
         # the forces of the engine alone would be other ones
         notices += [("loaded_without", {"name": name}) for name in ("bearings", "balance") if name in values]
         return replace(linkage, stated=machine.stated, notices=tuple(notices))
@@ -273,12 +296,24 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
         return GIVEN_MOTION_FILE
     if "torque" in values or "load" in values:
         return TURNING_FILE if "torque" in values else PRESS_FILE
+    crank = values.get("crank")
+    is_started = "transient" in values and isinstance(crank, dict) and "speed" not in crank
     if any(name in values for name in _OF_LINKAGES):
-        return DRIVEN_FILE if "driver" in values else LINKAGE_FILE
+        return DRIVEN_FILE if "driver" in values else STARTED_FILE if is_started else LINKAGE_FILE
     cycle, is_loaded = values.get("cycle"), not LOADING.keys().isdisjoint(values)
+    is_calculated = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
+    is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
     if isinstance(cycle, dict) and "power" in cycle:
-        return LOADED_SIZED_FILE if is_loaded else SIZED_FILE
-    return LOADED_FILE if is_loaded else MACHINE_FILE
+        return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
+    return (
+        engine_files.CYCLE_FILE
+        if is_alone
+        else engine_files.STARTED_ENGINE
+        if is_started
+        else LOADED_FILE
+        if is_loaded
+        else MACHINE_FILE
+    )
 
 
 def parse(source: str, name: str) -> dict[str, Any]:
@@ -392,6 +427,12 @@ def _syntax_message(source: str, name: str, text: str) -> ErrorMessage:
         written = f'{spaced[1]}"{spaced[2].strip()}"{"]" * len(spaced[1])}'
         return ErrorMessage("letters_need_quotes", place=place, line=line, written=written)
     comma = re.match(r"(.*?=\s*\[?(?:.*,\s)?)([+-]?\d+),(\d+)\s*(?:[\],#}]|$)", line)
+    dotted = re.match(r"(\[{1,2})([^\]\"'#]*[^\x00-\x7f][^\]\"'#]*)\]", line)
+    if dotted is not None and "." in dotted[2] and not look_alikes(dotted[2]):
+        parts = (part.strip() for part in dotted[2].split("."))
+        named = ".".join(part if part.isascii() else f'"{part}"' for part in parts)
+        written = f"{dotted[1]}{named}{']' * len(dotted[1])}"
+        return ErrorMessage("letters_need_quotes", place=place, line=line, written=written, mended=written)
     key = re.match(r"(\[{0,2})\s*([^=\[\]\"'#.]*[^\x00-\x7f][^=\[\]\"'#.]*)", line)
     if key is not None and (letters := look_alikes(key[2].strip())):
         written = key[2].strip().translate(TO_LATIN)

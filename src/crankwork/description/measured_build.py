@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.description.schema import Values, no_effect_message
-from crankwork.description.table_file import FileTable, read_table
+from crankwork.description.table_file import FileTable, read_list, read_table
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
@@ -75,6 +75,8 @@ class _Columns(NamedTuple):
 
 def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
     """Return the samples of a file, or None after a complaint; `path`: of their owner in the description."""
+    if "step" in values:
+        return _listed(values, reader, f"{path}.measured", folder)
     if "file" not in values:
         return None
     file = values["file"]
@@ -124,6 +126,24 @@ def read_measured(values: Values, reader: Reader, path: str, folder: Path) -> Me
     )
 
 
+def _listed(values: Values, reader: Reader, path: str, folder: Path) -> MeasuredPressure | None:
+    """Return pressures one after another at equal steps, or None after a complaint; `path`: of their table."""
+    try:
+        numbers = list(enumerate(values["values"], start=1)) or read_list(
+            folder / values["file"], name=values["file"], sheet=values["sheet"]
+        )
+    except CrankworkError as error:
+        reader.add_error(f"{path}.file", *error.args)
+        return None
+    if "pressure_unit" not in values:
+        reader.add_error(f"{path}.pressure_unit", ErrorMessage("missing", advice=('pressure_unit = "MPa"',)))
+        return None
+    pressure = np.array([number for _, number in numbers], dtype=float) * UNITS[values["pressure_unit"]].factor
+    degrees = values.degrees("start") + values.degrees("step") * np.arange(len(pressure))
+    name = PureWindowsPath(values["file"] or "").name
+    return MeasuredPressure(degrees, pressure, tuple(line for line, _ in numbers), name, unit=values["pressure_unit"])
+
+
 def _without_unit(table: FileTable, column: int) -> ErrorMessage:
     """Return the question for the unit of a column of pressures, with those that suit its numbers."""
     units, written = plausible_units(table.readable(column)), table.written[column]
@@ -139,7 +159,7 @@ def in_file(key: str, mistake: ErrorMessage, values: Values) -> ErrorMessage:
     if not measured:
         return mistake
     table = functools.reduce(dict.__getitem__, owner.split("."), values)
-    return ErrorMessage("in_file", file=table["measured"]["file"], mistake=mistake)
+    return ErrorMessage("in_file", file=table["measured"]["file"] or "values", mistake=mistake)
 
 
 def add_questions(notices: Iterable[NoticeData], values: Values, reader: Reader) -> None:

@@ -48,6 +48,13 @@ class ListOf(NamedTuple):
         """Return the entries; an invalid entry becomes None after its complaint."""
         if self.may_be_one and isinstance(value, str) and not reader.has_errors(key):
             return [self.entry.read(value, key, reader)]
+        if (
+            isinstance(value, str)
+            and isinstance(self.entry, Number)
+            and re.fullmatch(r"\s*\d+(\s*[-–—]\s*\d+)+\s*", value)
+        ):
+            # a firing order as sheets write it
+            value = list(map(int, re.findall(r"\d+", value)))
         if not isinstance(value, list):
             # the missing content of an unreadable file is not reported
             if not (self.from_file and reader.has_errors(key)):

@@ -13,7 +13,7 @@ from crankwork.analysis.cylinders import multi_cylinder_engine
 from crankwork.analysis.prepared import PreparedCylinder
 from crankwork.cylinders.articulated import articulated_stroke
 from crankwork.cylinders.layout import CylinderPlace
-from crankwork.description.cylinder_keys import CHAMBER_CYCLE, OF_LINKAGE
+from crankwork.description.cylinder_keys import CHAMBER_CYCLE, OF_LINKAGE, OWN_SIZES
 from crankwork.description.load_keys import LOADING
 from crankwork.description.toml_edit import key_text
 from crankwork.dynamics.masses import CrankGearMasses
@@ -126,12 +126,13 @@ def linkage_tables(values: Mapping[str, Any], machine: Machine) -> Iterator[tupl
     mass = machine.masses.piston if machine.masses else 0.0
     for mechanism in gears:
         weighing = {"mass": _unit(mass, "kg")} if mass else {}
+        weighing = {"mass": own} if (own := _own(values, "piston_masses", mechanism)) else weighing
         yield f"sliders.piston{mechanism.own}", {"guide": f"bore{mechanism.own}", "pin": mechanism.pin, **weighing}
     yield "positions", {name: _place(position) for name, position in _positions(gears)}
     for mechanism in gears:
         yield from _chambers(values, mechanism)
     yield from loading.items()
-    if "loads" not in loading:
+    if "loads" not in loading and not has_own_sizes(values):
         # with these it is no engine whose bearings are known
         yield from _of_shaft(values, machine, gears)
     is_exact = machine.method.is_exact
@@ -273,12 +274,16 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
     cylinder, gas = gear.solved.machine.cylinder, gear.solved.machine.gas
     if cylinder is None or gas is None:
         return
-    face = {"slider": f"piston{gear.own}", "bore": _unit(cylinder.bore, "mm")}
+    bore = _own(values, "bores", gear) or _unit(cylinder.bore, "mm")
+    face = {"slider": f"piston{gear.own}", "bore": bore}
     space: dict[str, Any] = {"sense": 1}
     if cylinder.compression_ratio:
         # that of a cylinder with ports is calculated from the stated one
         space["compression_ratio"] = values["cylinder"].get("compression_ratio", cylinder.compression_ratio)
-    space |= {"clearance_volume": _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
+    clearance = _own(values, "clearance_volumes", gear)
+    space |= (
+        {"clearance_volume": clearance or _unit(cylinder.clearance_volume, "cm3")} if cylinder.clearance_volume else {}
+    )
     stated = _calculated(values["cycle"], gas) if gas.calculated else _stated(values["gas"], gas, gear.place.number)
     plain: dict[str, Any] = {key: value for key, value in stated.items() if isinstance(value, str)}
     plain |= {"pressure_factor": gas.factor} if gas.factor != 1 else {}
@@ -293,6 +298,17 @@ def _chambers(values: Mapping[str, Any], gear: CrankMechanism) -> Iterator[tuple
     if cylinder.piston_rod_diameter:
         rod, back = _unit(cylinder.piston_rod_diameter, "mm"), values.get("gas", {}).get("back_pressure", "0 MPa")
         yield f"chambers.crank_end{gear.own}", {**face, "rod_diameter": rod, "sense": -1, "pressure": back}
+
+
+def has_own_sizes(values: Mapping[str, Any]) -> bool:
+    """Return whether cylinders have sizes of their own."""
+    return not OWN_SIZES.keys().isdisjoint(values.get("engine", ()))
+
+
+def _own(values: Mapping[str, Any], name: str, gear: CrankMechanism) -> str | None:
+    """Return the size of a cylinder for itself as stated, None where all have the same."""
+    sizes = values.get("engine", {}).get(name)
+    return sizes[gear.place.number - 1] if sizes else None
 
 
 def _stated(table: Mapping[str, Any], gas: Gas, number: int) -> dict[str, Any]:

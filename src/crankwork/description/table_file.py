@@ -6,6 +6,7 @@ import codecs
 import contextlib
 import csv
 import itertools
+import math
 import re
 import unicodedata
 from collections import Counter
@@ -190,6 +191,20 @@ def read_table(path: str | Path, *, name: str = "", sheet: str | None = None) ->
         return _table(_HARD_SPACES.sub("", text), called)
     except ValueError as error:
         raise CrankworkError(ErrorMessage("in_file", file=called, mistake=error.args[0])) from None
+
+
+def read_list(path: str | Path, *, name: str = "", sheet: str | None = None) -> list[tuple[int, float]]:
+    """Return numbers one after another, several or one on a line, with their lines; words above them are left out."""
+    numbers = list[tuple[int, float]]()
+    for line, content in enumerate(_text(files.read_data(path), Path(path), sheet).splitlines(), start=1):
+        for cell in re.split(r"[\s;]+", content.strip()):
+            number = _float(cell.replace("\N{MINUS SIGN}", "-"))
+            if number is not None and math.isfinite(number):
+                numbers.append((line, number))
+            elif cell and numbers:
+                mistake = ErrorMessage("measured_no_number", line=line, cell=cell[:20])
+                raise CrankworkError(ErrorMessage("in_file", file=name, mistake=mistake))
+    return numbers
 
 
 def _table(text: str, name: str) -> FileTable:

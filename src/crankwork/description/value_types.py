@@ -282,7 +282,7 @@ class Quantity(NamedTuple):
         )
         return {
             "type": "string",
-            "pattern": r"^\s*[+-]?[0-9.,]+([eE][+-]?[0-9]+)?\s*\S.*$",
+            "pattern": r"^\s*[+-]?[0-9.,π]+([eE][+-]?[0-9]+)?\s*\S.*$",
             "description": described,
             "examples": [units.EXAMPLES[self.dimensions[0]]],
             "unit": unit,
@@ -299,6 +299,7 @@ class Number(NamedTuple):
     above: bool = False
     whole: bool = False
     message_kind: str = "number"
+    percent: float = 0.01  # What one per cent is as the number
 
     def read(self, value: object, key: str, reader: Reader) -> float | None:
         """Return the number."""
@@ -310,6 +311,9 @@ class Number(NamedTuple):
             stated, deviation = split_deviation(value)
             is_number = deviation is not None or (reader.decimal_comma and value.count(",") == 1)
             value = _float(stated.replace(",", ".")) if is_number else value
+        if isinstance(value, str) and value.rstrip().endswith("%") and not self.whole:
+            share = _float(value.rstrip(" %").replace(",", "." if reader.decimal_comma else ","))
+            value = share * self.percent if isinstance(share, float) else value
         if isinstance(value, bool) or not isinstance(value, int | float):
             message = ErrorMessage("number_plain", value=shown(value), example=self.example())
             reader.add_error(key, _by_sides(str(value), message))

@@ -20,7 +20,8 @@ Table = Mapping[str, Any]
 
 _TABLES = ("fixed_points", "crank", "geared", "driver", "links", "guides", "sliders", "branch", "positions")
 _MASS = ("mass", "inertia", "centre")
-_CRANK = ("pivot", "pin", "radius", "start", "direction", "points", *_MASS)
+_TURNING = (*_MASS, "inertia_about")
+_CRANK = ("pivot", "pin", "radius", "start", "direction", "points", *_TURNING)
 _LINK = ("joins", "length", "points", *_MASS)
 _SLIDER = ("guide", "pin", "points", *_MASS)
 _GUIDE = ("through", "angle", "link")
@@ -28,7 +29,7 @@ _DRIVERS = ("slider", "cylinder", "between")
 _HALVES = ("barrel", "rod")
 _DRIVER = (*_DRIVERS, *_HALVES, "law")
 _SAME = 1e-12
-_GEARED = ("pivot", "ratio", "start", "points", "pressure_angle", *_MASS)
+_GEARED = ("pivot", "ratio", "start", "points", "pressure_angle", *_TURNING)
 _DIRECTIONS: dict[str, Branch] = {"anticlockwise": 1, "clockwise": -1}
 
 
@@ -281,14 +282,14 @@ class _Reader:
         return tuple(cranks), tuple(members)
 
     def _turning(self, key: str, member: Member, table: Table, places: Mapping[str, Point]) -> Member:
-        """Return a crank with its mass; its moment of inertia is stated about its axis.
+        """Return a crank with its mass; its moment of inertia is stated about its axis unless the file says otherwise.
 
         `places`: its points in its frame, the pivot first.
         """
         if not any(name in table for name in _MASS):
             return member
         mass = self._number(f"{key}.mass", table.get("mass", 0.0))
-        about_axis = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
         centre = table.get("centre", next(iter(places)))
         points, places = dict(member.points), dict(places)
         if not isinstance(centre, str):
@@ -300,9 +301,11 @@ class _Reader:
             self._problem(f"{key}.centre", ErrorMessage("centre_unknown", centre=centre, link=member.name, known=known))
             return member
         turning = mass * math.hypot(*places[centre]) ** 2
-        if "inertia" in table and about_axis < turning * (1 - _SAME):
+        if table.get("inertia_about") == "centre":
+            return _replaced(member, points, mass, inertia, centre)
+        if "inertia" in table and inertia < turning * (1 - _SAME):
             self._problem(f"{key}.inertia", ErrorMessage("crank_inertia_small", least=turning))
-        own = max(about_axis - turning, 0.0) if "inertia" in table else 0.0
+        own = max(inertia - turning, 0.0) if "inertia" in table else 0.0
         return _replaced(member, points, mass, own, centre)
 
     def _links(self, drawn: Mapping[str, Point]) -> Iterator[Member]:
@@ -376,6 +379,8 @@ class _Reader:
     def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
         key, through = f"guides.{name}", table.get("through", [0.0, 0.0])
         link = self._word(f"{key}.link", table["link"]) if "link" in table else ""
+        if [through] == list(self.tables.get("links", {}).get(link, {}).get("joins", ()))[:1]:
+            through = [0.0, 0.0]  # Where the frame of the link begins
         if not isinstance(through, str):
             point = self._point(f"{key}.through", through)
         elif through in ground and not link:

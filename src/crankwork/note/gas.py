@@ -181,8 +181,8 @@ def _measured(material: Material) -> Iterator[Block]:
         return
     cycles = next((item.values["cycles"] for item in material.results.notices if item.code == "cycles_averaged"), 1)
     yield words.paragraph(
-        "measured",
-        file=gas.measured.file or "–",
+        "measured" if gas.measured.file else "measured_given",
+        file=gas.measured.file,
         samples=words.number(len(gas.measured.degrees)),
         cycles=words.number(float(cycles)),
         table=Reference("t:measured"),

@@ -13,7 +13,7 @@ import numpy as np
 from crankwork.analysis import Array, Results
 from crankwork.analysis.cylinder_forces import force_functions
 from crankwork.analysis.rounding_noise import summary_without_rounding, without_rounding
-from crankwork.analysis.vector_polygons import POSITION_STEP, positions, worked_position
+from crankwork.analysis.vector_polygons import position_step, positions, worked_position
 from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, ValueLine
 from crankwork.formula.expression import Expression, Operation, Symbol
 from crankwork.locale import capital, has_text, translate
@@ -163,7 +163,7 @@ class Material:
     @property
     def first(self) -> int | None:
         """Number of the first position, counted from a crank angle of zero; none where they have no numbers."""
-        numbers = self.positions / POSITION_STEP
+        numbers = self.positions / position_step(self.machine)
         return round(float(numbers[0])) if np.allclose(numbers, np.round(numbers)) else None
 
     def shown(self, key: str, values: Array) -> Array:

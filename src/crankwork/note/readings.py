@@ -35,7 +35,7 @@ def reading(kind: str, material: Material, pin: str = "1") -> Paragraph | None:
     known = _known(kind, material, pin)
     if kind == "joint_forces":
         return _of_joints(material)
-    if not known:
+    if not known or (kind == "piston_forces" and not {*_PARTS} <= material.columns.keys()):
         return None
     words, values = material.words, dict[str, str]()
     for key, (value, angle) in known.items():

@@ -12,7 +12,7 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.analysis.constructions import force_laws
 from crankwork.analysis.sampled_motion import sample_motion
-from crankwork.analysis.vector_polygons import driver_rates
+from crankwork.analysis.vector_polygons import driver_rates, position_step
 from crankwork.locale import translate
 from crankwork.quantities import Language
 from crankwork.quantities.key import key_of
@@ -258,8 +258,8 @@ def _positions(machine: Drawn) -> Drawing:
     """Return position plans over the whole motion."""
     reached = machine.reached
     ends = None if reached.is_whole else (float(reached.degrees[0]), float(reached.degrees[-1]))
-    mechanism = machine.results.machine.mechanism
-    return position_plans(mechanism, ends, float(reached.degrees[reached.row]), machine.style)
+    mechanism, step = machine.results.machine.mechanism, position_step(machine.results.machine)
+    return position_plans(mechanism, ends, float(reached.degrees[reached.row]), machine.style, step)
 
 
 def _plan(order: int) -> Callable[[Drawn], Drawing]:
@@ -380,7 +380,7 @@ DIAGRAMS: tuple[Entry, ...] = (
     Diagram("crank_speed", crank_speed, every(_engine, lambda machine: machine.diagrams.torque.speed is not None)),
     Diagram("torque_harmonics", torque_harmonics, _listed("torque_harmonics")),
     Diagram("phase_stars", phase_stars, _many),
-    Diagram("balance_orders", balance_orders, _engine),
+    Diagram("balance_orders", balance_orders, every(_engine, lambda machine: "inertia_force" in machine.columns)),
     Diagram("balance_ellipses", balance_ellipses, every(_engine, lambda machine: bool(machine.diagrams.loci))),
     Construction("transient", _transient, every(_drawn, has("transient"))),
     Construction("speed", speed_curve, _speed),

@@ -55,20 +55,21 @@ class _Sheet(NamedTuple):
 
 
 def position_plans(
-    mechanism: Mechanism, ends: tuple[float, float] | None = None, worked: float = _WIDEST_STEP, style: Style = PLAIN
+    mechanism: Mechanism,
+    ends: tuple[float, float] | None = None,
+    worked: float = _WIDEST_STEP,
+    style: Style = PLAIN,
+    step: float = _WIDEST_STEP,
 ) -> Drawing:
     """Return the position plans of a linkage over each other, numbered from 0.
 
     `ends`: crank angles between which a crank swings that does not turn fully [deg]; `worked`: near what crank angle
-    the plan is that is drawn bold, with names of points [deg].
+    the plan is that is drawn bold, with names of points; `step`: of a crank that turns [deg].
     """
     shape = skeleton(mechanism, style.links)
     first, last = ends or (0.0, mechanism.period)
-    step = (
-        _WIDEST_STEP
-        if ends is None
-        else next(size for size in _STEPS if (last - first) / size <= _MOST or size == _WIDEST_STEP)
-    )
+    if ends is not None:
+        step = next(size for size in _STEPS if (last - first) / size <= _MOST or size == _WIDEST_STEP)
     degrees = step * np.arange(math.ceil(first / step), math.ceil(last / step))
     if not degrees.size:
         degrees = np.array([(first + last) / 2])

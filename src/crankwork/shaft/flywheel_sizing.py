@@ -63,6 +63,12 @@ def rim_diameter(v_r: Value, w: Value) -> Value:
     return 2 * v_r / w
 
 
+@formula("rim_diameter", "khurmi_gupta_2005, ch. 16")
+def rim_diameter_of_section(J_r: Value, rho_r: Value, pi: Value, b_r: Value, t_r: Value) -> Value:
+    """Mean diameter that a rim of a section must have, all of its mass at that diameter."""
+    return np.cbrt(4 * J_r / (rho_r * pi * b_r * t_r))
+
+
 @formula("rim_section", "khurmi_gupta_2005, ch. 16")
 def rim_section(m_r: Value, pi: Value, D_r: Value, rho_r: Value) -> Value:
     """Area of the section of a rim."""
@@ -83,7 +89,7 @@ def recovery_torque(J_sum: Value, delta: Value, w: Value, t_rec: Value) -> Value
 
 @dataclass(frozen=True)
 class RimSpec:
-    """What is known of a rim: of speed, stress and diameter one, of ratio, width and thickness what is given."""
+    """What is known of a rim: speed, stress or diameter, and what is given of the section; or the section alone."""
 
     diameter: float | None = None  # Mean [m]
     speed: float | None = None  # At that diameter [m/s]

@@ -35,7 +35,7 @@ def form(description: Description, language: Language) -> list[dict[str, Any]]:
         fresh = {"path": path, "means": means, "label": _label(path, means, language), "rows": [], "more": []}
         group = groups.setdefault(path, fresh)
         group["rows"].append(_row(description, key, table, entry, language))
-    idle = idle_keys(kinds, kinds.read(values, "", Reader()) or Values({}, kinds))
+    idle = idle_keys(kinds, kinds.read(values, "", Reader.of(values)) or Values({}, kinds))
     for path, group in groups.items():
         table, stated = _kind(kinds, path), _stated(values, path)
         if isinstance(table, TableSpec):

@@ -13,7 +13,7 @@ from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.sampled_motion import SampledMotion, reached_angles, sample_motion
 from crankwork.analysis.skeleton import Skeleton, numbered, skeleton
-from crankwork.analysis.vector_polygons import accelerations, driver_rates, velocities
+from crankwork.analysis.vector_polygons import accelerations, driver_rates, position_step, velocities
 from crankwork.locale import decimal, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import Structure, structure
@@ -31,7 +31,6 @@ from crankwork.show.scene import Drawing
 
 # step of the motion that plans are taken from [deg]
 _DENSE_STEP = 1.0
-_POSITIONS = tuple(range(0, 360, 30))
 # which positions get an acceleration plan
 _ACCELERATIONS = (1, 5, 9)
 _CLASSES = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
@@ -49,8 +48,9 @@ def of_links(results: Results, language: Language) -> Pictures:
     mechanism, (analysed, _) = machine.mechanism, structure(machine.drawn)
     style = Style(language, analysed.links if analysed is not None else (), period=results.period)
     degrees, _ = reached_angles(machine, _DENSE_STEP)
-    nearest = [int(np.argmin(np.abs(degrees - angle))) for angle in _POSITIONS]
-    shown = [row for row, angle in zip(nearest, _POSITIONS, strict=True) if abs(degrees[row] - angle) < _DENSE_STEP]
+    angles = np.arange(0.0, 360.0, position_step(machine))
+    nearest = [int(np.argmin(np.abs(degrees - angle))) for angle in angles]
+    shown = [row for row, angle in zip(nearest, angles, strict=True) if abs(degrees[row] - angle) < _DENSE_STEP]
     data = positions(results, degrees[shown], skeleton(mechanism, style.links), style)
     drawn: Pictures = {"structure": partial(structure_block, data, analysed)} if analysed is not None else {}
     drawn |= {**motion_tables(data), **reactions_table(data)}
