@@ -12,7 +12,7 @@ from crankwork.locale import translate
 from crankwork.report.display import units_of
 from crankwork.report.look import Drawn
 from crankwork.show.canvas import BLACK, WIDER, Canvas, text_width
-from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, round_ticks, small_text
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, legend, legend_height, round_ticks, small_text
 from crankwork.show.chart_layout import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID
 from crankwork.units import use_units
@@ -183,17 +183,16 @@ def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the closed curves in which the free forces of each order run, before and after balancing."""
     loci, language = engine.diagrams.loci, engine.language
     is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
-    rows = [translate("drawing.before", language), translate("drawing.after", language)] if is_balanced else []
+    styles = {"before": DASHED, "after": SOLID} if is_balanced else {}
+    rows = [Row(translate(f"drawing.{name}", language), style) for name, style in styles.items()]
     columns = 2 if len(loci) > 1 else 1
     lines = -(-len(loci) // columns)
     side, gap = (scaled_height(170.0), 56.0) if columns == 2 else (scaled_height(240.0), 0.0)
-    head = 13.4 * len(rows) + (5 if rows else 0) + 12
+    head = legend_height(rows) + 12
     start = (current_layout().width - columns * side - (columns - 1) * gap) / 2 + 16
     paper = Canvas(current_layout().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
-    for index, text in enumerate(rows):
-        left, style = current_layout().left, DASHED if index == 0 else SOLID
-        paper.line([left, left + 20], [TOP + 2 + 13.4 * index] * 2, style=style, width=0.9, name="legend")
-        paper.text(left + 27, TOP + 5 + 13.4 * index, text, size=8.5)
+    # one for all graphs
+    legend(paper, rows, TOP - 4)
     graphs: dict[str, Graph] = {}
     for index, (order, (before, after)) in enumerate(loci.items()):
         box = ChartBox(

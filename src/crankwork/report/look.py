@@ -276,6 +276,11 @@ class Drawn:
         unit = self.unit(key)
         return f"{shown}{unit}" if unit in ("", "°") else f"{shown}\N{NO-BREAK SPACE}{unit}"
 
+    def stated(self, key: str, value: float) -> str:
+        """Return symbol, SI value with its unit, and name of a quantity."""
+        symbol, _, name = self.named(key).partition(" – ")
+        return f"{symbol} = {self.value(key, value)} – {name}"
+
     def number(self, value: float, digits: int = 6) -> str:
         """Return a number as the language prints it."""
         return number(float(f"{value:.{digits}g}"), self.language, digits=max(digits, 9))

@@ -29,6 +29,7 @@ from crankwork.show.chart import (
     Graph,
     Row,
     limits,
+    name_at_the_end,
     over_cycle,
     round_ticks,
     sheet,
@@ -37,7 +38,7 @@ from crankwork.show.chart_layout import current_layout, points_per_mm, scaled_he
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, flow_rows
 
-_PANEL, _PANEL_GAP = 126.0, 38.0
+_PANEL, _PANEL_GAP = 126.0, 20.0
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
 _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
@@ -57,12 +58,10 @@ _LEAST = 1e-6
 def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return three panels over the cycle; an approximate method shows the two orders it is made of."""
     has_orders = "piston_velocity_first_order" in engine.columns
-    gap = _PANEL_GAP if has_orders else 20.0
-    head = 16.0 if has_orders else 4.0
     panel = scaled_height(_PANEL)
-    paper = Canvas(current_layout().width, TOP + head + 3 * panel + 2 * gap + BOTTOM)
+    paper = Canvas(current_layout().width, TOP + 4 + 3 * panel + 2 * _PANEL_GAP + BOTTOM)
     graphs: dict[str, Graph] = {}
-    top = TOP + head
+    top = TOP + 4
     for row, noun in enumerate(("displacement", "velocity", "acceleration")):
         keys = {f"piston_{noun}": SOLID}
         if has_orders:
@@ -71,15 +70,13 @@ def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         box = ChartBox(current_layout().left, top, current_layout().inner, panel)
         ends = limits(*(curve.values for curve in curves))
         graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=row == 2)
-        for index, curve in enumerate(curves):
+        for curve in curves:
             graph.curve(curve.key, engine.degrees, curve.values, curve.style)
-            if has_orders:
-                left = box.left + 8 + 70 * index
-                paper.line([left, left + 20], [box.top - 10] * 2, style=curve.style, width=0.9, name="legend")
-                paper.text(left + 27, box.top - 7, engine.symbol(curve.key), size=8.5)
+        rows = [Row(engine.symbol(curve.key), curve.style) for curve in curves]
+        name_at_the_end(paper, rows if has_orders else [], box)
         graph.y_title(engine.title(f"piston_{noun}"), 42.0)
         graphs[noun] = graph
-        top += graph.box.height + gap
+        top += graph.box.height + _PANEL_GAP
     graphs["acceleration"].x_title(engine.title("crank_angle"))
     return paper, graphs
 
@@ -96,7 +93,7 @@ def brix(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     difference = f"{engine.number(error, 2)} {engine.unit('piston_displacement')}"
     half = f"{engine.symbol('rod_ratio')}{engine.symbol('crank_radius')}/2"
     rows = [
-        Row(f"{translate('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}"),
+        Row(f"{translate('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}", width=0.0),
         Row(
             translate(
                 "drawing.brix_error", engine.language, symbol=engine.symbol("piston_displacement"), value=difference
