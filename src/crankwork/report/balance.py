@@ -98,18 +98,18 @@ def swatches(paper: Canvas, texts: Sequence[str], fills: Sequence[int]) -> None:
     """Write the legend of bars above the graph, on as many lines as they need."""
     left, top = current_layout().left, TOP - 4
     for text, fill in zip(texts, fills, strict=True):
-        width = WIDER * text_width(text, 8.5) + 26
+        width = WIDER * text_width(text, 8.0) + 26
         if left > current_layout().left and left + width > current_layout().width - 4:
             left, top = current_layout().left, top + 13.4
         _fill(paper, (left, top + 1.5, left + 13, top + 9.5), fill)
-        paper.text(left + 18, top + 9, text, size=8.5)
+        paper.text(left + 18, top + 9, text)
         left += width
 
 
 def _swatch_lines(texts: Sequence[str]) -> int:
     left, lines = current_layout().left, 1
     for text in texts:
-        width = WIDER * text_width(text, 8.5) + 26
+        width = WIDER * text_width(text, 8.0) + 26
         if left > current_layout().left and left + width > current_layout().width - 4:
             left, lines = current_layout().left, lines + 1
         left += width
@@ -152,7 +152,7 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
             size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
         free = f"{translate(f'drawing.{key}', language)} {engine.symbol(key)}"
         text = translate("drawing.hardly_free", language, free=free, size=size)
-        paper.text(current_layout().left, TOP + head - 9.4, text, size=8.5)
+        paper.text(current_layout().left, TOP + head - 9.4, text)
     orders = [float(part.order) for part in balance.reciprocating]
     graphs: dict[str, Graph] = {}
     for index, panel in enumerate(panels):

@@ -30,7 +30,7 @@ from crankwork.show.chart import (
     sheet,
     small_text,
 )
-from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.chart_layout import columns_of, current_layout, scaled_height
 from crankwork.show.label_placement import label_marks, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES
 
@@ -255,7 +255,7 @@ def main_journal_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     diagrams = engine.bearings.journals
     most = max(float(np.hypot(diagram.across, diagram.down).max()) for diagram in diagrams.values())
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
-    columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
+    columns = columns_of(min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3))
     lines = -(-len(diagrams) // columns)
     side, gap = (current_layout().width - _LEFT_MARGIN - current_layout().right + 22) / columns - 22, (22.0, 26.0)
     paper = Canvas(current_layout().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
@@ -324,7 +324,7 @@ def _rings(engine: Drawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str
     """Draw the rings of a listing side by side, depths on one scale."""
     angles, rings = wear_rings(engine.results, listing)
     rings = {name: ring._replace(sums=engine.shown("wear_sum", ring.sums)) for name, ring in rings.items()}
-    across = len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3
+    across = columns_of(len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3)
     lines = -(-len(rings) // across)
     side = min(
         (current_layout().width - 24 - (across - 1) * _GAP) / across,

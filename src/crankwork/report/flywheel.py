@@ -88,7 +88,7 @@ def _span(graph: Graph, angle: float, ends: list[float], text: str) -> None:
     top, bottom = (float(graph.down(end)) for end in ends)
     graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.45)
     graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.45)
-    graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if angle < graph.x[1] / 2 else "end")
+    graph.paper.text(x, graph.box.top - 5, text, anchor="start" if angle < graph.x[1] / 2 else "end")
 
 
 def crank_speed(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:

@@ -14,7 +14,7 @@ from crankwork.analysis.gas_chambers import indicators
 from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
-from crankwork.show.canvas import Canvas, plain
+from crankwork.show.canvas import WIDER, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
 from crankwork.show.chart_layout import current_layout, points_per_mm
 from crankwork.show.label_placement import label_marks
@@ -95,15 +95,15 @@ def banded_sheet(engine: Drawn, height: float, rows: Sequence[Row] = ()) -> tupl
 
 def strokes(engine: Drawn, graph: Graph) -> None:
     """Write the strokes of a cylinder above a graph, each over its half turn."""
-    names = _names(engine)
-    if not names:
-        return
+    names = [translate(f"drawing.{name}", engine.language) for name in _names(engine)]
     ends = graph.across(np.arange(0.0, engine.cycle + 1, 180.0))
     top = graph.box.top
+    if not names or WIDER * max(text_width(name, 7.5) for name in names) > ends[1] - ends[0]:
+        return
     lines = [(end, top - _BAND, end, top) for end in ends]
     graph.paper.segments(np.array([*lines, (ends[0], top - _BAND, ends[-1], top - _BAND)]), width=0.4)
     for name, (left, right) in zip(names, pairwise(ends), strict=True):
-        small_text(graph.paper, float(left + right) / 2, top - 3.5, translate(f"drawing.{name}", engine.language))
+        small_text(graph.paper, float(left + right) / 2, top - 3.5, name)
 
 
 def _names(engine: Drawn) -> tuple[str, ...]:

@@ -34,7 +34,7 @@ from crankwork.show.chart import (
     round_ticks,
     sheet,
 )
-from crankwork.show.chart_layout import current_layout, points_per_mm, scaled_height
+from crankwork.show.chart_layout import current_layout, is_narrow, points_per_mm, scaled_height
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, flow_rows
 
@@ -101,11 +101,11 @@ def brix(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
             width=0.0,
         ),
     ]
-    side = min(scaled_height(_CIRCLE), 0.45 * current_layout().width)
+    side = min(scaled_height(_CIRCLE), (0.36 if is_narrow() else 0.45) * current_layout().width)
     height = side * max(1.0, float(exact.max()) / (2 * radius))
     paper, box = sheet((height + _MARGIN - 10) / current_layout().tall, rows)
     top = box.top + _MARGIN - 14
-    left = _MARGIN + side + _MARGIN - 6 + _TITLES
+    left = _MARGIN + side + (_TITLES if is_narrow() else _MARGIN - 6 + _TITLES)
     graph_box = ChartBox(left, top, current_layout().width - left - current_layout().right, height)
     graph = Graph(paper, graph_box, (0.0, 360.0), (float(exact.max()), 0.0), engine.language, "crank_angle")
     ring = Graph(paper, ChartBox(_MARGIN, top, side, side), (-radius, radius), (-radius, radius), engine.language)
@@ -117,7 +117,7 @@ def brix(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     for level in graph.down(ticks):
         corners = [left - 28, left - 4, left - 4, left - 28], [level - 5, level - 5, level + 5, level + 5]
         paper.area(*corners)
-    graph.frame(np.arange(0.0, 361.0, 60.0), ticks)
+    graph.frame(np.arange(0.0, 361.0, 60.0 if graph.box.width > 6 * _NUMBER else 180.0), ticks)
     graph.curve("displacement", degrees, exact)
     graph.curves["construction"] = degrees, radius * (1 - circle.up)
     graph.x_title(engine.title("crank_angle"))
@@ -203,13 +203,13 @@ def indicator_brix(machine: Drawn) -> Drawing:
 
 def _short(title: str, graph: Graph) -> str:
     """Return the title of an axis, its symbol and unit alone where the words are wider than the axis."""
-    return title if text_width(title, 9.0) * WIDER <= graph.box.width + _NUMBER else title[title.index("$") :]
+    return title if text_width(title, 8.0) * WIDER <= graph.box.width + _NUMBER else title[title.index("$") :]
 
 
 def _clear(graph: Graph, ticks: Array, title: str, machine: Drawn) -> None:
     """Clear the ground under the numbers and the title of a horizontal axis, so that no line runs through them."""
-    texts = [(machine.number(float(tick)), float(graph.across(tick)), 12.5, 8.5) for tick in ticks]
-    texts.append((title, graph.box.left + graph.box.width / 2, 26.0, 9.0))
+    texts = [(machine.number(float(tick)), float(graph.across(tick)), 12.5, 8.0) for tick in ticks]
+    texts.append((title, graph.box.left + graph.box.width / 2, 26.0, 8.0))
     for text, middle, down, size in texts:
         half, foot = WIDER * text_width(text, size) / 2 + 1, graph.box.top + graph.box.height + down
         left, right, high, low = middle - half, middle + half, foot - 0.9 * size, foot + 0.4 * size

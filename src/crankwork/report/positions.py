@@ -17,10 +17,10 @@ from crankwork.report.drawn_links import HATCH, SLOT, Rail, Scene, corners, scen
 from crankwork.report.look import (
     PLAIN,
     Style,
+    draw_scale,
     figure_title,
     position_sign,
     position_text,
-    scale_text,
 )
 from crankwork.show.canvas import BLACK, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph
@@ -85,7 +85,7 @@ def position_plans(
     _plan(sheet, plans[main], is_main=True)
     _texts(sheet, [rail.name for rail in drawn.rails if _number_guide(sheet, rail)])
     foot, hand = sheet.graph.box.height - 20, sheet.graph.paper
-    hand.text(0.03 * hand.width, foot, scale_text("μ_l", paper, "mm", style.language))
+    draw_scale(hand, (0.03 * hand.width, foot), ("μ_l", paper, "mm"), style.language)
     shown = f"{position_sign(style, f'_{main}')} = {position_text(float(degrees[main]), style)}"
     hand.text(0.97 * hand.width, foot, shown, anchor="end")
     made = hand.drawing(figure_title("position_plans", style.language), style.language)

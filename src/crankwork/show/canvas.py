@@ -169,7 +169,7 @@ class Canvas:
         y: float,
         text: str,
         *,
-        size: float = 9.0,
+        size: float = 8.0,
         anchor: scene.Anchor = "start",
         colour: str = BLACK,
         halo: bool = False,
@@ -183,7 +183,7 @@ class Canvas:
         self.texts.append((text, left, y - 0.75 * size, left + width, y + 0.25 * size))
         self._write((x, y), text, size, anchor, grey=_grey(colour), halo=halo)
 
-    def upward_text(self, x: float, y: float, text: str, *, size: float = 9.0) -> None:
+    def upward_text(self, x: float, y: float, text: str, *, size: float = 8.0) -> None:
         """Write a text that runs upward."""
         half, size = text_width(text, size) / 2, font_size(size)
         self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))

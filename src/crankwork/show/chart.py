@@ -21,7 +21,7 @@ from crankwork.show.scene import DASH_DOT, SOLID, Anchor, Style
 
 BOTTOM, TOP = 45.0, 10.0
 LEGEND_ROW = 13.4
-_TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
+_TICK, _SMALL, _LEGEND = 8.0, 7.5, 8.0
 _FOOT_ROW = 9.0
 # more curves than these are named by a legend above
 _NAMED = 4
@@ -221,19 +221,19 @@ class Graph:
     def y_title(self, text: str, offset: float = 44.0) -> None:
         """Write the title of the vertical axis, on two lines if it is long; `offset`: its least distance. [pt]"""
         self._titles["y"], offset = marked(text), max(offset, self._numbers + _CLEAR)
-        size, text, room = 9.0, self._titled(text, 1), (self.box.height + 10) / WIDER
+        size, text, room = 8.0, self._titled(text, 1), (self.box.height + 10) / WIDER
         lines = fitted_lines(text, size, room)
         if len(lines) > 2 and current_layout().is_sheet and "$" in text:
             # a sheet has no smaller letters; the symbol is explained above it
             lines = fitted_lines(text[text.index("$") :], size, room)
         elif len(lines) > 2:
-            size = 7.5
+            size = 7.0
             lines = fitted_lines(text, size, room)
         for index, line in enumerate(reversed(lines)):
             x = self.box.left - offset - 11 * index
             self.paper.upward_text(x, self.box.top + self.box.height / 2, line, size=size)
 
-    def text_on_white(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.5) -> None:
+    def text_on_white(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.0) -> None:
         """Write a text on white ground, so that no line of the graph runs through it. [pt]"""
         width = text_width(text, size)
         left = {"start": x, "middle": x - width / 2, "end": x - width}[anchor] - 2
