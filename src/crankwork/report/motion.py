@@ -18,7 +18,7 @@ from crankwork.quantities import QUANTITIES
 from crankwork.quantities.key import key_of
 from crankwork.report.display import symbol
 from crankwork.report.forces import Line
-from crankwork.report.gas import gas_exchange, mark_points, named_points
+from crankwork.report.gas import diagram, gas_exchange, mark_points, named_points
 from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text, scale_text
 from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
 from crankwork.show.chart import (
@@ -163,8 +163,8 @@ def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, m
 def indicator_brix(machine: Drawn) -> Drawing:
     """Return absolute pressure over volume with Brix's half circle below it, and beside it over the crank angle."""
     space, degrees = machine.results.solved.space, machine.degrees
-    zero = float(machine.shown("gas_pressure", space.gauge(0.0)))
-    volume, pressure = machine.values("cylinder_volume"), machine.values("gas_pressure") - zero
+    ambient = float(machine.shown("ambient_pressure", space.ambient))
+    volume, (_, pressure) = machine.values("cylinder_volume"), diagram(machine)
     ends, reach = limits(pressure), 1.06 * float(np.max(volume))
     layout, high = current_layout(), scaled_height(_INDICATOR)
     wide = 0.44 * layout.inner
@@ -186,10 +186,10 @@ def indicator_brix(machine: Drawn) -> Drawing:
     left.curve("indicator", volume, pressure, angles=degrees)
     right.curve("pressure", degrees, pressure)
     for graph in (left, right):
-        graph.level(-zero, DASH_DOT, "ambient")
+        graph.level(ambient, DASH_DOT, "ambient")
     points = named_points(machine)
-    mark_points(left, [(name, float(np.interp(angle, degrees, volume)), value - zero) for name, angle, value in points])
-    mark_points(right, [(name, angle, value - zero) for name, angle, value in points])
+    mark_points(left, [(name, float(np.interp(angle, degrees, volume)), value) for name, angle, value in points])
+    mark_points(right, points)
     unit = machine.unit("diagram_pressure")
     left.y_title(f"{machine.symbol('diagram_pressure')}, {unit}", 30.0)
     left.x_title(titles[0])

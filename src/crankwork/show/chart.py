@@ -253,8 +253,9 @@ def _is_line(row: Row) -> bool:
 
 
 def _above(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows that stand above a graph: those of curves only where there are more than can be named in it."""
-    return list(rows) if sum(map(_is_line, rows)) > _NAMED else [row for row in rows if not _is_line(row)]
+    """Return the rows that stand above a graph: those of curves on sheets, and of more than can be named in it."""
+    is_legend = current_layout().is_sheet or sum(map(_is_line, rows)) > _NAMED
+    return [row for row in rows if is_legend or not _is_line(row)]
 
 
 def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
