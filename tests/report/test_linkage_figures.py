@@ -165,7 +165,7 @@ def test_names_with_any_letters_are_printed_as_they_are(at, name):
     text = template("four-bar").replace('"A"', json.dumps(name, ensure_ascii=False))
     wanted = ("joint_forces", "position_plans") if at else None
     found = drawings(analyse(read_machine(text)), language=LANGUAGES[at % 3], only=wanted)
-    assert len(found) == (2 if at else 17)
+    assert len(found) == (2 if at else 18)
     for one in found.values():
         # the lengths of tables of letters are known for each of them
         assert all(np.isfinite(extent(item)).all() for item in one.items if isinstance(item, SceneText))

@@ -36,7 +36,7 @@ from crankwork.show.chart import (
 )
 from crankwork.show.chart_layout import current_layout, is_narrow, points_per_mm, scaled_height
 from crankwork.show.label_placement import label_marks
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, flow_rows
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Drawing, flow_rows
 
 _PANEL, _PANEL_GAP = 126.0, 20.0
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
@@ -53,6 +53,8 @@ _ROLLING = (3.0, 1.5)
 _SEEN, _SMALL = 0.3, 0.2
 # a coupler that turns less than this share of the crank has its centre far away
 _LEAST = 1e-6
+# share of its length by which a path is curved
+_STRAIGHT = 1e-3
 
 
 def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -343,10 +345,52 @@ def centrodes(machine: Drawn) -> Drawing:
     if graph.x[0] < x < graph.x[1] and graph.y[0] < y < graph.y[1]:
         marks.append((f"${centre}$", *graph.point(float(x), float(y))))
     label_marks(paper, marks, frame=graph.box)
+    return _in_plane(graph, "centrodes", style)
+
+
+def curved_paths(machine: Drawn) -> dict[str, Array]:
+    """Return the paths of points with a name in the plane, without those on a line or on a circle about a pivot. [m]"""
+    columns = machine.reached.columns
+    names = [key_of(key).owner for key in columns if key.startswith("point_x.")]
+    pivots = skeleton(machine.results.machine.mechanism, machine.style.links).pivots
+    moved = sample_motion(machine.results.machine.mechanism, machine.reached.degrees).points
+    fixed = [moved[pivot].place[0] for pivot in pivots if pivot in moved]
+    paths = {
+        name: np.column_stack([columns[f"point_{axis}.{name}"] for axis in "xy"]) for name in names if "." not in name
+    }
+    return {name: path for name, path in paths.items() if _is_curved(path, fixed)}
+
+
+def _is_curved(path: Array, fixed: Sequence[Array]) -> bool:
+    path = path[np.isfinite(path).all(axis=1)]
+    sizes = np.linalg.svd(path - path.mean(axis=0), compute_uv=False)
+    radii = [np.hypot(*(path - pivot).T) for pivot in fixed]
+    return bool(sizes[1] > _STRAIGHT * sizes[0]) and all(np.ptp(radius) > _STRAIGHT * sizes[0] for radius in radii)
+
+
+def path_figure(machine: Drawn, names: Sequence[str]) -> Drawing:
+    """Return the paths of some points to scale, and the linkage at the angle that is worked."""
+    style, mechanism, row = machine.style, machine.results.machine.mechanism, machine.reached.row
+    scale = float(displayed_values(QUANTITIES["point_x"], np.array(1.0)))
+    paths = {name: scale * path for name, path in curved_paths(machine).items() if name in names}
+    moved, shape = sample_motion(mechanism, machine.reached.degrees).points, skeleton(mechanism, style.links)
+    places = {name: point.place[row] * scale for name, point in moved.items()}
+    paper, box = sheet(_HIGH, [Row(plain(name), line) for name, line in zip(paths, STYLES, strict=False)])
+    graph = _graph(paper, box, np.vstack([*paths.values(), *places.values()]), style, 0.1)
+    _linkage(graph, shape.members, places)
+    for (name, path), line in zip(paths.items(), STYLES, strict=False):
+        graph.curve(f"path.{name}", path[:, 0], path[:, 1], line, angles=machine.reached.degrees)
+    label_marks(paper, [(plain(shape.letters[name]), *graph.point(*place)) for name, place in places.items()
+                        if name in shape.letters and name not in paths], frame=graph.box)  # fmt: skip
+    return _in_plane(graph, "paths", style)
+
+
+def _in_plane(graph: Graph, name: str, style: Style) -> Drawing:
+    """Return the figure of a graph whose axes are coordinates."""
     unit = unit_name(QUANTITIES["point_x"].unit, style.language)
     graph.x_title(f"$x$, {unit}")
     graph.y_title(f"$y$, {unit}")
-    return paper.drawing(figure_title("centrodes", style.language), style.language)
+    return graph.paper.drawing(figure_title(name, style.language), style.language)
 
 
 def instant_centres(frame: Frame, row: int) -> tuple[Array, Array]:
@@ -367,15 +411,15 @@ def _seen(path: Array, reach: tuple[Array, Array]) -> float:
     return float(np.mean(near)) if size > _SMALL * float(reach[1][0]) else 0.0
 
 
-def _reach(places: Array) -> tuple[Array, Array]:
+def _reach(places: Array, around: float = _AROUND) -> tuple[Array, Array]:
     """Return the middle of a linkage, and how far around it centres are shown, across and up."""
     low, high = places.min(axis=0), places.max(axis=0)
-    return (low + high) / 2, np.full(2, float(np.max(high - low)) * (1 + _AROUND) / 2)
+    return (low + high) / 2, np.full(2, float(np.max(high - low)) * (1 + around) / 2)
 
 
-def _graph(paper: Canvas, box: ChartBox, places: Array, style: Style) -> Graph:
+def _graph(paper: Canvas, box: ChartBox, places: Array, style: Style, around: float = _AROUND) -> Graph:
     """Return a graph of equal scales around a linkage, its frame drawn."""
-    middle, size = _reach(places)
+    middle, size = _reach(places, around)
     unit = 2 * max(float(size[0]) / box.width, float(size[1]) / box.height) or 1.0
     half = unit * box.width / 2, unit * box.height / 2
     x = float(middle[0]) - half[0], float(middle[0]) + half[0]
