@@ -96,24 +96,21 @@ def _value(paper: Canvas, middle: float, bottom: float, text: str, *, is_upright
 
 def swatches(paper: Canvas, texts: Sequence[str], fills: Sequence[int]) -> None:
     """Write the legend of bars above the graph, on as many lines as they need."""
-    left, top = current_layout().left, TOP - 4
-    for text, fill in zip(texts, fills, strict=True):
-        width = WIDER * text_width(text, 8.0) + 26
-        if left > current_layout().left and left + width > current_layout().width - 4:
-            left, top = current_layout().left, top + 13.4
+    for text, fill, (left, line) in zip(texts, fills, _swatch_places(texts), strict=True):
+        top = TOP - 4 + 13.4 * line
         _fill(paper, (left, top + 1.5, left + 13, top + 9.5), fill)
         paper.text(left + 18, top + 9, text)
-        left += width
 
 
-def _swatch_lines(texts: Sequence[str]) -> int:
-    left, lines = current_layout().left, 1
-    for text in texts:
-        width = WIDER * text_width(text, 8.0) + 26
+def _swatch_places(texts: Sequence[str]) -> list[tuple[float, int]]:
+    """Return the left side of the entries of a legend of bars, and their lines. [pt]"""
+    left, line, places = current_layout().left, 0, list[tuple[float, int]]()
+    for width in (WIDER * text_width(text, 8.0) + 26 for text in texts):
         if left > current_layout().left and left + width > current_layout().width - 4:
-            left, lines = current_layout().left, lines + 1
+            left, line = current_layout().left, line + 1
+        places.append((left, line))
         left += width
-    return lines
+    return places
 
 
 def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -141,7 +138,7 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     }
     panels = [panel for panel in sizes if most[panel] > _free(engine, panel)] or ["force"]
     texts = [translate(f"report.{kind}", language) for kind in kinds]
-    head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
+    head = 13.4 * (1 + _swatch_places(texts)[-1][1] + len(sizes) - len(panels)) + 5
     height = scaled_height(150.0)
     paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
     swatches(paper, texts, fills)

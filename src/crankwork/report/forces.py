@@ -166,7 +166,7 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
     height -= listed if is_narrow() else 0.0
     row, ends, scale = QUANTITIES["joint_force"], _ends(plan), _scale(plan, width, height)
     width -= _list_width()
-    beside = (left + 14, top + _HEAD + height) if is_narrow() else (left + width, top + _HEAD)
+    list_corner = (left + 14, top + _HEAD + height) if is_narrow() else (left + width, top + _HEAD)
     unit = points_per_mm() / scale
     middle = (ends.min(axis=0) + ends.max(axis=0)) / 2 * unit
     x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)
@@ -188,11 +188,11 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
     for count, force in enumerate(plan.forces):
         shown = number(float(f"{_size(force):.4g}"), language)
         text = f"{_symbol(force, numbers, language)} = {shown} {unit_name(row.unit, language)}"
-        paper.text(beside[0], beside[1] + 12 + _ROW * count, text)
+        paper.text(list_corner[0], list_corner[1] + 12 + _ROW * count, text)
     names = {own_number: name for name, own_number in numbers.items()}
     keys = key_of_links(names, (numbers[link] for link in plan.links if link in numbers), language)
     for count, key in enumerate(keys):
-        paper.text(beside[0], beside[1] + 12 + _ROW * (len(plan.forces) + count), key)
+        paper.text(list_corner[0], list_corner[1] + 12 + _ROW * (len(plan.forces) + count), key)
     return scale
 
 

@@ -163,16 +163,8 @@ class Canvas:
         corners = [u, foot[0] - b * half, foot[0] + b * half], [v, foot[1] + a * half, foot[1] - a * half]
         self.area(*corners, fill=colour)
 
-    def text(  # noqa: PLR0913 - place, letters and ground
-        self,
-        x: float,
-        y: float,
-        text: str,
-        *,
-        size: float = 8.0,
-        anchor: scene.Anchor = "start",
-        colour: str = BLACK,
-        halo: bool = False,
+    def text(
+        self, x: float, y: float, text: str, *, size: float = 8.0, anchor: scene.Anchor = "start", colour: str = BLACK
     ) -> None:
         """Write a text.
 
@@ -181,25 +173,26 @@ class Canvas:
         width, size = text_width(text, size), font_size(size)
         left = x - {"start": 0.0, "middle": width / 2, "end": width}[anchor]
         self.texts.append((text, left, y - 0.75 * size, left + width, y + 0.25 * size))
-        self._write((x, y), text, size, anchor, grey=_grey(colour), halo=halo)
+        self.write((x, y), text, size, anchor, grey=_grey(colour))
 
     def upward_text(self, x: float, y: float, text: str, *, size: float = 8.0) -> None:
         """Write a text that runs upward."""
         half, size = text_width(text, size) / 2, font_size(size)
         self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))
-        self._write((x, y), text, size, "middle", angle=90.0)
+        self.write((x, y), text, size, "middle", angle=90.0)
 
-    def _write(  # noqa: PLR0913 - as of a text
+    def write(  # noqa: PLR0913 - place, letters and ground
         self,
         place: tuple[float, float],
         text: str,
         size: float,
-        anchor: scene.Anchor,
+        anchor: scene.Anchor = "start",
         *,
         angle: float = 0.0,
         grey: float = 0.0,
         halo: bool = False,
     ) -> None:
+        """Write a text that no name keeps clear of; `halo` clears the ground around its edges."""
         position = place[0] * MM, -place[1] * MM
         height = font_size(size) * MM * CAP_HEIGHT
         self.items.append(Text(position, marked(text), height, anchor, angle, grey, halo))

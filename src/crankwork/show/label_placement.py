@@ -199,8 +199,7 @@ def name_curves(paper: Canvas, rows: Sequence[Row], box: ChartBox) -> list[Row]:
         ends = [left, left + _SAMPLE], [top + 0.6 * size] * 2
         paper.line(*ends, style=row.style, width=row.width, colour=row.colour, name="legend")
         for count, text in enumerate(words):
-            place = left + _SAMPLE + _GAP, top + size * (0.85 + 1.15 * count)
-            paper.text(*place, text, size=_NAME, halo=True)
+            paper.write((left + _SAMPLE + _GAP, top + size * (0.85 + 1.15 * count)), text, _NAME, halo=True)
     return left_over
 
 
