@@ -43,7 +43,7 @@ def test_columns_and_values_of_another_design_make_its_curves(stored):
             is_right = factor * value + origin == pytest.approx(displayed(key, value), rel=1e-9, abs=1e-9)
             failures += [] if is_right else [(name, key)]
     assert failures == []
-    assert compared == {"crank": 38, "loop": 22}
+    assert compared == {"crank": 34, "loop": 22}
 
 
 def test_what_polynomials_do_not_follow_is_named_and_links_stand_upon_joints(stored):
@@ -158,7 +158,7 @@ def test_a_diagram_within_another_keeps_its_frame_and_marks_of_scales_go_with_th
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     (around, within) = (one.box for one in drawings(live("loop").results[0], only={"indicator"})["indicator"].plots)
     ends = []
-    for box, curve in ((around, "gas_pressure"), (within, "gas_exchange")):
+    for box, curve in ((around, "diagram_pressure"), (within, "gas_exchange")):
         x = drawn(page, "indicator", curve)[0]
         ends.append([(one - box.left) / box.width for one in (x.min(), x.max())])
     assert ends[1] == pytest.approx(ends[0], abs=5e-3)

@@ -148,7 +148,7 @@ function held(ghosts, x, y) {
  */
 function looseOf(svg, plot) {
   const { box: [left, top, wide, tall], x: across, y: up } = plot;
-  const others = [...svg.children].filter((one) => !one.matches("svg, g.frame, g.cursor, [data-curve], [data-curve=legend] + *, .ghost-number"));
+  const others = [...svg.children].filter((one) => !one.matches("svg, g.frame, g.cursor, [data-curve], [data-curve=legend] + *, text.dh, .ghost-number"));
   return /** @type {SVGGraphicsElement[]} */ (others).flatMap((one) => {
     const { x, y, width, height } = one.getBBox();
     const [right, down] = [x + width / 2 - left, y + height / 2 - top];

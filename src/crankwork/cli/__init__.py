@@ -292,10 +292,11 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: 
 @NO_FIGURES
 @FORMAT
 @THEME
+@click.option("--width", type=click.Choice(["85", "170"]), default="170")
 @click.option("--excel-csv", is_flag=True)
 @OVERWRITE
 @with_common_options
-def run(options: CommonOptions, output: str | None, *, excel_csv: bool) -> None:
+def run(options: CommonOptions, output: str | None, width: str, *, excel_csv: bool) -> None:
     """Compute a machine: print the summary, and write tables and figures with -o."""
     from crankwork import files
     from crankwork.report.summary import summary_data, summary_text
@@ -315,7 +316,13 @@ def run(options: CommonOptions, output: str | None, *, excel_csv: bool) -> None:
         from crankwork.report.results_folder import missing_writers, results_folder
 
         steps = results_folder(
-            results, language=language, per_area=per_area, for_excel=excel_csv, formats=formats, theme=options.theme
+            results,
+            language=language,
+            per_area=per_area,
+            for_excel=excel_csv,
+            formats=formats,
+            theme=options.theme,
+            width=width,
         )
         contents = with_progress(steps, 4 - options.no_figures)
         files.write_folder(output, contents, overwrite=options.overwrite)

@@ -138,7 +138,7 @@ SECTIONS = (
             Head("transfer", 2), Text("transfer", {"source": Citation(_POSITIONS)}), _transfer,
         )), Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion"),
         Places("velocities", _MOVING), Places("accelerations", (*_ACCELERATING, "coriolis_acceleration")),
-        _INSTANT_CENTRES, Shown(("centrodes", "points", "links")),
+        _INSTANT_CENTRES, Shown(("centrodes", "paths", "points", "links")),
         When(lambda material: bool(material.drawn), (
             *_POLYGONS, Shown(("velocity_plan", "acceleration_plan", "sliders")),
         )),

@@ -247,9 +247,12 @@ class LivePage:
         surrounding = self._between.drawings(name)
         plots = [self._plot(index, available, surrounding) for index in range(len(drawn.plots))] if is_complete else []
         signs = [Counter(map(signature, drawing.items)) for drawing in available[1:]]
-        lines, is_scaled = unchanged_curves(available), scaled(available)
+        lines, is_scaled = unchanged_curves(available) | {"legend"}, scaled(available)
+        named = [{_name_of_curve(item) for item in drawing.items} for drawing in available]
         is_same = [
             (isinstance(item, Polyline) and item.name in lines)
+            # names stand elsewhere where curves are others
+            or (bool(_name_of_curve(item)) and all(_name_of_curve(item) in names for names in named))
             or (not is_scaled[index] and all(sign[signature(item)] > 0 for sign in signs))
             for index, item in enumerate(drawn.items)
         ]
@@ -671,6 +674,10 @@ def number_in_legend(index: int, drawn: Sequence[Drawing]) -> tuple[int, list[st
     if len({_NUMBER.sub("#", text) for text in texts}) > 1 or any(len(matches) != 1 for matches in numbers):
         return None
     return row, [matches[0] for matches in numbers]
+
+
+def _name_of_curve(item: Item) -> str:
+    return item.text if isinstance(item, Text) and item.halo else ""
 
 
 def _legend(items: Sequence[Any]) -> list[str]:

@@ -12,7 +12,7 @@ from crankwork.locale import translate
 from crankwork.report.display import units_of
 from crankwork.report.look import Drawn
 from crankwork.show.canvas import BLACK, WIDER, Canvas, text_width
-from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, round_ticks, small_text
+from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, Row, legend, legend_height, round_ticks, small_text
 from crankwork.show.chart_layout import current_layout, scaled_height
 from crankwork.show.scene import DASHED, SOLID
 from crankwork.units import use_units
@@ -96,24 +96,21 @@ def _value(paper: Canvas, middle: float, bottom: float, text: str, *, is_upright
 
 def swatches(paper: Canvas, texts: Sequence[str], fills: Sequence[int]) -> None:
     """Write the legend of bars above the graph, on as many lines as they need."""
-    left, top = current_layout().left, TOP - 4
-    for text, fill in zip(texts, fills, strict=True):
-        width = WIDER * text_width(text, 8.5) + 26
-        if left > current_layout().left and left + width > current_layout().width - 4:
-            left, top = current_layout().left, top + 13.4
+    for text, fill, (left, line) in zip(texts, fills, _swatch_places(texts), strict=True):
+        top = TOP - 4 + 13.4 * line
         _fill(paper, (left, top + 1.5, left + 13, top + 9.5), fill)
-        paper.text(left + 18, top + 9, text, size=8.5)
-        left += width
+        paper.text(left + 18, top + 9, text)
 
 
-def _swatch_lines(texts: Sequence[str]) -> int:
-    left, lines = current_layout().left, 1
-    for text in texts:
-        width = WIDER * text_width(text, 8.5) + 26
+def _swatch_places(texts: Sequence[str]) -> list[tuple[float, int]]:
+    """Return the left side of the entries of a legend of bars, and their lines. [pt]"""
+    left, line, places = current_layout().left, 0, list[tuple[float, int]]()
+    for width in (WIDER * text_width(text, 8.0) + 26 for text in texts):
         if left > current_layout().left and left + width > current_layout().width - 4:
-            left, lines = current_layout().left, lines + 1
+            left, line = current_layout().left, line + 1
+        places.append((left, line))
         left += width
-    return lines
+    return places
 
 
 def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -141,7 +138,7 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     }
     panels = [panel for panel in sizes if most[panel] > _free(engine, panel)] or ["force"]
     texts = [translate(f"report.{kind}", language) for kind in kinds]
-    head = 13.4 * (_swatch_lines(texts) + len(sizes) - len(panels)) + 5
+    head = 13.4 * (1 + _swatch_places(texts)[-1][1] + len(sizes) - len(panels)) + 5
     height = scaled_height(150.0)
     paper = Canvas(current_layout().width, TOP + head + len(panels) * height + (len(panels) - 1) * 28 + BOTTOM)
     swatches(paper, texts, fills)
@@ -152,7 +149,7 @@ def balance_orders(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
             size = f"≤ {engine.value(key, most[panel])}" if most[panel] > _LEFT * _inertia(engine) else "= 0"
         free = f"{translate(f'drawing.{key}', language)} {engine.symbol(key)}"
         text = translate("drawing.hardly_free", language, free=free, size=size)
-        paper.text(current_layout().left, TOP + head - 9.4, text, size=8.5)
+        paper.text(current_layout().left, TOP + head - 9.4, text)
     orders = [float(part.order) for part in balance.reciprocating]
     graphs: dict[str, Graph] = {}
     for index, panel in enumerate(panels):
@@ -183,17 +180,16 @@ def balance_ellipses(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the closed curves in which the free forces of each order run, before and after balancing."""
     loci, language = engine.diagrams.loci, engine.language
     is_balanced = bool(engine.diagrams.balance.weights or engine.diagrams.balance.shafts)
-    rows = [translate("drawing.before", language), translate("drawing.after", language)] if is_balanced else []
+    styles = {"before": DASHED, "after": SOLID} if is_balanced else {}
+    rows = [Row(translate(f"drawing.{name}", language), style) for name, style in styles.items()]
     columns = 2 if len(loci) > 1 else 1
     lines = -(-len(loci) // columns)
     side, gap = (scaled_height(170.0), 56.0) if columns == 2 else (scaled_height(240.0), 0.0)
-    head = 13.4 * len(rows) + (5 if rows else 0) + 12
+    head = legend_height(rows) + 12
     start = (current_layout().width - columns * side - (columns - 1) * gap) / 2 + 16
     paper = Canvas(current_layout().width, TOP + head + lines * side + (lines - 1) * 52 + BOTTOM)
-    for index, text in enumerate(rows):
-        left, style = current_layout().left, DASHED if index == 0 else SOLID
-        paper.line([left, left + 20], [TOP + 2 + 13.4 * index] * 2, style=style, width=0.9, name="legend")
-        paper.text(left + 27, TOP + 5 + 13.4 * index, text, size=8.5)
+    # one for all graphs
+    legend(paper, rows, TOP - 4)
     graphs: dict[str, Graph] = {}
     for index, (order, (before, after)) in enumerate(loci.items()):
         box = ChartBox(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Self
@@ -29,7 +30,7 @@ from crankwork.show.chart import (
     sheet,
     small_text,
 )
-from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.chart_layout import columns_of, current_layout, scaled_height
 from crankwork.show.label_placement import label_marks, mark_point
 from crankwork.show.scene import DASH_DOT, DASHED, STYLES
 
@@ -72,10 +73,8 @@ def _pin_polar(engine: Drawn, load: CrankpinLoad, pin: str = "crankpin") -> tupl
     rods, inertia = load.rods, load.inertia
     count = f"{rods} " if rods > 1 else ""
     pole = translate("drawing.pole_rods" if rods > 1 else "drawing.pole", engine.language)
-    force = (
-        f"{count}{engine.symbol('big_end_inertia_force')} – {engine.named('big_end_inertia_force').partition(' – ')[2]}"
-    )
-    rows = [Row(f"O – {pole}", CIRCLE), Row(f"{force}, {engine.value('big_end_inertia_force', -inertia)}", ARROW, 1.8)]
+    rows = [Row(f"O – {pole}", CIRCLE),
+            Row(f"{count}{engine.stated('big_end_inertia_force', -inertia)}", ARROW, 1.8)]  # fmt: skip
     titles = (
         f"{engine.symbol('tangential_force')}, {engine.unit('tangential_force')}",
         f"{engine.symbol('radial_force')}, {engine.unit('radial_force')}",
@@ -130,8 +129,7 @@ def _polar(
     if mean:
         # that of a crankpin has a name of its own
         mean_key = "mean_crankpin_load" if pin else "mean_bearing_load"
-        text = f"{engine.named(mean_key)}, {engine.value(mean_key, mean)}"
-        rows = [*rows, Row(text, DASHED, _MEAN if wide == 1 else 0.0)]
+        rows = [*rows, Row(engine.stated(mean_key, mean), DASHED, _MEAN if wide == 1 else 0.0)]
     if wide > 1:
         rows = [*rows, Row(translate("drawing.wider_across", engine.language, factor=wide), width=0.0)]
     # marks cannot be distinguished on a lower diagram
@@ -223,17 +221,12 @@ def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     sizes = {pin: engine.shown("crankpin_load", size) for pin, size in loads.items()}
     first = next(iter(sizes))
     extremes = _OverCycle.read(engine.results.listings["bearing_loads"], engine.row("crankpin", first))
-    rows = [
-        Row(
-            engine.named("crankpin_load") + (f", {engine.row_text('crankpin', pin)}" if len(sizes) > 1 else ""),
-            STYLES[index % len(STYLES)],
-        )
-        for index, pin in enumerate(sizes)
-    ]
+    styles = dict(zip(sizes, itertools.cycle(STYLES), strict=False))
+    rows = [Row(engine.row_text("crankpin", pin), style) for pin, style in styles.items()] if len(sizes) > 1 else []
     style = (10.0, 3.0) if len(sizes) > 1 else DASHED
     which = engine.row_text("crankpin", first) if len(sizes) > 1 else ""
-    mean = f"{engine.named('mean_crankpin_load')}{', ' if which else ''}{which}"
-    rows.append(Row(f"{mean}, {engine.value('mean_crankpin_load', extremes.mean)}", style, 0.8))
+    mean = engine.stated("mean_crankpin_load", extremes.mean)
+    rows.append(Row(f"{mean}{', ' if which else ''}{which}", style, 0.8))
     base = engine.symbol("crankpin_load")[:-1]
     ends = (
         f"{base}{',' if '_' in base else '_'}{name}$ = {engine.value('crankpin_load', value)} "
@@ -246,20 +239,14 @@ def crankpin_load(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     # room for the name of a minimum near zero
     low = -0.08 * high if extremes.min < 0.08 * extremes.max else 0.0
     graph = over_cycle(paper, box, (low, high), engine.cycle, engine.language)
-    for index, (pin, values) in enumerate(sizes.items()):
-        graph.curve(
-            f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), STYLES[index % len(STYLES)]
-        )
+    for pin, values in sizes.items():
+        graph.curve(f"pin_{pin}", np.append(degrees, engine.cycle), np.append(values, values[0]), styles[pin])
     level = float(engine.shown("crankpin_load", extremes.mean))
     graph.curve("mean", [0.0, engine.cycle], [level, level], style, width=0.45)
     for name, angle, value in (("max", extremes.max_angle, extremes.max), ("min", extremes.min_angle, extremes.min)):
         mark_point(graph, name, angle, float(engine.shown("crankpin_load", value)), name)
     graph.x_title(engine.title("crank_angle"))
-    graph.y_title(
-        engine.title("crankpin_load")
-        if len(sizes) == 1
-        else f"{engine.symbol('crankpin_load')}, {engine.unit('crankpin_load')}"
-    )
+    graph.y_title(engine.title("crankpin_load"))
     return paper, {"crankpin_load": graph}
 
 
@@ -268,7 +255,7 @@ def main_journal_polar(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     diagrams = engine.bearings.journals
     most = max(float(np.hypot(diagram.across, diagram.down).max()) for diagram in diagrams.values())
     reach = 1.18 * float(engine.shown("main_journal_load", most)) or 1.0
-    columns = min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3)
+    columns = columns_of(min(len(diagrams), 2 if len(diagrams) in (2, 4) else 3))
     lines = -(-len(diagrams) // columns)
     side, gap = (current_layout().width - _LEFT_MARGIN - current_layout().right + 22) / columns - 22, (22.0, 26.0)
     paper = Canvas(current_layout().width, TOP + 12 + lines * side + (lines - 1) * gap[1] + BOTTOM)
@@ -337,7 +324,7 @@ def _rings(engine: Drawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str
     """Draw the rings of a listing side by side, depths on one scale."""
     angles, rings = wear_rings(engine.results, listing)
     rings = {name: ring._replace(sums=engine.shown("wear_sum", ring.sums)) for name, ring in rings.items()}
-    across = len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3
+    across = columns_of(len(rings) if len(rings) < 3 else 2 if len(rings) == 4 else 3)
     lines = -(-len(rings) // across)
     side = min(
         (current_layout().width - 24 - (across - 1) * _GAP) / across,

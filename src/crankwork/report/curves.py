@@ -24,9 +24,8 @@ from crankwork.show.chart import (
     ChartBox,
     Graph,
     Row,
-    legend,
-    legend_height,
     limits,
+    name_at_the_end,
     over_cycle,
     round_ticks,
     sheet,
@@ -40,8 +39,8 @@ from crankwork.show.scene import Style as Dashes
 _ALONE, _PANEL, _GAP = 216.0, 126.0, 16.0
 # what a page of a note holds with its caption [pt]
 _TALLEST = 600.0
-# characters of a name that still fit beside a panel
-_LONG = 20
+# characters of a name that fit beside a panel
+_LONG = 36
 # what tells where something is
 _PLACES = ("slider_displacement", "driver_displacement", "driver_angle", "link_angle", "point_x", "point_y")
 # curves nearer than this share of the range fall together in print
@@ -83,24 +82,20 @@ def curves(
     # quantities that are zero throughout are named in a remark
     sets = [panel for panel in all_panels if any(np.any(columns[row.key]) for row in panel)] or all_panels
     shown = [[displayed_values(row, columns[row.key]) for row in panel] for panel in sets]
-    # beside a panel among others there is no room for a name
-    has_legends = any(_has_legend(panel, style) for panel in sets)
-    legends = [_rows(*panel, style) if has_legends else [] for panel in zip(sets, shown, strict=True)]
-    above = [legend_height(rows) for rows in legends]
-    room = (_TALLEST - BOTTOM - sum(above)) / len(sets) - _GAP
+    room = (_TALLEST - BOTTOM) / len(sets) - _GAP
     high = scaled_height(_ALONE if len(sets) == 1 else min(_PANEL, room))
-    paper = Canvas(current_layout().width, TOP + sum(above) + len(sets) * (high + _GAP) - _GAP + BOTTOM)
+    paper = Canvas(current_layout().width, TOP + len(sets) * (high + _GAP) - _GAP + BOTTOM)
     abscissas = degrees * style.period / 360.0 if style.period else degrees
     top = TOP
-    for quantities, values, rows, height in zip(sets, shown, legends, above, strict=True):
-        legend(paper, rows, top - 4)
-        box = ChartBox(current_layout().left, top + height, current_layout().inner, high)
+    for quantities, values in zip(sets, shown, strict=True):
+        box = ChartBox(current_layout().left, top, current_layout().inner, high)
+        name_at_the_end(paper, _rows(quantities, values, style), box)
         is_place = key_of(quantities[0].key).quantity in _PLACES
         ends = limits(*values, is_place=is_place)
         graph = drive_graph(paper, box, abscissas, ends, style, is_last=quantities is sets[-1])
         _draw(graph, abscissas, quantities, values)
-        graph.y_title(_title(quantities, style, has_legend=has_legends))
-        top += height + graph.box.height + _GAP
+        graph.y_title(_title(quantities, style))
+        top += graph.box.height + _GAP
     dead = "; ".join(f"{number(round(limit, 2), style.language)}°" for limit in style.limits)
     zero = [math_symbol(row.symbol(style.language)) for panel in all_panels if panel not in sets for row in panel]
     remarks = [
@@ -122,11 +117,6 @@ def _panel(keys: tuple[str, ...], columns: Mapping[str, Array]) -> list[Quantity
     if len(units) > 1:
         raise CrankworkError(f"{', '.join(keys)} have different units; give each a panel of its own")
     return quantities
-
-
-def _has_legend(quantities: Sequence[Quantity], style: Style) -> bool:
-    """Return whether names stand above a panel: there are several, or one with a name of its own, or too long."""
-    return len(quantities) > 1 or "." in quantities[0].key or len(quantities[0].label(style.language)) > _LONG
 
 
 def _draw(graph: Graph, abscissas: Array, quantities: Sequence[Quantity], values: Sequence[Array]) -> None:
@@ -161,23 +151,33 @@ def _together(values: Sequence[Array]) -> list[list[int]]:
     return groups
 
 
+def _is_on_axis(quantities: Sequence[Quantity], style: Style) -> bool:
+    """Return whether the title of the axis says what the curves are: all of one kind, whose name is not too long."""
+    kinds = {key_of(row.key).quantity for row in quantities}
+    return len(kinds) == 1 and len(quantities[0].label(style.language)) <= _LONG
+
+
 def _rows(quantities: Sequence[Quantity], values: Sequence[Array], style: Style) -> list[Row]:
-    rows = []
+    """Return the names of the curves of a panel: symbols, and what the title of its axis does not say."""
+    rows, is_on_axis = [], _is_on_axis(quantities, style)
+    if is_on_axis and len(quantities) == 1:
+        return []
     for order, together in enumerate(_together(values)):
         signs = dict.fromkeys(math_symbol(quantities[index].symbol(style.language)) for index in together)
-        names = (plain(quantities[index].label(style.language)) for index in together)
-        rows.append(Row(f"{', '.join(signs)} – {'; '.join(names)}", STYLES[order % 4]))
+        names = "; ".join(plain(quantities[index].label(style.language)) for index in together)
+        meant = "" if is_on_axis else f" – {names}"
+        rows.append(Row(f"{', '.join(signs)}{meant}", STYLES[order % 4]))
     return rows
 
 
-def _title(quantities: Sequence[Quantity], style: Style, *, has_legend: bool) -> str:
-    """Return the title of the vertical axis: the name, or the symbols where a legend has the names."""
-    if not has_legend:
-        return axis_title(quantities[0], style.language)
+def _title(quantities: Sequence[Quantity], style: Style) -> str:
+    """Return the title of the vertical axis: the name of what all curves are, or the symbols of several."""
+    if _is_on_axis(quantities, style):
+        alone = quantities[0] if len(quantities) == 1 else QUANTITIES[key_of(quantities[0].key).quantity]
+        return axis_title(alone, style.language)
     unit = unit_name(quantities[0].unit, style.language)
-    signs = dict.fromkeys(math_symbol(row.symbol(style.language)) for row in quantities)
-    names = ", ".join(signs) if len(quantities) < 5 else ""
-    return f"{names}, {unit}" if names and unit else names or unit
+    names = ", ".join(dict.fromkeys(math_symbol(row.symbol(style.language)) for row in quantities))
+    return f"{names}, {unit}" if unit else names
 
 
 @in_own_units

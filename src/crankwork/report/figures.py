@@ -42,7 +42,7 @@ from crankwork.report.gas import chamber_indicator, indicator, pressure
 from crankwork.report.harmonics import phase_stars, torque_harmonics
 from crankwork.report.lever import has_lever, lever_figure
 from crankwork.report.look import Drawn, drawn_of, figure_title, kind_of
-from crankwork.report.motion import brix, centrodes, has_centrodes, kinematics, tolle
+from crankwork.report.motion import brix, centrodes, curved_paths, has_centrodes, kinematics, path_figure, tolle
 from crankwork.report.plans import acceleration_plan, velocity_plan
 from crankwork.report.positions import position_plans
 from crankwork.report.tables import any_nonzero
@@ -120,7 +120,7 @@ class Curves(NamedTuple):
 class Several(NamedTuple):
     """Figures of one kind whose number depends on the machine."""
 
-    each: Callable[[Drawn], Iterable[Diagram | Curves]]
+    each: Callable[[Drawn], Iterable[Diagram | Construction | Curves]]
     needs: Needs
 
 
@@ -197,6 +197,12 @@ def _each(figure: str, *kinds: str, owners: int = 0) -> Several:
             yield Curves(name, partial(_as_they_are, panels), when=_drawn)
 
     return Several(figures_, _drawn)
+
+
+def _paths(machine: Drawn) -> Iterable[Construction]:
+    """Yield figures of the paths of points in the plane, a few in each."""
+    for number, group in enumerate(_by_fours(list(curved_paths(machine))), start=1):
+        yield Construction(f"paths_{number}" if number > 1 else "paths", partial(path_figure, names=group), _drawn)
 
 
 def _driver(machine: Drawn) -> list[Sequence[str]]:
@@ -343,7 +349,8 @@ DIAGRAMS: tuple[Entry, ...] = (
     Construction("acceleration_plan", _plan(2), _drawn),
     _each("sliders", "slider_displacement", "slider_velocity", "slider_acceleration"),
     _each("links", "link_angle", "link_angular_velocity", "link_angular_acceleration", owners=1),
-    _each("points", "point_x", "point_y", "point_velocity", "point_acceleration", owners=2),
+    Several(_paths, _drawn),
+    _each("points", "point_velocity", "point_acceleration", owners=1),
     Construction("centrodes", centrodes, every(_turning, has_centrodes)),
     Construction("indicator", chamber_indicator, lambda machine: _drawn(machine) and bool(_GAS(machine))),
     Curves("chambers", _GAS, when=_drawn),

@@ -88,7 +88,7 @@ def _span(graph: Graph, angle: float, ends: list[float], text: str) -> None:
     top, bottom = (float(graph.down(end)) for end in ends)
     graph.paper.arrow((x, (top + bottom) / 2), (x, top), width=0.45)
     graph.paper.arrow((x, (top + bottom) / 2), (x, bottom), width=0.45)
-    graph.paper.text(x, graph.box.top - 5, text, size=8.5, anchor="start" if angle < graph.x[1] / 2 else "end")
+    graph.paper.text(x, graph.box.top - 5, text, anchor="start" if angle < graph.x[1] / 2 else "end")
 
 
 def crank_speed(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -99,10 +99,9 @@ def crank_speed(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     values = engine.shown("crank_speed", speed.speed(np.radians(engine.diagrams.degrees)))
     mean = float(engine.shown("speed", engine.results.solved.speed))
     rows = [
-        Row(engine.named("crank_speed")),
         Row(
-            f"{engine.symbol('speed')} – {translate('report.mean', language)},"
-            f" {engine.value('speed', engine.results.solved.speed)}",
+            f"{engine.symbol('speed')} = {engine.value('speed', engine.results.solved.speed)}"
+            f" – {translate('report.mean', language)}",
             DASHED,
         ),
         Row(f"{engine.named('speed_fluctuation')}, {engine.number(speed.fluctuation, 4)}", width=0.0),
@@ -136,8 +135,8 @@ def wittenbauer(machine: Drawn) -> Drawing:
     # slopes and angles are those of J over kg m2
     with use_units(METRIC):
         ends, scales = _ends(inertia, energy, construction)
-        slopes = (construction.slope_max, DASHED, "max"), (construction.slope_min, DASH_DOT, "min")
-        rows = [Row(_angle(scales.x / scales.y, slope, name, language), line, 0.9) for slope, line, name in slopes]
+        slopes = (construction.slope_max, "max"), (construction.slope_min, "min")
+        rows = [Row(_angle(scales.x / scales.y, slope, name, language), width=0.0) for slope, name in slopes]
         if not current_layout().is_sheet:
             # a sheet has them over every graph
             rows.append(Row(_scales(scales, language), width=0.0))

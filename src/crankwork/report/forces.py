@@ -19,16 +19,16 @@ from crankwork.report.gas import HEIGHT, banded_sheet, strokes
 from crankwork.report.look import (
     Drawn,
     displayed_values,
+    draw_scale,
     figure_title,
     key_of_links,
     math_symbol,
     position_sign,
     position_text,
-    scale_text,
 )
 from crankwork.show.canvas import GREY, Canvas, plain
 from crankwork.show.chart import TOP, ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, write_remark
-from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import FINE, current_layout, is_narrow, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_marks
 from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Drawing, Style
 
@@ -125,7 +125,9 @@ def plans_of_forces(machine: Drawn) -> Drawing:
     heights = []
     for row in rows:
         listed = max(len(plan.forces) + len(plan.links) for plan in row)
-        heights.append(max(_ROW * listed + _HEAD, *(_needed(plan, most, columns) for plan in row)))
+        list_height = _ROW * listed + _HEAD
+        needed = [_needed(plan, most, columns) for plan in row]
+        heights.append(list_height + max(needed) if is_narrow() else max(list_height, *needed))
     paper = Canvas(current_layout().width, TOP + sum(heights) + _HEAD * len(rows) + _FOOT)
     top, wide, scales = TOP, current_layout().width / columns, set[float]()
     for row, height in zip(rows, heights, strict=True):
@@ -139,10 +141,15 @@ def plans_of_forces(machine: Drawn) -> Drawing:
     return paper.drawing(f"{title}, {position_text(degrees, style)}", style.language)
 
 
+def _list_width() -> float:
+    """Return the width of the list beside a plan, which stands below it where figures are narrow. [pt]"""
+    return 0.0 if is_narrow() else _LIST
+
+
 def _scale(plan: ForcePolygon, width: float, height: float) -> float:
     """Return the scale at which a polygon has room beside its list. [displayed unit/mm]"""
     # beside it letters stand between it and the list
-    room = np.array([width - _LIST - 4 * _MARGIN, height - 2 * _MARGIN])
+    room = np.array([width - _list_width() - 4 * _MARGIN, height - 2 * _MARGIN])
     return round_scale(float(points_per_mm() * np.max(np.ptp(_ends(plan), axis=0) / room)), FINE)
 
 
@@ -155,8 +162,11 @@ def _needed(plan: ForcePolygon, most: float, columns: int) -> float:
 def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str, int], language: Language) -> float:
     """Draw the polygon of a group to its own scale, which is returned, and its forces beside it."""
     left, top, width, height = place
+    listed = _ROW * (len(plan.forces) + len(plan.links)) + _HEAD
+    height -= listed if is_narrow() else 0.0
     row, ends, scale = QUANTITIES["joint_force"], _ends(plan), _scale(plan, width, height)
-    width -= _LIST
+    width -= _list_width()
+    list_corner = (left + 14, top + _HEAD + height) if is_narrow() else (left + width, top + _HEAD)
     unit = points_per_mm() / scale
     middle = (ends.min(axis=0) + ends.max(axis=0)) / 2 * unit
     x, y = (middle[0] - width / 2, middle[0] + width / 2), (middle[1] - height / 2, middle[1] + height / 2)
@@ -174,15 +184,15 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
     label_marks(paper, marks, dot=0.0)
     links = ", ".join(str(numbers.get(link, link)) for link in plan.links)
     head = translate("drawing.links" if len(plan.links) > 1 else "drawing.link", language, links=links)
-    paper.text(left + 14, top + 10, f"{head}: {scale_text('μ_F', scale, row.unit, language)}")
+    draw_scale(paper, (left + 14, top + 10), ("μ_F", scale, row.unit), language, f"{head}:  ")
     for count, force in enumerate(plan.forces):
         shown = number(float(f"{_size(force):.4g}"), language)
         text = f"{_symbol(force, numbers, language)} = {shown} {unit_name(row.unit, language)}"
-        paper.text(left + width, top + _HEAD + 12 + _ROW * count, text, size=8.5)
+        paper.text(list_corner[0], list_corner[1] + 12 + _ROW * count, text)
     names = {own_number: name for name, own_number in numbers.items()}
     keys = key_of_links(names, (numbers[link] for link in plan.links if link in numbers), language)
     for count, key in enumerate(keys):
-        paper.text(left + width, top + _HEAD + 12 + _ROW * (len(plan.forces) + count), key, size=8.5)
+        paper.text(list_corner[0], list_corner[1] + 12 + _ROW * (len(plan.forces) + count), key)
     return scale
 
 

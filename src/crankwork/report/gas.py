@@ -14,7 +14,7 @@ from crankwork.analysis.gas_chambers import indicators
 from crankwork.locale import translate
 from crankwork.locale.numbers import unit_name
 from crankwork.report.look import Drawn, axis_title, displayed_values, math_symbol, quantity_of
-from crankwork.show.canvas import Canvas, plain
+from crankwork.show.canvas import WIDER, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, Row, limits, over_cycle, round_ticks, sheet, small_text
 from crankwork.show.chart_layout import current_layout, points_per_mm
 from crankwork.show.label_placement import label_marks
@@ -41,26 +41,52 @@ _LOWEST = 60.0
 
 def pressure(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the cycle with the named points, and that of cylinders that differ."""
-    degrees, values = engine.degrees, engine.values("gas_pressure")
-    other_pressures = engine.other_pressures
+    degrees, (key, values) = engine.degrees, diagram(engine)
+    other_pressures = {number: _above_zero(engine, other) for number, other in engine.other_pressures.items()}
     names = [translate("drawing.cylinder", engine.language, number=number) for number in (1, *other_pressures)]
     rows = [Row(name, style) for name, style in zip(names, itertools.cycle(STYLES), strict=False)]
-    paper, box = banded_sheet(engine, HEIGHT, rows if other_pressures else ())
+    paper, box = banded_sheet(engine, HEIGHT, rows if other_pressures else _ambient(engine))
     graph = over_cycle(paper, box, limits(values, *other_pressures.values()), engine.cycle, engine.language)
     for (number, other), row in zip(other_pressures.items(), rows[1:], strict=True):
-        graph.curve(f"gas_pressure.{number}", degrees, other, row.style)
-    graph.curve("gas_pressure", degrees, values)
-    engine.name_axes(graph, "crank_angle", "gas_pressure")
+        graph.curve(f"{key}.{number}", degrees, other, row.style)
+    graph.curve(key, degrees, values)
+    _draw_ambient(engine, graph)
+    engine.name_axes(graph, "crank_angle", key)
     strokes(engine, graph)
     mark_points(graph, named_points(engine))
     return paper, {"pressure": graph}
 
 
+def diagram(engine: Drawn) -> tuple[str, Array]:
+    """Return the key of what diagrams show, the absolute pressure where the ambient one is known, and its values."""
+    space = engine.results.solved.space
+    key = "diagram_pressure" if space.ambient and space.factor == 1 else "gas_pressure"
+    return key, _above_zero(engine, engine.values("gas_pressure"))
+
+
+def _above_zero(engine: Drawn, gauge: Array) -> Array:
+    """Return pressures as diagrams show them where those above the ambient pressure are known. [display unit]"""
+    space = engine.results.solved.space
+    return gauge + (engine.shown("ambient_pressure", space.ambient) if space.factor == 1 else 0.0)
+
+
+def _ambient(engine: Drawn) -> list[Row]:
+    """Return the name of the line of the ambient pressure, if diagrams have one."""
+    space = engine.results.solved.space
+    is_drawn = space.ambient and space.factor == 1
+    return [Row(engine.stated("ambient_pressure", space.ambient), DASH_DOT, 0.45)] if is_drawn else []
+
+
+def _draw_ambient(engine: Drawn, graph: Graph) -> None:
+    if _ambient(engine):
+        graph.level(float(engine.shown("ambient_pressure", engine.results.solved.space.ambient)), DASH_DOT, "ambient")
+
+
 def named_points(engine: Drawn) -> list[tuple[str, float, float]]:
-    """Return the named points of the diagram: name, crank angle [deg] and gauge pressure [display unit]."""
+    """Return the named points of the diagram: name, crank angle [deg] and its pressure [display unit]."""
     space = engine.results.solved.space
     return [
-        (_short(name), angle, float(engine.shown("gas_pressure", space.gauge(value))))
+        (_short(name), angle, float(_above_zero(engine, engine.shown("gas_pressure", space.gauge(value)))))
         for name, (angle, value) in space.diagram.named.items()
     ]
 
@@ -95,15 +121,15 @@ def banded_sheet(engine: Drawn, height: float, rows: Sequence[Row] = ()) -> tupl
 
 def strokes(engine: Drawn, graph: Graph) -> None:
     """Write the strokes of a cylinder above a graph, each over its half turn."""
-    names = _names(engine)
-    if not names:
-        return
+    names = [translate(f"drawing.{name}", engine.language) for name in _names(engine)]
     ends = graph.across(np.arange(0.0, engine.cycle + 1, 180.0))
     top = graph.box.top
+    if not names or WIDER * max(text_width(name, 7.5) for name in names) > ends[1] - ends[0]:
+        return
     lines = [(end, top - _BAND, end, top) for end in ends]
     graph.paper.segments(np.array([*lines, (ends[0], top - _BAND, ends[-1], top - _BAND)]), width=0.4)
     for name, (left, right) in zip(names, pairwise(ends), strict=True):
-        small_text(graph.paper, float(left + right) / 2, top - 3.5, translate(f"drawing.{name}", engine.language))
+        small_text(graph.paper, float(left + right) / 2, top - 3.5, name)
 
 
 def _names(engine: Drawn) -> tuple[str, ...]:
@@ -119,22 +145,23 @@ def _names(engine: Drawn) -> tuple[str, ...]:
 def indicator(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the gas pressure over the volume with its named points, and the diagram with sharp corners if known."""
     space = engine.results.solved.space
-    volume, values = engine.values("cylinder_volume"), engine.values("gas_pressure")
+    volume, (key, values) = engine.values("cylinder_volume"), diagram(engine)
     sharp = space.theoretical
     pressures = [values]
     if sharp is not None:
         absolute = sharp.pressure(engine.degrees, engine.columns["cylinder_volume"])
-        pressures.append(engine.shown("gas_pressure", space.gauge(absolute)))
-    rows = [Row(engine.named("gas_pressure")), Row(translate("drawing.sharp", engine.language), DASHED, 0.9)]
-    paper, box = sheet(_INDICATOR + _ABOVE, rows if sharp is not None else ())
+        pressures.append(_above_zero(engine, engine.shown("gas_pressure", space.gauge(absolute))))
+    rows = [Row(translate("drawing.sharp", engine.language), DASHED, 0.9)] if sharp is not None else []
+    paper, box = sheet(_INDICATOR + _ABOVE, [*rows, *_ambient(engine)])
     box = box._replace(top=box.top + _ABOVE, height=box.height - _ABOVE)
     ends, reach = limits(*pressures), 1.06 * float(np.max(volume))
     graph = Graph(paper, box, (0.0, reach), ends, engine.language)
     graph.frame(round_ticks(0.0, reach, 8), round_ticks(*ends, 9))
     if sharp is not None:
         graph.curve("theoretical", volume, pressures[1], DASHED, width=0.9, angles=engine.degrees)
-    graph.curve("gas_pressure", volume, values, angles=engine.degrees)
-    engine.name_axes(graph, "cylinder_volume", "gas_pressure")
+    graph.curve(key, volume, values, angles=engine.degrees)
+    _draw_ambient(engine, graph)
+    engine.name_axes(graph, "cylinder_volume", key)
     _dead_centres(engine, graph)
     points = [
         (name, float(np.interp(angle, engine.degrees, volume)), value) for name, angle, value in named_points(engine)
@@ -145,55 +172,42 @@ def indicator(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
 
 
 def _inset(engine: Drawn, graph: Graph, volume: Array, values: Array) -> Graph | None:
-    """Draw the loop of gas exchange larger where no curve is, above the pressure of the surroundings."""
-    degrees, (left, top, width, height) = engine.degrees, graph.box
-    calm = (degrees < _CALM[0]) | (degrees > _CALM[1])
-    if engine.cycle != FOUR_STROKE or np.ptp(values[calm]) > _FLAT * np.ptp(values):
-        return None
-    ends = limits(values[calm], margin=0.5)
+    """Draw the loop of gas exchange larger in a frame where no curve is, above the ambient pressure."""
+    left, top, width, height = graph.box
     x, y = graph.across(volume), graph.down(values)
     centre = float(np.max(x))
     for start in _STARTS:
         begin = left + start * width
         box = ChartBox(begin, top + 0.05 * height, centre - 8 - begin, 0.36 * height)
         room = (x > box.left - _NUMBERS) & (y < box.top + box.height + 10) & (x < box.left + box.width)
-        if not np.any(room):
-            break
-    else:
-        return None
-    if box.height < _LOWEST:
-        return None
-    inset = Graph(graph.paper, box, (0.0, graph.x[1]), ends, engine.language)
-    # on a sheet it is smaller, to a round scale
-    box = inset.box
-    corners = box.left - _NUMBERS, box.left + box.width, box.top - 6, box.top + box.height + 6
-    graph.paper.area([corners[0], corners[1], corners[1], corners[0]], [*corners[2:3] * 2, *corners[3:] * 2])
-    inset.frame(np.array([]), round_ticks(*ends, min(5, round(inset.box.height / 16))))
-    inset.curve("gas_exchange", *_within(inset, volume, values), angles=degrees)
-    graph.paper.text(box.left + box.width, float(inset.down(0.0)) - 3, engine.symbol("ambient_pressure"), size=8,
-                     anchor="end")  # fmt: skip
-    return inset
+        if not np.any(room) and box.height >= _LOWEST:
+            return gas_exchange(engine, graph.paper, box, volume, values)
+    return None
 
 
-def gas_exchange(engine: Drawn, paper: Canvas, box: ChartBox, volume: Array, pressure: Array) -> None:
-    """Draw the loop of gas exchange of four strokes larger, with the absolute pressure of the surroundings."""
+def gas_exchange(engine: Drawn, paper: Canvas, box: ChartBox, volume: Array, pressure: Array) -> Graph | None:
+    """Draw the loop of gas exchange of four strokes larger in a frame, with the ambient pressure."""
     calm = (engine.degrees < _CALM[0]) | (engine.degrees > _CALM[1])
     if engine.cycle != FOUR_STROKE or np.ptp(pressure[calm]) > _FLAT * np.ptp(pressure):
-        return
+        return None
     ambient = float(engine.shown("ambient_pressure", engine.results.solved.space.ambient))
     ends = limits(np.append(pressure[calm], ambient), margin=0.3, is_place=True)
     graph = Graph(paper, box, (0.0, 1.06 * float(np.max(volume))), ends, engine.language)
-    graph.frame(np.array([]), round_ticks(*ends, 5))
+    box = graph.box
+    corners = box.left - _NUMBERS, box.left + box.width, box.top - 6, box.top + box.height + 6
+    paper.area([corners[0], corners[1], corners[1], corners[0]], [*corners[2:3] * 2, *corners[3:] * 2], width=0.45)
+    graph.frame(np.array([]), round_ticks(*ends, min(5, round(box.height / 16))))
     graph.curve("gas_exchange", *_within(graph, volume, pressure), angles=engine.degrees)
     graph.level(ambient, DASH_DOT, "ambient")
-    small_text(paper, graph.box.left + graph.box.width, float(graph.down(ambient)) - 3,
-               engine.symbol("ambient_pressure"), "end")  # fmt: skip
+    level = float(graph.down(ambient)) - 3
+    small_text(paper, box.left + box.width, level, engine.symbol("ambient_pressure"), "end")
     if current_layout().is_sheet:
         # beside it, as that of the diagrams is another
-        value = float(f"{(graph.y[1] - graph.y[0]) / graph.box.height * points_per_mm():.5g}")
+        value = float(f"{(graph.y[1] - graph.y[0]) / box.height * points_per_mm():.5g}")
         sign, unit = engine.symbol("diagram_pressure").strip("$"), engine.unit("diagram_pressure")
         text = f"{math_symbol(f'μ_{sign}')} = {engine.number(value)} {unit}/{unit_name('mm', engine.language)}"
-        paper.text(graph.box.left + graph.box.width / 2, graph.box.top + graph.box.height + 12, text, anchor="middle")
+        paper.text(box.left + box.width / 2, box.top + box.height + 16, text, anchor="middle")
+    return graph
 
 
 def _within(graph: Graph, x: Array, y: Array) -> tuple[Array, Array]:

@@ -9,9 +9,9 @@ import numpy as np
 from crankwork.locale import translate
 from crankwork.report.balance import Bars, bar_graph, swatches
 from crankwork.report.look import Drawn
-from crankwork.show.canvas import Canvas
+from crankwork.show.canvas import WIDER, Canvas, fitted_lines
 from crankwork.show.chart import BOTTOM, TOP, ChartBox, Graph, small_text
-from crankwork.show.chart_layout import current_layout, scaled_height
+from crankwork.show.chart_layout import columns_of, current_layout, scaled_height
 from crankwork.show.label_placement import label_marks
 
 
@@ -27,15 +27,10 @@ def torque_harmonics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         Bars(name, dict(zip(orders, engine.shown(key, columns[key]).tolist(), strict=True)))
         for name, key in kinds.items()
     ]
-    texts = [
-        f"{engine.symbol(key)} – {translate(f'drawing.{name}', engine.language)}"
-        if engine.cylinders
-        else engine.named(key)
-        for name, key in kinds.items()
-    ]
-    height = scaled_height(200.0)
+    texts = [f"{engine.symbol(key)} – {translate(f'drawing.{name}', engine.language)}" for name, key in kinds.items()]
+    height, is_alone = scaled_height(200.0), len(kinds) == 1
     paper = Canvas(current_layout().width, TOP + 19 + height + BOTTOM)
-    swatches(paper, texts, [0, 4][: len(texts)])
+    swatches(paper, [] if is_alone else texts, [] if is_alone else [0, 4])
     graph = bar_graph(
         engine,
         paper,
@@ -46,14 +41,15 @@ def torque_harmonics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     )
     graph.x_title(engine.title("harmonic_order"))
     symbols = ", ".join(engine.symbol(key) for key in kinds.values())
-    graph.y_title(f"{symbols}, {engine.unit('harmonic_amplitude')}")
+    shown = f"{symbols}, {engine.unit('harmonic_amplitude')}"
+    graph.y_title(engine.title(*kinds.values()) if is_alone else shown)
     return paper, {"torque_harmonics": graph}
 
 
 def phase_stars(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the phase stars of the orders up to 6, all unit vectors of one length, with the mean of each."""
     stars = engine.diagrams.phase_stars
-    columns = 4 if len(stars) > 6 else 3
+    columns = columns_of(4 if len(stars) > 6 else 3)
     lines = -(-len(stars) // columns)
     side, gap, head = (current_layout().width - 24) / columns - 8, 8.0, 14.0
     paper = Canvas(current_layout().width, TOP + lines * (side + head) + 30)
@@ -64,13 +60,10 @@ def phase_stars(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         graphs[order] = _star(paper, box, star.vectors.tolist(), star.sum, engine)
         text = f"$ν$ = {order}  ({engine.number(round(abs(star.sum), 9), 3)})"
         small_text(paper, box.left + side / 2, box.top - 3, text)
-    paper.text(
-        current_layout().width / 2,
-        paper.height - 18,
-        translate("drawing.star_sum", engine.language),
-        size=8,
-        anchor="middle",
-    )
+    foot = fitted_lines(translate("drawing.star_sum", engine.language), 8.0, current_layout().width / WIDER)
+    paper.height += 10.0 * (len(foot) - 1)
+    for count, text in enumerate(reversed(foot)):
+        paper.text(current_layout().width / 2, paper.height - 18 - 10 * count, text, anchor="middle")
     return paper, graphs
 
 

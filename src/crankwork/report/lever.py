@@ -166,9 +166,9 @@ def _rows(
     torque = _value_with_unit("balancing_torque", lever.torque, language)
     result = f"${last}$ = {'−' if lever.torque < 0 else ''}{force} $r$ = {torque};   $r$ = {radius}"
     width = (current_layout().width - 28) / WIDER
-    columns = max(1, int((width + _BETWEEN) / (max(text_width(entry, 9.0) for entry in entries) + _BETWEEN)))
+    columns = max(1, int((width + _BETWEEN) / (max(text_width(entry, 8.0) for entry in entries) + _BETWEEN)))
     rows = [";   ".join(entries[start : start + columns]) for start in range(0, len(entries), columns)]
-    return [*rows, *fitted_lines(equation, 9.0, width), result]
+    return [*rows, *fitted_lines(equation, 8.0, width), result]
 
 
 def _torque(torque: LeverTorque, numbers: dict[str, int], language: Language) -> tuple[str, str]:

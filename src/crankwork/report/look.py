@@ -25,8 +25,9 @@ from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, Quantity
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, link_label, row_name, symbol
-from crankwork.show.canvas import GREY, Canvas, plain
+from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, round_ticks, write_remark
+from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale
 from crankwork.show.scene import DASH_DOT, Drawing, printable
 from crankwork.units import from_si
 
@@ -34,6 +35,8 @@ _DENSE_STEP = 2.0
 # behind a corner, where there may be a jump [deg]
 _AFTER = 1e-6
 _DIGITS = 4
+# length of a scale bar at least [mm]
+_BAR = 10.0
 # what would mark something in a text of a figure, where a name is the user's own
 _SIGNS = frozenset(r"$\#{}%^~&")
 
@@ -171,6 +174,24 @@ def scale_text(sign: str, value: float, unit: str, language: Language) -> str:
     return f"{math_symbol(sign)} = {number(value, language)} {name}/{unit_name('mm', language)}"
 
 
+def draw_scale(
+    paper: Canvas, place: tuple[float, float], scale: tuple[str, float, str], language: Language, before: str = ""
+) -> None:
+    """Draw a scale, its symbol, value and unit: on a sheet in words, elsewhere as a bar, which is right in any size."""
+    (x, y), (sign, value, unit) = place, scale
+    if current_layout().is_sheet:
+        paper.text(x, y, before + scale_text(sign, value, unit, language))
+        return
+    paper.text(x, y, before)
+    x += text_width(before, 8.0) * WIDER
+    shown = round_scale(value * _BAR, (1, 2, 5))
+    length = shown / value * points_per_mm()
+    paper.segments(
+        np.array([(x, y, x + length, y), (x, y - 2.5, x, y + 2.5), (x + length, y - 2.5, x + length, y + 2.5)])
+    )
+    paper.text(x + length + 5, y + 3, f"{number(shown, language)} {unit_name(unit, language)}")
+
+
 class Reached(NamedTuple):
     """A machine over its motion: angles [deg], columns [SI], the row that is worked, whether it is a whole cycle."""
 
@@ -275,6 +296,11 @@ class Drawn:
         shown = self.number(float(self.shown(key, value)), digits)
         unit = self.unit(key)
         return f"{shown}{unit}" if unit in ("", "°") else f"{shown}\N{NO-BREAK SPACE}{unit}"
+
+    def stated(self, key: str, value: float) -> str:
+        """Return symbol, SI value with its unit, and name of a quantity."""
+        symbol, _, name = self.named(key).partition(" – ")
+        return f"{symbol} = {self.value(key, value)} – {name}"
 
     def number(self, value: float, digits: int = 6) -> str:
         """Return a number as the language prints it."""

@@ -18,7 +18,7 @@ from crankwork.quantities import QUANTITIES
 from crankwork.quantities.key import key_of
 from crankwork.report.display import symbol
 from crankwork.report.forces import Line
-from crankwork.report.gas import gas_exchange, mark_points, named_points
+from crankwork.report.gas import diagram, gas_exchange, mark_points, named_points
 from crankwork.report.look import Drawn, Style, displayed_values, figure_title, position_text, scale_text
 from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
 from crankwork.show.chart import (
@@ -29,15 +29,16 @@ from crankwork.show.chart import (
     Graph,
     Row,
     limits,
+    name_at_the_end,
     over_cycle,
     round_ticks,
     sheet,
 )
-from crankwork.show.chart_layout import current_layout, points_per_mm, scaled_height
+from crankwork.show.chart_layout import current_layout, is_narrow, points_per_mm, scaled_height
 from crankwork.show.label_placement import label_marks
-from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, Drawing, flow_rows
+from crankwork.show.scene import DASH_DOT, DASHED, DOTTED, SOLID, STYLES, Drawing, flow_rows
 
-_PANEL, _PANEL_GAP = 126.0, 38.0
+_PANEL, _PANEL_GAP = 126.0, 20.0
 _SIDES = ("AC", "BD", "CD", "EF", "CF", "FD")
 _STEP = 30.0
 _CIRCLE, _MARGIN, _TITLES = 190.0, 26.0, 44.0
@@ -52,17 +53,17 @@ _ROLLING = (3.0, 1.5)
 _SEEN, _SMALL = 0.3, 0.2
 # a coupler that turns less than this share of the crank has its centre far away
 _LEAST = 1e-6
+# share of its length by which a path is curved
+_STRAIGHT = 1e-3
 
 
 def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return three panels over the cycle; an approximate method shows the two orders it is made of."""
     has_orders = "piston_velocity_first_order" in engine.columns
-    gap = _PANEL_GAP if has_orders else 20.0
-    head = 16.0 if has_orders else 4.0
     panel = scaled_height(_PANEL)
-    paper = Canvas(current_layout().width, TOP + head + 3 * panel + 2 * gap + BOTTOM)
+    paper = Canvas(current_layout().width, TOP + 4 + 3 * panel + 2 * _PANEL_GAP + BOTTOM)
     graphs: dict[str, Graph] = {}
-    top = TOP + head
+    top = TOP + 4
     for row, noun in enumerate(("displacement", "velocity", "acceleration")):
         keys = {f"piston_{noun}": SOLID}
         if has_orders:
@@ -71,15 +72,13 @@ def kinematics(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         box = ChartBox(current_layout().left, top, current_layout().inner, panel)
         ends = limits(*(curve.values for curve in curves))
         graph = over_cycle(paper, box, ends, engine.cycle, engine.language, numbers=row == 2)
-        for index, curve in enumerate(curves):
+        for curve in curves:
             graph.curve(curve.key, engine.degrees, curve.values, curve.style)
-            if has_orders:
-                left = box.left + 8 + 70 * index
-                paper.line([left, left + 20], [box.top - 10] * 2, style=curve.style, width=0.9, name="legend")
-                paper.text(left + 27, box.top - 7, engine.symbol(curve.key), size=8.5)
+        rows = [Row(engine.symbol(curve.key), curve.style) for curve in curves]
+        name_at_the_end(paper, rows if has_orders else [], box)
         graph.y_title(engine.title(f"piston_{noun}"), 42.0)
         graphs[noun] = graph
-        top += graph.box.height + gap
+        top += graph.box.height + _PANEL_GAP
     graphs["acceleration"].x_title(engine.title("crank_angle"))
     return paper, graphs
 
@@ -96,7 +95,7 @@ def brix(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     difference = f"{engine.number(error, 2)} {engine.unit('piston_displacement')}"
     half = f"{engine.symbol('rod_ratio')}{engine.symbol('crank_radius')}/2"
     rows = [
-        Row(f"{translate('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}"),
+        Row(f"{translate('drawing.brix_circle', engine.language)} OO′ = {half} = {shift}", width=0.0),
         Row(
             translate(
                 "drawing.brix_error", engine.language, symbol=engine.symbol("piston_displacement"), value=difference
@@ -104,11 +103,11 @@ def brix(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
             width=0.0,
         ),
     ]
-    side = min(scaled_height(_CIRCLE), 0.45 * current_layout().width)
+    side = min(scaled_height(_CIRCLE), (0.36 if is_narrow() else 0.45) * current_layout().width)
     height = side * max(1.0, float(exact.max()) / (2 * radius))
     paper, box = sheet((height + _MARGIN - 10) / current_layout().tall, rows)
     top = box.top + _MARGIN - 14
-    left = _MARGIN + side + _MARGIN - 6 + _TITLES
+    left = _MARGIN + side + (_TITLES if is_narrow() else _MARGIN - 6 + _TITLES)
     graph_box = ChartBox(left, top, current_layout().width - left - current_layout().right, height)
     graph = Graph(paper, graph_box, (0.0, 360.0), (float(exact.max()), 0.0), engine.language, "crank_angle")
     ring = Graph(paper, ChartBox(_MARGIN, top, side, side), (-radius, radius), (-radius, radius), engine.language)
@@ -120,7 +119,7 @@ def brix(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     for level in graph.down(ticks):
         corners = [left - 28, left - 4, left - 4, left - 28], [level - 5, level - 5, level + 5, level + 5]
         paper.area(*corners)
-    graph.frame(np.arange(0.0, 361.0, 60.0), ticks)
+    graph.frame(np.arange(0.0, 361.0, 60.0 if graph.box.width > 6 * _NUMBER else 180.0), ticks)
     graph.curve("displacement", degrees, exact)
     graph.curves["construction"] = degrees, radius * (1 - circle.up)
     graph.x_title(engine.title("crank_angle"))
@@ -166,8 +165,8 @@ def _projections(ring: Graph, graph: Graph, points: BrixPoints, radius: float, m
 def indicator_brix(machine: Drawn) -> Drawing:
     """Return absolute pressure over volume with Brix's half circle below it, and beside it over the crank angle."""
     space, degrees = machine.results.solved.space, machine.degrees
-    zero = float(machine.shown("gas_pressure", space.gauge(0.0)))
-    volume, pressure = machine.values("cylinder_volume"), machine.values("gas_pressure") - zero
+    ambient = float(machine.shown("ambient_pressure", space.ambient))
+    volume, (_, pressure) = machine.values("cylinder_volume"), diagram(machine)
     ends, reach = limits(pressure), 1.06 * float(np.max(volume))
     layout, high = current_layout(), scaled_height(_INDICATOR)
     wide = 0.44 * layout.inner
@@ -189,10 +188,10 @@ def indicator_brix(machine: Drawn) -> Drawing:
     left.curve("indicator", volume, pressure, angles=degrees)
     right.curve("pressure", degrees, pressure)
     for graph in (left, right):
-        graph.level(-zero, DASH_DOT, "ambient")
+        graph.level(ambient, DASH_DOT, "ambient")
     points = named_points(machine)
-    mark_points(left, [(name, float(np.interp(angle, degrees, volume)), value - zero) for name, angle, value in points])
-    mark_points(right, [(name, angle, value - zero) for name, angle, value in points])
+    mark_points(left, [(name, float(np.interp(angle, degrees, volume)), value) for name, angle, value in points])
+    mark_points(right, points)
     unit = machine.unit("diagram_pressure")
     left.y_title(f"{machine.symbol('diagram_pressure')}, {unit}", 30.0)
     left.x_title(titles[0])
@@ -206,13 +205,13 @@ def indicator_brix(machine: Drawn) -> Drawing:
 
 def _short(title: str, graph: Graph) -> str:
     """Return the title of an axis, its symbol and unit alone where the words are wider than the axis."""
-    return title if text_width(title, 9.0) * WIDER <= graph.box.width + _NUMBER else title[title.index("$") :]
+    return title if text_width(title, 8.0) * WIDER <= graph.box.width + _NUMBER else title[title.index("$") :]
 
 
 def _clear(graph: Graph, ticks: Array, title: str, machine: Drawn) -> None:
     """Clear the ground under the numbers and the title of a horizontal axis, so that no line runs through them."""
-    texts = [(machine.number(float(tick)), float(graph.across(tick)), 12.5, 8.5) for tick in ticks]
-    texts.append((title, graph.box.left + graph.box.width / 2, 26.0, 9.0))
+    texts = [(machine.number(float(tick)), float(graph.across(tick)), 12.5, 8.0) for tick in ticks]
+    texts.append((title, graph.box.left + graph.box.width / 2, 26.0, 8.0))
     for text, middle, down, size in texts:
         half, foot = WIDER * text_width(text, size) / 2 + 1, graph.box.top + graph.box.height + down
         left, right, high, low = middle - half, middle + half, foot - 0.9 * size, foot + 0.4 * size
@@ -346,10 +345,52 @@ def centrodes(machine: Drawn) -> Drawing:
     if graph.x[0] < x < graph.x[1] and graph.y[0] < y < graph.y[1]:
         marks.append((f"${centre}$", *graph.point(float(x), float(y))))
     label_marks(paper, marks, frame=graph.box)
+    return _in_plane(graph, "centrodes", style)
+
+
+def curved_paths(machine: Drawn) -> dict[str, Array]:
+    """Return the paths of points with a name in the plane, without those on a line or on a circle about a pivot. [m]"""
+    columns = machine.reached.columns
+    names = [key_of(key).owner for key in columns if key.startswith("point_x.")]
+    pivots = skeleton(machine.results.machine.mechanism, machine.style.links).pivots
+    moved = sample_motion(machine.results.machine.mechanism, machine.reached.degrees).points
+    fixed = [moved[pivot].place[0] for pivot in pivots if pivot in moved]
+    paths = {
+        name: np.column_stack([columns[f"point_{axis}.{name}"] for axis in "xy"]) for name in names if "." not in name
+    }
+    return {name: path for name, path in paths.items() if _is_curved(path, fixed)}
+
+
+def _is_curved(path: Array, fixed: Sequence[Array]) -> bool:
+    path = path[np.isfinite(path).all(axis=1)]
+    sizes = np.linalg.svd(path - path.mean(axis=0), compute_uv=False)
+    radii = [np.hypot(*(path - pivot).T) for pivot in fixed]
+    return bool(sizes[1] > _STRAIGHT * sizes[0]) and all(np.ptp(radius) > _STRAIGHT * sizes[0] for radius in radii)
+
+
+def path_figure(machine: Drawn, names: Sequence[str]) -> Drawing:
+    """Return the paths of some points to scale, and the linkage at the angle that is worked."""
+    style, mechanism, row = machine.style, machine.results.machine.mechanism, machine.reached.row
+    scale = float(displayed_values(QUANTITIES["point_x"], np.array(1.0)))
+    paths = {name: scale * path for name, path in curved_paths(machine).items() if name in names}
+    moved, shape = sample_motion(mechanism, machine.reached.degrees).points, skeleton(mechanism, style.links)
+    places = {name: point.place[row] * scale for name, point in moved.items()}
+    paper, box = sheet(_HIGH, [Row(plain(name), line) for name, line in zip(paths, STYLES, strict=False)])
+    graph = _graph(paper, box, np.vstack([*paths.values(), *places.values()]), style, 0.1)
+    _linkage(graph, shape.members, places)
+    for (name, path), line in zip(paths.items(), STYLES, strict=False):
+        graph.curve(f"path.{name}", path[:, 0], path[:, 1], line, angles=machine.reached.degrees)
+    label_marks(paper, [(plain(shape.letters[name]), *graph.point(*place)) for name, place in places.items()
+                        if name in shape.letters and name not in paths], frame=graph.box)  # fmt: skip
+    return _in_plane(graph, "paths", style)
+
+
+def _in_plane(graph: Graph, name: str, style: Style) -> Drawing:
+    """Return the figure of a graph whose axes are coordinates."""
     unit = unit_name(QUANTITIES["point_x"].unit, style.language)
     graph.x_title(f"$x$, {unit}")
     graph.y_title(f"$y$, {unit}")
-    return paper.drawing(figure_title("centrodes", style.language), style.language)
+    return graph.paper.drawing(figure_title(name, style.language), style.language)
 
 
 def instant_centres(frame: Frame, row: int) -> tuple[Array, Array]:
@@ -370,15 +411,15 @@ def _seen(path: Array, reach: tuple[Array, Array]) -> float:
     return float(np.mean(near)) if size > _SMALL * float(reach[1][0]) else 0.0
 
 
-def _reach(places: Array) -> tuple[Array, Array]:
+def _reach(places: Array, around: float = _AROUND) -> tuple[Array, Array]:
     """Return the middle of a linkage, and how far around it centres are shown, across and up."""
     low, high = places.min(axis=0), places.max(axis=0)
-    return (low + high) / 2, np.full(2, float(np.max(high - low)) * (1 + _AROUND) / 2)
+    return (low + high) / 2, np.full(2, float(np.max(high - low)) * (1 + around) / 2)
 
 
-def _graph(paper: Canvas, box: ChartBox, places: Array, style: Style) -> Graph:
+def _graph(paper: Canvas, box: ChartBox, places: Array, style: Style, around: float = _AROUND) -> Graph:
     """Return a graph of equal scales around a linkage, its frame drawn."""
-    middle, size = _reach(places)
+    middle, size = _reach(places, around)
     unit = 2 * max(float(size[0]) / box.width, float(size[1]) / box.height) or 1.0
     half = unit * box.width / 2, unit * box.height / 2
     x = float(middle[0]) - half[0], float(middle[0]) + half[0]

@@ -18,6 +18,7 @@ from crankwork.report.display import symbol
 from crankwork.report.look import (
     PLAIN,
     Style,
+    draw_scale,
     figure_title,
     key_of_links,
     math_symbol,
@@ -27,7 +28,7 @@ from crankwork.report.look import (
 )
 from crankwork.show.canvas import WIDER, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph, write_remark
-from crankwork.show.chart_layout import FINE, current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.chart_layout import FINE, current_layout, is_narrow, points_per_mm, round_scale, scaled_height
 from crankwork.show.label_placement import label_points
 from crankwork.show.scene import DASH_DOT, DASHED, SOLID, Drawing
 from crankwork.show.scene import Style as Dashes
@@ -133,7 +134,8 @@ def _figure(
     """Draw a plan, and beside it the values of its vectors and the angular rates of the links."""
     language, seen, size = style.language, _seen(plan), size_of(plan)
     # only beside one plan there is room for a list
-    side = current_layout().width - (_LIST_WIDTH if position is None else 0.0)
+    has_list = position is None and not is_narrow()
+    side = current_layout().width - (_LIST_WIDTH if has_list else 0.0)
     rows = [] if position is not None else [*_rows(seen, plan, kind, language), *_link_names(style, plan)]
     # long names stand beside the outermost ends, those of one end together
     ends: dict[tuple[float, ...], str] = {}
@@ -141,12 +143,15 @@ def _figure(
         place = tuple(np.round(node / max(_longest(plan), 1e-12), 3).tolist())
         ends[place] = f"{ends[place]}, {node_name(name)}" if place in ends else node_name(name)
     margin = max([_MARGIN, *(WIDER * text_width(plain(text), 8.0) + 12 for text in ends.values())])
-    high = max(scaled_height(_TALL), _ROW * len(rows))
+    listed = _ROW * len(rows) if has_list else 0.0
+    high = max(scaled_height(_TALL), listed)
     room = side - 2 * min(margin, side / 8), max(high - 2 * _MARGIN, _LOWEST)
     scale = _scale(size, among, room)
     unit = points_per_mm() / scale
-    high = max(max(size[1], 1e-12) * unit + 2 * _MARGIN, _ROW * len(rows) + 30) + 34
-    paper = Canvas(current_layout().width, high)
+    high = max(max(size[1], 1e-12) * unit + 2 * _MARGIN, listed + 30) + 34
+    # in two columns where it stands below
+    below = 0.0 if has_list else _ROW * -(-len(rows) // 2)
+    paper = Canvas(current_layout().width, high + below)
     places = _places(seen)
     middle = (places.min(axis=0) + places.max(axis=0)) / 2
     left, bottom = middle[0] - side / 2 / unit, middle[1] - (high + 34) / 2 / unit
@@ -154,14 +159,16 @@ def _figure(
     graph = Graph(paper, ChartBox(0.0, 0.0, current_layout().width, high), x, y, language, to_scale=False)
     draw_vectors(graph, seen, unit)
     for count, row in enumerate(rows):
-        paper.text(current_layout().width - _LIST, 23 + _ROW * count, row, size=8.5)
-    scale_shown = scale_text(f"μ_{kind.sign}", scale, kind.unit, language)
+        left, top = (current_layout().width - _LIST, 23 + _ROW * count) if has_list else (
+            14 + count % 2 * current_layout().width / 2, high - 6 + _ROW * (count // 2)
+        )  # fmt: skip
+        paper.text(left, top, row)
     if position is not None:
-        scale_shown = scale_shown if seen else f"${kind.sign}$ = 0"
+        scale_shown = scale_text(f"μ_{kind.sign}", scale, kind.unit, language) if seen else f"${kind.sign}$ = 0"
         shown = f"{translate('sheets.position', language)} {position}: {scale_shown}"
         paper.text(current_layout().width / 2, high - 20, shown, anchor="middle")
     else:
-        paper.text(14, high - 20, scale_shown)
+        draw_scale(paper, (14, high - 20), (f"μ_{kind.sign}", scale, kind.unit), language)
         shown = f"{position_sign(style)} = {position_text(float(degrees), style)}"
         paper.text(current_layout().width - 14, high - 20, shown, anchor="end")
         write_remark(paper, _remark(plan, kind, language))

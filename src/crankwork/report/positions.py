@@ -17,10 +17,10 @@ from crankwork.report.drawn_links import HATCH, SLOT, Rail, Scene, corners, scen
 from crankwork.report.look import (
     PLAIN,
     Style,
+    draw_scale,
     figure_title,
     position_sign,
     position_text,
-    scale_text,
 )
 from crankwork.show.canvas import BLACK, Canvas, plain, text_width
 from crankwork.show.chart import ChartBox, Graph
@@ -41,6 +41,8 @@ _THIN, _BLOCK, WHITE = "#8c8c8c", "#d9d9d9", "#ffffff"
 _NUMBER, _TOGETHER = 8.0, 2.5
 # of names of points [pt], what is free about them, and where they stand at a support [units of the picture]
 _LETTER, _CLEAR, _BY_SUPPORT = 9.0, 6.0, ((0.0, -33.0), (-24.0, -16.0), (24.0, -16.0))
+# radius of the arrow of rotation, of the crank's
+_ROTATION = 0.55
 # parts are drawn smaller than on a screen: units of the picture in a point of the paper
 _UNITS = 1.5
 
@@ -85,8 +87,10 @@ def position_plans(
     _paths(sheet, shape.coupler_points)
     _plan(sheet, plans[main], is_main=True)
     _texts(sheet, [rail.name for rail in drawn.rails if _number_guide(sheet, rail)])
+    if ends is None and shape.pin:
+        _rotation(sheet)
     foot, hand = sheet.graph.box.height - 20, sheet.graph.paper
-    hand.text(0.03 * hand.width, foot, scale_text("μ_l", paper, "mm", style.language))
+    draw_scale(hand, (0.03 * hand.width, foot), ("μ_l", paper, "mm"), style.language)
     shown = f"{position_sign(style, f'_{main}')} = {position_text(float(degrees[main]), style)}"
     hand.text(0.97 * hand.width, foot, shown, anchor="end")
     made = hand.drawing(figure_title("position_plans", style.language), style.language)
@@ -189,6 +193,19 @@ def _plan(sheet: _Sheet, row: int, *, is_main: bool) -> None:
 def _rectangle(graph: Graph, pose: MovingFrame, half: tuple[float, float], row: int, fill: str) -> None:
     u, v = half
     _area_of(graph, np.array([pose.place(x, y)[row] for x, y in ((u, v), (-u, v), (-u, -v), (u, -v))]), fill)
+
+
+def _rotation(sheet: _Sheet) -> None:
+    """Draw an arrow about the pivot of the crank, in the sense in which its angle grows."""
+    drawn, row = sheet.drawn, sheet.plans[sheet.main]
+    pivot = drawn.points[next(iter(drawn.skeleton.pivots))][0]
+    arms = drawn.points[drawn.skeleton.pin][[row, row + 1]] - pivot
+    sense = math.copysign(1.0, arms[0, 0] * arms[1, 1] - arms[0, 1] * arms[1, 0])
+    # above the pivot, whose name stands below
+    angles = np.pi / 2 + sense * np.linspace(-0.75, 0.75, 16)
+    points = pivot + _ROTATION * float(np.hypot(*arms[0])) * np.column_stack([np.cos(angles), np.sin(angles)])
+    _line_of(sheet.graph, points[:-1], width=0.6)
+    sheet.graph.paper.arrow(sheet.graph.point(*points[-2]), sheet.graph.point(*points[-1]), width=0.6)
 
 
 def _paths(sheet: _Sheet, names: Sequence[str]) -> None:

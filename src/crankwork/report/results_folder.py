@@ -16,6 +16,7 @@ from crankwork.report.summary import summary_data
 from crankwork.report.tables import csv_of_sheet, sheets
 from crankwork.report.workbook import workbook
 from crankwork.show.animated_svg import moving_svg
+from crankwork.show.chart_layout import WIDTHS, use_layout
 from crankwork.show.formats import FORMATS
 from crankwork.show.theme import Theme
 
@@ -29,7 +30,7 @@ def missing_writers() -> MissingExtraError | None:
     return MissingExtraError(ErrorMessage("extra_writing", names=["tables.xlsx"]), *missing) if missing else None
 
 
-def results_folder(
+def results_folder(  # noqa: PLR0913 - results, and how they are shown
     results: Results,
     *,
     language: Language = "en",
@@ -37,10 +38,11 @@ def results_folder(
     for_excel: bool = False,
     formats: Sequence[str] = ("svg",),
     theme: Theme = "print",
+    width: str = "170",
 ) -> Iterator[dict[str, bytes]]:
     """Yield the files of a results folder in steps, to show progress; `missing_writers` says what is left out.
 
-    `formats`: of the figures, none for none.
+    `formats`: of the figures, none for none; `width`: of the figures, 85 or 170. [mm]
     """
     summary = summary_data(results, per_area=per_area)
     yield {
@@ -60,6 +62,7 @@ def results_folder(
     if free is not None:
         yield {"transient.svg": moving_svg(moving_drawing(results, language=language, path=free), on_screen)}
     if formats:
-        drawn = drawings(results, language=language, per_area=per_area)
+        with use_layout(WIDTHS[width]):
+            drawn = drawings(results, language=language, per_area=per_area)
         for ending in formats:
             yield {f"figures/{name}.{ending}": FORMATS[ending](drawing, theme) for name, drawing in drawn.items()}

@@ -54,18 +54,15 @@ def torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     mean = -known.value if known.key == "mean_driving_torque" else known.value
     if abs(float(engine.shown("mean_torque", mean))) < 1e-6 * float(np.max(np.abs(values))):
         mean = 0.0
-    row = QUANTITIES["mean_torque"]
-    text = f"{engine.symbol('mean_torque')} – {row.label(engine.language)}, {engine.value('mean_torque', mean)}"
     level = np.full_like(values, float(engine.shown("mean_torque", mean)))
     curves = [Line("crank_torque", values), Line("mean_torque", level, DASHED)]
-    rows = [Row(engine.named("crank_torque")), Row(text, DASHED)]
+    rows = [Row(engine.stated("mean_torque", mean), DASHED)]
     return curves_over_cycle(engine, curves, rows, engine.title("crank_torque"))
 
 
 def total_torque(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
     """Return the torque of all cylinders with its mean, and that of cylinder 1."""
-    mean = float(engine.shown("mean_total_torque", engine.diagrams.excess.mean_torque))
-    return _summed(engine, "total_torque", "crank_torque", mean)
+    return _summed(engine, "total_torque", "crank_torque", float(engine.diagrams.excess.mean_torque))
 
 
 def total_tangential_force(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
@@ -81,8 +78,9 @@ def _summed(engine: Drawn, key: str, own: str, mean: float | None = None) -> tup
     total[-1] = total[0]
     rows = [Row(engine.named(key), width=_NAMED)]
     if mean is not None:
-        mean = 0.0 if abs(mean) < 1e-9 * float(np.max(np.abs(total))) else mean
-        rows.append(Row(f"{engine.named('mean_total_torque')}, {engine.value('mean_total_torque', mean)}", DASHED))
+        level = float(engine.shown("mean_total_torque", mean))
+        mean, level = (0.0, 0.0) if abs(level) < 1e-9 * float(np.max(np.abs(total))) else (mean, level)
+        rows.append(Row(engine.stated("mean_total_torque", mean), DASHED))
     which = translate("drawing.cylinder", engine.language, number=1)
     rows.append(Row(f"{engine.named(own)}, {which}", DOTTED, _THIN))
     rows.append(Row(f"▼ – {translate('drawing.fires', engine.language)}", width=0.0))
@@ -93,7 +91,7 @@ def _summed(engine: Drawn, key: str, own: str, mean: float | None = None) -> tup
     graph.curve("cylinder_1", degrees, cylinder, DOTTED, width=_THIN)
     graph.curve("total", degrees, total, width=_NAMED)
     if mean is not None:
-        graph.level(mean, DASHED, "mean")
+        graph.level(level, DASHED, "mean")
     graph.x_title(engine.title("crank_angle"))
     graph.y_title(f"{engine.symbol(key)}, {engine.symbol(own)}, {engine.unit(key)}")
     return paper, {key: graph}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
@@ -89,7 +89,9 @@ class Canvas:
         self.width, self.height = width, height
         self.texts: list[tuple[str, float, float, float, float]] = []
         self.items: list[Item] = []
-        self._plots: list[Plot] = []
+        self.plots: list[Plot] = []
+        # what is drawn when everything else is, since it keeps clear of that
+        self.last: list[Callable[[], None]] = []
         # cells that lines pass, and the number of items sampled, for the placement of names
         self.sampled: NDArray[np.int64] = np.zeros((0, 3), dtype=np.int64)
         self.sampled_items = 0
@@ -98,7 +100,7 @@ class Canvas:
         """Add a graph: left, upper edge, width and height in points, and its scales."""
         box = plot.box
         place = scene.ChartBox(box.left * MM, -(box.bottom + box.height) * MM, box.width * MM, box.height * MM)
-        self._plots.append(plot._replace(box=place))
+        self.plots.append(plot._replace(box=place))
 
     def line(
         self,
@@ -162,7 +164,7 @@ class Canvas:
         self.area(*corners, fill=colour)
 
     def text(
-        self, x: float, y: float, text: str, *, size: float = 9.0, anchor: scene.Anchor = "start", colour: str = BLACK
+        self, x: float, y: float, text: str, *, size: float = 8.0, anchor: scene.Anchor = "start", colour: str = BLACK
     ) -> None:
         """Write a text.
 
@@ -171,33 +173,46 @@ class Canvas:
         width, size = text_width(text, size), font_size(size)
         left = x - {"start": 0.0, "middle": width / 2, "end": width}[anchor]
         self.texts.append((text, left, y - 0.75 * size, left + width, y + 0.25 * size))
-        self._write((x, y), text, size, anchor, grey=_grey(colour))
+        self.write((x, y), text, size, anchor, grey=_grey(colour))
 
-    def upward_text(self, x: float, y: float, text: str, *, size: float = 9.0) -> None:
+    def upward_text(self, x: float, y: float, text: str, *, size: float = 8.0) -> None:
         """Write a text that runs upward."""
         half, size = text_width(text, size) / 2, font_size(size)
         self.texts.append((text, x - 0.75 * size, y - half, x + 0.25 * size, y + half))
-        self._write((x, y), text, size, "middle", angle=90.0)
+        self.write((x, y), text, size, "middle", angle=90.0)
 
-    def _write(
+    def write(  # noqa: PLR0913 - place, letters and ground
         self,
         place: tuple[float, float],
         text: str,
         size: float,
-        anchor: scene.Anchor,
+        anchor: scene.Anchor = "start",
         *,
         angle: float = 0.0,
         grey: float = 0.0,
+        halo: bool = False,
     ) -> None:
+        """Write a text that no name keeps clear of; `halo` clears the ground around its edges."""
         position = place[0] * MM, -place[1] * MM
-        self.items.append(Text(position, marked(text), font_size(size) * MM * CAP_HEIGHT, anchor, angle, grey))
+        height = font_size(size) * MM * CAP_HEIGHT
+        self.items.append(Text(position, marked(text), height, anchor, angle, grey, halo))
+
+    def make_room(self, height: float) -> None:
+        """Move everything downward, so that there is room above. [pt]"""
+        self.height += height
+        self.items = [scene.moved(item, 0.0, -height * MM) for item in self.items]
+        self.plots = [scene.moved_plot(plot, 0.0, -height * MM) for plot in self.plots]
+        self.texts = [(text, left, top + height, right, foot + height) for text, left, top, right, foot in self.texts]
+        self.sampled, self.sampled_items = self.sampled[:0], 0
 
     def drawing(self, title: str, language: Language = "en") -> Drawing:
         """Return the drawing, on a paper whose origin is its lower left corner."""
+        while self.last:
+            self.last.pop(0)()
         larger = LARGER if current_layout().is_sheet else 1.0
         width, height = self.width * MM * larger, self.height * MM * larger
         items = tuple(scene.moved(item, 0.0, height, larger) for item in self.items)
-        plots = tuple(scene.moved_plot(plot, 0.0, height, larger) for plot in self._plots)
+        plots = tuple(scene.moved_plot(plot, 0.0, height, larger) for plot in self.plots)
         return Drawing(title, language, width, height, items, plots)
 
 

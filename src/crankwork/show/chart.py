@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,12 +16,15 @@ from crankwork.quantities import Language
 from crankwork.show import scene
 from crankwork.show.canvas import BLACK, GREY, LIGHT, WIDER, Canvas, fitted_lines, marked, text_width
 from crankwork.show.chart_layout import current_layout, points_per_mm, round_scale, scaled_height
+from crankwork.show.label_placement import name_curves
 from crankwork.show.scene import DASH_DOT, SOLID, Anchor, Style
 
 BOTTOM, TOP = 45.0, 10.0
 LEGEND_ROW = 13.4
-_TICK, _SMALL, _LEGEND = 8.5, 7.5, 8.5
+_TICK, _SMALL, _LEGEND = 8.0, 7.5, 8.0
 _FOOT_ROW = 9.0
+# more curves than these are named by a legend above
+_NAMED = 4
 # from an axis to its numbers, with the gap between them and the title [pt]; readers' fonts may have wider figures
 _CLEAR, WIDE_FIGURES = 15.0, 1.3
 # range of the largest number of an axis without a power of ten
@@ -217,19 +221,19 @@ class Graph:
     def y_title(self, text: str, offset: float = 44.0) -> None:
         """Write the title of the vertical axis, on two lines if it is long; `offset`: its least distance. [pt]"""
         self._titles["y"], offset = marked(text), max(offset, self._numbers + _CLEAR)
-        size, text = 9.0, self._titled(text, 1)
-        lines = fitted_lines(text, size, self.box.height + 10)
+        size, text, room = 8.0, self._titled(text, 1), (self.box.height + 10) / WIDER
+        lines = fitted_lines(text, size, room)
         if len(lines) > 2 and current_layout().is_sheet and "$" in text:
             # a sheet has no smaller letters; the symbol is explained above it
-            lines = fitted_lines(text[text.index("$") :], size, self.box.height + 10)
+            lines = fitted_lines(text[text.index("$") :], size, room)
         elif len(lines) > 2:
-            size = 7.5
-            lines = fitted_lines(text, size, self.box.height + 16)
+            size = 7.0
+            lines = fitted_lines(text, size, room)
         for index, line in enumerate(reversed(lines)):
             x = self.box.left - offset - 11 * index
             self.paper.upward_text(x, self.box.top + self.box.height / 2, line, size=size)
 
-    def text_on_white(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.5) -> None:
+    def text_on_white(self, x: float, y: float, text: str, anchor: Anchor = "start", size: float = 8.0) -> None:
         """Write a text on white ground, so that no line of the graph runs through it. [pt]"""
         width = text_width(text, size)
         left = {"start": x, "middle": x - width / 2, "end": x - width}[anchor] - 2
@@ -241,6 +245,17 @@ class Graph:
     def level(self, value: float, style: Style = DASH_DOT, name: str = "") -> None:
         """Draw a horizontal line across the graph at a value. [its unit]"""
         self.curve(name, [self.x[0], self.x[1]], [value, value], style, width=0.45 if style == DASH_DOT else 0.9)
+
+
+def _is_line(row: Row) -> bool:
+    """Return whether a row names a curve, not a mark, an arrow or what is said of the whole figure."""
+    return bool(row.width) and row.style not in (CIRCLE, DOT, ARROW)
+
+
+def _above(rows: Sequence[Row]) -> list[Row]:
+    """Return the rows that stand above a graph: those of curves on sheets, and of more than can be named in it."""
+    is_legend = current_layout().is_sheet or sum(map(_is_line, rows)) > _NAMED
+    return [row for row in rows if is_legend or not _is_line(row)]
 
 
 def _legend_lines(rows: Sequence[Row]) -> list[tuple[Row | None, str]]:
@@ -275,6 +290,18 @@ def legend(paper: Canvas, rows: Sequence[Row], top: float) -> None:
         paper.text(left + 27, level + 9, text, size=_LEGEND)
 
 
+def name_at_the_end(paper: Canvas, rows: Sequence[Row], box: ChartBox) -> None:
+    """Name the curves of the first graph of a box in it once all else is drawn, above it where it has no room."""
+    if rows and not current_layout().is_rough:
+        paper.last.append(partial(_name, paper, rows, box))
+
+
+def _name(paper: Canvas, rows: Sequence[Row], box: ChartBox) -> None:
+    if left_over := name_curves(paper, rows, box):
+        paper.make_room(legend_height(left_over))
+        legend(paper, left_over, TOP - 4)
+
+
 def limits(*values: Array, margin: float = 0.06, is_place: bool = False) -> tuple[float, float]:
     """Return the ends of a scale that includes zero and all values. [its unit]
 
@@ -305,12 +332,15 @@ def over_cycle(
 
 
 def sheet(height: float, rows: Sequence[Row] = (), *, below: float = BOTTOM) -> tuple[Canvas, ChartBox]:
-    """Return a canvas with a legend, and the box of a graph below the legend. [pt]"""
-    above = legend_height(rows)
+    """Return a canvas with what stands above a graph, and the box of the graph, whose curves are named in it. [pt]"""
+    kept = _above(rows)
+    above = legend_height(kept)
     layout, height = current_layout(), scaled_height(height)
     paper = Canvas(layout.width, TOP + above + height + below)
-    legend(paper, rows, TOP - 4)
-    return paper, ChartBox(layout.left, TOP + above, layout.inner, height)
+    legend(paper, kept, TOP - 4)
+    box = ChartBox(layout.left, TOP + above, layout.inner, height)
+    name_at_the_end(paper, [row for row in rows if row not in kept], box)
+    return paper, box
 
 
 def write_remark(paper: Canvas, remark: str) -> None:

@@ -13,6 +13,8 @@ from crankwork.show.scene import CAP_HEIGHT, TEXT
 MM = 25.4 / 72
 # font size of a chart that a sheet enlarges to the standard size; smaller text on a chart gets the small one [pt]
 _LETTERS, _READ = 8.5, 8.0
+# figures narrower than this are as wide as a column, and what small graphs beside each other take at least [pt]
+_NARROW, _SMALLEST = 300.0, 110.0
 # millimetres of a sheet in a millimetre of the same chart in a text
 LARGER = TEXT / (_LETTERS * MM * CAP_HEIGHT)
 
@@ -37,6 +39,8 @@ class ChartLayout(NamedTuple):
 
 
 _TEXT_LAYOUT = ChartLayout()
+# widths of figures in millimetres: of a column and of a page, whose graphs are as tall as fits them
+WIDTHS = {"85": ChartLayout(85 / MM, 66.0, 10.0, 0.8), "170": _TEXT_LAYOUT}
 
 # scales for drawings as large as their paper allows
 FINE = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
@@ -57,6 +61,16 @@ def use_layout(place: ChartLayout) -> Iterator[None]:
         yield
     finally:
         _LAYOUT.reset(before)
+
+
+def is_narrow() -> bool:
+    """Return whether figures are as wide as a column."""
+    return current_layout().width < _NARROW
+
+
+def columns_of(count: int) -> int:
+    """Return how many small graphs stand beside each other at most."""
+    return max(1, min(count, int(current_layout().width / _SMALLEST)))
 
 
 def font_size(size: float) -> float:

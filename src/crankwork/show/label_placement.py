@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.show.canvas import GREY, WIDER, Canvas, plain, text_width
-from crankwork.show.chart import ChartBox, Graph
+from crankwork.show.canvas import GREY, WIDER, Canvas, fitted_lines, plain, text_width
 from crankwork.show.chart_layout import MM, current_layout, font_size
 from crankwork.show.scene import Arc, Circle, Hatch, Item, Polyline, Text, arc_points, pen_of, printable, shade_of
+
+if TYPE_CHECKING:
+    from crankwork.show.chart import ChartBox, Graph, Row
 
 _SIZE = 8.0
 _LONGEST = 16
@@ -38,6 +40,13 @@ _AROUND = arc_points(Arc((0.0, 0.0), 1.0, 0.0, 360.0))
 
 # names further from their mark have a leader line [pt]
 _LEADER_DISTANCE = 6.0
+
+# name of a curve: its letters, the sample of its line, the gap behind it, net of the places that are tried, edge [pt]
+_NAME, _SAMPLE, _GAP, _PLACES, _EDGE = 8.0, 15.0, 3.0, (8.0, 4.0), 2.5
+# shares of the width of a graph on which a name is tried, cost of a further row, of being nearer to another curve [pt]
+_WIDTHS, _FURTHER, _CONFUSED = (0.75, 0.36, 0.2), 40.0, 30.0
+# points of a curve to which distances are taken, and the cost of a name on lines or other names
+_POINTS, _CROSSED = 40, 1e4
 
 Mark = tuple[str, float, float]
 
@@ -132,6 +141,15 @@ class _Texts:
         """Add a text to keep clear of."""
         self._middles, self._halves = np.vstack([self._middles, middle]), np.vstack([self._halves, half])
 
+    def overlapped(self, middles: Array, half: Array) -> NDArray[np.int64]:
+        """Return the number of texts that a text would cover at each place, shape (n,)."""
+        reach = half + self._halves + _CLEARANCE
+        near = np.all(
+            (self._middles + reach > middles.min(axis=0)) & (self._middles - reach < middles.max(axis=0)), axis=1
+        )
+        x, y = (np.abs(middles[:, None, axis] - self._middles[near, axis]) < reach[near, axis] for axis in (0, 1))
+        return np.asarray((x & y).sum(axis=1))
+
     def cheapest(self, mark: Array, half: Array, offsets: Array, costs: Array) -> int:
         """Return the index of the cheapest offset from a mark, clear of all texts."""
         limit = np.abs(offsets).max(axis=0) + half + self._halves + _CLEARANCE
@@ -149,6 +167,88 @@ class _Texts:
             if total.min() < costs[order[_CLOSELY]]:
                 break
         return int(np.argmin(total))
+
+
+def name_curves(paper: Canvas, rows: Sequence[Row], box: ChartBox) -> list[Row]:
+    """Write what rows say within the first graph of a box, each near the curve of its line, clear of all else.
+
+    Returned are the rows that have no clear place.
+    """
+    # above it there may be a band
+    places = [
+        np.array([left, -low - height, width, height]) / MM
+        for left, low, width, height in (plot.box for plot in paper.plots)
+    ]
+    under = [place for place in places if abs(place[0] - box.left) < 1 and place[1] > box.top - 1]
+    first = min(under, key=lambda place: float(place[1]), default=np.array(box))
+    frame = first[:2], first[2:]
+    left_over: list[Row] = []
+    texts, costs = _Texts.on(paper), _line_costs(paper)
+    lines = [item for item in paper.items if isinstance(item, Polyline) and item.name and _lies_in(item, frame)]
+    curves = [_points_of_row(row, lines) for row in rows]
+    for index, row in enumerate(rows):
+        other_curves = np.vstack([*curves[:index], *curves[index + 1 :], np.zeros((0, 2))])
+        tried = dict.fromkeys(fitted_lines(row.text, _NAME, share * frame[1][0]) for share in _WIDTHS)
+        options = [_place_of_name(words, frame, (curves[index], other_curves), (texts, costs)) for words in tried]
+        cost, words, middle, half = min(options, key=lambda option: option[0])
+        if cost > _CROSSED:
+            left_over.append(row)
+            continue
+        texts.add(middle, half)
+        (left, top), size = (middle - half).tolist(), font_size(_NAME)
+        ends = [left, left + _SAMPLE], [top + 0.6 * size] * 2
+        paper.line(*ends, style=row.style, width=row.width, colour=row.colour, name="legend")
+        for count, text in enumerate(words):
+            paper.write((left + _SAMPLE + _GAP, top + size * (0.85 + 1.15 * count)), text, _NAME, halo=True)
+    return left_over
+
+
+def _place_of_name(
+    words: tuple[str, ...], frame: tuple[Array, Array], curves: tuple[Array, Array], taken: tuple[_Texts, _LineCosts]
+) -> tuple[float, tuple[str, ...], Array, Array]:
+    """Return the cost of the best place for the name of a curve, the name, its middle and half its size."""
+    width = WIDER * max(text_width(text, _NAME) for text in words) + _SAMPLE + _GAP
+    half = np.array([width, font_size(_NAME) * 1.15 * len(words)]) / 2
+    low, high = frame[0] + half + _EDGE, frame[0] + frame[1] - half - _EDGE
+    if np.any(low > high):
+        return np.inf, words, (low + high) / 2, half
+    counts = (np.arange(int(count) + 1) for count in (high - low) / _PLACES)
+    middles = low + np.stack(np.meshgrid(*counts), axis=-1).reshape(-1, 2) * _PLACES
+    covered = taken[1].cost(middles, half + _EDGE) + 500.0 * taken[0].overlapped(middles, half)
+    middles, least = middles[covered == covered.min()], float(covered.min())
+    own, other = (_distances(middles, half, points) for points in curves)
+    cost = own + _CONFUSED * (other <= own) + _FURTHER * len(words) + _CROSSED * (least > 0)
+    return float(cost.min()), words, middles[int(np.argmin(cost))], half
+
+
+def _distances(middles: Array, half: Array, points: Array) -> Array:
+    """Return the distances of boxes from the nearest of some points. [pt]"""
+    x, y = (np.maximum(np.abs(middles[:, None, axis] - points[:, axis]) - half[axis], 0.0) for axis in (0, 1))
+    return np.asarray(np.sqrt((x * x + y * y).min(axis=1, initial=1e6)))
+
+
+def _lies_in(item: Polyline, frame: tuple[Array, Array]) -> bool:
+    middle = item.points.mean(axis=0) / (MM, -MM) - frame[0]
+    return bool(np.all((middle >= -1) & (middle <= frame[1] + 1)))
+
+
+def _points_of_row(row: Row, lines: Sequence[Polyline]) -> Array:
+    """Return points along the curves that have the line of a row, of its width if there are any, shape (n, 2). [pt]"""
+    style, lines_of_style = np.round(row.style, 2).tolist(), list[tuple[Polyline, bool]]()
+    for item in lines:
+        pen = pen_of(item.kind)
+        if pen.colour == row.colour and np.round(np.array(pen.dashes) / pen.width, 2).tolist() == style:
+            lines_of_style.append((item, bool(np.isclose(pen.width, row.width * MM))))
+    any_as_wide = any(is_as_wide for _, is_as_wide in lines_of_style)
+    chosen = [item.points / (MM, -MM) for item, is_as_wide in lines_of_style if is_as_wide or not any_as_wide]
+    return np.vstack([np.zeros((0, 2)), *map(_evenly, chosen)])
+
+
+def _evenly(line: Array) -> Array:
+    """Return points at equal distances along a line, shape (n, 2)."""
+    along = np.append(0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T)))
+    places = np.linspace(0.0, along[-1], _POINTS)
+    return np.column_stack([np.interp(places, along, column) for column in line.T])
 
 
 def _crossed(offsets: Array, middles: Array, halves: Array) -> NDArray[np.int64]:

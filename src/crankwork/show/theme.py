@@ -20,7 +20,10 @@ class Palette(NamedTuple):
 
 # colours that people with red-green blindness can distinguish (Okabe and Ito); curves keep their dashes
 _PALETTES: dict[Theme, Palette] = {
-    "print": Palette("#ffffff", "#000000", {}),
+    # black, one accent and grey
+    "print": Palette(
+        "#ffffff", "#000000", {"solid": "#000000", "dashed": "#0072b2", "dash-dot": "#737373", "dotted": "#000000"}
+    ),
     "colour": Palette(
         "#ffffff", "#000000", {"solid": "#0072b2", "dashed": "#d55e00", "dash-dot": "#009e73", "dotted": "#a6548a"}
     ),
@@ -48,8 +51,6 @@ def palette_of(theme: Theme) -> Palette:
 
 def themed(drawing: Drawing, theme: Theme) -> Drawing:
     """Return a drawing in the colours of a theme: curves by their dashes, other items between ground and ink."""
-    if theme == "print":
-        return drawing
     return drawing._replace(items=tuple(themed_item(item, theme) for item in drawing.items))
 
 
@@ -69,11 +70,11 @@ def curve_kind(item: Polyline) -> str:
 
 def themed_item(item: Item, theme: Theme) -> Item:
     """Return an item in the colours of a theme."""
-    if theme == "print" or not isinstance(item, Polyline):
+    if not isinstance(item, Polyline):
         return item
     pen = pen_of(item.kind)
     if item.fill is not None:
         filled = _FILLS.get(item.name) if pen.colour in ("", _BLACK) else None
-        return item if filled is None else item._replace(kind=pen._replace(colour=filled[theme]))
+        return item if filled is None else item._replace(kind=pen._replace(colour=filled.get(theme, "")))
     kind = curve_kind(item)
     return item._replace(kind=pen._replace(colour=_PALETTES[theme].curves[kind])) if kind else item
