@@ -53,7 +53,9 @@ def _defaults(values: Any, path: str) -> Iterator[tuple[str, FileInput]]:  # noq
 def _holds(name: str, values: Values) -> bool:
     """Return whether the defaults of a table hold where it is left out."""
     return (
-        name == "method" or (name == "cylinder" and "rod" in values) or (name == "timing" and values["kind"] == "wiebe")
+        name in ("method", "motor_selection")
+        or (name == "cylinder" and "rod" in values)
+        or (name == "timing" and values["kind"] == "wiebe")
     )
 
 

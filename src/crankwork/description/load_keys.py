@@ -72,12 +72,18 @@ EFFICIENCY = TableSpec("efficiency", {
     "losses": KeySpec(Choice(("drive", "machine"))),
 })  # fmt: skip
 
+_MAINS = KeySpec(Quantity(("frequency", "speed"), 1e-6, 3e4), default="50 Hz")
+MOTOR_SELECTION = KeySpec(TableSpec("motor_selection", {
+    "reserve": KeySpec(Number(1.0, 10.0), default=1.0),
+    "slip": KeySpec(Number(0.0, 0.5), default=0.04),
+    "frequency": _MAINS,
+}))  # fmt: skip
 _MOTOR = TableSpec("motor", {
     "rated_power": KeySpec(Quantity(("power",), 1e-3, 1e9), required=True),
     "rated_speed": KeySpec(SPEED, required=True),
     "overload": KeySpec(Number(1.01, 10.0), required=True),
     "pole_pairs": KeySpec(Number(1, 24, whole=True), required=True),
-    "frequency": KeySpec(Quantity(("frequency", "speed"), 1e-6, 3e4), default="50 Hz"),
+    "frequency": _MAINS,
     "ratio": KeySpec(Number(1e-4, 1e4), default=1.0),
     "inertia": INERTIA,
 })  # fmt: skip
@@ -102,6 +108,7 @@ LOADING = {
     "loads": KeySpec(ListOf(_LOAD)),
     "friction": KeySpec(_FRICTION),
     "efficiency": KeySpec(EFFICIENCY),
-    "motor": KeySpec(_MOTOR),
+    "motor": KeySpec(_MOTOR, instead_of=("motor_selection",)),
+    "motor_selection": MOTOR_SELECTION._replace(instead_of=("motor",)),
     "transient": KeySpec(_TRANSIENT),
 }
