@@ -28,7 +28,7 @@ PINNED = {
         "machine": "00b125c3930f",
     },
     "formulas": "e4688524cedd",
-    "quantities": "ca2f59a54fbc",
+    "quantities": "abc40880fc83",
     "defaults": "c75cfbdb587c",
 }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from crankwork.description.schema import KeySpec, ListOf, MapOf, Nested, TableSpec
+from crankwork.description.schema import KeySpec, ListOf, MapOf, Nested, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
 
 LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -34,7 +34,8 @@ _LOAD = TableSpec("load", {
     "against": KeySpec(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
     "file": KeySpec(Text(1000), only=_BY_COLUMN),
     "sheet": SHEET,
-    "at": KeySpec(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, from_file=True), only=_BY_COLUMN),
+    "at": KeySpec(ListOf(NumberOr(Quantity(("length", "angle"), -1e3, 1e3), Number(0.0, 1.0)), 2, from_file=True),
+              only=_BY_COLUMN),
     "force": KeySpec(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
     "torque": KeySpec(ListOf(TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
     "curve": KeySpec(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),

@@ -65,7 +65,7 @@ class ListOf(NamedTuple):
         if isinstance(self.entry, TableSpec):
             return ErrorMessage("list_of_tables", key=key)
         match self.entry:
-            case Quantity(dimensions=(first, *_)):
+            case Quantity(dimensions=(first, *_)) | NumberOr(quantity=Quantity(dimensions=(first, *_))):
                 example = f'"{units.EXAMPLES[first]}"'
             case Number(whole=True) if isinstance(value, str) and (numbers := re.findall(r"\d+", value)):
                 example = ", ".join(numbers)
