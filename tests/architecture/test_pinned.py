@@ -28,7 +28,7 @@ PINNED = {
         "machine": "00b125c3930f",
     },
     "formulas": "e4688524cedd",
-    "quantities": "abc40880fc83",
+    "quantities": "e91c7c7c54a6",
     "defaults": "c75cfbdb587c",
 }
 

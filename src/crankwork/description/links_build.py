@@ -37,7 +37,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.joints import links_of_points
-from crankwork.mechanism.linkage import GROUND, Linkage
+from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.table_reader import linkage_from
 from crankwork.method import Method
@@ -143,7 +143,9 @@ def _drive(values: Values, method: Method, reader: Reader) -> Drive:
 
 def _weighs(values: Values) -> bool:
     """Return whether the crank is a body with mass among the others."""
-    return "driver" in values or not {"mass", "centre"}.isdisjoint(values["crank"])
+    crank = values["crank"]
+    is_of_length = isinstance(crank.get("inertia"), LengthInertia)
+    return "driver" in values or is_of_length or not {"mass", "centre"}.isdisjoint(crank)
 
 
 def _geometry(values: Values, reader: Reader) -> dict[str, Any]:

@@ -31,13 +31,14 @@ from crankwork.description.load_keys import (
     TIME,
     TORQUE,
 )
-from crankwork.description.schema import KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
+from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Number, Quantity, Text
 from crankwork.mechanism.driver import LawKind
 
 _PLACE = ListOf(COORDINATE, fewest=2, most=2)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
+_INERTIA = InertiaKind(Quantity(("inertia",), 0.0, 1e9))
 # bodies that turn about a pivot: all inertia counts, also that of the mass at its distance
 _TURNING = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "inertia": INERTIA._replace(default=None),
             "centre": KeySpec(NameOr(_PLACE))}  # fmt: skip
@@ -53,6 +54,7 @@ _CRANK = TableSpec("driving", {
     "direction": KeySpec(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
     "points": KeySpec(MapOf(_PLACE)),
     **_TURNING,
+    "inertia": _TURNING["inertia"]._replace(kind=_INERTIA),
     "from": KeySpec(_ANGLE),
     "to": KeySpec(_ANGLE),
 })  # fmt: skip
@@ -108,6 +110,7 @@ _LINK = TableSpec("link", {
     "share": KeySpec(Number(-1e3, 1e3)),
     "of": KeySpec(NAME),
     **_MASS,
+    "inertia": _MASS["inertia"]._replace(kind=_INERTIA),
 })  # fmt: skip
 
 _SLIDER = TableSpec("slider", {

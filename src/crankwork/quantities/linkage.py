@@ -27,6 +27,8 @@ ROWS = (
     Quantity("efficiency", "", "Power that comes out over power that goes in."),
     Quantity("body_mass", "kg", "Mass of one body."),
     Quantity("body_inertia", "kg*m2", "Moment of inertia of one body about its centre of mass."),
+    Quantity("end_inertia", "kg*m2", "Moment of inertia of one link about its end."),
+    Quantity("inertia_share", "", "Moment of inertia over the mass times the square of the length."),
     Quantity("centre_x", "mm", "Coordinate of the centre of mass of a body along the fixed x axis."),
     Quantity("centre_y", "mm", "Coordinate of the centre of mass of a body along the fixed y axis."),
     Quantity("centre_acceleration", "m/s2", "Acceleration of the centre of mass of a body along one axis."),
