@@ -27,7 +27,7 @@ PINNED = {
         "linkage": "587b6d3c978c",
         "machine": "00b125c3930f",
     },
-    "formulas": "e4688524cedd",
+    "formulas": "5021b5d8d3a0",
     "quantities": "e91c7c7c54a6",
     "defaults": "c75cfbdb587c",
 }

@@ -28,7 +28,7 @@ _CHOOSING = re.compile(r"(positions|branch)\..*")
 # numbers that are in the trace if a result depends on them
 _TRACED = re.compile(
     r"(crank|rod|piston|links|sliders|geared|driver)\b.*\.(\w*mass|inertia|radius_of_gyration|centre_of_mass|small_end_share)"
-    r"|(cylinder|chambers\..*)\.(inclination|compression_ratio|clearance_volume|piston_rod_diameter|rod_diameter|bore)"
+    r"|(cylinder|chambers\..*)\.(inclination|compression_ratio|clearance_volume|piston_rod_diameter|rod_diameter|bore|displacement|stroke_bore_ratio)"
     r"|method\.gravity|(gas|chambers\.[^.]+)\.(ambient|back_pressure)|bearings\..*_(diameter|length)"
     r"|engine\.articulated\.\w+|cycle\.\w+"
 )

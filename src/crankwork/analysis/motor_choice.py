@@ -38,14 +38,12 @@ def mean_power(mean: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
 def motor_choice(machine: Machine, mean: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
     """Return the mean power at the crank, that of the motor, its next standard size, and gear ratios by speed."""
     selection, pi = machine.drive.selection or MotorSelection(), machine.method.pi
-    path = "motor_selection.{}".format
-    reserve = absent("power_reserve", 1.0)
+    path, reserve = "motor_selection.{}".format, absent("power_reserve", 1.0)
     if selection.reserve != 1.0:
         reserve = given("power_reserve", selection.reserve, path("reserve"))
     power = needed_power(reserve, mean, w, traced_inputs.efficiency_of(machine.drive)).named("motor_power")
     result = mean_power(mean, w) | {"motor_power": power}
-    size = standard_power(power.value)
-    if size is not None:
+    if (size := standard_power(power.value)) is not None:
         result["standard_motor_power"] = TracedValue(
             ProcedureValue(size, "next_size", (power,)), "standard_motor_power"
         )

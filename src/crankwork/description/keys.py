@@ -49,6 +49,8 @@ _PISTON = TableSpec("piston", {"mass": KeySpec(_MASS)})
 
 _CYLINDER = TableSpec("cylinder", {
     "bore": KeySpec(Quantity(("length",), 1e-4, 100.0), required=True),
+    "displacement": KeySpec(_VOLUME),
+    "stroke_bore_ratio": KeySpec(Number(0.2, 5.0)),
     "clearance_volume": KeySpec(_VOLUME, instead_of=("compression_ratio",)),
     "compression_ratio": KeySpec(Number(1.001, 100.0), instead_of=("clearance_volume",)),
     "offset": KeySpec(Quantity(("length",), -100.0, 100.0), default="0 mm"),
@@ -194,7 +196,7 @@ def _optional(table: TableSpec, *names: str) -> TableSpec:
     return table._replace(keys=keys)
 
 
-# for files in which a required power gives bore and stroke
+# for files in which a required power, a displacement or a ratio gives bore and stroke
 SIZED_FILE = MACHINE_FILE._replace(keys={
     **MACHINE_FILE.keys,
     "crank": KeySpec(_optional(_CRANK, "radius"), required=True),

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from crankwork import files
 from crankwork.analysis import prepare
-from crankwork.description.build import build_machine
+from crankwork.description.build import SIZES, build_machine
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.file_inputs import file_inputs
@@ -276,7 +276,7 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     if any(name in values for name in _OF_LINKAGES):
         return DRIVEN_FILE if "driver" in values else LINKAGE_FILE
     cycle, is_loaded = values.get("cycle"), not LOADING.keys().isdisjoint(values)
-    if isinstance(cycle, dict) and "power" in cycle:
+    if (isinstance(cycle, dict) and "power" in cycle) or not SIZES.isdisjoint(values.get("cylinder") or ()):
         return LOADED_SIZED_FILE if is_loaded else SIZED_FILE
     return LOADED_FILE if is_loaded else MACHINE_FILE
 

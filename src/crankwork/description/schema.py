@@ -180,9 +180,9 @@ class NumberOr(NamedTuple):
         return {"anyOf": [self.quantity.schema(language), self.number.schema(language)]}
 
 
+_SIZE = r"\s*(\d+(?:[.,]\d+)?)\s*"
 _OF_LENGTH = re.compile(
-    r"\s*(?:([\d.,]+)\s*(?:/\s*([\d.,]+))?\s*[*·]?\s*)?m\s*[*·]?\s*l\s*(?:\^\s*2|²|\*\*\s*2)\s*(?:/\s*([\d.,]+))?\s*",
-    re.IGNORECASE,
+    rf"(?:{_SIZE}(?:/{_SIZE})?[*·]?)?\s*m\s*[*·]?\s*l\s*(?:\^|\*\*)?\s*[2²]\s*(?:/{_SIZE})?", re.IGNORECASE
 )
 # the greatest share about the centre of mass, and that of a bar about its end
 _LARGEST_SHARE, _ABOUT_END = 0.25, 1 / 3
@@ -198,11 +198,8 @@ class InertiaKind(NamedTuple):
         match = _OF_LENGTH.fullmatch(value) if isinstance(value, str) else None
         if match is None:
             return self.quantity.read(value, key, reader)
-        try:
-            above, below, under = (float((part or "1").replace(",", ".")) for part in match.groups())
-            share = above / (below * under)
-        except (ValueError, ZeroDivisionError):
-            share = 0.0
+        above, below, under = (float((part or "1").replace(",", ".")) for part in match.groups())
+        share = above / (below * under) if below * under else 0.0
         about_end = math.isclose(share, _ABOUT_END, rel_tol=1e-3)
         if not about_end and not 0 < share <= _LARGEST_SHARE:
             reader.add_error(key, ErrorMessage("inertia_share", value=shown(value)))
