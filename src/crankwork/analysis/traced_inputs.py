@@ -79,8 +79,8 @@ def _sizes(machine: Machine) -> tuple[TracedValue | None, TracedValue | None]:
         return None, None
     if volume is not None and count is not None:
         volume = swept_volume_of_one(volume, count)
-    whole = stroke if radius is None else stroke_central(radius)
-    return bore_and_stroke(machine.method.pi, volume, ratio, bore, whole)
+    stroke = stroke if radius is None else stroke_central(radius)
+    return bore_and_stroke(machine.method.pi, volume, ratio, bore, stroke)
 
 
 def bore(machine: Machine, diameter: float) -> TracedValue:

@@ -122,11 +122,6 @@ def _gear_ratios(material: Material) -> Iterator[Block]:
     yield words.table("gear_ratios", (*titles, words.titled("motor_ratio")), rows, "rrr", "gear_ratios")
 
 
-def _is_selected(material: Material) -> bool:
-    """Return whether a motor is selected, since none is given."""
-    return any(key.startswith("motor_ratio.") for key in material.results.summary)
-
-
 def _wanted(material: Material) -> str:
     return material.words.number(material.machine.drive.fluctuation or 0.0)
 
@@ -169,7 +164,7 @@ SECTIONS = (
         Head("motor"), Text("motor_choice", {"slip": lambda known: known.words.number(100 * _selection(known).slip)}),
         Lines("motor", ("shaft_power", "efficiency", "motor_power")), Lines("motor", ("motor_ratio",), first=True),
         _gear_ratios,
-    ), _is_selected),
+    ), every(works("motor"), lambda material: material.machine.drive.motor is None)),
     Section("motor", (Head("motor"), Text("motor", {"rated": _rated}), Lines("motor")),
             lambda material: turning(material) and material.machine.drive.motor is not None),
     Section("flywheel", (
