@@ -61,12 +61,12 @@ _OF_LINKAGES = frozenset((
 _DIGITS = 3
 # in their order; of what links, joints and cylinders have the largest is before
 _NUMBERS = (
-    "effective_power", "indicated_power", "standard_motor_power", "motor_power", "shaft_power",
+    "effective_power", "indicated_power", "motor_power", "shaft_power",
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
     "slider_stroke", "joint_force_max", "crankpin_load_max", "excess_work", "flywheel_inertia",
-    "flywheel_inertia.exact", "speed_fluctuation", "piston_velocity_max", "piston_acceleration_max",
-    "piston_acceleration_min",
+    "flywheel_inertia.exact", "speed_fluctuation", "standard_motor_power", "piston_velocity_max",
+    "piston_acceleration_max", "piston_acceleration_min",
 )  # fmt: skip
 # what another makes needless: a flywheel may follow from another excess work than that of the shaft
 _SAME = {"shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",)}

@@ -162,7 +162,8 @@ SECTIONS = (
     ), lambda material: bool(material.machine.turning) and any(map(material.has, _COLUMNS))),
     Section("motor", (
         Head("motor"), Text("motor_choice", {"slip": lambda known: known.words.number(100 * _selection(known).slip)}),
-        Lines("motor", ("shaft_power", "efficiency", "motor_power")), Lines("motor", ("motor_ratio",), first=True),
+        Lines("motor", ("shaft_power", "efficiency", "motor_power")),
+        When(full, (Lines("motor"),)), When(lacks(full), (Lines("motor", ("motor_ratio",), first=True),)),
         _gear_ratios,
     ), every(works("motor"), lambda material: material.machine.drive.motor is None)),
     Section("motor", (Head("motor"), Text("motor", {"rated": _rated}), Lines("motor")),
