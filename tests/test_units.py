@@ -33,6 +33,19 @@ def test_every_spelling_is_read_back_as_the_number_that_was_written() -> None:
     assert failing({unit: unit for unit in UNITS}, check) == {}
 
 
+@for_each(
+    ["text", "dimension", "value"],
+    [
+        ("1/4 m", "length", 0.25),
+        ("-3/8 kg", "mass", -0.375),
+        ("90/2 1/min", "speed", 1.5 * math.pi),
+        ("1/2 1/s", "frequency", 0.5 * 2 * math.pi),
+    ],
+)
+def test_fractions_are_read(text: str, dimension: str, value: float) -> None:
+    assert parse(text, (dimension,)).value == pytest.approx(value, rel=1e-15)
+
+
 @for_each("dimension", EXAMPLES)
 def test_what_is_suggested_for_a_dimension_is_accepted_and_the_first_spelling_of_each_size(dimension: str) -> None:
     assert parse(EXAMPLES[dimension], (dimension,))[1] == dimension

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from crankwork.mechanism.linkage import Linkage
     from crankwork.shaft.flywheel_sizing import FlywheelSpec
     from crankwork.shaft.motor import GearedMotor
+    from crankwork.shaft.motor_selection import MotorSelection
     from crankwork.shaft.torque_diagram import ShaftTorques
     from crankwork.working_cycle.calculated_cycle import CalculatedPressure
 
@@ -243,6 +244,8 @@ class Drive:
     losses : str
         What the efficiency stands for: all losses of the `machine`, friction too, or those of the `drive` between motor
         and crank; empty where the description states no friction.
+    selection : MotorSelection or None
+        What a motor is selected with where none is given.
     """
 
     efficiency: float = 1.0
@@ -254,6 +257,7 @@ class Drive:
     chain: Series | None = None
     wheel: FlywheelSpec | None = None
     losses: Literal["", "drive", "machine"] = ""
+    selection: MotorSelection | None = None
 
 
 @dataclass(frozen=True)

@@ -264,7 +264,7 @@ _MAX_LENGTH = 100
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 # a unit that starts with a digit, 1/min, needs a space before it
 _UNIT = r"\s*(?P<unit>[^\s\d.,+-].*?|(?<=\s)1/\w+)?\s*\Z"
-_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}){_UNIT}")
+_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER}(?:/[1-9][0-9]*)?){_UNIT}")
 _WITH_COMMA = re.compile(rf"\s*(?P<number>[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{{1,3}})?){_UNIT}")
 # three digits to a group, and a multiple of pi: `10 000 N/m`, `60π rad/s`, `2π/3 rad`
 _GROUPS = re.compile(r"\s*[+-]?\d{1,3}(?:[ \u00a0\u2009\u202f]\d{3})+(?!\d)")
@@ -293,8 +293,8 @@ def parse(
 
     Examples
     --------
-    >>> parse("75 mm", ("length",)).value
-    0.075
+    >>> parse("75 mm", ("length",)).value, parse("3/4 m", ("length",)).value
+    (0.075, 0.75)
     """
     example = EXAMPLES[dimensions[0]]
     text = unicodedata.normalize("NFC", text) if len(text) <= _MAX_LENGTH else text
@@ -325,7 +325,8 @@ def parse(
     if not fits:
         measured = _dimension(unit.dimension)
         raise ValueError(ErrorMessage("unit_other", unit=_short(name), measured=measured, wanted=wanted, known=known))
-    value = to_si(float(number), spelling)
+    above, _, below = number.partition("/")
+    value = to_si(float(above) / float(below or 1), spelling)
     if not math.isfinite(value):
         raise ValueError(ErrorMessage("too_large", text=_short(text), example=example))
     return (

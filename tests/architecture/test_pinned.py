@@ -25,11 +25,11 @@ PINNED = {
         "cylinders": "3eb20fa6967a",
         "driver": "0d1ce8f51d86",
         "linkage": "587b6d3c978c",
-        "machine": "93e6fd34e1f6",
+        "machine": "00b125c3930f",
     },
-    "formulas": "40a255f6be48",
-    "quantities": "e8556442faa7",
-    "defaults": "6b294094b813",
+    "formulas": "86d5a259bf51",
+    "quantities": "e91c7c7c54a6",
+    "defaults": "c75cfbdb587c",
 }
 
 

@@ -32,7 +32,7 @@ DIMENSIONS = tuple({one.dimension for one in UNITS.values()})
 CONSTANTS = {
     "branch", "compressor_exponent", "cooler_drop", "cooling_exponent", "cooling_factor", "cycle_angle",
     "exhaust_exponent", "gear_meshes", "heat_zero_temperature", "hydrogen_share", "lower_pairs", "molar_gas_constant",
-    "moving_links", "polytropic_exponent", "specific_gas_constant",
+    "moving_links", "pole_pairs", "polytropic_exponent", "specific_gas_constant",
 }  # fmt: skip
 
 

@@ -28,7 +28,7 @@ _CHOOSING = re.compile(r"(positions|branch)\..*")
 # numbers that are in the trace if a result depends on them
 _TRACED = re.compile(
     r"(crank|rod|piston|links|sliders|geared|driver)\b.*\.(\w*mass|inertia|radius_of_gyration|centre_of_mass|small_end_share)"
-    r"|(cylinder|chambers\..*)\.(inclination|compression_ratio|clearance_volume|piston_rod_diameter|rod_diameter|bore)"
+    r"|(cylinder|chambers\..*)\.(inclination|compression_ratio|clearance_volume|piston_rod_diameter|rod_diameter|bore|displacement|stroke_bore_ratio)"
     r"|method\.gravity|(gas|chambers\.[^.]+)\.(ambient|back_pressure)|bearings\..*_(diameter|length)"
     r"|engine\.articulated\.\w+|cycle\.\w+"
 )
@@ -96,6 +96,8 @@ def _left_out(results: Results, stated: Mapping[str, FileInput]) -> Iterator[Ass
         yield Assumption("no_weights", ("method.weights",))
     if has_forces and not machine.friction and machine.drive.efficiency == 1.0:
         yield Assumption("no_friction", ("friction", "efficiency"))
+    if _needs_motor(results) and machine.drive.efficiency == 1.0:
+        yield Assumption("no_drive_losses", ("efficiency",))
     masses = machine.masses
     if masses is not None and masses.rod_small_end and not masses.rod_inertia_excess and machine.method.rod == "rigid":
         yield Assumption("two_masses", ("rod.inertia",))
@@ -123,6 +125,10 @@ def _has_mass(results: Results) -> bool:
     machine, linkage = results.machine, results.machine.linkage
     members = (*linkage.members, *linkage.geared, linkage.driving) if linkage is not None else ()
     return any(member.mass for member in members) or (machine.masses is not None and any(vars(machine.masses).values()))
+
+
+def _needs_motor(results: Results, *_: object) -> bool:
+    return any(key.startswith("motor_ratio.") for key in results.summary)
 
 
 def _has_weights(results: Results) -> bool:
@@ -196,6 +202,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
         r".*cycle\.blow_down",
         lambda results, stated, path: not _idle_convention(path, stated, results, "exhaust_opens"),
     ),
+    (r"motor_selection\.\w+", _needs_motor),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
 )
 
@@ -327,6 +334,7 @@ def _idle_point(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
 # why an input may have no effect although it is in the trace, or need not be in it
 _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str]], ...] = (
     (r"motor\.\w+", _idle_motor),
+    (r"motor_selection\.\w+", lambda results, *_: "" if _needs_motor(results) else "no_motor_needed"),
     (r".*\.timing\.\w+", lambda results, stated, path: _idle_event(path, stated, results)),
     (r"engine\.spacing", _idle_spacing),
     (r"engine\.uneven", _idle_uneven),

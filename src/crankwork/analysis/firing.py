@@ -25,7 +25,7 @@ _OF_ARTICULATED = ("top_dead_centre_angle", "stroke", "swept_volume")
 
 def firing_trace(engine: MultiCylinderEngine) -> dict[str, TracedValue]:
     """Return number and volume of the cylinders, and position and firing angle of each."""
-    count, layout = given("cylinder_count", float(len(engine.cylinders)), "engine.cylinders"), engine.layout
+    count, layout = traced_inputs.size("engine.cylinders", float(len(engine.cylinders))), engine.layout
     values = {count.key: count}
     for place in layout.places:
         for key, degrees, path in (

@@ -16,6 +16,7 @@ from crankwork.analysis.flywheel import (
     turning_inertia,
 )
 from crankwork.analysis.given_torques_trace import torque_trace, work_scale, works_at_once
+from crankwork.analysis.motor_choice import mean_power, motor_choice
 from crankwork.analysis.prepared import Notice, PreparedMachine
 from crankwork.analysis.results import Listing, Results
 from crankwork.analysis.speed import Balance, analyse_speed, excess_of, wheels_of, work_of
@@ -42,7 +43,6 @@ from crankwork.shaft.fluctuation import (
     excess_work,
     fluctuation_of_inertia,
 )
-from crankwork.shaft.motor_selection import needed_power
 from crankwork.shaft.torque_diagram import ShaftTorques, TorqueDiagram
 
 COLUMNS = (
@@ -110,13 +110,8 @@ def _given_values(machine: Machine, w: TracedValue) -> dict[str, TracedValue]:
 
 
 def _power(machine: Machine, turning: ShaftTorques, mean: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
-    """Return the mean power: of the shaft, and of the motor that drives a load."""
-    result = {"shaft_power": mean * w}
-    if turning.torque is None:
-        result["motor_power"] = needed_power(
-            absent("power_reserve", 1.0), mean, w, traced_inputs.efficiency_of(machine.drive)
-        )
-    return result
+    """Return the mean power of the shaft, and the motor that drives a load."""
+    return motor_choice(machine, mean, w) if turning.torque is None else mean_power(mean, w)
 
 
 def _per_cycle(machine: Machine, mean: TracedValue, excess: TracedValue) -> dict[str, TracedValue]:

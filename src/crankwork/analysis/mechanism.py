@@ -36,6 +36,7 @@ from crankwork.analysis.motion_range import (
     rows_inside,
     with_limits,
 )
+from crankwork.analysis.motor_choice import motor_of_crank
 from crankwork.analysis.operating_state import operating_state
 from crankwork.analysis.prepared import Notice, PreparedLinkage
 from crankwork.analysis.results import Results
@@ -61,7 +62,7 @@ from crankwork.dynamics.routes import TORQUE_METHODS, torque_by_groups
 from crankwork.errors import CrankworkError
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
-from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent, given
+from crankwork.formula.traced_value import ProcedureValue, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.crank_range import CrankRange, pass_change_points
 from crankwork.kinematics.grashof import FourBarType, grashof
@@ -74,7 +75,6 @@ from crankwork.mechanism.dyads import RRR
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import mobility
 from crankwork.quantities.key import key_of
-from crankwork.shaft.motor_selection import needed_power
 
 _DENSE_STEP = 1.0
 _NO_TRAVEL = 1e-12
@@ -82,6 +82,7 @@ _TRAVEL = {"slider_displacement": "slider_stroke", "link_angle": "link_swing"}
 _TURNING = ("link_angular_velocity", "link_angular_acceleration")
 # quantities without a sign, whose least value is of no use
 _SIZES = ("joint_force", "joint_force_with_friction", "friction_power", "gas_pressure", "shaking_force")
+_STATIC_EXTREMES = ("static_torque_max", "static_torque_min")
 _MOST_COEFFICIENTS = 10_000_000
 _OF_DRIVER = (
     "driver_displacement", "driver_velocity", "driver_acceleration", "driver_angle", "driver_speed",
@@ -132,7 +133,9 @@ def analyse_linkage(
             summary |= {key: value.named(key) for key, value in turn.summary.items()}
             between |= turn.between
             notices += turn.notices
-    summary |= _power_of_valves(machine, trace | summary)
+    if moved.has_steady_crank:
+        largest = max(abs(summary[key].value) if key in summary else 0.0 for key in _STATIC_EXTREMES)
+        summary |= motor_of_crank(machine, summary.get("mean_torque"), speed_of(machine), largest)
     mechanism = machine.mechanism
     if moved.has_steady_crank and "shaking_force" in trace:
         balance = counterweight_balance(mechanism.crank, trace | summary, mechanism.period)
@@ -194,25 +197,6 @@ def linkage_columns(machine: Machine) -> Results:
     """Return the columns of a linkage over the crank angle, without the values of its whole cycle."""
     moved = _moved(machine, None)
     return Results(moved.solved, moved.table, {}, {}, {}, (), {}, trace=moved.trace)
-
-
-def _power_of_valves(machine: Machine, values: Mapping[str, TracedValue]) -> dict[str, TracedValue]:
-    """Return the power that a compressor or pump without a motor of its own needs."""
-    has_valves = any(chamber.valves is not None for chamber in machine.chambers.values())
-    if not has_valves or "motor_power" in values or not _is_needed(values.get("mean_torque")):
-        return {}
-    operands = (
-        absent("power_reserve", 1.0),
-        values["mean_torque"],
-        speed_of(machine),
-        traced_inputs.efficiency_of(machine.drive),
-    )
-    return {"motor_power": needed_power(*operands)}
-
-
-def _is_needed(mean: TracedValue | None) -> bool:
-    """Return whether a mean torque is one that the driver must give."""
-    return mean is not None and mean.key == "mean_driving_torque" and mean.value > 0
 
 
 def linkage_value(machine: Machine, key: str) -> Results:

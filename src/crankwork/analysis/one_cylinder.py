@@ -11,6 +11,7 @@ import numpy as np
 from crankwork.analysis import traced_inputs
 from crankwork.analysis.cylinder_forces import COLUMNS, FORCES
 from crankwork.analysis.cylinder_gas import cycle_values, work_of_gas
+from crankwork.analysis.motor_choice import motor_of_crank
 from crankwork.analysis.piston_kinematics import HARMONICS, KINEMATICS
 from crankwork.analysis.prepared import PreparedCylinder, prepare, relative_difference
 from crankwork.analysis.reduction import REDUCTION
@@ -177,8 +178,11 @@ def _forces(solved: PreparedCylinder, over: CycleInterpolant) -> dict[str, Trace
             if engine is None or len(engine.layout.places) == 1:
                 # the delivery of several cylinders is that of the engine
                 values |= stated.passed(inlet_flow(values["induced_volume"], trace["speed"], cycle), power)
-    values["mean_torque"] = mean if solved.machine.engine is not None else delivered_or_needed(mean)
-    return values
+    if solved.machine.engine is not None:
+        return values | {"mean_torque": mean}
+    largest = max(abs(values[f"crank_torque_{word}"].value) for word in ("max", "min"))
+    mean = delivered_or_needed(mean)
+    return values | {"mean_torque": mean} | motor_of_crank(solved.machine, mean, trace["speed"], largest)
 
 
 def _checks(

@@ -12,6 +12,7 @@ from crankwork.analysis.crankshaft_bearings import rotating_mass_of
 from crankwork.analysis.cylinders import MultiCylinderEngine
 from crankwork.analysis.flywheel import turning_inertia
 from crankwork.analysis.harmonics import amplitude_of_order, curve_of, order_count, traced_harmonics
+from crankwork.analysis.motor_choice import motor_of_crank
 from crankwork.analysis.prepared import Notice
 from crankwork.analysis.reduction import MOVING, REDUCTION
 from crankwork.analysis.speed import Balance, analyse_speed, delivered_or_needed
@@ -123,6 +124,7 @@ def engine_torque(
     summary |= {key: value for key, value in extremes.items() if key.startswith("total_torque_")}
     # textbooks draw the extremes as far above the mean as below it
     kind: Mean = "extremes" if engine.master.method.kinematics == "textbook" else "time"
+    summary |= motor_of_crank(engine.machine, mean, w, max(map(abs, all_.extremes()[::2])))
     turn = analyse_speed(engine.machine, balance, w, mean, kind)
     between = dict(turn.between)
     shown = {**turn.summary, **between}

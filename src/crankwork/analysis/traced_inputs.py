@@ -18,23 +18,34 @@ from crankwork.kinematics.slider_crank import SliderCrank, stroke_central, strok
 from crankwork.machine import Drive, InputNumber, Machine
 from crankwork.method import Method
 from crankwork.units import UNITS
+from crankwork.working_cycle.engine_size import bore_and_stroke, swept_volume_of_one
 
 if TYPE_CHECKING:
     from crankwork.machine import Machine
 
 _SAME = 1e-12
+# sizes that give others, by their keys in a description
+_SIZES = {
+    "cylinder.displacement": "displacement", "cylinder.stroke_bore_ratio": "stroke_bore_ratio", "cylinder.bore": "bore",
+    "crank.stroke": "stroke", "crank.radius": "crank_radius", "engine.cylinders": "cylinder_count",
+}  # fmt: skip
+
+
+def size(path: str, value: float) -> TracedValue:
+    """Return a size of an engine that a description states there."""
+    return given(_SIZES[path], value, path)
 
 
 def lengths(machine: Machine, sizes: SliderCrank) -> SliderCrank:
     """Return crank radius, rod length and offset."""
     r, l, e = (float(size) for size in sizes)  # noqa: E741
-    radius = given("crank_radius", r, "crank.radius")
-    calculated = of_cycle(machine, "stroke")
-    if calculated is not None:
+    radius = size("crank.radius", r)
+    calculated = calculated_size(machine, "stroke")
+    if calculated is not None and "crank.radius" not in machine.stated:
         radius = checked(calculated / 2, radius)
     stroke, ratio = (_stated(machine, key) for key in ("crank.stroke", "rod.ratio"))
     if stroke is not None:
-        radius = checked(given("stroke", stroke.value, "crank.stroke") / 2, radius)
+        radius = checked(size("crank.stroke", stroke.value) / 2, radius)
     length = given("rod_length", l, "rod.length")
     if ratio is not None and _is_close(ratio.value, r / l):
         length = checked(radius / given("rod_ratio", ratio.value, "rod.ratio"), length)
@@ -49,18 +60,32 @@ def _offset_of(machine: Machine, offset: float) -> str:
     return f"engine.offsets[{offsets.index(offset) + 1}]" if offset in offsets else "cylinder.offset"
 
 
-def of_cycle(machine: Machine, key: str) -> TracedValue | None:
-    """Return the size from the calculation of a cycle if the description leaves the size open."""
+def calculated_size(machine: Machine, key: str) -> TracedValue | None:
+    """Return the size from other sizes or the calculation of a cycle if the description leaves the size open."""
     cycle = getattr(machine.gas.calculated, "cycle", None) if machine.gas is not None else None
     target = _stated(machine, "cycle.power")
     result = None if cycle is None or target is None else cycle.trace.get(key)
+    if result is None:
+        return _sizes(machine)[key == "stroke"]
     # calculated sizes are rounded to millimetres
-    return None if result is None else TracedValue(ProcedureValue(round(result.value, 3), "rounded", (result,)), key)
+    return TracedValue(ProcedureValue(round(result.value, 3), "rounded", (result,)), key)
 
 
-def bore(machine: Machine, size: float) -> TracedValue:
+def _sizes(machine: Machine) -> tuple[TracedValue | None, TracedValue | None]:
+    """Return bore and stroke, of which some follow from a displacement or stroke over bore; None without these."""
+    known = {path: size(path, machine.stated[path].value) for path in _SIZES if path in machine.stated}
+    volume, ratio, bore, stroke, radius, count = map(known.get, _SIZES)
+    if volume is None and ratio is None:
+        return None, None
+    if volume is not None and count is not None:
+        volume = swept_volume_of_one(volume, count)
+    stroke = stroke if radius is None else stroke_central(radius)
+    return bore_and_stroke(machine.method.pi, volume, ratio, bore, stroke)
+
+
+def bore(machine: Machine, diameter: float) -> TracedValue:
     """Return the bore: stated, or of the calculation of the cycle."""
-    stated, calculated = given("bore", size, "cylinder.bore"), of_cycle(machine, "bore")
+    stated, calculated = size("cylinder.bore", diameter), calculated_size(machine, "bore")
     return stated if calculated is None else checked(calculated, stated)
 
 

@@ -19,17 +19,20 @@ from crankwork.machine import Cylinder, Drive, Engine, Gas, Machine
 from crankwork.mechanism.mechanism import slider_crank
 from crankwork.method import EXACT, Method
 from crankwork.units import UNITS
+from crankwork.working_cycle.engine_size import bore_and_stroke
 
 _LEAST_RISE = 1e-3
 _RADIANS = [name for name, unit in UNITS.items() if unit.dimension == "speed" and unit.factor == 1.0]
 _OWN_GAS = {"misfire", "pressure_factors"}
+# keys of [cylinder] that bore or stroke follow from
+SIZES = frozenset({"displacement", "stroke_bore_ratio"})
 _ENGINE_TABLES = {"engine", "bearings", "balance", "flywheel"}
 
 
 def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -> Machine | None:
     """Return the machine, or None after complaints."""
     method, stated = build_method(values["method"], reader), stated_numbers(values)
-    calculated = None
+    calculated, values = None, _with_sizes(values, method.pi, reader)
     if "cycle" in values:
         from crankwork.description.cycle_build import build_cycle  # noqa: PLC0415 - few files calculate a cycle
 
@@ -81,6 +84,27 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
         drive=drive,
         stated=stated,
     )
+
+
+def _with_sizes(values: Values, pi: float, reader: Reader) -> Values:
+    """Return the values with bore and crank radius that follow from a displacement or from stroke over bore."""
+    crank, cylinder = values["crank"], values["cylinder"]
+    if SIZES.isdisjoint(cylinder):
+        return values
+    volume, ratio, bore = (cylinder.si(key) for key in ("displacement", "stroke_bore_ratio", "bore"))
+    stroke = 2 * crank.si("radius") if "radius" in crank else crank.si("stroke")
+    key = f"cylinder.{next(key for key in cylinder if key in SIZES)}"
+    count = sum(size is not None for size in (volume, ratio, bore, stroke))
+    if count != 2 or "power" in values["cycle"]:
+        reader.add_error(key, ErrorMessage("sizes_two"))
+    elif cylinder.si("offset") or values["engine"]["offsets"]:
+        reader.add_error(key, ErrorMessage("sizes_offset"))
+    if reader.problems:
+        return values
+    volume = None if volume is None else volume / (values["engine"]["cylinders"] or 1)
+    bore, stroke = bore_and_stroke(pi, volume, ratio, bore, stroke)
+    radius = MeasuredValue(float(stroke) / 2, "length")
+    return values.but(crank=crank.but(radius=radius), cylinder=cylinder.but(bore=MeasuredValue(float(bore), "length")))
 
 
 def _with_own_gas(

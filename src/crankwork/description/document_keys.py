@@ -15,8 +15,8 @@ from crankwork.machine import Document
 _ENGINE = (
     "summary", "preface", "data", "method", "cycle", "indicator", "kinematics", "displacement", "velocity",
     "acceleration", "dynamics", "inertia", "piston_forces", "crank_forces", "torque", "crankpin", "polar", "unrolled",
-    "big_end", "wear", "mains", "balance", "evenness", "comparison", "checks", "conclusion", "nomenclature", "sources",
-    "appendix",
+    "big_end", "wear", "mains", "balance", "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature",
+    "sources", "appendix",
 )  # fmt: skip
 _LINKAGE = (
     "summary", "task", "structure", "kinematics", "quality", "chambers", "forces", "balance", "reduction", "torques",
@@ -27,8 +27,8 @@ _TRANSFER = (
     "summary", "task", "static", "dynamic", "driving", "comparison", "checks", "conclusion", "nomenclature", "sources",
 )  # fmt: skip
 _TURNING = (
-    "summary", "task", "moments", "energy", "flywheel", "law_of_motion", "comparison", "checks", "conclusion",
-    "nomenclature", "sources",
+    "summary", "task", "moments", "energy", "motor", "flywheel", "law_of_motion", "comparison", "checks",
+    "conclusion", "nomenclature", "sources",
 )  # fmt: skip
 _WORDS = Text(300)
 _HEAD = (

@@ -13,6 +13,7 @@ from crankwork.errors import MethodError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive
 from crankwork.shaft.motor import AsynchronousMotor, GearedMotor
+from crankwork.shaft.motor_selection import MotorSelection
 
 _LEAST_EFFICIENCY = 1e-4
 
@@ -44,6 +45,10 @@ def read_drive(values: Values, reader: Reader) -> Drive:
             drive = replace(drive, efficiency=used, exact_efficiency=total)
             if used <= 0:
                 reader.add_error("efficiency.decimals", ErrorMessage("efficiency_rounded", whole=total))
+    if "motor_selection" in values:
+        table = values["motor_selection"]
+        selection = table.made(MotorSelection, frequency=table.si("frequency") / (2 * math.pi))
+        drive = replace(drive, selection=selection)
     motor = values.get("motor")
     if motor and {"rated_power", "rated_speed", "overload", "pole_pairs"} <= set(motor):
         frequency = motor.si("frequency") / (2 * math.pi)

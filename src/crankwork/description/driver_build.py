@@ -11,7 +11,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law, Segment
 
 # tables for a crank with a constant mean speed
-_TURNING = ("efficiency", "motor", "flywheel", "transient")
+_TURNING = ("efficiency", "motor", "motor_selection", "flywheel", "transient")
 _WITHOUT_DRIVER = ("speed", "angular_acceleration")
 _SUM = 1e-9
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from crankwork.description.schema import ListOf, MapOf, TableSpec
+from crankwork.description.schema import ListOf, MapOf, NumberOr, TableSpec
 from crankwork.description.table_file import FileTable, read_table
 from crankwork.description.value_types import Quantity, Reader, ValueType
 from crankwork.errors import CrankworkError
@@ -93,11 +93,15 @@ def _column(table: FileTable, place: _Place) -> list[Any]:
         raise CrankworkError(ErrorMessage("column_form", key=place.name))
     position = table.position(column)
     numbers: list[float] = table.columns((position,))[:, 0].tolist()
-    if not isinstance(place.entry, Quantity):
-        return numbers
     unit = (known_unit(unit) or unit) if unit else table.units[position]
-    if unit not in UNITS or UNITS[unit].dimension not in place.entry.dimensions:
-        example = EXAMPLES[place.entry.dimensions[0]].split()[1]
+    entry = place.entry
+    if isinstance(entry, NumberOr):
+        # a column without a unit that has no other numbers is one of shares
+        entry = entry.quantity if unit or not 0.0 <= min(numbers) <= max(numbers) <= 1.0 else entry.number
+    if not isinstance(entry, Quantity):
+        return numbers
+    if unit not in UNITS or UNITS[unit].dimension not in entry.dimensions:
+        example = EXAMPLES[entry.dimensions[0]].split()[1]
         name = f'"{column}"' if isinstance(column, str) else str(column)
         raise table.refused("column_unit", column=table.label(position), key=place.name, name=name, unit=example)
     return [f"{number!r} {unit}" for number in numbers]

@@ -54,7 +54,7 @@ def _holds(name: str, values: Values) -> bool:
     """Return whether the defaults of a table hold where it is left out."""
     if name == "cylinder":
         return "rod" in values
-    return name in ("method", "rod") or (name == "timing" and values["kind"] == "wiebe")
+    return name in ("method", "rod", "motor_selection") or (name == "timing" and values["kind"] == "wiebe")
 
 
 def _meaning(table: TableSpec, name: str) -> str:

@@ -49,6 +49,8 @@ _PISTON = TableSpec("piston", {"mass": KeySpec(_MASS)})
 
 _CYLINDER = TableSpec("cylinder", {
     "bore": KeySpec(Quantity(("length",), 1e-4, 100.0), required=True),
+    "displacement": KeySpec(_VOLUME),
+    "stroke_bore_ratio": KeySpec(Number(0.2, 5.0)),
     "clearance_volume": KeySpec(_VOLUME, instead_of=("compression_ratio",)),
     "compression_ratio": KeySpec(Number(1.001, 100.0), instead_of=("clearance_volume",)),
     "offset": KeySpec(Quantity(("length",), -100.0, 100.0), default="0 mm"),
@@ -195,7 +197,7 @@ MACHINE_FILE = TableSpec("file", {
 })  # fmt: skip
 
 
-# for files in which a required power gives bore and stroke
+# for files in which a required power, a displacement or a ratio gives bore and stroke
 _SIZED = with_defaults(MACHINE_FILE, "crank", _CRANK, radius=None)
 SIZED_FILE = with_defaults(_SIZED, "cylinder", _CYLINDER, bore=None)
 

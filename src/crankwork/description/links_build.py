@@ -37,7 +37,7 @@ from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.driver import Law, LinkMotor
 from crankwork.mechanism.joints import links_of_points
-from crankwork.mechanism.linkage import GROUND, Linkage
+from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage
 from crankwork.mechanism.mechanism import Crank, Mechanism
 from crankwork.mechanism.table_reader import linkage_from
 from crankwork.method import Method
@@ -143,7 +143,9 @@ def _drive(values: Values, method: Method, reader: Reader) -> Drive:
 
 def _weighs(values: Values) -> bool:
     """Return whether the crank is a body with mass among the others."""
-    return "driver" in values or not {"mass", "centre"}.isdisjoint(values["crank"])
+    crank = values["crank"]
+    is_of_length = isinstance(crank.get("inertia"), LengthInertia)
+    return "driver" in values or is_of_length or not {"mass", "centre"}.isdisjoint(crank)
 
 
 def _geometry(values: Values, reader: Reader) -> dict[str, Any]:
@@ -360,7 +362,15 @@ def _check_table(key: str, load: Values, reader: Reader) -> None:
             reader.add_error(f"{key}.at", ErrorMessage("load_at_missing", count=len(values), column=column))
         return
     wanted = "angle" if column == "torque" or load["against"] == "angle" else "length"
-    if any(abscissa.dimension != wanted for abscissa in abscissas):
+    shares = sum(isinstance(abscissa, float) for abscissa in abscissas)
+    if wanted == "length" and 0 < shares < len(abscissas):
+        reader.add_error(f"{key}.at", ErrorMessage("load_at_shares"))
+        return
+    if shares and wanted == "length":
+        abscissas = [MeasuredValue(abscissa, wanted) for abscissa in abscissas]
+        if "start" in load:
+            reader.add_error(f"{key}.start", ErrorMessage("load_start_share"))
+    if (shares and wanted == "angle") or any(abscissa.dimension != wanted for abscissa in abscissas):
         reader.add_error(f"{key}.at", ErrorMessage(f"load_at_{wanted}"))
     elif not _rises(
         [abscissa.value for abscissa in abscissas], jumps=wanted == "length" and load["curve"] == "straight"
@@ -368,7 +378,7 @@ def _check_table(key: str, load: Values, reader: Reader) -> None:
         reader.add_error(f"{key}.at", ErrorMessage("load_at_rises"))
     elif wanted == "angle" and abscissas[-1].value - abscissas[0].value > _REVOLUTION:
         reader.add_error(f"{key}.at", ErrorMessage("load_at_turn"))
-    if len(abscissas) != len(values):
+    if len(abscissas) != len(values) and not (len(abscissas) == 2 and len(values) == 1):
         reader.add_error(
             f"{key}.at", ErrorMessage("load_at_count", count=len(abscissas), others=len(values), column=column)
         )
@@ -417,7 +427,10 @@ def _curve(load: Values, key: str) -> LoadTable:
         return LoadTable((-1e3, 1e3), (values[0], values[0]))
     abscissas = tuple(_plain(load["at"]))
     period = 2 * math.pi if load["against"] == "angle" or load["kind"] == "torque" else 0.0
-    return LoadTable(abscissas, values, "monotone" if smooth else "linear", period)
+    stroke = 1.0 if isinstance(load["at"][0], float) else 0.0
+    if len(values) == 1:
+        return LoadTable(abscissas, 2 * values, "constant", period, stroke)
+    return LoadTable(abscissas, values, "monotone" if smooth else "linear", period, stroke)
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - tables, lists and quantities, as the file has them

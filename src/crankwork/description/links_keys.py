@@ -32,7 +32,7 @@ from crankwork.description.load_keys import (
     TORQUE,
     with_defaults,
 )
-from crankwork.description.schema import KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
+from crankwork.description.schema import InertiaKind, KeySpec, ListOf, MapOf, NameOr, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Number, Quantity, Text
 from crankwork.mechanism.driver import LawKind
 
@@ -40,6 +40,7 @@ _PLACE = ListOf(COORDINATE, fewest=2, most=2)
 _ANGLE = Quantity(("angle",), -4 * math.pi - 1e-9, 4 * math.pi + 1e-9)
 _TURN = Quantity(("angle",), 0.0, 4 * math.pi + 1e-9)
 _OF_MASS = {"mass": KeySpec(Quantity(("mass",), 1e-9, 1e6)), "centre": KeySpec(NameOr(_PLACE))}
+_INERTIA = InertiaKind(Quantity(("inertia",), 0.0, 1e9))
 # bodies that turn about a pivot: all inertia counts, also that of the mass at its distance
 _TURNING = {**_OF_MASS, "inertia": INERTIA._replace(default=None),
             "inertia_about": KeySpec(Choice(("pivot", "centre")), default="pivot",
@@ -56,6 +57,7 @@ _CRANK = TableSpec("driving", {
     "direction": KeySpec(Choice(("anticlockwise", "clockwise")), default="anticlockwise"),
     "points": KeySpec(MapOf(_PLACE)),
     **_TURNING,
+    "inertia": _TURNING["inertia"]._replace(kind=_INERTIA),
     "from": KeySpec(_ANGLE),
     "to": KeySpec(_ANGLE),
 })  # fmt: skip
@@ -111,6 +113,7 @@ _LINK = TableSpec("link", {
     "share": KeySpec(Number(-1e3, 1e3)),
     "of": KeySpec(NAME),
     **_MASS,
+    "inertia": _MASS["inertia"]._replace(kind=_INERTIA),
 })  # fmt: skip
 
 _SLIDER = TableSpec("slider", {

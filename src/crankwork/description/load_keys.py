@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from crankwork.description.schema import KeySpec, ListOf, MapOf, Nested, TableSpec
+from crankwork.description.schema import KeySpec, ListOf, MapOf, Nested, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Text
 
 LENGTH = Quantity(("length",), 1e-6, 100.0)
@@ -34,7 +34,8 @@ _LOAD = TableSpec("load", {
     "against": KeySpec(Choice(("stroke", "angle")), default="stroke", only=_PROCESS),
     "file": KeySpec(Text(1000), only=_BY_COLUMN),
     "sheet": SHEET,
-    "at": KeySpec(ListOf(Quantity(("length", "angle"), -1e3, 1e3), fewest=2, from_file=True), only=_BY_COLUMN),
+    "at": KeySpec(ListOf(NumberOr(Quantity(("length", "angle"), -1e3, 1e3), Number(0.0, 1.0)), 2, from_file=True),
+              only=_BY_COLUMN),
     "force": KeySpec(ListOf(_FORCE, fewest=1, from_file=True), required=True, only=_PROCESS),
     "torque": KeySpec(ListOf(TORQUE, fewest=1, from_file=True), required=True, only=_TURNS),
     "curve": KeySpec(Choice(("straight", "smooth")), default="straight", only=_BY_COLUMN),
@@ -72,12 +73,18 @@ EFFICIENCY = TableSpec("efficiency", {
     "losses": KeySpec(Choice(("drive", "machine"))),
 })  # fmt: skip
 
+_MAINS = KeySpec(Quantity(("frequency", "speed"), 1e-6, 3e4), default="50 Hz")
+MOTOR_SELECTION = KeySpec(TableSpec("motor_selection", {
+    "reserve": KeySpec(Number(1.0, 10.0), default=1.0),
+    "slip": KeySpec(Number(0.0, 0.5), default=0.04),
+    "frequency": _MAINS,
+}))  # fmt: skip
 _MOTOR = TableSpec("motor", {
     "rated_power": KeySpec(Quantity(("power",), 1e-3, 1e9), required=True),
     "rated_speed": KeySpec(SPEED, required=True),
     "overload": KeySpec(Number(1.01, 10.0), required=True),
     "pole_pairs": KeySpec(Number(1, 24, whole=True), required=True),
-    "frequency": KeySpec(Quantity(("frequency", "speed"), 1e-6, 3e4), default="50 Hz"),
+    "frequency": _MAINS,
     "ratio": KeySpec(Number(1e-4, 1e4), default=1.0),
     "inertia": INERTIA,
 })  # fmt: skip
@@ -111,6 +118,7 @@ LOADING = {
     "loads": KeySpec(ListOf(_LOAD)),
     "friction": KeySpec(_FRICTION),
     "efficiency": KeySpec(EFFICIENCY),
-    "motor": KeySpec(_MOTOR),
+    "motor": KeySpec(_MOTOR, instead_of=("motor_selection",)),
+    "motor_selection": MOTOR_SELECTION._replace(instead_of=("motor",)),
     "transient": KeySpec(_TRANSIENT),
 }

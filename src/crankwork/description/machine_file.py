@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from crankwork import files
 from crankwork.analysis import prepare
 from crankwork.description import keys as engine_files
-from crankwork.description.build import build_machine
+from crankwork.description.build import SIZES, build_machine
 from crankwork.description.cylinder_keys import OWN_SIZES
 from crankwork.description.document_keys import stated_document
 from crankwork.description.file_columns import resolve_file_columns
@@ -303,7 +303,7 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     cycle, is_loaded = values.get("cycle"), not LOADING.keys().isdisjoint(values)
     is_calculated = isinstance(cycle, dict) and cycle.get("kind") in ("petrol", "diesel")
     is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
-    if isinstance(cycle, dict) and "power" in cycle:
+    if (isinstance(cycle, dict) and "power" in cycle) or not SIZES.isdisjoint(values.get("cylinder") or ()):
         return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
     return (
         engine_files.CYCLE_FILE

@@ -28,6 +28,7 @@ from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.position_analysis import place
 from crankwork.kinematics.traced_motion import traced_motion
 from crankwork.loads.load import Load, applied_loads
+from crankwork.loads.load_curve import LoadCurve
 from crankwork.loads.process import ProcessForce
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
@@ -147,7 +148,10 @@ def with_starts(
         if isinstance(load, ProcessForce) and load.against == "stroke" and "start" not in written:
             swept = swept or _swept(mechanism, crank_range)
             if load.slider in swept:
-                load = replace(load, start=swept[load.slider][0 if load.forward > 0 else 1])  # noqa: PLW2901
+                low, high = swept[load.slider]
+                load = replace(load, start=low if load.forward > 0 else high)  # noqa: PLW2901
+                if isinstance(load.force, LoadCurve) and load.force.stroke:
+                    load = replace(load, force=load.force.over(high - low))  # noqa: PLW2901
         result.append(load)
     return tuple(result)
 

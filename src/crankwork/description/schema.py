@@ -26,6 +26,7 @@ from crankwork.description.value_types import (
     shown,
 )
 from crankwork.locale import ErrorMessage, Language, texts, translate
+from crankwork.mechanism.linkage import LengthInertia
 
 _MAX_ENTRIES = 10_000
 _LONGEST_NAME = 60
@@ -72,7 +73,7 @@ class ListOf(NamedTuple):
         if isinstance(self.entry, TableSpec):
             return ErrorMessage("list_of_tables", key=key)
         match self.entry:
-            case Quantity(dimensions=(first, *_)):
+            case Quantity(dimensions=(first, *_)) | NumberOr(quantity=Quantity(dimensions=(first, *_))):
                 example = f'"{units.EXAMPLES[first]}"'
             case Number(whole=True) if isinstance(value, str) and (numbers := re.findall(r"\d+", value)):
                 example = ", ".join(numbers)
@@ -184,6 +185,38 @@ class NumberOr(NamedTuple):
     def schema(self, language: Language, /) -> dict[str, Any]:
         """Return the schema of either."""
         return {"anyOf": [self.quantity.schema(language), self.number.schema(language)]}
+
+
+_SIZE = r"\s*(\d+(?:[.,]\d+)?)\s*"
+_OF_LENGTH = re.compile(
+    rf"(?:{_SIZE}(?:/{_SIZE})?[*·]?)?\s*m\s*[*·]?\s*l\s*(?:\^|\*\*)?\s*[2²]\s*(?:/{_SIZE})?", re.IGNORECASE
+)
+# the greatest share about the centre of mass, and that of a bar about its end
+_LARGEST_SHARE, _ABOUT_END = 0.25, 1 / 3
+
+
+class InertiaKind(NamedTuple):
+    """A moment of inertia with its unit, or a share of m l^2: `m l^2 / 12`, `0.17 m l^2`, about an end `m l^2 / 3`."""
+
+    quantity: Quantity
+
+    def read(self, value: object, key: str, reader: Reader) -> MeasuredValue | LengthInertia | None:
+        """Return the moment of inertia, or how it follows from the length."""
+        match = _OF_LENGTH.fullmatch(value) if isinstance(value, str) else None
+        if match is None:
+            return self.quantity.read(value, key, reader)
+        above, below, under = (float((part or "1").replace(",", ".")) for part in match.groups())
+        share = above / (below * under) if below * under else 0.0
+        about_end = math.isclose(share, _ABOUT_END, rel_tol=1e-3)
+        if not about_end and not 0 < share <= _LARGEST_SHARE:
+            reader.add_error(key, ErrorMessage("inertia_share", value=shown(value)))
+            return None
+        return LengthInertia(_ABOUT_END if about_end else share, about_end)
+
+    def schema(self, language: Language, /) -> dict[str, Any]:
+        """Return the schema of either."""
+        own = self.quantity.schema(language)
+        return {**own, "pattern": rf"({own['pattern']})|m\s*l"}
 
 
 class MapOf(NamedTuple):

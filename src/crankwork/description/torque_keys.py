@@ -8,7 +8,7 @@ from typing import get_args
 from crankwork.description import document_keys
 from crankwork.description.cylinder_keys import FLYWHEEL
 from crankwork.description.keys import METHOD, TABLE, TITLE
-from crankwork.description.load_keys import EFFICIENCY, SHEET
+from crankwork.description.load_keys import EFFICIENCY, MOTOR_SELECTION, SHEET
 from crankwork.description.schema import KeySpec, ListOf, NumberOr, TableSpec
 from crankwork.description.value_types import Choice, Number, Quantity, Text
 from crankwork.shaft.torque_diagram import Shape
@@ -96,4 +96,5 @@ TURNING_FILE = TableSpec("file", {
 PRESS_FILE = TURNING_FILE._replace(keys={
     **{name: key for name, key in TURNING_FILE.keys.items() if name != "torque"},
     "load": KeySpec(_DIAGRAM, required=True),
+    "motor_selection": MOTOR_SELECTION,
 })  # fmt: skip

@@ -124,6 +124,7 @@ class _Paths:
         members = () if linkage is None else (linkage.driving, *linkage.members)
         self._geared = set() if linkage is None else {geared.name for geared in linkage.geared}
         self._guides = {member.name: member.guide for member in members}
+        self.of_length = {member.name: member for member in members if member.length_inertia is not None}
         halves = linkage.driver.halves if linkage is not None and isinstance(linkage.driver, Cylinder) else ()
         self._halves = {half.link: f"driver.{name}" for half, name in zip(halves, ("barrel", "rod"), strict=False)}
         self._crank = linkage.driver.link if linkage is not None and isinstance(linkage.driver, Crank) else ""
@@ -298,12 +299,19 @@ def _chain(chain: Chain, paths: _Paths) -> Chain:
 
 
 def _body(body: Body, paths: _Paths) -> Body:
-    path = paths.member(body.link)
-    return replace(
-        body,
-        mass=_stated(f"body_mass.{body.link}", body.mass, f"{path}.mass"),
-        inertia=_stated(f"body_inertia.{body.link}", body.inertia, f"{path}.inertia"),
+    path, name, member = paths.member(body.link), body.link, paths.of_length.get(body.link)
+    mass = _stated(f"body_mass.{name}", body.mass, f"{path}.mass")
+    if member is None or member.length_inertia is None:
+        return replace(body, mass=mass, inertia=_stated(f"body_inertia.{name}", body.inertia, f"{path}.inertia"))
+    key, length_path = (
+        (f"link_length.{name}", f"{path}.length") if path != "crank" else ("crank_radius", "crank.radius")
     )
+    length = given(key, member.inertia_length, length_path)
+    share = given(f"inertia_share.{name}", member.length_inertia.share, f"{path}.inertia")
+    inertia = share * mass * length * length
+    if member.length_inertia.about_end:
+        inertia = inertia.named(f"end_inertia.{name}") - mass * length * length / 4
+    return replace(body, mass=mass, inertia=_untyped(inertia.named(f"body_inertia.{name}")))
 
 
 def _link_point(point: LinkPoint, paths: _Paths) -> LinkPoint:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, Self
 
 import numpy as np
 
@@ -31,9 +31,11 @@ class LoadCurve:
     # Ascending abscissas, angles in radians or lengths in metres, and ordinates [rad or m], [N or N m]
     at: tuple[float, ...]
     values: tuple[float, ...]
-    # Straight, where an abscissa given twice is a jump; or a smooth curve that never overshoots the points
-    interpolation: Literal["linear", "monotone"] = "linear"
+    # Straight, where an abscissa given twice is a jump; a smooth curve that never overshoots the points; or one value
+    # between two abscissas, with a jump at both
+    interpolation: Literal["linear", "monotone", "constant"] = "linear"
     period: float = 0.0  # Period of the abscissa, 0 for none: outside the table the value is then zero [rad]
+    stroke: float = 0.0  # Stroke of which the abscissas are shares, 0 if they are stated as lengths [m]
 
     def __post_init__(self) -> None:
         if len(self.at) != len(self.values) or len(self.at) < 2:
@@ -48,15 +50,19 @@ class LoadCurve:
         if self.period and self.at[-1] - self.at[0] > self.period * (1 + 1e-12):
             raise ValueError(ErrorMessage("load_table_period"))
 
+    def over(self, stroke: float) -> Self:
+        """Return the curve over a stroke of which its abscissas are shares. [m]"""
+        return replace(self, at=tuple(share * stroke for share in self.at), stroke=stroke)
+
     def __call__(self, abscissas: Array) -> Array:
         """Return the values at some abscissas."""
         x, y = np.array(self.at), np.array(self.values)
         if self.period:
             abscissas = x[0] + np.mod(abscissas - x[0], self.period)
-            if x[-1] - x[0] < self.period * (1 - 1e-12):
+            if self.interpolation != "constant" and x[-1] - x[0] < self.period * (1 - 1e-12):
                 x, y = np.append(x, x[0] + self.period), np.append(y, y[0])
         inside = (abscissas >= x[0]) & (abscissas <= x[-1])
-        if self.interpolation == "linear":
+        if self.interpolation != "monotone":
             value = np.interp(abscissas, x, y)
         else:
             value = hermite(x, y, monotone_slopes(x, y, periodic=bool(self.period)), np.clip(abscissas, x[0], x[-1]))

@@ -12,7 +12,17 @@ import numpy as np
 
 from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.expression import Value
-from crankwork.formula.traced_value import Piecewise, Tabulated, TracedValue, absent, given, is_traced, named, reached
+from crankwork.formula.traced_value import (
+    Piecewise,
+    ProcedureValue,
+    Tabulated,
+    TracedValue,
+    absent,
+    given,
+    is_traced,
+    named,
+    reached,
+)
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.traced_motion import angle_of, interpolant_of
@@ -23,6 +33,7 @@ from crankwork.loads.load_curve import LoadCurve as LoadTable
 from crankwork.loads.monotone import monotone_slopes
 from crankwork.mechanism.dyads import Branch
 from crankwork.mechanism.mechanism import Mechanism
+from crankwork.quantities.key import key_of
 
 # share of the largest speed below which a piece is at rest, and the angle that it takes to reach that [deg]
 _REST = 1e-12
@@ -106,7 +117,7 @@ def _traced(load: ProcessForce, travel: _Travel, motion: Motion, name: str, path
     if load.against == "stroke":
         force = curve_over_column(load.force, over, "travel", key, f"{path}.force")
     else:
-        force = curve_over_angle(load.force, angle_of(motion.grid), key, f"{path}.force")
+        force = curve_over_angle(load.force, over.edges, angle_of(motion.grid), key, f"{path}.force")
     if load.acts == "both":
         return force
     (*ends, last), is_back = over.sign_intervals("rate")
@@ -143,7 +154,8 @@ def link_torque(load: TorqueOnLink, motion: Motion, path: str = "") -> AppliedLo
     if is_traced(motion.grid.angle):
         key = f"link_torque.{load.link}"
         if callable(load.torque):
-            torque = curve_over_angle(load.torque, angle_of(motion.grid), key, f"{path}.torque")
+            edges = interpolant_of(motion.grid)({}).edges
+            torque = curve_over_angle(load.torque, edges, angle_of(motion.grid), key, f"{path}.torque")
         else:
             torque = given(key, load.torque, f"{path}.torque")
     else:
@@ -179,7 +191,7 @@ class StatedTable:
             return lambda _: float(y[0] if abscissa <= x[0] else y[-1])
         begin, length = float(x[first]) + turn, float(x[first + 1] - x[first])
         ordinates = float(y[first]), float(y[first + 1])
-        if self.table.interpolation == "linear":
+        if self.table.interpolation != "monotone":
             return lambda value: line_between(*ordinates, (value - begin) / length)
         rises = float(slopes[first]) * length, float(slopes[first + 1]) * length
         return lambda value: cubic_between(ordinates, rises, (value - begin) / length)
@@ -192,7 +204,7 @@ class StatedTable:
             turn = period * math.floor((abscissa - x[0]) / period)
             if x[-1] - x[0] < period * (1 - _MARGIN):
                 x, y = np.append(x, x[0] + period), np.append(y, y[0])
-        is_straight = self.table.interpolation == "linear"
+        is_straight = self.table.interpolation != "monotone"
         slopes = np.zeros_like(y) if is_straight else monotone_slopes(x, y, periodic=bool(period))
         return x, y, slopes, turn, int(np.clip(np.searchsorted(x, abscissa - turn, side="right") - 1, 0, len(x) - 2))
 
@@ -205,20 +217,33 @@ class StatedTable:
             column = "torque" if self.path.endswith(".torque") else "force"
             stated = f"{self.path.removesuffix(column)}at[{number}]"
             value = given("", float(y[k]), f"{self.path}[{number}]")
-            return CurvePoint(given("", float(x[k]) + turn, stated), value, float(slopes[k]))
+            place, stroke = given("", float(x[k]) + turn, stated), self.table.stroke
+            if stroke:
+                largest = TracedValue(ProcedureValue(stroke, "max", (argument,)), key_of(argument.key).derived("_max"))
+                place = given("travel_share", place.value / stroke, stated) * largest
+            return CurvePoint(place, value, float(slopes[k]))
 
-        is_straight = self.table.interpolation == "linear"
+        is_straight = self.table.interpolation != "monotone"
         return curve_between(self.key, argument, point(first), point(first + 1), is_straight=is_straight)
 
 
-def curve_over_angle(curve: Curve, angle: TracedValue, key: str, path: str = "") -> TracedValue:
+def curve_over_angle(curve: Curve, edges: Array, angle: TracedValue, key: str, path: str = "") -> TracedValue:
     """Return a curve over the crank angle. [rad]
 
-    `curve`: a table, or a function that may have `corners` [rad].
+    `curve`: a table, or a function that may have `corners` [rad]; `edges`: of the panels of the cycle [deg].
     """
     corners = [math.degrees(corner) for corner in _corners(curve)]
     if isinstance(curve, LoadTable) and not _varies(curve):
         return given(key, curve.values[0], f"{path}[1]")
+    if isinstance(curve, LoadTable) and curve.interpolation == "constant":
+        start, end = float(edges[0]), float(edges[-1])
+        first, last = (math.degrees(bound) for bound in curve.at)
+        turns = range(math.floor((start - last) / 360.0), math.ceil((end - first) / 360.0) + 1)
+        bounds = (bound + 360.0 * turn for turn in turns for bound in (first, last))
+        ends = [*sorted({round(bound, _DECIMALS) for bound in bounds if start < bound < end}), end]
+        acts = curve(np.radians((np.array([start, *ends[:-1]]) + np.array(ends)) / 2)) != 0.0
+        force, none = given(key, curve.values[0], f"{path}[1]"), absent(key)
+        return TracedValue(Piecewise(ends, tuple(force if law else none for law in acts)), key)
     function = StatedTable(curve, key, path) if isinstance(curve, LoadTable) else curve
     return TracedValue(Tabulated(function, "given", corners, argument=angle), key)
 
@@ -244,6 +269,8 @@ def curve_over_column(curve: Curve, over: CycleInterpolant, column: str, key: st
     ]
     low, high = curve.at[0], curve.at[-1]
     margin = _MARGIN * max(abs(low), abs(high))
+    if curve.interpolation == "constant":
+        laws, margin = [given(key, curve.values[0], f"{path}[1]")], 0.0
     bounds = [low - margin, *(curve.at[index] for index in jumps), high + margin]
     passed_at = sorted((angle, bound) for bound in bounds for angle in over.crossings(column, bound).tolist())
     ends = [*(angle for angle, _ in passed_at), float(over.edges[-1])]

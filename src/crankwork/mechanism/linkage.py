@@ -6,12 +6,24 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 from crankwork.mechanism.driver import DrivingSlider
 from crankwork.mechanism.dyads import Branch, Guide, Point
 from crankwork.mechanism.mechanism import Crank, Driver, crank_of
 
 GROUND = "ground"
+
+
+class LengthInertia(NamedTuple):
+    """A moment of inertia stated as a share of m l^2: about the centre of mass, or of a uniform bar about its end."""
+
+    share: float  # Of the mass times the square of the length [-]
+    about_end: bool = False
+
+    def about_centre(self, mass: float, length: float) -> float:
+        """Return the moment of inertia about the centre of mass; that of a bar is in its middle. [kg m2]"""
+        return mass * length**2 * (self.share - (0.25 if self.about_end else 0.0))
 
 
 @dataclass(frozen=True)
@@ -25,6 +37,9 @@ class Member:
     mass: float = 0.0
     inertia: float = 0.0
     centre: str = ""  # Name of the point at the centre of mass; empty without mass
+    # How the moment of inertia follows from the mass and the length, if it is stated so, and that length [m]
+    length_inertia: LengthInertia | None = None
+    inertia_length: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from crankwork.errors import Problem
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Cylinder, CylinderPart, DrivingSlider, GearedCrank, Law, LinkMotor
 from crankwork.mechanism.dyads import Branch, Guide, Point
-from crankwork.mechanism.linkage import GROUND, Linkage, Member
+from crankwork.mechanism.linkage import GROUND, LengthInertia, Linkage, Member
 from crankwork.mechanism.mechanism import Crank, Driver
 from crankwork.mechanism.structure import structure
 
@@ -289,7 +289,7 @@ class _Reader:
         if not any(name in table for name in _MASS):
             return member
         mass = self._number(f"{key}.mass", table.get("mass", 0.0))
-        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        inertia = self._inertia(key, table)
         centre = table.get("centre", next(iter(places)))
         points, places = dict(member.points), dict(places)
         if not isinstance(centre, str):
@@ -300,6 +300,10 @@ class _Reader:
             known = ", ".join(places)
             self._problem(f"{key}.centre", ErrorMessage("centre_unknown", centre=centre, link=member.name, known=known))
             return member
+        if isinstance(table.get("inertia"), LengthInertia):
+            if not mass:
+                self._problem(f"{key}.inertia", ErrorMessage("only_beside", key="mass", advice='mass = "2 kg"'))
+            return self._of_length(key, table, _replaced(member, points, mass, 0.0, centre), places)
         turning = mass * math.hypot(*places[centre]) ** 2
         if table.get("inertia_about") == "centre":
             return _replaced(member, points, mass, inertia, centre)
@@ -363,18 +367,39 @@ class _Reader:
         if not any(name in table for name in _MASS):
             return member
         mass = self._number(f"{key}.mass", table.get("mass"), positive=True)
-        inertia = self._number(f"{key}.inertia", table.get("inertia", 0.0))
+        inertia = self._inertia(key, table)
         centre = table.get("centre", next(iter(member.points), "") if member.guide else None)
         if not isinstance(centre, str):
             name = f"{member.name}.centre"
-            return _replaced(member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name)
+            member = _replaced(
+                member, {**member.points, name: self._point(f"{key}.centre", centre)}, mass, inertia, name
+            )
+            return self._of_length(key, table, member, member.points)
         if centre not in member.points:
             message = ErrorMessage(
                 "centre_unknown" if centre else "centre_missing",
                 centre=centre, link=member.name, known=", ".join(member.points),
             )  # fmt: skip
             self._problem(f"{key}.centre", message)
-        return _replaced(member, member.points, mass, inertia, centre)
+            return member
+        return self._of_length(key, table, _replaced(member, member.points, mass, inertia, centre), member.points)
+
+    def _inertia(self, key: str, table: Table) -> float:
+        """Return a moment of inertia that is stated as a number; zero for one that follows from a length. [kg m2]"""
+        stated = table.get("inertia", 0.0)
+        return 0.0 if isinstance(stated, LengthInertia) else self._number(f"{key}.inertia", stated)
+
+    def _of_length(self, key: str, table: Table, member: Member, places: Mapping[str, Point]) -> Member:
+        """Return a body with the moment of inertia that follows from the distance of its first two places."""
+        stated = table.get("inertia")
+        if not isinstance(stated, LengthInertia):
+            return member
+        first, second, *_ = places.values()
+        length, middle = math.dist(first, second), ((first[0] + second[0]) / 2, (first[1] + second[1]) / 2)
+        if stated.about_end and math.dist(places[member.centre], middle) > _SAME * length:
+            self._problem(f"{key}.inertia", ErrorMessage("inertia_about_end"))
+        own = stated.about_centre(member.mass, length)
+        return replace(member, inertia=own, length_inertia=stated, inertia_length=length)
 
     def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
         key, through = f"guides.{name}", table.get("through", [0.0, 0.0])

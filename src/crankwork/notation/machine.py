@@ -130,6 +130,7 @@ ARGUMENTS: dict[str, Argument] = {
     "i_g": Argument("gear_ratio"),
     "f_m": Argument("mains_frequency", unit="Hz"),
     "p_pairs": Argument("pole_pairs"),
+    "w_s": Argument("synchronous_speed"),
     "slip": Argument("slip"),
     "s_n": Argument("rated_slip"),
     "s_k": Argument("breakdown_slip"),

@@ -51,7 +51,8 @@ _OF_LINKAGES = frozenset((
     "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max", "slider_acceleration_min",
     "joint_force_max", "normal_force_max", "transmission_angle_min", "reduced_inertia_max", "reduced_inertia_min",
     "static_torque_max", "driving_torque_max", "driving_torque_min", "mean_torque", "mean_driving_torque",
-    "efficiency", "mean_efficiency", "motor_power", "shaft_power", "driver_force_max", "driver_force_min",
+    "efficiency", "mean_efficiency", "motor_power", "standard_motor_power", "shaft_power",
+    "driver_force_max", "driver_force_min",
     "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",
     "crank_speed_max", "crank_speed_min", "steady_speed", "steady_fluctuation", "counterweight_moment",
     "bearing_load_max", "mean_bearing_load", "shearing_force", "rim_mass", "recovery_torque", "motor_ratio",
@@ -64,8 +65,8 @@ _NUMBERS = (
     "mean_torque", "total_torque_max", "total_torque_min", "driving_torque_max",
     "driving_torque_min", "driver_force_max", "driver_force_min", "piston_force_max", "piston_force_min",
     "slider_stroke", "joint_force_max", "crankpin_load_max", "excess_work", "flywheel_inertia",
-    "flywheel_inertia.exact", "speed_fluctuation", "piston_velocity_max", "piston_acceleration_max",
-    "piston_acceleration_min",
+    "flywheel_inertia.exact", "speed_fluctuation", "standard_motor_power", "piston_velocity_max",
+    "piston_acceleration_max", "piston_acceleration_min",
 )  # fmt: skip
 # what another makes needless: a flywheel may follow from another excess work than that of the shaft
 _SAME = {"shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",)}

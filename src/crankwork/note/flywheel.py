@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crankwork.locale import capital
-from crankwork.note.document import Block, Bold, Paragraph
+from crankwork.note.document import Block, Bold, Citation, Paragraph
 from crankwork.note.lines import WHEEL_SIZES
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -36,6 +36,7 @@ from crankwork.note.parts import (
 from crankwork.note.tables import position_tables, quantity_column
 from crankwork.note.torque import HARMONICS
 from crankwork.quantities.key import key_of
+from crankwork.shaft.motor_selection import POWERS_SOURCE, MotorSelection
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
 # rows of a table over the angle of a shaft
@@ -100,6 +101,27 @@ def _rated(material: Material) -> str:
     return material.words.amount(material.machine.drive.rated_power, "kW")
 
 
+def _selection(material: Material) -> MotorSelection:
+    return material.machine.drive.selection or MotorSelection()
+
+
+def _gear_ratios(material: Material) -> Iterator[Block]:
+    """Yield the size of the motor that is selected, and the table of its gear ratios."""
+    words, summary, slip = material.words, material.results.summary, _selection(material).slip
+    size = summary.get("standard_motor_power")
+    if size is None:
+        yield words.paragraph("motor_beyond", source=Citation(POWERS_SOURCE))
+    else:
+        yield words.paragraph("motor_size", source=Citation(POWERS_SOURCE), size=words.amount(size, "kW"))
+    speeds = {float(key_of(key).owner): value for key, value in summary.items() if key.startswith("motor_ratio.")}
+    rows = [
+        tuple(words.number(value, digits=4) for value in (speed, speed * (1 - slip), ratio))
+        for speed, ratio in speeds.items()
+    ]
+    titles = [(words.term(key, "rpm"),) for key in ("synchronous_speed", "rated_speed")]
+    yield words.table("gear_ratios", (*titles, words.titled("motor_ratio")), rows, "rrr", "gear_ratios")
+
+
 def _wanted(material: Material) -> str:
     return material.words.number(material.machine.drive.fluctuation or 0.0)
 
@@ -138,6 +160,12 @@ SECTIONS = (
         Head("law_of_shaft"), When(has("crank_speed"), (Text("speed_of_shaft"),)), Lines("shaft_course"), _over_angle,
         Shown(("speed",)),
     ), lambda material: bool(material.machine.turning) and any(map(material.has, _COLUMNS))),
+    Section("motor", (
+        Head("motor"), Text("motor_choice", {"slip": lambda known: known.words.number(100 * _selection(known).slip)}),
+        Lines("motor", ("shaft_power", "efficiency", "motor_power")),
+        When(full, (Lines("motor"),)), When(lacks(full), (Lines("motor", ("motor_ratio",), first=True),)),
+        _gear_ratios,
+    ), every(works("motor"), lambda material: material.machine.drive.motor is None)),
     Section("motor", (Head("motor"), Text("motor", {"rated": _rated}), Lines("motor")),
             lambda material: turning(material) and material.machine.drive.motor is not None),
     Section("flywheel", (

@@ -149,6 +149,7 @@ _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torq
 
 _STRETCHES = ("sheared_area", "flat_shearing_force", "shearing_force", "stroke_work", "stroke_angle")
 _POWER_OF_SHAFT = ("speed", "mean_torque", "shaft_power", "efficiency", "motor_power", "work_per_cycle")
+_MOTOR = ("shaft_power", "efficiency", "motor_power", "standard_motor_power", "motor_ratio.")
 _EXCESS = ("excess_work", "energy_fluctuation")
 _WHEEL_OF_SHAFT = ("speed_fluctuation", "whole_inertia", "flywheel_inertia", *WHEEL_SIZES, "recovery_torque")
 _COLUMNS_OF_SHAFT = (
@@ -190,6 +191,7 @@ def _of_piston(results: Results, angle: float, force_angle: float | None) -> Ite
     yield Group("force_extremes", _own(loaded, results, _FORCE_EXTREMES))
     yield Group("power", _own(loaded, results, _of_cylinder(machine, _POWER if has_gas else ())))
     yield Group("delivery", _own(loaded, results, DELIVERY if "induced_volume" in trace else ()))
+    yield Group("motor", _own(loaded, results, _MOTOR))
     if machine.engine is None:
         return
     yield Group("firing", _own(loaded, results, _FIRING))
@@ -387,7 +389,9 @@ def _of_links(results: Results, degrees: float | None) -> Iterator[Group]:
     yield Group("bearing_sizes", new.lines(_BEARING_SIZES))
     yield Group("crank_harmonics", new.of(_first_harmonic(results)))
     yield Group("flywheel", tuple(_flywheel(results, new)))
-    yield Group("motor", new.lines(["motor_power", "inertia_on_crank"]))
+    yield Group(
+        "motor", new.lines(["shaft_power", "motor_power", "standard_motor_power", "inertia_on_crank", "motor_ratio"])
+    )
 
 
 def _of_shaft(results: Results) -> Iterator[Group]:
@@ -402,6 +406,7 @@ def _of_shaft(results: Results) -> Iterator[Group]:
     yield Group("stretches", new.lines(_STRETCHES))
     yield new.group("turning_moments", acting if columns else ())
     yield Group("shaft_power", new.lines(_POWER_OF_SHAFT))
+    yield Group("motor", new.lines(["standard_motor_power", "motor_ratio"]))
     yield Group("energy_extremes", new.lines(_EXCESS if columns else ("kinetic_energy_change", *_EXCESS)))
     yield Group("flywheel", new.lines(_WHEEL_OF_SHAFT))
     yield new.group("shaft_course", columns)

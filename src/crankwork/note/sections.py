@@ -66,17 +66,17 @@ _LINKAGE = (
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
         "summary", "data", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains", "balance",
-        "evenness", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+        "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
     ),
     # between the data and the checks the twelve sections that such notes have
     "vi": (
         "summary", "data", "cycle", "indicator", "displacement", "velocity", "acceleration", "inertia",
-        "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness", "comparison",
-        "checks", "conclusion", "nomenclature", "sources", "appendix",
+        "piston_forces", "crank_forces", "torque", "polar", "unrolled", "big_end", "wear", "evenness", "motor",
+        "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
     ),
     "en": (
         "summary", "data", "method", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains",
-        "balance", "evenness", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
+        "balance", "evenness", "motor", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
     ),
 }  # fmt: skip
 # every section of a note; of several with one name the first whose condition holds

@@ -73,5 +73,7 @@ ROWS = (
     Quantity("breakdown_torque", "N*m", "Greatest torque of an asynchronous motor."),
     Quantity("motor_torque", "N*m", "Torque of the motor on its own shaft."),
     Quantity("motor_power", "kW", "Power that the motor must have."),
+    Quantity("motor_ratio", "", "Speed of a motor at its rated power over the speed of the crank."),
+    Quantity("standard_motor_power", "kW", "Least rated power of the standard series that is not below that needed."),
     Quantity("power_reserve", "", "Rated power over the power that is needed."),
 )  # fmt: skip

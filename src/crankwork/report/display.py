@@ -169,6 +169,8 @@ def _part(kind: str, name: str, language: Language) -> str:
     if kind in (*_DELIVERED, *MOVED) and (name.isdecimal() or name == "all"):
         of_all = translate("drawing.all_cylinders", language)
         return of_all if name == "all" else translate("drawing.cylinder", language, number=name)
+    if kind in ("motor_ratio", "synchronous_speed") and name.isdecimal():
+        return translate("drawing.motor_of_speed", language, speed=name)
     method_key = f"report.way_{name}"
     key = method_key if kind in _BY_WAY and has_text(method_key) else f"report.{name}"
     return translate(key, language) if has_text(key) else own_name(kind, name)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from crankwork.formula.expression import Value, formula
+from crankwork.loads.gas import piston_area
 
 
 @formula("displacement", "kolchin_demidov_2008, ch. 3")
@@ -25,10 +28,27 @@ def bore_of_volume(V_d: Value, pi: Value, k_SD: Value) -> Value:
     return np.power(4 * V_d / (pi * k_SD), 1 / 3)
 
 
+@formula("bore", "kolchin_demidov_2008, ch. 3")
+def bore_of_stroke(V_d: Value, pi: Value, stroke: Value) -> Value:
+    """Bore of a swept volume with a stroke."""
+    return np.sqrt(4 * V_d / (pi * stroke))
+
+
 @formula("stroke", "kolchin_demidov_2008, ch. 3")
 def stroke_of_bore(k_SD: Value, D: Value) -> Value:
     """Stroke of a bore."""
     return k_SD * D
+
+
+def bore_and_stroke(pi: float, volume: Any, ratio: Any, bore: Any, stroke: Any) -> tuple[Any, Any]:  # noqa: ANN401 - numbers give numbers, traced give traced
+    """Return bore and stroke from two of the swept volume of a cylinder, stroke over bore, bore, and stroke. [m]"""
+    if bore is None and stroke is None:
+        bore = bore_of_volume(volume, pi, ratio)
+    elif bore is None:
+        bore = stroke / ratio if volume is None else bore_of_stroke(volume, pi, stroke)
+    if stroke is None:
+        stroke = volume / piston_area(pi, bore) if ratio is None else stroke_of_bore(ratio, bore)
+    return bore, stroke
 
 
 @formula("displacement", "kolchin_demidov_2008, ch. 3")
