@@ -1,13 +1,19 @@
 """What results assume and which inputs have no effect, against changing every value and computing again."""
 
+import math
+
 import pytest
 
 from crankwork import Description, analyse, template
+from crankwork.analysis.assumptions import leaves
+from crankwork.description.machine_file import read_machine
+from crankwork.errors import InputError
 from effects import mistold
 from expansions import ROOT, machine_files
 from machine_texts import POINTS_ENGINE
 
 FILES = machine_files("examples")
+MACHINES = machine_files("tests/machines")
 # computed again some hundred times each
 LONG = ("knuckle-press", "press-start", "andrews-squeezer")
 QUICK = ("crank-shaper", "engine", "scotch-yoke", "toggle-press", "whole-engine")
@@ -148,3 +154,34 @@ friction.pins.A = { coefficient = 0.1, radius = "20 mm" }
 def test_inputs_without_effect_of_an_engine_with_friction_are_told():
     assert idle(analyse(Description(FRICTION))) == {"method.gravity": "weights_off"}
     assert mistold(FRICTION, ROOT) == []
+
+
+@pytest.mark.parametrize("name", ["engine", "two-stroke-ports"])
+def test_a_cycle_takes_its_compression_ratio_from_the_clearance_volume(name):
+    description = Description(MACHINES[name])
+    stated = analyse(description)
+    ratio = description["cylinder.compression_ratio"]
+    # bore 85 mm, stroke 90 mm, ratio 9; ports take a part of the stroke
+    volume = math.pi / 4 * 8.5**2 * 9 / 8 if name == "engine" else stated["clearance_volume"] * 1e6
+    del description["cylinder.compression_ratio"]
+    description["cylinder.clearance_volume"] = f"{volume!r} cm3"
+    results = analyse(description)
+    assert results["compression_ratio"] == pytest.approx(ratio, rel=1e-12)
+    assert {key: results[key] for key in stated.summary} == pytest.approx(stated.summary, rel=1e-9, nan_ok=True)
+    assert "cylinder.clearance_volume" not in idle(results)
+
+
+def test_a_refused_gas_says_nothing_of_special_angles():
+    text = "\n".join(line for line in template("engine").split("\n") if "compression_ratio =" not in line)
+    assert '"372 deg"' in text
+    with pytest.raises(InputError) as refused:
+        read_machine(text)
+    assert [line.split(": ")[1] for line in refused.value.lines()] == ["cylinder.compression_ratio"]
+
+
+def test_the_guide_of_a_driving_slider_is_found_in_its_file():
+    results = analyse(read_machine(MACHINES["rope-pulley"]))
+    paths = {path for path in leaves(results) if path.startswith("guides.")}
+    # through = "Q" is stated by name
+    assert paths >= {"guides.rail.angle", "guides.rail.through[1]"}
+    assert not {path for path in paths if not path.startswith("guides.rail.")}
