@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from crankwork import Description, analyse, template
@@ -185,3 +186,67 @@ def test_the_guide_of_a_driving_slider_is_found_in_its_file():
     # through = "Q" is stated by name
     assert paths >= {"guides.rail.angle", "guides.rail.through[1]"}
     assert not {path for path in paths if not path.startswith("guides.rail.")}
+
+
+PARALLEL = """
+loads = [{ kind = "force", point = "A", x = "5 N" }]
+[links]
+rod = { joins = ["A", "B"], length = "50 mm", mass = "3 kg", inertia = "0.0006 kg*m2", centre = ["25 mm", "-30 mm"] }
+[guides]
+low = { through = ["-12 mm", "-5 mm"], angle = "0 deg" }
+high = { through = ["-76 mm", "-17 mm"], angle = "180 deg" }
+[sliders]
+first = { guide = "low", pin = "A", mass = "0.6 kg" }
+second = { guide = "high", pin = "B", mass = "1 kg" }
+[driver]
+slider = "first"
+start = "-18 mm"
+law = [{ kind = "cubic", to = "-8 mm", over = "1 s" }, { kind = "cubic", to = "-18 mm", over = "1 s" }]
+[positions]
+B = ["-78 mm", "-17 mm"]
+"""
+
+
+def test_the_inertia_of_a_link_that_never_turns_is_told_and_it_has_no_instant_centre():
+    results = analyse(read_machine(PARALLEL))
+    assert idle(results) == {"links.rod.inertia": "never_turns"}
+    assert not [key for key in results.columns if key.startswith("instant_centre")]
+    assert all(np.isnan(results.columns_at([10.0], [key])[key]).all() for key in results.trace if "instant_c" in key)
+    assert mistold(PARALLEL, ROOT) == []
+
+
+def rounded(text, **changes):
+    description = Description(text)
+    description.replace({f"cycle.{key}": value for key, value in changes.items()})
+    return analyse(description)
+
+
+def assumed(results):
+    return {key for item in results.assumptions if item.code == "default" for key in item.keys}
+
+
+def test_conventions_of_rounding_are_told_only_where_they_round():
+    assert {"cycle.blow_down", "cycle.rise"} <= assumed(rounded(template("engine")))
+    opening = {"timing": {"ignition": "20 deg", "intake_opens": "50 deg", "exhaust_opens": "60 deg"}}
+    two_stroke = rounded(MACHINES["two-stroke-ports"], **opening)
+    assert "cycle.blow_down" not in assumed(two_stroke)
+    assert (
+        idle(rounded(MACHINES["two-stroke-ports"], **opening, blow_down="intake"))["cycle.blow_down"]
+        == "falls_through_ports"
+    )
+    # 1.2 times the pressure of compression is above half of the way to a peak of 1.3 times it
+    small = template("engine")
+    compressed = 0.09 * 9.0**1.36
+    peak = f"{1.3 / 0.85 * compressed:.6f} MPa"
+    assert "cycle.rise" not in assumed(rounded(small, peak_pressure=peak))
+    assert idle(rounded(small, peak_pressure=peak, rise=1.25))["cycle.rise"] == "halfway"
+
+
+def test_uneven_intervals_of_a_customary_order_are_told_by_its_intervals():
+    text = FILES["whole-engine"]
+    description = Description(text)
+    del description["engine.firing_order"]
+    description.replace({"engine.uneven": True, "engine.offsets": ["4 mm", "-4 mm", "4 mm", "-4 mm"]})
+    assert "engine.uneven" not in idle(analyse(description))
+    description["engine.offsets"] = ["4 mm", "4 mm", "4 mm", "4 mm"]
+    assert idle(analyse(description))["engine.uneven"] == "even_intervals"
