@@ -542,12 +542,12 @@ def _by_expansion(
         return
     shifts = np.arange(max(-_EXPANSION / 2, math.ceil(centre - x[0])), _EXPANSION / 2)
     lines = [_line((x[:last] + more, y[:last]), volume_at, cycle) for more in shifts]
-    found = []
+    candidates = []
     for more, line, after in zip(shifts.tolist(), lines, lines[1:], strict=False):
         rate = after.bend - line.bend
         if line.bend * after.bend <= 0 < -rate and _EXPANDING[0] <= line.exponent <= _EXPANDING[1]:
-            found.append((more - line.bend / rate, (2 * line.error + _CHANGE / 4 / line.half) / -rate))
-    for more, error in sorted(found, key=lambda item: abs(item[0]))[:1]:
+            candidates.append((more - line.bend / rate, (2 * line.error + _CHANGE / 4 / line.half) / -rate))
+    for more, error in sorted(candidates, key=lambda item: abs(item[0]))[:1]:
         yield from _proposed("dead_centre_expansion", more, max(error, _SMALLEST), shift)
 
 
