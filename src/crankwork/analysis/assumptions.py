@@ -185,6 +185,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"engine\.uneven", lambda *_: False),
     (r"(cycle|chambers\..*\.cycle)\.stroke_bore_ratio", lambda _, stated, __: "cycle.power" in stated),
     (r"(cycle|chambers\..*\.cycle)\.motored", lambda results, *_: _has_misfire(results)),
+    (r"links\.[^.]+\.inertia", lambda results, stated, path: not _idle_inertia(results, stated, path)),
     (r"sliders\..*\.inertia", lambda results, _, path: _turns(results, path.split(".")[1])),
     (r"loads\[\d+\]\.(curve|against|stroke)", lambda _, stated, path: f"{path.rpartition('.')[0]}.at[3]" in stated),
     (r"transient\.until", lambda *_: False),
