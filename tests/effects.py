@@ -6,7 +6,7 @@ import copy
 import re
 import tomllib
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +18,17 @@ from crankwork.description.machine_file import Setting, apply_override, entry_at
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
 from crankwork.description.value_types import Choice, Flag, Number, Quantity, Reader, split_deviation
 from crankwork.errors import CrankworkError
+from crankwork.formula.replay import Program
+from crankwork.formula.traced_value import Arithmetic, FormulaCall, Input, Node, Sum, TracedValue, in_order
+from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.units import UNITS, parse
 from expansions import written
 
 # a change is more than this part of a value, and of the largest of its dimension
 LIMIT, ROUNDING = 1e-9, 1e-13
+# crank angles at which columns are computed again
+_LOOKS = CrankGrid.from_degrees([17.0, 71.0, 139.0, 223.0, 311.0])
 # notices that all there is to a key silences: engine.uneven
 _PERMITTED = {"uneven_intervals"}
 # what stands for a value of zero, in SI
@@ -179,11 +184,75 @@ def measured(text: str, folder: Path) -> tuple[Results, dict[str, bool], dict[st
     """Return the results of a file, and whether each stated value and each default has an effect."""
     values = tomllib.loads(text)
     base = computed(values, folder)
+    idle, assumed = told(base)
     found = []
-    for items in (stated_values(values), default_values(values)):
-        effects = {path: has_effect(values, path, value, kind, base, folder) for path, value, kind in items}
+    for items, is_idle in (
+        ([*stated_values(values)], idle.__contains__),
+        ([*default_values(values)], lambda path: path not in assumed),
+    ):
+        effects = without_effect(values, [item for item in items if is_idle(item[0])], base, folder)
+        effects |= {path: True for path, *_ in items if not is_idle(path) and moves_columns(base, path)}
+        for path, value, kind in items:
+            if path not in effects:
+                effects[path] = has_effect(values, path, value, kind, base, folder)
         found.append({path: effect for path, effect in effects.items() if effect is not None})
     return base, found[0], found[1]
+
+
+def moves_columns(results: Results, path: str) -> bool:
+    """Return whether columns change as their formulas are computed again with an input greater by a hundredth.
+
+    Extremes, means and tables stay as they are, so that False says nothing.
+    """
+    columns = {key: results.trace[key] for key in results.columns if key in results.trace}
+    order = [known.node for known in in_order(columns.values())]
+    kept = {id(node): (node, node.value) for node in order if isinstance(node, Input) and node.path == path}
+    if not any(value for _, value in kept.values()):
+        return False
+    before = Program(columns)(_LOOKS)
+    try:
+        for node, value in [*kept.values()]:
+            node.value = value * 1.01
+        for node in order:
+            if node.value is not None and any(id(operand.node) in kept for operand in node.operands):
+                number = _again(node)
+                if number is not None:
+                    kept[id(node)] = node, node.value
+                    node.value = number
+        after = Program(columns)(_LOOKS)
+    finally:
+        for node, value in kept.values():
+            node.value = value
+    limits = {key: 1e-6 * np.max(np.abs(column), initial=0.0) for key, column in before.items()}
+    return any(np.any(np.abs(after[key] - column) > limits[key]) for key, column in before.items())
+
+
+def _again(node: Node) -> float | None:
+    """Return the value of a formula with the present values of its operands."""
+    if isinstance(node, Sum):
+        return sum(operand.value for operand in node.operands)
+    function = getattr(getattr(node, "formula", node), "function", None)
+    if not isinstance(node, Arithmetic | FormulaCall) or function is None:
+        return None
+    return float(function(*(item.value if isinstance(item, TracedValue) else item for item in node.inputs)))
+
+
+def without_effect(
+    values: dict[str, Any], items: Sequence[tuple[str, Any, object]], base: Results, folder: Path
+) -> dict[str, bool | None]:
+    """Return False for values that change no result where all of them are changed at once; empty if something does."""
+    others = {path: [*alternatives(value, kind)] for path, value, kind in items}
+    for number in range(max(map(len, others.values()), default=0)):
+        changed = copy.deepcopy(values)
+        try:
+            for path, listed in others.items():
+                if number < len(listed):
+                    apply_override(changed, Setting("--set", path, listed[number]))
+            if has_changed(base, computed(changed, folder)):
+                return {}
+        except CrankworkError:
+            return {}
+    return {path: False if listed else None for path, listed in others.items()}
 
 
 # changes of these keys are no test of what is told, by pattern and reason
@@ -201,6 +270,8 @@ EXCEPTIONS = {
 def told(results: Results) -> tuple[set[str], set[str]]:
     """Return the inputs that results call without effect, and the defaults that they call assumptions."""
     assumed = {key for item in results.assumptions for key in item.keys if item.code in ("default", "no_weights")}
+    # the notice says what to write
+    assumed |= {"engine.uneven"} if _permitted(results) else set()
     return {item.key for item in results.without_effect}, assumed
 
 

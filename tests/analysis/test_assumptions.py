@@ -1,13 +1,20 @@
 """What results assume and which inputs have no effect, against changing every value and computing again."""
 
+import math
+
+import numpy as np
 import pytest
 
 from crankwork import Description, analyse, template
+from crankwork.analysis.assumptions import leaves
+from crankwork.description.machine_file import read_machine
+from crankwork.errors import InputError
 from effects import mistold
 from expansions import ROOT, machine_files
 from machine_texts import POINTS_ENGINE
 
 FILES = machine_files("examples")
+MACHINES = machine_files("tests/machines")
 # computed again some hundred times each
 LONG = ("knuckle-press", "press-start", "andrews-squeezer")
 QUICK = ("crank-shaper", "engine", "scotch-yoke", "toggle-press", "whole-engine")
@@ -148,3 +155,99 @@ friction.pins.A = { coefficient = 0.1, radius = "20 mm" }
 def test_inputs_without_effect_of_an_engine_with_friction_are_told():
     assert idle(analyse(Description(FRICTION))) == {"method.gravity": "weights_off"}
     assert mistold(FRICTION, ROOT) == []
+
+
+@pytest.mark.parametrize("name", ["engine", "two-stroke-ports"])
+def test_a_cycle_takes_its_compression_ratio_from_the_clearance_volume(name):
+    description = Description(MACHINES[name])
+    stated = analyse(description)
+    ratio = description["cylinder.compression_ratio"]
+    # bore 85 mm, stroke 90 mm, ratio 9; ports take a part of the stroke
+    volume = math.pi / 4 * 8.5**2 * 9 / 8 if name == "engine" else stated["clearance_volume"] * 1e6
+    del description["cylinder.compression_ratio"]
+    description["cylinder.clearance_volume"] = f"{volume!r} cm3"
+    results = analyse(description)
+    assert results["compression_ratio"] == pytest.approx(ratio, rel=1e-12)
+    assert {key: results[key] for key in stated.summary} == pytest.approx(stated.summary, rel=1e-9, nan_ok=True)
+    assert "cylinder.clearance_volume" not in idle(results)
+
+
+def test_a_refused_gas_says_nothing_of_special_angles():
+    text = "\n".join(line for line in template("engine").split("\n") if "compression_ratio =" not in line)
+    assert '"372 deg"' in text
+    with pytest.raises(InputError) as refused:
+        read_machine(text)
+    assert [line.split(": ")[1] for line in refused.value.lines()] == ["cylinder.compression_ratio"]
+
+
+def test_the_guide_of_a_driving_slider_is_found_in_its_file():
+    results = analyse(read_machine(MACHINES["rope-pulley"]))
+    paths = {path for path in leaves(results) if path.startswith("guides.")}
+    # through = "Q" is stated by name
+    assert paths >= {"guides.rail.angle", "guides.rail.through[1]"}
+    assert not {path for path in paths if not path.startswith("guides.rail.")}
+
+
+PARALLEL = """
+loads = [{ kind = "force", point = "A", x = "5 N" }]
+[links]
+rod = { joins = ["A", "B"], length = "50 mm", mass = "3 kg", inertia = "0.0006 kg*m2", centre = ["25 mm", "-30 mm"] }
+[guides]
+low = { through = ["-12 mm", "-5 mm"], angle = "0 deg" }
+high = { through = ["-76 mm", "-17 mm"], angle = "180 deg" }
+[sliders]
+first = { guide = "low", pin = "A", mass = "0.6 kg" }
+second = { guide = "high", pin = "B", mass = "1 kg" }
+[driver]
+slider = "first"
+start = "-18 mm"
+law = [{ kind = "cubic", to = "-8 mm", over = "1 s" }, { kind = "cubic", to = "-18 mm", over = "1 s" }]
+[positions]
+B = ["-78 mm", "-17 mm"]
+"""
+
+
+def test_the_inertia_of_a_link_that_never_turns_is_told_and_it_has_no_instant_centre():
+    results = analyse(read_machine(PARALLEL))
+    assert idle(results) == {"links.rod.inertia": "never_turns"}
+    assert not [key for key in results.columns if key.startswith("instant_centre")]
+    assert all(np.isnan(results.columns_at([10.0], [key])[key]).all() for key in results.trace if "instant_c" in key)
+    unstated = PARALLEL.replace('inertia = "0.0006 kg*m2", ', "")
+    assert [mistold(text, ROOT) for text in (PARALLEL, unstated)] == [[], []]
+
+
+def rounded(text, **changes):
+    description = Description(text)
+    description.replace({f"cycle.{key}": value for key, value in changes.items()})
+    return analyse(description)
+
+
+def assumed(results):
+    return {key for item in results.assumptions if item.code == "default" for key in item.keys}
+
+
+def test_conventions_of_rounding_are_told_only_where_they_round():
+    assert {"cycle.blow_down", "cycle.rise"} <= assumed(rounded(template("engine")))
+    opening = {"timing": {"ignition": "20 deg", "intake_opens": "50 deg", "exhaust_opens": "60 deg"}}
+    two_stroke = rounded(MACHINES["two-stroke-ports"], **opening)
+    assert "cycle.blow_down" not in assumed(two_stroke)
+    assert (
+        idle(rounded(MACHINES["two-stroke-ports"], **opening, blow_down="intake"))["cycle.blow_down"]
+        == "falls_through_ports"
+    )
+    # 1.2 times the pressure of compression is above half of the way to a peak of 1.3 times it
+    small = template("engine")
+    compressed = 0.09 * 9.0**1.36
+    peak = f"{1.3 / 0.85 * compressed:.6f} MPa"
+    assert "cycle.rise" not in assumed(rounded(small, peak_pressure=peak))
+    assert idle(rounded(small, peak_pressure=peak, rise=1.25))["cycle.rise"] == "halfway"
+
+
+def test_uneven_intervals_of_a_customary_order_are_told_by_its_intervals():
+    text = FILES["whole-engine"]
+    description = Description(text)
+    del description["engine.firing_order"]
+    description.replace({"engine.uneven": True, "engine.offsets": ["4 mm", "-4 mm", "4 mm", "-4 mm"]})
+    assert "engine.uneven" not in idle(analyse(description))
+    description["engine.offsets"] = ["4 mm", "4 mm", "4 mm", "4 mm"]
+    assert idle(analyse(description))["engine.uneven"] == "even_intervals"

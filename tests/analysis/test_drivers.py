@@ -91,3 +91,36 @@ def test_what_presumes_a_turning_shaft_is_absent(boom):
     assert boom.notices[0].code == "by_law"
     for key in ("mean_torque", "reduced_inertia", "dynamic_torque", "rotational_speed", "time_ratio"):
         assert not any(one.startswith(key) for one in (*boom.summary, *boom.columns))
+
+
+SLIDER = (Path(__file__).parents[1] / "machines" / "driven-slider.toml").read_text("utf-8")
+
+
+def law_jumps(text):
+    results = crankwork.analyse(crankwork.read_machine(text))
+    return [item.values for item in results.notices if item.code == "law_jump"]
+
+
+def test_a_jump_of_the_speed_between_segments_is_told_with_its_place():
+    assert law_jumps(SLIDER) == []
+    values = law_jumps(SLIDER.replace('"4-5-6-7"', '"constant"'))[0]
+    # 60 mm back in half of 0.8 s, after a dwell
+    assert (values["path"], values["count"]) == ("driver.law[2]", 2)
+    assert (values["time"], values["before"]) == (pytest.approx(0.4), pytest.approx(0.0, abs=1e-9))
+    assert values["after"] == pytest.approx(-0.15)
+
+
+def test_a_jump_of_the_speed_at_the_end_of_the_period_is_told():
+    # from rest to 0.3 m/s over 60 mm in 0.4 s, and back with that as constant deceleration: at rest only at its start
+    text = SLIDER.replace('"modified-sine"', '"constant-acceleration"').replace('"4-5-6-7"', '"constant-acceleration"')
+    text = text.replace('    { kind = "dwell", over = 0.1 },\n', "").replace("over = 0.4", "over = 0.5")
+    text = text.replace('to = "170 mm"', 'to = "170 mm", start_speed = "0.3 m/s"')
+    values = law_jumps(text)[0]
+    assert (values["path"], values["count"], values["time"]) == ("driver.law[2]", 1, pytest.approx(0.8))
+    # 2 (-60 mm) / 0.4 s - 0.3 m/s at the end
+    assert (values["before"], values["after"]) == (pytest.approx(-0.6), pytest.approx(0.0, abs=1e-6))
+
+
+def test_a_law_that_goes_on_from_where_it_ends_has_no_jump_at_the_end():
+    text = SLIDER.replace('to = "170 mm", over = 0.5', 'to = "240 mm", over = 0.5')
+    assert law_jumps(text.replace("period", 'start = "170 mm"\nperiod').replace('"4-5-6-7"', '"cubic"')) == []

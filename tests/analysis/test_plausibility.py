@@ -29,6 +29,7 @@ def told(results):
         ("cycle.peak_pressure", "80 MPa", "gas_pressure_max"),
         ("gas.points.z.pressure", "80 MPa", "gas_pressure_max"),
         ("gas.points.a.pressure", "0.115 kPa", "gas_pressure"),
+        ("cycle.intake_pressure", "0.115 kPa", "gas_pressure"),
         ("rod.small_end_share", 0.9, "small_end_share"),
         ("flywheel.percent", 50, "speed_fluctuation"),
     ],

@@ -262,3 +262,19 @@ def test_gas_pushes_either_way_round(speed: str) -> None:
 def test_friction_in_time_needs_a_crank_that_turns_fully() -> None:
     rubbing = ROCKERS.format(more="").replace("[method]", '[friction.pins.C]\nmoment = "0.1 N*m"\n[method]')
     assert "only where the crank turns fully" in message(let_go(rubbing))
+
+
+def test_a_time_that_no_number_of_steps_reaches_is_told_early_with_what_to_write() -> None:
+    text = PRESS.replace('until = "steady"', "").replace("12 s", "1e6 s").replace('step = "20 ms"', "")
+    results = let_go(text)
+    notice = next(item for item in results.notices if item.code == "transient_many_steps")
+    assert notice.values["steps"] < 1100
+    time = notice.values["write"]
+    assert time == pytest.approx(results["transient_time"])
+    assert "transient_many_steps" not in told(let_go(text.replace("1e6 s", f"{time:g} s")))
+
+
+def test_a_torque_against_the_crank_angle_is_told() -> None:
+    motorless = PRESS.replace('until = "steady"', 'torque = "-3000 N*m"').replace("12 s", "0.1 s")
+    assert "transient_backwards" in told(let_go(motorless))
+    assert "transient_backwards" not in told(let_go(motorless.replace("-3000", "3000")))

@@ -16,7 +16,7 @@ from effects import mistold
 from expansions import ROOT, written
 
 plausible_file = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible.py"))["plausible_file"]
-# of one machine, those with friction take longer [s]
+# processor time of one machine, those with friction take longer [s]
 _LONGEST = 60
 
 
@@ -35,13 +35,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args(arguments)
-    signal.signal(signal.SIGALRM, _too_long)
+    signal.signal(signal.SIGPROF, _too_long)
     begun, wrong, checked, left = time.monotonic(), 0, 0, 0
     number = -1
     while checked < options.count:
         number += 1
         text = written(drawn(options.seed, number)) if number % 2 else plausible_file(options.seed, number).text
-        signal.alarm(_LONGEST)
+        signal.setitimer(signal.ITIMER_PROF, _LONGEST)
         try:
             keys = mistold(text, ROOT / "examples")
         except CrankworkError:
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             left += 1
             continue
         finally:
-            signal.alarm(0)
+            signal.setitimer(signal.ITIMER_PROF, 0)
         checked += 1
         if keys:
             wrong += 1

@@ -46,7 +46,8 @@ BAR = 'pressure_unit = "bar"'
 AMBIENT = 1.01325
 # what a question is: a refusal, or one of these notices
 QUESTIONS = {
-    "peak_far", "work_negative", "exponent_odd", "dead_centre_compression", "pressure_unit_odd", "pressures_other",
+    "peak_far", "work_negative", "exponent_odd", "dead_centre_compression",
+    "dead_centre_expansion", "pressure_unit_odd", "pressures_other",
     "pressure_level", "measured_reference", "measured_other_unit", "pressure_spike",
 }  # fmt: skip
 
@@ -511,6 +512,22 @@ def test_cycles_of_a_turn_are_asked_about_in_cylinders_and_chambers(tmp_path, na
     assert advice is not None
     assert advice[1] == ", ".join(wanted)
     assert crankwork.read_machine(text + "\n" + advice[1].replace(", ", "\n"), folder=tmp_path)
+
+
+@for_each("name", [name for name in TURNS if name.startswith("compressor")])
+@for_each("by", [-10, 10, 5])
+def test_a_dead_centre_of_a_compressor_that_is_some_degrees_off_is_told(tmp_path, name, by):
+    (degrees, pressure), ratio = TURNS[name]
+    moved = np.interp((degrees + by) % 360, np.append(degrees, 360), np.append(pressure, pressure[0]))
+    (tmp_path / "p.txt").write_text(rows(degrees, moved), encoding="utf-8")
+    text = MACHINE.replace("720 deg", "360 deg").format(ratio=ratio, pressures=ABSOLUTE, keys=BAR)
+    notices = {
+        item.code: item.values for item in crankwork.analyse(crankwork.read_machine(text, folder=tmp_path)).notices
+    }
+    assert notices["dead_centre_expansion"]["shift"] == pytest.approx(by, abs=0.5)
+    right = f'{text}\nshift = "{by} deg"'
+    codes = {item.code for item in crankwork.analyse(crankwork.read_machine(right, folder=tmp_path)).notices}
+    assert not QUESTIONS & codes
 
 
 @for_each(("row", "value"), [(300, 60.0), (640, 60.0), (50, 20.0), (372, 5.0)])

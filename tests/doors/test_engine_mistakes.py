@@ -79,7 +79,7 @@ MISTAKES = {
                            "cycle.mechanical_loss", "has 1 entries; write 2 of them"),
     "28 radial cylinders": ("radial-five", "cylinders = 5\nfiring_order = [1, 3, 5, 2, 4]", "cylinders = 28",
                             "engine.cylinders", "take 25 or 27, or write"),
-    "no compression ratio": ("petrol-four", "compression_ratio = 8.5", 'clearance_volume = "50 cm3"',
+    "no compression ratio": ("petrol-four", "compression_ratio = 8.5", "",
                              "cylinder.compression_ratio", "is missing"),
     "unknown fuel": ("petrol-four", "excess_air = 0.96", 'fuel = "coal"', "cycle.fuel", "write petrol or diesel"),
     "fuel of half a kilogram": ("petrol-four", "excess_air = 0.96",

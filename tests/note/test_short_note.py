@@ -131,7 +131,7 @@ def test_what_is_left_out_are_the_figures_that_the_full_note_has_beside():
         language = case[1]
         few, many = ({kind_of(figure) for figure in figures(one(*case))} for one in (short, whole))
         assert few <= many
-        begins = translate("sentences.left_out", language, step="", figures="").partition(":")[0]
+        begins = translate("sentences.left_out", language, items="").partition(":")[0]
         told = ["".join(map(str, block.runs)) for block in blocks(short(*case), Paragraph)
                 if str(block.runs[0]).startswith(begins)]  # fmt: skip
         assert len(told) == 1
@@ -288,3 +288,14 @@ def test_a_check_that_fails_is_said_on_the_first_page(language):
     assert warning == capital(warning_text(wrong, language))
     holds = translate("sentences.all_hold", language, count="", residual="").partition("(")[0]
     assert not any(isinstance(text, str) and text.startswith(holds) for text in said)
+
+
+def test_tables_are_left_out_only_where_the_note_has_fewer_rows() -> None:
+    text = crankwork.template("four-bar")
+    assert 'step = "10 deg"' in text
+    for step, has_more in (("10 deg", True), ("30 deg", False)):
+        machine = crankwork.read_machine(text.replace('step = "10 deg"', f'step = "{step}"'))
+        options = NoteOptions(figures=False, language="en")
+        data = written_note(note_of(crankwork.analyse(machine), options), "note.html")
+        said = next(line for line in data.decode().split("\n") if "Left out here" in line)
+        assert ("tables at" in said) is has_more

@@ -17,6 +17,7 @@ from crankwork.loads.process import ProcessForce
 from crankwork.loads.weight import Weight
 from crankwork.machine import FileInput, InputNumber
 from crankwork.working_cycle.fuels import FUELS
+from crankwork.working_cycle.schools import PEAK_LEVEL
 
 if TYPE_CHECKING:
     from crankwork.analysis.results import Results
@@ -35,6 +36,10 @@ _TRACED = re.compile(
 _FIRING = re.compile(r"engine\.firing_order|shaft\.firing")
 _FACE = re.compile(r"\.faces\[1\]")
 _SAMPLES, _ROUNDING, _EVEN = 721, 1e-9, 1e-6
+_ROUNDED = r".*cycle\.(rise|rise_share|peak_level|blow_down)"
+# a rise of pressure that is less by a hundredth has the same effect
+_LOWERED = 0.99
+_SPARK = ("petrol", "otto", "assigned-petrol")
 _CORNERS = ("petrol", "diesel", "otto", "ideal-diesel", "dual", "assigned-petrol", "assigned-diesel")
 
 
@@ -186,6 +191,7 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"engine\.uneven", lambda *_: False),
     (r"(cycle|chambers\..*\.cycle)\.stroke_bore_ratio", lambda _, stated, __: "cycle.power" in stated),
     (r"(cycle|chambers\..*\.cycle)\.motored", lambda results, *_: _has_misfire(results)),
+    (r"links\.[^.]+\.inertia", lambda results, stated, path: not _idle_inertia(results, stated, path)),
     (r"sliders\..*\.inertia", lambda results, _, path: _turns(results, path.split(".")[1])),
     (r"loads\[\d+\]\.stroke", lambda *_: True),
     (r"loads\[\d+\]\.(curve|against)", lambda _, stated, path: f"{path.rpartition('.')[0]}.at[3]" in stated),
@@ -194,15 +200,8 @@ _CONDITIONS: tuple[tuple[str, _Rule], ...] = (
     (r"transfer\.bodies\..*\.inertia", lambda _, stated, path: f"{path.removesuffix('inertia')}rotation[1]" in stated),
     (r".*\.timing\.peak", lambda results, stated, path: not _idle_event(path, stated, results)),
     (r".*cycle\.school", lambda results, stated, path: not _idle_event(f"{path[:-7]}.timing.peak", stated, results)),
-    (
-        r".*cycle\.(rise|rise_share|peak_level)",
-        lambda results, stated, path: not _idle_convention(path, stated, results),
-    ),
-    (
-        r".*cycle\.blow_down",
-        lambda results, stated, path: not _idle_convention(path, stated, results, "exhaust_opens"),
-    ),
     (r"motor_selection\.\w+", _needs_motor),
+    (_ROUNDED, lambda results, stated, path: not _idle_convention(path, stated, results)),
     (r"motor\.\w+", lambda results, stated, path: not _idle(path, stated, results, ())),
 )
 
@@ -289,10 +288,7 @@ def _idle_order(results: Results, stated: Mapping[str, FileInput], path: str) ->
     return "" if listing is not None and f"balance_shafts.{stated[path].value}" in listing.names else "no_order"
 
 
-def _idle_uneven(results: Results, stated: Mapping[str, FileInput], _: str) -> str:
-    if not any(path.startswith(("engine.firing_order", "engine.throws")) for path in stated):
-        # the customary order is permitted as it is
-        return "unused"
+def _idle_uneven(results: Results, *_: object) -> str:
     layout = results.machine.engine.layout if results.machine.engine is not None else None
     # cylinders fire at their own dead centres, which an offset moves
     tops = [(place.firing_angle + place.top) % layout.cycle for place in layout.places] if layout is not None else []
@@ -320,6 +316,11 @@ def _idle_mass(results: Results, stated: Mapping[str, FileInput], path: str) -> 
     return "" if moves or _has_weights(results) else "at_rest"
 
 
+def _idle_inertia(results: Results, _: Mapping[str, FileInput], path: str) -> str:
+    angles = results.columns.get(f"link_angle.{path.split('.')[1]}", np.empty(0))
+    return "never_turns" if len(angles) > 2 and np.ptp(angles) <= _ROUNDING else ""
+
+
 def _idle_point(_: Results, stated: Mapping[str, FileInput], path: str) -> str:
     """Return whether a point of a diagram stands on none of its pieces, or serves as a reference by its volume only."""
     place, __, name = path.rpartition(".")
@@ -336,6 +337,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     (r"motor\.\w+", _idle_motor),
     (r"motor_selection\.\w+", lambda results, *_: "" if _needs_motor(results) else "no_motor_needed"),
     (r".*\.timing\.\w+", lambda results, stated, path: _idle_event(path, stated, results)),
+    (_ROUNDED, lambda results, stated, path: _idle_convention(path, stated, results)),
     (r"engine\.spacing", _idle_spacing),
     (r"engine\.uneven", _idle_uneven),
     (r"engine\.numbering", _idle_numbering),
@@ -346,6 +348,7 @@ _REASONS: tuple[tuple[str, Callable[[Results, Mapping[str, FileInput], str], str
     # places of the links of one that is drawn turn with it
     (r"cylinder\.inclination", lambda known, *_: "" if known.machine.linkage or _has_weights(known) else "weights_off"),
     (r"crank\.mass|geared\..*\.mass", _idle_mass),
+    (r"links\.[^.]+\.(inertia|radius_of_gyration)", _idle_inertia),
     (r"method\.weights", lambda results, *_: "" if _has_mass(results) else "no_masses"),
     (r".*\.points\.[^.]+\.(angle|stroke|pressure|volume)", _idle_point),
 )
@@ -371,10 +374,23 @@ def _idle_event(path: str, stated: Mapping[str, FileInput], results: Results) ->
     return "closes_first" if other and 2 * first < second else ""
 
 
-def _idle_convention(path: str, stated: Mapping[str, FileInput], results: Results, event: str = "ignition") -> bool:
-    """Return whether a convention of rounding has no effect: without the event whose corner it rounds."""
-    timing = f"{path.rpartition('.')[0]}.timing"
-    return f"{timing}.{event}" not in stated or bool(_idle_event(f"{timing}.peak", stated, results))
+def _idle_convention(path: str, stated: Mapping[str, FileInput], results: Results) -> str:
+    """Return why a convention of rounding has no effect: without the event whose corner it rounds, or without room."""
+    table, _, name = path.rpartition(".")
+    event = "exhaust_opens" if name == "blow_down" else "ignition"
+    if f"{table}.timing.{event}" not in stated or _idle_event(f"{table}.timing.peak", stated, results):
+        return "sharp_corners"
+    if name == "blow_down":
+        return "" if results.machine.cycle > 360.0 else "falls_through_ports"
+    calculated = getattr(results.machine.gas, "calculated", None)
+    if name != "rise" or calculated is None or calculated.rounding.filling_factor:
+        return ""
+    kind = "petrol" if calculated.cycle.kind in _SPARK else "diesel"
+    level = calculated.rounding.peak_level or PEAK_LEVEL[kind]
+    compressed, peak = (calculated.cycle.values[f"{stage}_pressure"] for stage in ("compression", "combustion"))
+    # it is at most halfway to the peak
+    room = (1 + level * peak / compressed) / 2
+    return "halfway" if _LOWERED * calculated.rounding.ratio_of_rise >= room else ""
 
 
 def _unreached_forces(results: Results, stated: Mapping[str, FileInput]) -> Iterator[IdleInput]:

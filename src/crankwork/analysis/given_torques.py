@@ -292,6 +292,9 @@ def _notices(turning: ShaftTorques) -> Iterator[Notice]:
     """Yield notices of work that is done at one angle, and of works that differ."""
     if any(_impulsive_work(diagram) for diagram in turning.diagrams.values()):
         yield Notice("work_at_once", {})
+    for name, diagram in turning.diagrams.items():
+        if diagram.work < 0:
+            yield Notice("torque_backwards", {"name": name, "torque": diagram.work / diagram.period})
     if turning.torque is not None and turning.load is not None:
         driven, taken = (item.work / item.period * turning.cycle for item in (turning.torque, turning.load))
         if abs(driven - taken) > _ROUNDED * max(abs(driven), abs(taken)):

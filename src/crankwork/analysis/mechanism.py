@@ -68,6 +68,7 @@ from crankwork.kinematics.crank_range import CrankRange, pass_change_points
 from crankwork.kinematics.grashof import FourBarType, grashof
 from crankwork.kinematics.instant_centres import absent_where_still, pivoted_links
 from crankwork.kinematics.motion import Motion, linkage_motion
+from crankwork.kinematics.motion_laws import rate_jumps
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
 from crankwork.mechanism.driver import Law, LinkMotor
@@ -296,6 +297,11 @@ def _of_machine(machine: Machine) -> Iterator[Notice]:
         yield Notice("geared", {})
     if driver.law is not None:
         yield Notice("by_law", {})
+        jumps = rate_jumps(driver.law, turns=driver.turns)
+        for number, before, after in jumps[:1]:
+            time = driver.law.period * math.fsum(segment.share for segment in driver.law.segments[:number])
+            names = {"path": f"driver.law[{number}]", "quantity": "driver_speed" if driver.turns else "driver_velocity"}
+            yield Notice("law_jump", {**names, "before": before, "after": after, "time": time, "count": len(jumps)})
 
 
 def _table(machine: Machine, reached: ReachableMotion, grid: CrankGrid | None) -> CrankGrid:

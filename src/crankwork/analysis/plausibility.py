@@ -31,17 +31,17 @@ _RESULTS = (
     _Range("mean_piston_speed", 0.0, 30.0, "heywood_1988", ("crank.speed",)),
     _Range("rod_ratio", 0.08, 0.45, "kolchin_demidov_2008", ("rod.ratio", "rod.length")),
     _Range("gas_pressure_max", 0.0, 35e6, "heywood_1988", ("gas.points", "gas", "cycle", "cylinder.compression_ratio")),
-    _Range("speed_fluctuation", 0.0, 0.5, "taylor_1985", ("flywheel",)),
+    _Range("speed_fluctuation", 0.0, 0.5, "khurmi_gupta_2005", ("flywheel",)),
 )
 _WANTED = _Range("speed_fluctuation", 0.0, 0.25, "khurmi_gupta_2005", ("flywheel.percent", "flywheel.fluctuation"))
-_STROKE = _Range("stroke_bore_ratio", 0.3, 5.0, "taylor_1985", ("cylinder.bore",))
+_STROKE = _Range("stroke_bore_ratio", 0.3, 5.0, "heywood_1988", ("cylinder.bore",))
 # mass over piston area [kg/m2]
 _PISTON = _Range("mass_per_area.of_piston", 10.0, 3000.0, "kolchin_demidov_2008", ("piston.mass",))
 _ROD = _Range("mass_per_area.of_rod", 10.0, 4000.0, "kolchin_demidov_2008", ("rod.mass", "rod.big_end_mass"))
 # of numbers as they are stated, by their key
 _STATED = {
     r"rod\.small_end_share": _Range("small_end_share", 0.1, 0.6, "kolchin_demidov_2008"),
-    r"gas\.points\.[^.]+\.pressure": _Range("gas_pressure", 1e4, 1e8, "heywood_1988"),
+    r"(gas\.points\.[^.]+|(chambers\..+\.)?cycle)\.(\w+_)?pressure": _Range("gas_pressure", 1e4, 1e8, "heywood_1988"),
     r"chambers\.(.*[._])?temperature": _Range("cylinder_temperature", 50.0, 4000.0, "urieli_berchowitz_1984"),
 }
 # orders of how many cylinders are compared, and how much better another has to be
@@ -55,7 +55,7 @@ def implausible(results: Results) -> Iterator[Notice]:
     is_gauge = file is None or "gas.pressures" not in file.stated or file.stated["gas.pressures"].value == "gauge"
     for path, number in machine.stated.items():
         usual = next((usual for pattern, usual in _STATED.items() if re.fullmatch(pattern, path)), None)
-        if usual is not None and not (is_gauge and usual.quantity == "gas_pressure"):
+        if usual is not None and not (is_gauge and path.startswith("gas.")):
             yield from _outside(usual._replace(keys=(path,)), number.value, machine)
     if machine.lengths is None:
         return

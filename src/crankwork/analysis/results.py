@@ -262,8 +262,8 @@ class Results(Mapping[str, Array | float]):
         # engines do not load it
         from crankwork.kinematics.instant_centres import absent_where_still  # noqa: PLC0415
 
-        rates = [key for key in self.trace if key.startswith("link_angular_velocity.")]
-        values = absent_where_still(Program({key: self.trace[key] for key in (*wanted, *rates)})(grid))
+        rates = [key for key in self.trace if key.startswith(("link_angular_velocity.", "instant_centre_"))]
+        values = absent_where_still(Program({key: self.trace[key] for key in {*wanted, *rates}})(grid))
         return {key: values[key] for key in wanted}
 
     def moment(self, at: float = 0.0, mark: str = "") -> Snapshot:

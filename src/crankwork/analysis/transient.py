@@ -36,6 +36,8 @@ _ROWS = 200
 _CHECKED_STEPS = 20_000
 _STEADY = 1e-10
 _SAME_CYCLES = 2
+# after so many steps, the least part of the time that has to be done for more steps to lead to its end
+_TRIED_STEPS, _LEAST_DONE = 1000, 0.01
 _AT_PERIOD = 1e-9
 _ROUNDED = 1e-6
 # least rate of the crank by the coordinate: with less, the coordinate is far faster than the crank
@@ -133,6 +135,9 @@ class _Cycles:
             self._progress(run.time / self._time)
         if self._until == "rest":
             return run.is_over
+        if self._until == "time" and len(run.trajectory.steps) >= _TRIED_STEPS and run.time < _LEAST_DONE * self._time:
+            run.record_event("many_steps")
+            return True
         if self._until == "time" or not run.trajectory.steps or math.isinf(self._period):
             return False
         step, turned = run.trajectory.steps[-1], run.trajectory.turned[-1]
@@ -303,6 +308,9 @@ def _notices(model: TransientModel, trajectory: Trajectory) -> Iterator[Notice]:
     if missing > 0:
         values: dict[str, float | str] = {"angle": math.degrees(model.wanted.start), "torque": missing}
         yield Notice("transient_stays" if stays else "transient_overcome", values)
+    torque = 0.0 if model.wanted.motor or model.wanted.speed < 0 else model.wanted.torque
+    if torque < 0:
+        yield Notice("transient_backwards", {"torque": torque, "write": -torque})
     counted: Counter[str] = Counter(event.word for event in trajectory.events)
     for word, count in counted.items():
         event = next(event for event in trajectory.events if event.word == word)
@@ -312,13 +320,15 @@ def _notices(model: TransientModel, trajectory: Trajectory) -> Iterator[Notice]:
             if missing <= 0:
                 yield Notice("transient_equilibrium", {"angle": angle})
         else:
-            yield Notice(f"transient_{word}", {"time": event.time, "angle": angle, "speed": speed, "count": count})
+            limits = {"write": event.time, "steps": len(trajectory.steps)}
+            code = f"transient_{word}"
+            yield Notice(code, {"time": event.time, "angle": angle, "speed": speed, "count": count, **limits})
 
 
 def _not_yet(model: TransientModel, trajectory: Trajectory) -> Iterator[Notice]:
     """Yield a notice if the time was up before the awaited event."""
     waited = {"rest": "comes_to_rest", "steady": "steady"}.get(model.wanted.until)
-    if waited is not None and all(event.word != waited for event in trajectory.events):
+    if waited is not None and all(event.word not in (waited, "many_steps") for event in trajectory.events):
         yield Notice(f"transient_not_{model.wanted.until}", {"time": trajectory.end})
 
 

@@ -50,7 +50,8 @@ def build_machine(values: Values, reader: Reader, read_measured: ReadMeasured) -
     is_whole = not _ENGINE_TABLES.isdisjoint(values)
     cycle = gas.cycle if gas else 180.0 * values["engine"]["strokes"] if is_whole else 360.0
     for number, angle in enumerate(special, start=1):
-        if angle > cycle + 1e-9 and not reader.has_errors("gas.cycle"):
+        # how long the cycle of a refused gas is nobody knows
+        if angle > cycle + 1e-9 and (gas or not {"gas", "cycle"} & set(values)) and not reader.has_errors("gas.cycle"):
             reader.add_error(f"table.special_angles[{number}]", ErrorMessage("angle_beyond", angle=angle, cycle=cycle))
     engine = None
     if is_whole:

@@ -13,11 +13,12 @@ from crankwork.description.cylinder_keys import CYCLE
 from crankwork.description.schema import Values
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.errors import CrankworkError
-from crankwork.formula.traced_value import given
+from crankwork.formula.traced_value import Input, TracedValue, given, in_order
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.dead_centres import dead_centres
 from crankwork.kinematics.piston import piston_motion
 from crankwork.kinematics.slider_crank import SliderCrank, turns_fully
+from crankwork.loads.gas import compression_ratio, piston_area, swept_volume
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Gas
 from crankwork.mechanism.cells import NoCellsError, crank_cells
@@ -66,7 +67,9 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
     table, cylinder = values["cycle"], values["cylinder"]
     if "kind" not in table:
         return None
-    if cylinder["compression_ratio"] is None and "total_volume" not in table:
+    stroke, clearance = _stroke_of_piston(values), cylinder.si("clearance_volume")
+    has_volumes = clearance and (table["kind"] == "wiebe" or (cylinder["bore"] and stroke))
+    if cylinder["compression_ratio"] is None and "total_volume" not in table and not has_volumes:
         if not reader.has_errors("cylinder.compression_ratio", "cylinder.clearance_volume"):
             reader.add_error("cylinder.compression_ratio", ErrorMessage("cycle_ratio"))
         return None
@@ -74,7 +77,7 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
         return None
     size = CylinderSize(
         cylinder["compression_ratio"], values["crank"]["speed"].value, int(values["engine"]["cylinders"] or 1),
-        cylinder.si("bore"), _stroke_of_piston(values), _rod_of(values), clearance=cylinder.si("clearance_volume"),
+        cylinder.si("bore"), stroke, _rod_of(values), clearance=clearance,
     )  # fmt: skip
     pressure = calculated_pressure(table, size, pi, "cycle", reader)
     if pressure is None:
@@ -89,7 +92,7 @@ def build_cycle(values: Values, reader: Reader, pi: float) -> Cycle | None:
 def cylinder_of(cylinder: Values, pressure: CalculatedPressure | None) -> Values:
     """Return the values of a cylinder or chamber, with the geometric ratio if its ports take a part of the stroke."""
     cycle = getattr(pressure, "cycle", None)
-    if cycle is None or "geometric_compression_ratio" not in cycle.trace:
+    if cycle is None or "geometric_compression_ratio" not in cycle.trace or "clearance_volume" in cylinder:
         return cylinder
     return cylinder.but(compression_ratio=cycle.trace["geometric_compression_ratio"].value)
 
@@ -119,6 +122,10 @@ def _built(table: Values, size: CylinderSize, pi: float) -> CornerPressure | Hea
     if kind == "wiebe":
         return HeatReleasePressure(heat_release_data(table, angle, size))
     timing = _timing(table["timing"], angle)
+    ratio = None
+    if size.ratio is None and "total_volume" not in table:
+        ratio = _ratio_of_volumes(size, _lost_stroke(table, size.lengths, timing, angle), pi)
+        size = size._replace(ratio=ratio.value)
     if kind in _IDEAL:
         state = {"pressure": table.si("intake_pressure"), "temperature": table.si("intake_temperature")}
         cycle = ideal_cycle(table.made(IdealData, compression_ratio=size.ratio, **state, angle=angle))
@@ -126,9 +133,23 @@ def _built(table: Values, size: CylinderSize, pi: float) -> CornerPressure | Hea
         cycle = assigned_cycle(_assigned(table, size, angle))
     else:
         cycle = grinevetsky(_data(table, size, angle, timing, pi))
+    for known in in_order((*cycle.trace.values(), *cycle.corners)):
+        if ratio is not None and isinstance(known.node, Input) and known.node.path == "cylinder.compression_ratio":
+            # it is not stated but follows
+            known.node = ratio.node
     corners = table["corners"] or ("rounded" if "timing" in table else "sharp")
     rounds = corners == "rounded" and table["school"] != "none"
     return CornerPressure(cycle, timing if rounds else None, _rounding(table))
+
+
+def _ratio_of_volumes(size: CylinderSize, lost_stroke: float, pi: float) -> TracedValue:
+    """Return the compression ratio of the closed cylinder from its clearance volume, bore and stroke."""
+    stroke = given("stroke", size.stroke or 0.0)
+    swept = swept_volume(piston_area(pi, given("bore", size.bore or 0.0, "cylinder.bore")), stroke)
+    clearance = given("clearance_volume", size.clearance or 0.0, "cylinder.clearance_volume")
+    closed = swept * (1 - given("lost_stroke", lost_stroke, "cycle.lost_stroke")) if lost_stroke else swept
+    result: TracedValue = compression_ratio(closed, clearance)
+    return result
 
 
 def _timing(table: Values, angle: float) -> Timing:
@@ -355,7 +376,8 @@ def _of_cycle(
         path = f"chambers.{name}"
         if reader.has_errors(path):
             continue
-        if chamber["compression_ratio"] is None and table["kind"] != "wiebe" and "total_volume" not in table:
+        has_volumes = "total_volume" in table or (size.clearance and size.bore and size.stroke)
+        if chamber["compression_ratio"] is None and table["kind"] != "wiebe" and not has_volumes:
             reader.add_error(f"{path}.compression_ratio", ErrorMessage("cycle_ratio"))
         elif {"clearance_volume", "compression_ratio"}.isdisjoint(chamber):
             reader.add_error(path, ErrorMessage("gas_volume"))

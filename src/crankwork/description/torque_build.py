@@ -224,6 +224,11 @@ def _points(values: Values, table: str, period: float, reader: Reader) -> tuple[
         reader.add_error(f"{table}.at[{beyond}]", ErrorMessage("points_beyond", period=math.degrees(period)))
     if angles[0] == angles[-1]:
         reader.add_error(f"{table}.at", ErrorMessage("points_descend"))
+    gap = period - (angles[-1] - angles[0])
+    widest = max(after - before for before, after in itertools.pairwise(angles))
+    if gap > widest * (1 + _CLOSED) + _CLOSED * period and (torque[0] or torque[-1]):
+        first, last, full = (math.degrees(angle) for angle in (angles[0], angles[-1], period))
+        reader.add_error(f"{table}.at", ErrorMessage("points_short", first=first, last=last, period=full))
     return tuple((min(angle, period), other) for angle, other in zip(angles, torque, strict=True))
 
 

@@ -17,6 +17,8 @@ from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities.key import key_of
 
 _REST_TOLERANCE = 1e-12
+# beyond it the centre of a link that does not turn is rounding [m]
+_FARTHEST = 1e9
 
 
 @formula("instant_centre_x", "khurmi_gupta_2005, ch. 6")
@@ -56,5 +58,7 @@ def absent_where_still(columns: Mapping[str, Array]) -> dict[str, Array]:
     for key, values in columns.items():
         kind, name = key_of(key)
         if kind in {"instant_centre_x", "instant_centre_y"}:
-            result[key] = np.where(rates[f"link_angular_velocity.{name}"] > _REST_TOLERANCE * largest, values, np.nan)
+            turns = rates[f"link_angular_velocity.{name}"] > _REST_TOLERANCE * largest
+            both = (np.abs(columns.get(f"instant_centre_{axis}.{name}", 0.0)) < _FARTHEST for axis in "xy")
+            result[key] = np.where(np.logical_and(*both) & turns, values, np.nan)
     return result

@@ -224,6 +224,8 @@ def _end_row(matrix: Array, right: Array, end: int, rate: float | None, inwards:
     right[end] = ((first + 2 * span) * more[0] * slope + first**2 * next_slopes[0]) / (span * more[0])
 
 
+# share of a segment by which rates are taken beside its ends, and their difference that is no jump, of the largest
+_INSIDE, _SAME_RATE = 1e-8, 1e-5
 _TRIED, _HALVINGS = np.linspace(0.0, 1.0, 2001), 52
 # largest difference of a rate from the difference quotient, relative to the largest rate
 _RATE_TOLERANCE = 1e-3
@@ -408,6 +410,23 @@ def _program(law: Law) -> Program:
 def law_at(law: Law, grid: CrankGrid) -> Transfer:
     """Return coordinate, rate and second rate of a driver at angles of its period, arrays of shape (n,)."""
     return Transfer(*_program(law)(grid).values())
+
+
+def rate_jumps(law: Law, *, turns: bool) -> list[tuple[int, float, float]]:
+    """Return the numbers of the segments at whose ends the rate jumps, and the rates before and after.
+
+    At the end of the period only if the coordinate comes back; `turns`: whether it is an angle.
+    """
+    placed = list(_placed_segments(law))
+    away = (_INSIDE * (item.end - item.start) for item in placed)
+    degrees = [place for item, step in zip(placed, away, strict=True) for place in (item.start + step, item.end - step)]
+    rates = law_at(law, CrankGrid.from_degrees(degrees)).position_1.reshape(-1, 2)
+    before, after = rates[:, 1], np.roll(rates[:, 0], -1)
+    largest = max(*np.abs(rates).ravel(), *(abs(item.travel) / law.period for item in placed))
+    jumps = np.abs(after - before) > _SAME_RATE * largest
+    left = law.segments[-1].to - law.start
+    jumps[-1] &= abs(math.remainder(left, math.tau) if turns else left) <= _REST_TOLERANCE * max(map(abs, extent(law)))
+    return [(int(k) + 1, float(before[k]), float(after[k])) for k in np.flatnonzero(jumps)]
 
 
 def extent(law: Law) -> tuple[float, float]:

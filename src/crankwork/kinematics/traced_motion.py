@@ -150,7 +150,7 @@ def traced_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Me
     }
     return replace(
         mechanism,
-        driver=_given_driver(mechanism, ground),
+        driver=_given_driver(mechanism, ground, paths),
         dyads=tuple(
             _chain(group, paths) if isinstance(group, Chain) else _dyad(group, paths) for group in mechanism.dyads
         ),
@@ -161,7 +161,7 @@ def traced_mechanism(mechanism: Mechanism, linkage: Linkage | None = None) -> Me
     )
 
 
-def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # noqa: ANN401 - traced where numbers are typed
+def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any], paths: _Paths) -> Any:  # noqa: ANN401 - traced where numbers are typed
     driver: Any = mechanism.driver
     match mechanism.driver:
         case Crank():
@@ -174,7 +174,7 @@ def _given_driver(mechanism: Mechanism, ground: Mapping[str, Any]) -> Any:  # no
                 geared=tuple(_geared(geared, mechanism.ground, ground) for geared in driver.geared),
             )
         case DrivingSlider(link=piece, guide=guide):
-            return replace(driver, guide=_guide(piece, guide, f"guides.{piece}"))
+            return replace(driver, guide=_guide(piece, guide, paths.guide(piece)))
         case LinkMotor(links=links, sides=sides):
             given_sides = tuple(
                 given(f"link_length.{link}", side, f"links.{link}.length")

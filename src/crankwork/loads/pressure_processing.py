@@ -50,6 +50,8 @@ _FEWEST_POINTS = 8
 PEAKS = (-15, 40)
 # share of the range above which delivery goes on, and how long it takes at least [deg]
 _DELIVERY, _DELIVERED = 0.7, 50.0
+# how long what is left expands at most, usual exponents, and the least shift that is told [deg]
+_EXPANSION, _EXPANDING, _SMALLEST = 80.0, (0.9, 1.6), 3.0
 # how much longer a compressor takes to compress than to expand what is left
 _SLOWLY = 1.5
 # how near an angle must come to a quarter of a turn to be one [deg]
@@ -229,9 +231,15 @@ def _compression(
     x, y = _between(samples, cycle, *(centre - before - round(shift) for before in _COMPRESSION))
     if len(x) < _FEWEST_POINTS or float(y.min()) + off <= 0:
         return None
-    along = np.log(volume_at(np.mod(x + shift, cycle)))
+    return _line((x + shift, y + off), volume_at, cycle)
+
+
+def _line(samples: tuple[Array, Array], volume_at: VolumeAt, cycle: float) -> _Compression:
+    """Return the line of compression or expansion through samples at true angles. [deg], [Pa]"""
+    x, y = samples
+    along = np.log(volume_at(np.mod(x, cycle)))
     basis = np.vander(along - along.mean(), 3, increasing=True)
-    inverse, logarithms = np.linalg.pinv(basis), np.log(y + off)
+    inverse, logarithms = np.linalg.pinv(basis), np.log(y)
     curve = inverse @ logarithms
     noise = float(np.sqrt(np.sum((basis @ curve - logarithms) ** 2) / (len(x) - 3)))
     error = noise * float(np.linalg.norm(inverse[2]))
@@ -382,6 +390,7 @@ def contradictions(
     if cycle < 2 * _TURN:
         # the greatest pressure of a compressor is some ten times the least
         yield from _unit_of(float(np.max(pressure)) / 10, measured.unit, spread=50.0)
+        yield from _by_expansion(samples, volume_at, (cycle, centre), shift)
         return
     volume = volume_at(np.mod(np.append(degrees, degrees[0]), cycle))
     if float((pressure + np.roll(pressure, -1)) @ np.diff(volume)) < 0:
@@ -515,6 +524,31 @@ def _between(samples: tuple[Array, Array], cycle: float, start: float, end: floa
     order = np.argsort(after)
     order = order[after[order] <= end - start]
     return start + after[order], pressure[order]
+
+
+def _by_expansion(
+    samples: tuple[Array, Array], volume_at: VolumeAt, where: tuple[float, float], shift: float
+) -> Iterator[NoticeData]:
+    """Yield a shift after which what a compressor has left expands along a straight line in logarithms. [deg]"""
+    (degrees, pressure), (cycle, centre) = samples, where
+    least, size = float(np.min(pressure)), float(np.ptp(pressure))
+    high = pressure > least + _DELIVERY * size
+    if float(np.diff(np.append(degrees, degrees[0] + cycle))[high].sum()) <= _DELIVERED:
+        return
+    end = centre + centred(float(degrees[_end_of(high)]) - centre, _TURN)
+    x, y = _between(samples, cycle, end, end + _EXPANSION)
+    last = int(np.argmin(np.append(y > least + (1 - _DELIVERY) / 2 * size, False)))
+    if last < _FEWEST_POINTS or least <= 0:
+        return
+    shifts = np.arange(max(-_EXPANSION / 2, math.ceil(centre - x[0])), _EXPANSION / 2)
+    lines = [_line((x[:last] + more, y[:last]), volume_at, cycle) for more in shifts]
+    candidates = []
+    for more, line, after in zip(shifts.tolist(), lines, lines[1:], strict=False):
+        rate = after.bend - line.bend
+        if line.bend * after.bend <= 0 < -rate and _EXPANDING[0] <= line.exponent <= _EXPANDING[1]:
+            candidates.append((more - line.bend / rate, (2 * line.error + _CHANGE / 4 / line.half) / -rate))
+    for more, error in sorted(candidates, key=lambda item: abs(item[0]))[:1]:
+        yield from _proposed("dead_centre_expansion", more, max(error, _SMALLEST), shift)
 
 
 def _proposed(code: str, more: float, error: float, shift: float) -> Iterator[NoticeData]:

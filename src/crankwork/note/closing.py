@@ -18,7 +18,7 @@ from crankwork.note.material import Material
 from crankwork.note.parts import Head, Section, Shown, Text, When, drawn, every, full, has, lacks, written
 from crankwork.note.printed_units import printed_unit
 from crankwork.note.table_width import SIZES, fits
-from crankwork.note.tables import position_tables, quantity_columns, value_row, value_table
+from crankwork.note.tables import position_tables, quantity_columns, short_rows, value_row, value_table
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
 from crankwork.report.assumptions import plain_assumptions
@@ -215,12 +215,14 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
 def _left_out(material: Material) -> Iterator[Block]:
     """Yield what only the full note has."""
     words = material.words
-    step = words.amount(math.radians(material.results.machine.table_step), "deg")
+    items = [translate("sentences.left_out_formulas", words.language)]
+    if not short_rows(material).all():
+        step = words.amount(math.radians(material.results.machine.table_step), "deg")
+        items.append(translate("sentences.left_out_tables", words.language, step=step))
     left = [figure_title(name, words.language) for name in dict.fromkeys(map(kind_of, material.remaining_figures()))]
     if left:
-        yield words.paragraph("left_out", step=step, figures="; ".join(left))
-    else:
-        yield words.paragraph("left_out_formulas", step=step)
+        items.append(translate("sentences.left_out_figures", words.language, figures="; ".join(left)))
+    yield words.paragraph("left_out", items="; ".join(items))
 
 
 def _conclusion(material: Material) -> Iterator[Block]:

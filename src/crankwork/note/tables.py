@@ -65,13 +65,7 @@ def long_table(
 ) -> Table | None:
     """Return a table over the crank angle with one row for each."""
     words, degrees = material.words, material.results.grid.degrees
-    rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
-    if (
-        not material.full
-        and rows.sum() > _FEW
-        and (coarse := rows & _in_steps(degrees, float(degrees[rows][-1]))).any()
-    ):
-        rows = coarse
+    rows = short_rows(material, one_turn=one_turn)
     columns = [
         quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key))
         for key in keys
@@ -81,6 +75,16 @@ def long_table(
         return None
     angles = [words.number(float(angle)) for angle in degrees[rows]]
     return column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
+
+
+def short_rows(material: Material, *, one_turn: bool = False) -> NDArray[np.bool]:
+    """Return which rows a table over the crank angle has in this note."""
+    degrees = material.results.grid.degrees
+    rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
+    if material.full or rows.sum() <= _FEW:
+        return rows
+    coarse = rows & _in_steps(degrees, float(degrees[rows][-1]))
+    return coarse if coarse.any() else rows
 
 
 def _in_steps(degrees: Array, end: float) -> NDArray[np.bool]:

@@ -15,6 +15,8 @@ from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit, label
 from crankwork.report.tables import any_nonzero
 
+# numbers of a notice that are in the unit of its quantity
+_IN_UNIT = ("value", "low", "high", "before", "after")
 _DRAWN = ("reduced_inertia", "static_torque", "dynamic_torque", "driving_torque", "joint_force")
 
 
@@ -30,7 +32,7 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
             shown[key] = symbol(str(value), language)
         elif key == "angles":
             shown[key] = decimal(str(value), language).replace("-", "−")
-        elif key == "shift":
+        elif key in ("shift", "write"):
             # to be written in the machine file
             shown[key] = f"{value:g}"
         elif isinstance(value, str):
@@ -38,9 +40,9 @@ def notice_text(code: str, values: Mapping[str, float | str], language: Language
         else:
             # pressure steps are the only values with a unit of their own, MPa
             shown[key] = number(value / 1e6 if key == "step" else value, language, digits=5)
-    if code == "implausible":
+    if code in ("implausible", "law_jump"):
         key = str(values["quantity"])
-        numbers = {name: displayed(key, float(values[name])) for name in ("value", "low", "high")}
+        numbers = {name: displayed(key, float(values[name])) for name in _IN_UNIT if name in values}
         shown |= {name: number(value, language) for name, value in numbers.items()}
         shown["unit"] = f" {unit_name(key_unit(key), language)}".rstrip()
     if "argument" in values:
