@@ -197,11 +197,18 @@ class Material:
         return cycle_lines(self.results) if self.has_piston else ()
 
     @cached_property
+    def drawings(self) -> Mapping[str, Drawing]:
+        """Figures by name."""
+        return drawings(self.results, language=self.options.language, per_area=self.per_area)
+
+    @property
     def drawn(self) -> Mapping[str, Drawing]:
         """Figures by name; none if they are left out."""
-        if not self.options.figures:
-            return {}
-        return drawings(self.results, language=self.options.language, per_area=self.per_area)
+        return self.drawings if self.options.figures else {}
+
+    def leave_out(self, *names: str) -> None:
+        """Show no figures of these names any more: others hold what they show."""
+        self._shown_figures |= set(names)
 
     def lines(self, group: str, *kinds: str) -> list[Line]:
         """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from crankwork.note.characters import xml_text
-from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
+from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Marked, Root, Row, Script, Sign, Upright
 
 _SPACES = {"prefix": "0", "times": "0.12em", "slash": "0", "binary": "0.25em", "relation": "0.35em"}
 
@@ -35,6 +35,11 @@ def mathml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
         case Apply(name, argument):
             space = '<mo>\u2061</mo><mspace width="0.17em"/>'
             return f"<mrow>{mathml_box(name)}{space}{mathml_box(argument)}</mrow>"
+        case Marked(inside, "bold"):
+            return f'<mrow style="font-weight: bold">{mathml_box(inside)}</mrow>'
+        case Marked(inside, mark):
+            under, sign = ("under", "_") if mark == "line" else ("over", "→" if mark == "arrow" else "¯")
+            return f'<m{under}>{mathml_box(inside)}<mo stretchy="true">{sign}</mo></m{under}>'
 
 
 _FORMS = ("prefix", "postfix")

@@ -29,6 +29,7 @@ from crankwork.note.parts import (
     in_full,
 )
 from crankwork.note.tables import Column, tabulated
+from crankwork.note.vector_equations import vector_plans
 from crankwork.note.wording import named
 
 _NOUNS = ("piston_displacement", "piston_velocity", "piston_acceleration")
@@ -139,8 +140,6 @@ SECTIONS = (
         )), Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion"),
         Places("velocities", _MOVING), Places("accelerations", (*_ACCELERATING, "coriolis_acceleration")),
         _INSTANT_CENTRES, Shown(("centrodes", "points", "links")),
-        When(lambda material: bool(material.drawn), (
-            *_POLYGONS, Shown(("velocity_plan", "acceleration_plan", "sliders")),
-        )),
+        *_POLYGONS, vector_plans, Shown(("sliders",)),
     ), drawn),
 )  # fmt: skip

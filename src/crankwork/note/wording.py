@@ -106,6 +106,10 @@ class Words:
         """Return a sentence as a paragraph."""
         return Paragraph(self.sentence(key, **values))
 
+    def mark(self, key: str) -> str:
+        """Return the mark of a part in symbols."""
+        return texts("marks", self.language)[key]
+
     def way(self, key: str) -> str:
         """Return the name of a way to find a flywheel."""
         return translate("report.exact" if key == "exact" else f"report.way_{key}", self.language)
