@@ -121,7 +121,7 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     if options.full or not title_page.is_plain:
         front += [Contents(), PageBreak()]
     return Note(
-        options.title or material.machine.title or words.title(title),
+        options.title or getattr(document, f"title_{options.language}") or material.machine.title or words.title(title),
         options.language,
         (*front, *(_complete(blocks) if chosen else blocks)),
         tuple(author for author in document.author if author.strip()),

@@ -162,10 +162,8 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     # of the centre of mass of a link
     owner, *parts = shown_name.split(" ", 1) if shown_name.startswith("S ") else shown_name.split(".")
     marks = texts("marks", language)
-    names = [
-        link_label(owner, language),
-        *(marks[part] if part in _PARTS else link_label(part, language) for part in parts),
-    ]
+    crank = {"crank": link_label("crank", language)}
+    names = [crank.get(owner, owner), *(marks[part] if part in _PARTS else crank.get(part, part) for part in parts)]
     name = subscript(".".join(names))
     if "_i" in shown and not kind.startswith("indicated"):
         return shown.replace("_i", f"_{name}", 1)

@@ -228,14 +228,13 @@ def _table(plan: ConstructedPlan, order: int, scales: PlanScales, words: Words, 
             rows.append((name, "–", "–", *_values(drawn, exact, rotary, words, compared=compared, known=True)))
     values = ("by_plan", "analytic", "unit", "deviation") if compared else ("value", "unit")
     caption = f"{'compared' if compared else 'plan'}_{('velocities', 'accelerations')[order]}"
-    table = words.table(
+    return words.table(
         caption,
         ("vector", "direction", "on_plan", *values),
         rows,
         "crr" + ("rrcr" if compared else "rc"),
         f"t:{caption}",
     )
-    return table
 
 
 def _values(drawn: float, exact: float, unit: str, words: Words, *, compared: bool, known: bool) -> tuple[str, ...]:
