@@ -48,8 +48,8 @@ _OF_ENGINES = (
 _PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
 # main results of linkages; the others are in the full note
 _OF_LINKAGES = frozenset((
-    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max", "slider_acceleration_min",
-    "joint_force_max", "normal_force_max", "transmission_angle_min", "reduced_inertia_max", "reduced_inertia_min",
+    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max",
+    "normal_force_max", "transmission_angle_min", "reduced_inertia_max",
     "static_torque_max", "driving_torque_max", "driving_torque_min", "mean_torque", "mean_driving_torque",
     "efficiency", "mean_efficiency", "motor_power", "shaft_power", "driver_force_max", "driver_force_min",
     "shaking_force_max", "excess_work", "flywheel_inertia", "speed_fluctuation", "indicated_work", "indicated_power",

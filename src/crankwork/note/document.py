@@ -147,6 +147,7 @@ class Figure:
     alt: str
     label: str = ""
     floats: bool = True
+    to_scale: bool = False  # Whether it states a scale, so that it is printed as large as it is
 
     @property
     def name(self) -> str:

@@ -276,7 +276,7 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
 
 def _figure(block: Figure, number: str, language: Language) -> str:
-    width = _REDUCED * block.drawing.width / MM
+    width = (1.0 if block.to_scale else _REDUCED) * block.drawing.width / MM
     data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     words = typst_string(caption("figure", number, block.caption, language))
     image = (

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from crankwork.analysis.drawn_plans import ConstructedPlan, PlanScales, PlanVector, VectorEquation, constructed_plans
+from crankwork.analysis.drawn_plans import (
+    ConstructedPlan,
+    PlanScales,
+    PlanVector,
+    VectorEquation,
+    constructed_plans,
+    is_constructed,
+)
 from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.analysis.skeleton import skeleton
 from crankwork.analysis.vector_polygons import POSITION_STEP, driver_rates, velocities, worked_position
 from crankwork.formula.calculation_lines import ValueLine
 from crankwork.locale import translate
@@ -17,20 +25,7 @@ from crankwork.locale.numbers import unit_name
 from crankwork.mechanism.mechanism import Crank
 from crankwork.note.document import Block, Cell, Equation, Figure, Math, Reference, Run, Runs, Table
 from crankwork.note.equations import value_box
-from crankwork.note.layout import (
-    DOT,
-    EQUALS,
-    PRODUCT,
-    Box,
-    Fraction,
-    Marked,
-    PrintedEquation,
-    Row,
-    Script,
-    Sign,
-    Upright,
-    row,
-)
+from crankwork.note.layout import DOT, EQUALS, PRODUCT, Box, Marked, PrintedEquation, Row, Script, Sign, Upright, row
 from crankwork.note.material import Material
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.plans import Scales
@@ -39,14 +34,22 @@ from crankwork.note.wording import Words
 from crankwork.report.display import symbol
 from crankwork.report.look import Style
 from crankwork.report.plans import acceleration_plan, vector_mark, velocity_plan
+from crankwork.show.chart_layout import current_layout, use_layout
 from crankwork.show.scene import Drawing
 
-# to which points and lengths are laid off and read on paper, and what is long beside it [mm]
-READING, _LONG = 0.5, 20.0
+# to which points and lengths are laid off and read on paper [mm]
+READING = 0.5
 _SIGNS, _UNITS, _ROTARY = ("v", "a"), ("m/s", "m/s2"), ("rad/s", "rad/s2")
-_TURNING = ("speed", "angular_acceleration")
-_NOISE = 1e-9
-_DIGITS = 4
+_TURNING, _KINDS = ("speed", "angular_acceleration"), ("velocities", "accelerations")
+# shares of the largest value that are rounding
+_NOISE, _DIGITS, _TALL = 1e-9, 4, 1.3
+_MARKS: dict[str, Box] = {"=": EQUALS, "·": DOT, "": PRODUCT, "/": Sign("/", "slash")}
+_COMMA = row(Sign(",", "comma"), Upright("\u2009"))
+
+
+def has_vector_equations(material: Material) -> bool:
+    """Return whether the groups of a linkage have vector equations."""
+    return is_constructed(material.machine.mechanism)
 
 
 def vector_plans(material: Material) -> Iterator[Block]:
@@ -54,39 +57,39 @@ def vector_plans(material: Material) -> Iterator[Block]:
     results, words, mechanism = material.results, material.words, material.machine.mechanism
     degrees, links = worked_position(results), material.structure.links if material.structure is not None else ()
     figure, scales = _figure(material, degrees, links)
-    plans = constructed_plans(results, degrees, scales, links)
-    if plans is None or not isinstance(mechanism.driver, Crank):
+    exact, drawn = (constructed_plans(results, degrees, scales, precision, links) for precision in (0.0, READING))
+    if exact is None or drawn is None or not isinstance(mechanism.driver, Crank):
         yield from material.presented((), ("velocity_plan", "acceleration_plan"))
         return
     yield words.paragraph("vector_equations", value=words.place_text(degrees))
     beneath = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, 1.0, links).coincident
-    if beneath:
-        points = (words.phrase("beneath", point=point, link=str(link), other=other)
-                  for point, (link, other) in beneath.items())  # fmt: skip
+    points = [
+        words.phrase("beneath", point=point, link=str(link), other=over) for point, (link, over) in beneath.items()
+    ]
+    if points:
         yield words.paragraph("coincident", points="; ".join(points))
-    for order, plan in enumerate(plans):
-        yield words.paragraph(("velocity_equations", "acceleration_equations")[order])
+    shape, rate = skeleton(mechanism, links), exact[0].turning[1]
+    arm = PlanVector("".join(shape.letters[name] for name in shape.members[0].points[:2]), "normal", 0j, link=1,
+                     arm=mechanism.driver.radius)  # fmt: skip
+    for order, plan in enumerate(exact):
+        writer = _Writer(order, scales[1 + order], exact[0].turning, words)
+        yield words.paragraph(f"equations_of_{_KINDS[order]}")
+        yield writer.block((), [writer.crank(arm, rate, exact[1].turning[1])])
         for group in plan.groups:
-            lines = [line for equation in group.equations for line in _lines(equation, order, words)]
-            lines += [
-                line for equation in group.equations for part in equation.right for line in _worked(part, plans, words)
-            ]
-            printed = PrintedEquation(tuple(lines), _text(group.equations, order))
-            yield Equation(ValueLine("", 0.0), printed=printed)
+            yield writer.block(
+                group, [line for equation in group for part in equation.right for line in writer.worked(part)]
+            )
     if material.options.figures:
         yield words.paragraph("see_construction", figures=Reference("f:velocity_plan"))
-        yield Figure(figure, figure.title, translate("seen.velocity_plan", words.language), label="f:velocity_plan")
+        yield Figure(figure, figure.title, translate("seen.velocity_plan", words.language), label="f:velocity_plan", to_scale=True)
         material.leave_out("velocity_plan", "acceleration_plan")
     compared = material.full or material.order != "en"
-    tables = [_table(plan, order, scales, words, compared=compared) for order, plan in enumerate(plans)]
-    values: dict[str, Run | Runs] = {
-        "length": _scale("l", 1e3 * scales.length, "mm", words),
-        "reading": words.number(scales.precision),
-    }
-    first, second = (Reference(table.label) for table in tables)
-    yield words.paragraph(
-        "read_on_plans" if compared else "plan_vectors", velocities=first, accelerations=second, **values
-    )
+    tables = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
+    values: dict[str, Run | Runs] = {kind: Reference(table.label) for kind, table in zip(_KINDS, tables, strict=True)}
+    mm = unit_name("mm", words.language)
+    scale = f"\u00a0=\u00a0{words.number(1e3 * scales.length)}\u00a0{mm}/{mm}"
+    values |= {"length": (Math("μ_l"), scale), "reading": words.number(READING)}
+    yield words.paragraph("read_on_plans" if compared else "plan_vectors", **values)
     yield from tables
 
 
@@ -95,151 +98,140 @@ def _figure(material: Material, degrees: float, links: tuple[str, ...]) -> tuple
     results, language, scales = material.results, material.words.language, Scales()
     mechanism, style = results.machine.mechanism, Style(language, links, results.period)
     moved, rates = sample_motion(mechanism, [degrees]), driver_rates(results, results.columns_at(np.array([degrees])))
-    first, second, number = float(rates.first[0]), float(rates.second[0]), round(degrees / POSITION_STEP)
+    given, number = (float(rates.first[0]), float(rates.second[0])), round(degrees / POSITION_STEP)
     drawn = (
-        lambda: scales.kept("v", 0, velocity_plan(mechanism, moved, 0, first, style, number)),
-        lambda: scales.kept("a", 0, acceleration_plan(mechanism, moved, 0, first, second, style, number)),
+        lambda: scales.kept("v", 0, velocity_plan(mechanism, moved, 0, given[0], style, number)),
+        lambda: scales.kept("a", 0, acceleration_plan(mechanism, moved, 0, *given, style, number)),
     )
-    plans = in_grid(drawn, 2, translate("headings.polygons", language), language, str)
+    with use_layout(current_layout()._replace(tall=_TALL)):
+        plans = in_grid(drawn, 2, translate("headings.polygons", language), language, str)
     (plot,) = material.drawings["position_plans"].plots
-    return plans, PlanScales(1.0 / plot.metre, scales.of("v", 0), scales.of("a", 0), READING)
+    return plans, PlanScales(1.0 / plot.metre, scales.of("v", 0), scales.of("a", 0))
 
 
-def _scale(sign: str, value: float, unit: str, words: Words) -> Runs:
-    per = unit_name(unit, words.language)
-    shown = f"({per})" if "/" in per else per
-    return Math(f"μ_{sign}"), f"\u00a0=\u00a0{words.number(value)}\u00a0{shown}/{unit_name('mm', words.language)}"
+class _Writer:
+    """Writes the equations of velocities, order 0, or accelerations, 1; `rates`: how fast links turn [rad/s]."""
 
+    def __init__(self, order: int, scale: float, rates: dict[int, float], words: Words) -> None:
+        self._order, self._scale, self._rates, self._words = order, scale, rates, words
 
-def _name(vector: PlanVector, order: int, words: Words) -> str:
-    mark = vector_mark(vector.kind, words.language) if order else ""
-    return f"{_SIGNS[order]}_{vector.name}{mark}"
+    def block(self, equations: Sequence[VectorEquation], further: list[Row]) -> Equation:
+        """Return the equations of a group with lines below them, under one number."""
+        lines = [row(*self._parts(equation)) for equation in equations] + further
+        sums = [" + ".join(map(self._name, equation.right)) for equation in equations]
+        lefts = [self._name(equation.left) for equation in equations]
+        text = "; ".join(f"{left} = {total}" if total else left for left, total in zip(lefts, sums, strict=True))
+        return Equation(ValueLine("", 0.0), printed=PrintedEquation(tuple(lines), text or _SIGNS[self._order]))
 
+    def _name(self, vector: PlanVector) -> str:
+        return name_of(vector, self._order, self._words)
 
-def _vector(vector: PlanVector, order: int, words: Words) -> Box:
-    """Return a vector, underlined as often as there is something known of it."""
-    box = symbol_box(_name(vector, order, words))
-    assert isinstance(box, Script)  # noqa: S101 - its points are in the subscript
-    marked: Box = Script(Marked(box.base, words.mark("vector")), box.below, box.above)
-    for _ in range(vector.known):
-        marked = Marked(marked, "line")
-    return marked
+    def _parts(self, equation: VectorEquation) -> Iterator[Box]:
+        """Yield a vector equation, and along what line each vector lies."""
+        yield self._vector(equation.left)
+        for index, vector in enumerate(equation.right):
+            yield from (Sign("+") if index else EQUALS, self._vector(vector))
+        for vector in (equation.left, *equation.right):
+            where = vector.line[1:] or "0"
+            shown = self._words.phrase("along_guide", link=where) if vector.line and where.isdecimal() else where
+            if vector.line or not vector.drawn:
+                yield from (_COMMA, symbol_box(self._name(vector))) if equation.right else ()
+                yield from (Sign(vector.line[0], "relation") if vector.line else EQUALS, Upright(shown))
 
+    def _vector(self, vector: PlanVector) -> Box:
+        """Return a vector, underlined as often as there is something known of it."""
+        box = symbol_box(self._name(vector))
+        assert isinstance(box, Script)  # noqa: S101 - its points are in the subscript
+        marked: Box = Script(Marked(box.base, self._words.mark("vector")), box.below, box.above)
+        for _ in range(vector.known):
+            marked = Marked(marked, "line")
+        return marked
 
-def _lines(equation: VectorEquation, order: int, words: Words) -> Iterator[Row]:
-    """Yield a vector equation with the lines along which what is not known of it lies."""
-    parts: list[Box] = [_vector(equation.left, order, words)]
-    for index, vector in enumerate(equation.right):
-        parts += [Sign("+") if index else EQUALS, _vector(vector, order, words)]
-    for vector in (*equation.right, *([] if equation.right else [equation.left])):
-        if vector.line:
-            where = vector.line[1:]
-            shown = words.phrase("along_guide", link=where) if where.isdecimal() else where
-            comma = (
-                []
-                if len(parts) == 1
-                else [Sign(",", "comma"), Upright("\u2009"), symbol_box(_name(vector, order, words))]
+    def _worked(self, unit: str, *parts: str | float | Script) -> Row:
+        """Return symbols and numbers side by side, the last with its unit."""
+        boxes: list[Box] = []
+        for part in parts:
+            box = self._number(part) if isinstance(part, float) else part
+            boxes.append(_MARKS.get(box) or symbol_box(box) if isinstance(box, str) else box)
+        value = float(parts[-1]) if isinstance(parts[-1], float) else 0.0
+        return row(*boxes[:-1], value_box(value, unit, self._words.language, _DIGITS))
+
+    def _number(self, value: float) -> Box:
+        return number_box(value, self._words.language, _DIGITS)[0]
+
+    def _turn(self, order: int, link: int) -> str:
+        return f"{symbol(_TURNING[order], self._words.language)}_{link}"
+
+    def crank(self, arm: PlanVector, rate: float, second: float) -> Row:
+        """Return the velocity of the crank pin, or its normal acceleration and the tangential one if there is one."""
+        name, length, turn = arm.name[1:], f"l_{arm.name}", self._turn(0, 1)
+        if not self._order:
+            return self._worked(
+                "m/s", f"v_{name}", "=", turn, "", length, "=", abs(rate), "·", arm.arm, "=", abs(rate) * arm.arm
             )
-            parts += [*comma, Sign(vector.line[0], "relation"), Upright(shown)]
-    yield row(*parts)
+        normal = self._normal(f"a_{name}^n" if second else f"a_{name}", arm, rate)
+        if not second:
+            return normal
+        mark, turn = vector_mark("tangential", self._words.language), self._turn(1, 1)
+        product = (turn, "", length, "=", abs(second), "·", arm.arm, "=", abs(second) * arm.arm)
+        return row(normal, _COMMA, self._worked("m/s2", f"a_{name}{mark}", "=", *product))
+
+    def _normal(self, name: str, arm: PlanVector, rate: float) -> Row:
+        squared = Script(self._number(abs(rate)), None, Upright("2"))
+        product = f"{self._turn(0, arm.link)}²", "", f"l_{arm.name}", "=", squared, "·", arm.arm
+        return self._worked("m/s2", name, "=", *product, "=", rate**2 * arm.arm)
+
+    def worked(self, part: PlanVector) -> Iterator[Row]:
+        """Yield what goes with a part of a relative velocity or acceleration: its size, or the rate of its link."""
+        size, rate, name = abs(part.drawn) * self._scale, abs(self._rates.get(part.link, 0.0)), self._name(part)
+        match part.kind:
+            case "normal":
+                yield self._normal(name, part, rate)
+            case "relative" | "tangential":
+                quotient = name, "/", f"l_{part.name}", "=", size, "/", part.arm, "=", size / part.arm
+                yield self._worked(_ROTARY[self._order], self._turn(self._order, part.link), "=", *quotient)
+            case "coriolis" if rate:
+                relative = size / 2 / rate
+                product = 2.0, "", self._turn(0, part.link), "", f"v_{part.name}", "=", 2.0, "·", rate, "·", relative
+                yield self._worked("m/s2", name, "=", *product, "=", size)
 
 
-def _text(equations: Iterable[VectorEquation], order: int) -> str:
-    """Return vector equations in words for those who cannot see them."""
-    sign = _SIGNS[order]
-    return "; ".join(
-        f"{sign}_{equation.left.name} = " + " + ".join(f"{sign}_{part.name}" for part in equation.right)
-        for equation in equations if equation.right
-    ) or f"{sign}_{next(iter(equations)).left.name}"  # fmt: skip
+def name_of(vector: PlanVector, order: int, words: Words) -> str:
+    """Return the symbol of a vector: `v_BA`, `a_BA^n`."""
+    return f"{_SIGNS[order]}_{vector.name}{vector_mark(vector.kind, words.language) if order else ''}"
 
 
-def _worked(part: PlanVector, plans: tuple[ConstructedPlan, ConstructedPlan], words: Words) -> Iterator[Row]:
-    """Yield the scalar that goes with a part of a relative velocity or acceleration, worked with its numbers."""
-    language, size = words.language, abs(part.exact)
-    rate, below = abs(plans[0].turning.get(part.link, (0.0, 0.0))[0]), f"_{part.name}"
-    speed, turn = (symbol(key, language) + f"_{part.link}" for key in _TURNING)
-
-    def line(left: str, formula: Box, numbers: Box, value: float, unit: str) -> Row:
-        return row(
-            symbol_box(left), EQUALS, formula, EQUALS, numbers, EQUALS, value_box(value, unit, language, _DIGITS)
-        )
-
-    def figure(value: float) -> Box:
-        return number_box(value, language, _DIGITS)[0]
-
-    arm = symbol_box(f"l{below}")
-    match part.kind:
-        case "relative":
-            quotient = Fraction(symbol_box(f"v{below}"), arm), Fraction(figure(size), figure(part.arm))
-            yield line(speed, *quotient, size / part.arm, "rad/s")
-        case "tangential":
-            quotient = (
-                Fraction(symbol_box(f"a{below}{vector_mark(part.kind, language)}"), arm),
-                Fraction(figure(size), figure(part.arm)),
-            )
-            yield line(turn, *quotient, size / part.arm, "rad/s2")
-        case "normal":
-            formula = row(Script(*_base(speed), Upright("2")), PRODUCT, arm)
-            yield line(
-                _name(part, 1, words),
-                formula,
-                row(Script(figure(rate), None, Upright("2")), DOT, figure(part.arm)),
-                size,
-                "m/s2",
-            )
-        case "coriolis" if rate:
-            formula = row(figure(2), PRODUCT, symbol_box(speed), PRODUCT, symbol_box(f"v{below}"))
-            yield line(
-                _name(part, 1, words),
-                formula,
-                row(figure(2), DOT, figure(rate), DOT, figure(size / 2 / rate)),
-                size,
-                "m/s2",
-            )
+def plan_vectors(plan: ConstructedPlan) -> dict[tuple[str, str], PlanVector]:
+    """Return the vectors of a plan by name and kind, each once."""
+    parts = [part for group in plan.groups for equation in group for part in (*equation.right, equation.left)]
+    return {(part.name, part.kind): part for part in (*parts, *plan.similar)}
 
 
-def _base(name: str) -> tuple[Box, Box | None]:
-    box = symbol_box(name)
-    return (box.base, box.below) if isinstance(box, Script) else (box, None)
-
-
-def _table(plan: ConstructedPlan, order: int, scales: PlanScales, words: Words, *, compared: bool) -> Table:
-    """Return the vectors of a plan and the rates of the links, read and exact; `compared`: else exact alone."""
-    every = [
-        vector for group in plan.groups for equation in group.equations for vector in (equation.left, *equation.right)
-    ]
-    vectors = {(vector.name, vector.kind): vector for vector in (*every, *plan.similar)}
-    most, scale = max(abs(vector.exact) for vector in vectors.values()), scales[1 + order]
-    unit, rotary = (unit_name(names[order], words.language) for names in (_UNITS, _ROTARY))
-    rows: list[tuple[Cell, ...]] = []
-    for vector in vectors.values():
-        size = abs(vector.exact)
-        if size <= _NOISE * most:
-            continue
-        angle = math.degrees(cmath.phase(vector.exact)) % 360.0
-        length, read = (vector.length, vector.length * scale) if compared else (size / scale, size)
-        rows.append((
-            Math(_name(vector, order, words)), words.fixed(angle, 1), words.fixed(length, 1),
-            *_values(read, size, unit, words, compared=compared, known=size / scale > scales.precision),
-        ))  # fmt: skip
-    for link, (exact, drawn) in plan.turning.items():
-        if abs(exact) > _NOISE * most and link != 1:
-            name = Math(f"{symbol(_TURNING[order], words.language)}_{link}")
-            rows.append((name, "–", "–", *_values(drawn, exact, rotary, words, compared=compared, known=True)))
-    values = ("by_plan", "analytic", "unit", "deviation") if compared else ("value", "unit")
-    caption = f"{'compared' if compared else 'plan'}_{('velocities', 'accelerations')[order]}"
-    return words.table(
-        caption,
-        ("vector", "direction", "on_plan", *values),
-        rows,
-        "crr" + ("rrcr" if compared else "rc"),
-        f"t:{caption}",
+def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, scale: float, words: Words) -> Table:
+    """Return the vectors of a plan and the rates of the links: exact, and beside them as they are read if drawn."""
+    vectors, rows = plan_vectors(plan), list[tuple[Cell, ...]]()
+    read = (
+        {key: round(abs(part.drawn) / READING) * READING for key, part in plan_vectors(drawn).items()} if drawn else {}
     )
+    most = max(abs(part.drawn) for part in vectors.values())
 
+    def cells(exact: float, shown: float, unit: str, *, legible: bool = True) -> tuple[str, ...]:
+        name = unit_name(unit, words.language)
+        if drawn is None:
+            return words.number(exact, digits=_DIGITS), name
+        off = words.fixed(100.0 * (shown - exact) / exact, 2) if legible else "–"
+        return words.number(shown, digits=_DIGITS), words.number(exact, digits=_DIGITS), name, off
 
-def _values(drawn: float, exact: float, unit: str, words: Words, *, compared: bool, known: bool) -> tuple[str, ...]:
-    """Return the last cells of a row; `known`: whether the vector is longer than what can be read."""
-    if not compared:
-        return words.number(exact, digits=_DIGITS), unit
-    off = words.fixed(100.0 * (drawn - exact) / exact, 2) if known else "–"
-    return words.number(drawn, digits=_DIGITS), words.number(exact, digits=_DIGITS), unit, off
+    for key, part in vectors.items():
+        length = abs(part.drawn)
+        if length > _NOISE * most:
+            angle, shown = math.degrees(cmath.phase(part.drawn)) % 360.0, read.get(key, length)
+            values = cells(scale * length, scale * shown, _UNITS[order], legible=length > READING)
+            rows.append((Math(name_of(part, order, words)), words.fixed(angle, 1), words.fixed(shown, 1), *values))
+    for link, rate in plan.turning.items():
+        if link != 1 and abs(rate) > _NOISE * most * scale:
+            name = Math(f"{symbol(_TURNING[order], words.language)}_{link}")
+            rows.append((name, "–", "–", *cells(rate, drawn.turning[link] if drawn else rate, _ROTARY[order])))
+    titles = ("by_plan", "analytic", "unit", "deviation") if drawn else ("value", "unit")
+    caption, align = f"{'compared' if drawn else 'plan'}_{_KINDS[order]}", "crrrrcr" if drawn else "crrrc"
+    return words.table(caption, ("vector", "direction", "on_plan", *titles), rows, align, f"t:{caption}")
