@@ -71,8 +71,9 @@ class FileInputs(NamedTuple):
 class Document:
     """Title data of a note and its sheets; empty fields are left out or filled in by hand.
 
-    `title_ru`: the title in a note of this language; `work`: kind of the work, such as a course project; `subtitle`: if the note is not a calculation report; `year`: 0
-    if unknown; `sections`: of the note in their order, by default those of its school.
+    `title_ru`: the title in a note of this language; `work`: kind of the work, such as a course project; `subtitle`: if
+    the note is not a calculation report; `year`: 0 if unknown; `sections`: of the note in their order, by default those
+    of its school.
     """
 
     title_en: str = ""

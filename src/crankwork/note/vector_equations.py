@@ -81,7 +81,13 @@ def vector_plans(material: Material) -> Iterator[Block]:
             )
     if material.options.figures:
         yield words.paragraph("see_construction", figures=Reference("f:velocity_plan"))
-        yield Figure(figure, figure.title, translate("seen.velocity_plan", words.language), label="f:velocity_plan", to_scale=True)
+        yield Figure(
+            figure,
+            figure.title,
+            translate("seen.velocity_plan", words.language),
+            label="f:velocity_plan",
+            to_scale=True,
+        )
         material.leave_out("velocity_plan", "acceleration_plan")
     compared = material.full or material.order != "en"
     tables = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
@@ -128,24 +134,15 @@ class _Writer:
 
     def _parts(self, equation: VectorEquation) -> Iterator[Box]:
         """Yield a vector equation, and along what line each vector lies."""
-        yield self._vector(equation.left)
+        yield vector_box(self._name(equation.left), equation.left.known, self._words)
         for index, vector in enumerate(equation.right):
-            yield from (Sign("+") if index else EQUALS, self._vector(vector))
+            yield from (Sign("+") if index else EQUALS, vector_box(self._name(vector), vector.known, self._words))
         for vector in (equation.left, *equation.right):
             where = vector.line[1:] or "0"
             shown = self._words.phrase("along_guide", link=where) if vector.line and where.isdecimal() else where
             if vector.line or not vector.drawn:
                 yield from (_COMMA, symbol_box(self._name(vector))) if equation.right else ()
                 yield from (Sign(vector.line[0], "relation") if vector.line else EQUALS, Upright(shown))
-
-    def _vector(self, vector: PlanVector) -> Box:
-        """Return a vector, underlined as often as there is something known of it."""
-        box = symbol_box(self._name(vector))
-        assert isinstance(box, Script)  # noqa: S101 - its points are in the subscript
-        marked: Box = Script(Marked(box.base, self._words.mark("vector")), box.below, box.above)
-        for _ in range(vector.known):
-            marked = Marked(marked, "line")
-        return marked
 
     def _worked(self, unit: str, *parts: str | float | Script) -> Row:
         """Return symbols and numbers side by side, the last with its unit."""
@@ -196,6 +193,16 @@ class _Writer:
                 yield self._worked("m/s2", name, "=", *product, "=", size)
 
 
+def vector_box(name: str, known: int, words: Words) -> Box:
+    """Return a vector, underlined once where its line is known and twice where its magnitude is known too."""
+    box = symbol_box(name)
+    script = box if isinstance(box, Script) else Script(box)
+    marked: Box = Script(Marked(script.base, words.mark("vector")), script.below, script.above)
+    for _ in range(known):
+        marked = Marked(marked, "line")
+    return marked
+
+
 def name_of(vector: PlanVector, order: int, words: Words) -> str:
     """Return the symbol of a vector: `v_BA`, `a_BA^n`."""
     return f"{_SIGNS[order]}_{vector.name}{vector_mark(vector.kind, words.language) if order else ''}"
@@ -220,7 +227,8 @@ def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, sca
         if drawn is None:
             return words.number(exact, digits=_DIGITS), name
         off = words.fixed(100.0 * (shown - exact) / exact, 2) if legible else "–"
-        return words.number(shown, digits=_DIGITS), words.number(exact, digits=_DIGITS), name, off
+        decimals = max(0, _DIGITS - 1 - math.floor(math.log10(abs(exact))))
+        return words.fixed(shown, decimals), words.fixed(exact, decimals), name, off
 
     for key, part in vectors.items():
         length = abs(part.drawn)
