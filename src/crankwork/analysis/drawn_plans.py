@@ -92,8 +92,8 @@ def constructed_plans(
 
 def is_constructed(mechanism: Mechanism) -> bool:
     """Return whether a crank drives a linkage each group of which two lines solve."""
-    others = (isinstance(group, Chain) or (isinstance(group, RPP) and group.guide.link) for group in mechanism.dyads)
-    return isinstance(mechanism.driver, Crank) and not any(others)
+    unsolved = (isinstance(group, Chain) or (isinstance(group, RPP) and group.guide.link) for group in mechanism.dyads)
+    return isinstance(mechanism.driver, Crank) and not any(unsolved)
 
 
 def _plane(vector: Array) -> complex:
@@ -125,8 +125,8 @@ class _Paper:
         self._places = self._fixed | {
             letters[name]: _plane(track.place[0]) for name, track in moving.points.items() if name in letters
         }
-        self._beneath = {under: over for under, (_, over) in self._given[0].coincident.items()}
-        self._places |= {under: self._places[over] for under, over in self._beneath.items()}
+        self._sliding = {under: over for under, (_, over) in self._given[0].coincident.items()}
+        self._places |= {under: self._places[over] for under, over in self._sliding.items()}
         self._drawn = {name: self._rounded(place / scales.length) for name, place in self._places.items()}
         # ends of the vectors from the pole of the plan in hand and of that of velocities; of each link a point and the
         # ratio of its plan to its drawing; how fast links turn by both plans
@@ -232,7 +232,7 @@ class _Paper:
 
     def _length(self, side: _Side) -> float:
         """Return the length of a link between its points: given, or on a lever measured up to the block. [m]"""
-        if side.node in self._beneath:
+        if side.node in self._sliding:
             return self._read(abs(self._arm(side))) * self._scales.length
         return abs(self._places[side.node] - self._places[side.base])
 

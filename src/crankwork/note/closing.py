@@ -161,7 +161,7 @@ def _identity(key: str, words: Words) -> Cell:
 def _notice(notice: Notice, words: Words) -> str:
     """Return the sentence of a notice; keys of the machine file that it names become what they mean."""
     values = {
-        name: ", ".join(map(words.meaning, value.split(", "))) if name in ("name", "names") else value
+        name: ", ".join(map(words.meaning, value.split(", "))) if name in ("name", "names") else words.part(value)
         for name, value in notice.values.items()
         if isinstance(value, str)
     }

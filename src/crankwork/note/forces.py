@@ -12,6 +12,7 @@ from crankwork.analysis.mechanism import torque_by_routes
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.vector_polygons import worked_position
 from crankwork.formula.calculation_lines import ValueLine
+from crankwork.locale import translate
 from crankwork.note.document import Block, Citation, Equation, Paragraph, Reference, Table
 from crankwork.note.layout import EQUALS, Box, Digits, PrintedEquation, Row, Sign, Upright, row
 from crankwork.note.material import Material
@@ -127,17 +128,18 @@ def _equilibrium(material: Material) -> Iterator[Block]:
     """Yield the equation of the forces on each group, from the last one to the crank."""
     words, numbers = material.words, {name: int(number) for name, number in link_numbers(material.results).items()}
     plans = force_plans(material.results, worked_position(material.results))
-    found, lines, texts = set[str](), list[Row](), list[str]()
+    solved, lines, texts = set[str](), list[Row](), list[str]()
     for plan in plans:
         parts: list[Box] = []
+        key = "drawing.links" if len(plan.links) > 1 else "drawing.link"
+        head = translate(key, words.language, links=", ".join(str(numbers[link]) for link in plan.links))
         for force in plan.forces:
             name = force_symbol(force, numbers, words.language).strip("$")
             # of a guide the line of action is known
-            known = 2 if force.kind == "load" or force.name in found else 1 if force.kind == "guide" else 0
+            known = 2 if force.kind == "load" or force.name in solved else 1 if force.kind == "guide" else 0
             parts += [*([Sign("+")] if parts else []), vector_box(name, known, words)]
-        found |= {force.name for force in plan.forces}
-        links = ", ".join(str(numbers[link]) for link in plan.links)
-        lines.append(row(*parts, EQUALS, Digits("0"), Upright(f"  ({words.phrase('on_links', links=links)})")))
+        solved |= {force.name for force in plan.forces}
+        lines.append(row(*parts, EQUALS, Digits("0"), Upright(f"  ({head})")))
         texts.append(
             " + ".join(force_symbol(force, numbers, words.language).strip("$") for force in plan.forces) + " = 0"
         )

@@ -199,18 +199,23 @@ class Material:
         """Lines of the calculation of the cycle."""
         return cycle_lines(self.results) if self.has_piston else ()
 
-    @cached_property
-    def drawings(self) -> Mapping[str, Drawing]:
-        """Figures by name."""
+    @property
+    def position_plan(self) -> Drawing:
+        """The positions of a linkage, drawn whether figures are left out or not."""
+        return (self.drawn or self._drawings("position_plans"))["position_plans"]
+
+    def _drawings(self, *only: str) -> Mapping[str, Drawing]:
+        """Return the figures of these names, all without names."""
+        language, area = self.options.language, self.per_area
         # the curves of a linkage are many
         tall = _LOWER if self.machine.linkage is not None else 1.0
         with use_layout(current_layout()._replace(tall=tall)):
-            return drawings(self.results, language=self.options.language, per_area=self.per_area)
+            return drawings(self.results, language=language, per_area=area, only=only or None)
 
-    @property
+    @cached_property
     def drawn(self) -> Mapping[str, Drawing]:
         """Figures by name; none if they are left out."""
-        return self.drawings if self.options.figures else {}
+        return self._drawings() if self.options.figures else {}
 
     def leave_out(self, *names: str) -> None:
         """Show no figures of these names any more: others hold what they show."""

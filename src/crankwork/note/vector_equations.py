@@ -62,9 +62,9 @@ def vector_plans(material: Material) -> Iterator[Block]:
         yield from material.presented((), ("velocity_plan", "acceleration_plan"))
         return
     yield words.paragraph("vector_equations", value=words.place_text(degrees))
-    beneath = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, 1.0, links).coincident
+    coincident = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, 1.0, links).coincident
     points = [
-        words.phrase("beneath", point=point, link=str(link), other=over) for point, (link, over) in beneath.items()
+        words.phrase("beneath", point=point, link=str(link), other=over) for point, (link, over) in coincident.items()
     ]
     if points:
         yield words.paragraph("coincident", points="; ".join(points))
@@ -111,7 +111,7 @@ def _figure(material: Material, degrees: float, links: tuple[str, ...]) -> tuple
     )
     with use_layout(current_layout()._replace(tall=_TALL)):
         plans = in_grid(drawn, 2, translate("headings.polygons", language), language, str)
-    (plot,) = material.drawings["position_plans"].plots
+    (plot,) = material.position_plan.plots
     return plans, PlanScales(1.0 / plot.metre, scales.of("v", 0), scales.of("a", 0))
 
 
@@ -242,4 +242,4 @@ def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, sca
             rows.append((name, "–", "–", *cells(rate, drawn.turning[link] if drawn else rate, _ROTARY[order])))
     titles = ("by_plan", "analytic", "unit", "deviation") if drawn else ("value", "unit")
     caption, align = f"{'compared' if drawn else 'plan'}_{_KINDS[order]}", "crrrrcr" if drawn else "crrrc"
-    return words.table(caption, ("vector", "direction", "on_plan", *titles), rows, align, f"t:{caption}")
+    return words.table(caption, ("vector", "angle", "on_plan", *titles), rows, align, f"t:{caption}")
