@@ -229,7 +229,7 @@ def test_values_by_the_piston_area_are_those_of_the_tables():
     ("name", "wanted"),
     [
         ("v8-diesel", ["N_e", "N_iΣ", "M_Σср"]),
-        ("press-geometry", ["M_Σ,max", "M_Σ,min", "H_punch", "R_max,O"]),
+        ("press-geometry", ["M_Σ,max", "M_Σ,min", "H_5", "R_max,O"]),
         ("punching-machine", ["P_дв", "M_ср", "J_м", "δ"]),
     ],
 )
