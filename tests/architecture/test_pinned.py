@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "29245a9434cd",
     "quantities": "e8556442faa7",
-    "defaults": "6b294094b813",
+    "defaults": "b5981e605d19",
 }
 
 

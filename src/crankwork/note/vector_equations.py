@@ -242,5 +242,6 @@ def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, sca
             name = Math(f"{symbol(_TURNING[order], words.language)}_{link}")
             rows.append((name, "–", "–", *cells(rate, drawn.turning[link] if drawn else rate, _ROTARY[order])))
     titles = ("by_plan", "analytic", "unit", "deviation") if drawn else ("value", "unit")
-    caption, align = f"{'compared' if drawn else 'plan'}_{_KINDS[order]}", "crrrrcr" if drawn else "crrrc"
+    caption, align = ("compared_", "crrrrcr") if drawn else ("plan_", "crrrc")
+    caption += _KINDS[order]
     return words.table(caption, ("vector", "angle", "on_plan", *titles), rows, align, f"t:{caption}")
