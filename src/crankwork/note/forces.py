@@ -203,7 +203,7 @@ SECTIONS = (
     Section("forces", (
         Head("linkage_forces"), When(_has_bodies, (Head("inertia_loads", 2), *_INERTIA_OF_LINKS)),
         Head("reactions", 2), Text("reactions"), _equilibrium,
-        When(either(full, lacks(_has_polygons)), (At("joint_forces"), Lines("joint_forces"))),
+        When(either(full, lacks(_has_polygons)), (At("joint_forces"), Lines("joint_forces", first=True))),
         Places("reactions", _IN_JOINTS, "reactions", filled=True),
         Shown(("process_force", "joint_forces", "force_plans")), _undrawn,
         Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),

@@ -150,7 +150,7 @@ SECTIONS = (
             Head("transfer", 2), Text("transfer", {"source": Citation(_POSITIONS)}), _transfer,
         )), *_POLYGONS, vector_plans,
         When(either(full, lacks(has_vector_equations)), (
-            Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion"),
+            Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion", first=True),
         )), Head("motion_tables", 2),
         Places("velocities", _MOVING), Places("accelerations", _accelerations),
         _INSTANT_CENTRES, Shown(("centrodes", "points", "links")),

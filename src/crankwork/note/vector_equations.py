@@ -34,6 +34,7 @@ from crankwork.note.wording import Words
 from crankwork.report.display import symbol
 from crankwork.report.look import Style, position_sign, position_text
 from crankwork.report.plans import acceleration_plan, vector_mark, velocity_plan
+from crankwork.show.canvas import marked
 from crankwork.show.chart_layout import current_layout, use_layout
 from crankwork.show.scene import Drawing
 
@@ -109,7 +110,7 @@ def _figure(material: Material, degrees: float, links: tuple[str, ...]) -> tuple
         lambda: scales.kept("v", 0, velocity_plan(mechanism, moved, 0, given[0], style, number)),
         lambda: scales.kept("a", 0, acceleration_plan(mechanism, moved, 0, *given, style, number)),
     )
-    where = f"{position_sign(style)} = {position_text(degrees, style)}"
+    where = marked(f"{position_sign(style)} = {position_text(degrees, style)}")
     with use_layout(current_layout()._replace(tall=_TALL)):
         plans = in_grid(drawn, 2, translate("headings.polygons", language), language, lambda: where)
     (plot,) = material.position_plan.plots
