@@ -229,6 +229,8 @@ def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, sca
         if drawn is None:
             return words.number(exact, digits=_DIGITS), name
         off = words.fixed(100.0 * (shown - exact) / exact, 2) if legible else "–"
+        if not legible:
+            return "–", words.number(exact, digits=_DIGITS), name, off
         decimals = max(0, _DIGITS - 1 - math.floor(math.log10(abs(exact))))
         return words.fixed(shown, decimals), words.fixed(exact, decimals), name, off
 
