@@ -8,7 +8,7 @@ from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, M
 _SPACES = {"prefix": "0", "times": "0.12em", "slash": "0", "binary": "0.25em", "relation": "0.35em"}
 
 
-def mathml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
+def mathml_box(box: Box) -> str:  # noqa: C901, PLR0912 - one case per kind of box
     """Return a box as one element of MathML."""
     match box:
         case Letter(text):
@@ -37,9 +37,10 @@ def mathml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
             return f"<mrow>{mathml_box(name)}{space}{mathml_box(argument)}</mrow>"
         case Marked(inside, "bold"):
             return f'<mrow style="font-weight: bold">{mathml_box(inside)}</mrow>'
+        case Marked(inside, "line"):
+            return f'<mrow style="border-bottom: 1px solid; padding-bottom: 1px">{mathml_box(inside)}</mrow>'
         case Marked(inside, mark):
-            under, sign = ("under", "_") if mark == "line" else ("over", "→" if mark == "arrow" else "¯")
-            return f'<m{under}>{mathml_box(inside)}<mo stretchy="true">{sign}</mo></m{under}>'
+            return f'<mover>{mathml_box(inside)}<mo stretchy="true">{"→" if mark == "arrow" else "¯"}</mo></mover>'
 
 
 _FORMS = ("prefix", "postfix")
