@@ -60,7 +60,7 @@ ESSENTIAL = frozenset((
     "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
 # height of the figures of a linkage over that elsewhere
-_LOWER = 0.64
+_LOWER = 0.7
 # significant digits of the values of a note that does not show all
 _DIGITS = 4
 # sentences that refer to one of a kind, and to several
