@@ -96,8 +96,8 @@ def worked_position(results: Results) -> float:
         is_still = np.any([item < 1e-3 * np.max(item) for item in turning], axis=0)
         worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
         return float(angles[np.argmax(np.where(is_still, worth - worth.max(), worth))])
-    rates = [np.abs(value) for key, value in results.columns_at(angles).items() if key.startswith(_TURNING)]
-    is_slow = np.any([item < _SLOW * np.max(item) for item in rates if np.max(item) > 0], axis=0)
+    moving = [np.abs(value) for key, value in results.columns_at(angles).items() if key.startswith(_TURNING)]
+    is_slow = np.any([item < _SLOW * np.max(item) for item in moving if np.max(item) > 0], axis=0)
     ahead = angles - POSITION_STEP
     return float(angles[np.argmin(np.abs(ahead) + machine.cycle * (2.0 * is_slow + (ahead < -1e-9)))])
 
