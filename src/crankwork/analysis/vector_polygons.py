@@ -97,7 +97,9 @@ def worked_position(results: Results) -> float:
         worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
         return float(angles[np.argmax(np.where(is_still, worth - worth.max(), worth))])
     moving = [np.abs(value) for key, value in results.columns_at(angles).items() if key.startswith(_TURNING)]
-    is_slow = np.any([item < _SLOW * np.max(item) for item in moving if np.max(item) > 0], axis=0)
+    # a link that never turns has rates of rounding alone
+    least = 1e-9 * max((float(np.max(item)) for item in moving), default=0.0)
+    is_slow = np.any([item < _SLOW * np.max(item) for item in moving if np.max(item) > least], axis=0)
     ahead = angles - POSITION_STEP
     return float(angles[np.argmin(np.abs(ahead) + machine.cycle * (2.0 * is_slow + (ahead < -1e-9)))])
 
