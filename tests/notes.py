@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 import crankwork
 from crankwork.note.contents import note_of
 from crankwork.note.document import Block, Equation, Figure, Heading, ItemList, Math, Note, Paragraph, Table
-from crankwork.note.equations import PrintedEquation, printed_equation
+from crankwork.note.equations import printed_equation
+from crankwork.note.layout import PrintedEquation
 from crankwork.note.options import NoteOptions
 from crankwork.note.sheets import Paper, TitleBlock, drawn_sheets
 from crankwork.note.sheets.sheet import Sheet
 from crankwork.quantities import Language
+from crankwork.quantities.quantity import use_numbers
+from crankwork.report.display import link_numbers
 from crankwork.show.scene import Drawing, Polyline, Text
 
 ROOT = Path(__file__).parents[1]
@@ -27,6 +30,7 @@ SIGNED = Paper(
         supervisor="Щербаков Ю. Ё.", subject="Курсовой проект по теории механизмов и машин",
     )
 )  # fmt: skip
+T = TypeVar("T")
 
 
 @functools.cache
@@ -103,6 +107,18 @@ def worked(one: Note) -> dict[str, float]:
     }
 
 
+def as_numbered(function: Callable[[Note], T]) -> Callable[[Note], T]:
+    """Return a function of a note that calls links as the note does, by their numbers."""
+
+    @functools.wraps(function)
+    def numbered(one: Note) -> T:
+        with use_numbers(link_numbers(one.results)):
+            return function(one)
+
+    return numbered
+
+
+@as_numbered
 def shown(one: Note) -> list[PrintedEquation]:
     """Return the equations as they are printed, worked out once."""
     if id(one) not in _SHOWN:

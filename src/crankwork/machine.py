@@ -72,10 +72,14 @@ class FileInputs(NamedTuple):
 class Document:
     """Title data of a note and its sheets; empty fields are left out or filled in by hand.
 
-    `work`: kind of the work, such as a course project; `subtitle`: if the note is not a calculation report; `year`: 0
-    if unknown; `sections`: of the note in their order, by default those of its school.
+    `title_ru`: the title in a note of this language; `work`: kind of the work, such as a course project; `subtitle`: if
+    the note is not a calculation report; `year`: 0 if unknown; `sections`: of the note in their order, by default those
+    of its school.
     """
 
+    title_en: str = ""
+    title_ru: str = ""
+    title_vi: str = ""
     ministry: str = ""
     institution: str = ""
     faculty: str = ""

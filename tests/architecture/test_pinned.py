@@ -29,7 +29,7 @@ PINNED = {
     },
     "formulas": "86d5a259bf51",
     "quantities": "e91c7c7c54a6",
-    "defaults": "c75cfbdb587c",
+    "defaults": "4be95ba2af21",
 }
 
 

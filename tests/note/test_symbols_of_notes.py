@@ -16,10 +16,12 @@ from crankwork.note.equations import equation_symbol, own_key, printed_equation,
 from crankwork.note.layout import Upright
 from crankwork.note.symbols import symbol_box
 from crankwork.quantities import LANGUAGES, QUANTITIES
+from crankwork.quantities.quantity import use_numbers
+from crankwork.report.display import link_numbers
 from crankwork.report.display import symbol as key_symbol
 from each import for_each
 from note.built import SOME, broken, looked_at, note, schools, source
-from notes import blocks, nomenclature, printed, tables
+from notes import as_numbered, blocks, nomenclature, printed, tables
 
 OTHERS = (
     "spark-engine: exact", "v8-diesel", "radial-five", "narrow-v6: textbook", "two-stroke", "atkinson", "beta-stirling",
@@ -44,11 +46,16 @@ def every_note(rule):
     some = [(case, language) for case in SOME for language in LANGUAGES]
     more = [(case, language) for case in OTHERS for language in schools(case)]
 
+    def checked(case, language):
+        whole = note(case, language)
+        with use_numbers(link_numbers(whole.results)):
+            return rule(case, whole)
+
     @pytest.mark.parametrize(
         "notes", [pytest.param(some, id="some"), pytest.param(more, id="more", marks=pytest.mark.slow)]
     )
     def test(notes):
-        assert broken(lambda case, language: rule(case, note(case, language)), notes) == {}
+        assert broken(checked, notes) == {}
 
     return test
 
@@ -68,6 +75,7 @@ def needed(step: FormulaLine, language: str) -> dict[str, tuple[str, ...]]:
     return found
 
 
+@as_numbered
 def unexplained(one: Note) -> list[str]:
     """Return the symbols of equations that nothing explains."""
     known = {row[0].content for row in nomenclature(one)}

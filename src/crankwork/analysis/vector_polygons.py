@@ -19,6 +19,9 @@ POSITION_STEP = 30.0
 _FINEST, _COARSEST = 15.0, 90.0
 # columns without a value at many positions
 _IN_PLACES = ("instant_centre_", "instantaneous_efficiency")
+_TURNING = "link_angular_velocity."
+# share of its largest angular velocity at which a link is too slow to be read on a plan
+_SLOW = 0.1
 Kind = Literal["absolute", "relative", "normal", "tangential", "coriolis", "sliding"]
 
 
@@ -83,7 +86,7 @@ def worked_position(results: Results) -> float:
     """Return the position of the worked example, at which plans are drawn. [deg]
 
     With loads, that of the largest torque at which no turning link stands still; with a law, one at which the driver
-    moves, and if possible accelerates; else the first after the start.
+    moves, and if possible accelerates; else the first after the start at which every link turns, if there is one.
     """
     machine = results.machine
     angles = positions(machine)
@@ -95,12 +98,17 @@ def worked_position(results: Results) -> float:
         columns = results.columns_at(angles)
         # in a change point forces may not be determined
         known = np.all([np.isfinite(value) for key, value in columns.items() if not key.startswith(_IN_PLACES)], axis=0)
-        turning = [np.abs(value) for key, value in columns.items() if key.startswith("link_angular_velocity.")]
+        turning = [np.abs(value) for key, value in columns.items() if key.startswith(_TURNING)]
         # half of the lines of a link that stands still are zeros
         is_still = np.any([item < 1e-3 * np.max(item) for item in turning], axis=0)
         worth = np.where(known, np.abs(columns["static_torque"]), -1.0)
         return float(angles[np.argmax(np.where(is_still, worth - worth.max(), worth))])
-    return float(angles[np.argmin(np.abs(angles - POSITION_STEP))])
+    moving = [np.abs(value) for key, value in results.columns_at(angles).items() if key.startswith(_TURNING)]
+    # a link that never turns has rates of rounding alone
+    least = 1e-9 * max((float(np.max(item)) for item in moving), default=0.0)
+    is_slow = np.any([item < _SLOW * np.max(item) for item in moving if np.max(item) > least], axis=0)
+    ahead = angles - POSITION_STEP
+    return float(angles[np.argmin(np.abs(ahead) + machine.cycle * (2.0 * is_slow + (ahead < -1e-9)))])
 
 
 def driver_rates(results: Results, known: Mapping[str, Array]) -> DriverRates:

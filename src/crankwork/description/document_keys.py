@@ -32,6 +32,7 @@ _TURNING = (
 )  # fmt: skip
 _WORDS = Text(300)
 _HEAD = (
+    "title_en", "title_ru", "title_vi",
     "ministry", "institution", "faculty", "department", "work", "subject", "subtitle", "variant", "designation",
 )  # fmt: skip
 _PEOPLE = ("group", "supervisor", "checked_by", "standards_by", "approved_by", "city")

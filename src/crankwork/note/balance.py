@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from crankwork.note.document import Block, Citation, Reference, Runs
 from crankwork.note.material import Material
-from crankwork.note.parts import At, Head, Lines, Places, Rows, Section, Shown, Text, When, every, has, turning
+from crankwork.note.parts import At, Head, Lines, Places, Rows, Section, Shown, Text, When, every, full, has, turning
 from crankwork.note.wording import in_display_unit, named
 from crankwork.quantities.key import key_of
 
@@ -41,7 +41,7 @@ SECTIONS = (
     ), has("piston_displacement", "balance")),
     Section("balance", (
         Head("linkage_balance"), Text("shaking", {"source": Citation(_BALANCE)}), At("shaking"), Lines("shaking"),
-        Places("shaking", _SHAKING, "shaking", filled=True),
+        When(full, (Places("shaking", _SHAKING, "shaking", filled=True),)),
         When(lambda material: bool(named(material.results.summary, "free_force")), (
             _orders, Text("counterweight"), Lines("counterweight"),
         )),

@@ -48,8 +48,8 @@ _OF_ENGINES = (
 _PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
 # main results of linkages; the others are in the full note
 _OF_LINKAGES = frozenset((
-    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max", "slider_acceleration_min",
-    "joint_force_max", "normal_force_max", "transmission_angle_min", "reduced_inertia_max", "reduced_inertia_min",
+    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max",
+    "normal_force_max", "transmission_angle_min", "reduced_inertia_max",
     "static_torque_max", "driving_torque_max", "driving_torque_min", "mean_torque", "mean_driving_torque",
     "efficiency", "mean_efficiency", "motor_power", "standard_motor_power", "shaft_power",
     "driver_force_max", "driver_force_min",
@@ -162,7 +162,7 @@ def _identity(key: str, words: Words) -> Cell:
 def _notice(notice: Notice, words: Words) -> str:
     """Return the sentence of a notice; keys of the machine file that it names become what they mean."""
     values = {
-        name: ", ".join(map(words.meaning, value.split(", "))) if name in ("name", "names") else value
+        name: ", ".join(map(words.meaning, value.split(", "))) if name in ("name", "names") else words.part(value)
         for name, value in notice.values.items()
         if isinstance(value, str)
     }

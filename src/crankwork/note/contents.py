@@ -14,7 +14,8 @@ from crankwork.note.pdf import pdf
 from crankwork.note.sections import note_of_sections
 from crankwork.note.web import web
 from crankwork.note.word import word
-from crankwork.report.display import for_readers, reader_units
+from crankwork.quantities.quantity import use_numbers
+from crankwork.report.display import for_readers, link_numbers, reader_units
 from crankwork.report.summary import provenance
 from crankwork.show.dxf import dxf
 from crankwork.show.pdf import pdf as page
@@ -31,7 +32,8 @@ if TYPE_CHECKING:
 def note_of(results: Results, options: NoteOptions | None = None) -> Note:
     """Return the calculation note of a machine."""
     options = options or NoteOptions()
-    note = note_of_sections(results, options)
+    with use_numbers(link_numbers(results)):
+        note = note_of_sections(results, options)
     return replace(note, units=reader_units(results), provenance=provenance(results), results=results)
 
 
@@ -45,7 +47,8 @@ def sheets_of(results: Results, options: NoteOptions | None = None) -> dict[str,
 
     block = sheets.block_of(results.machine.document, cast("Language", options.order), options.author)
     paper = sheets.Paper(options.paper, has_grid=options.grid, block=block)
-    drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area)
+    with use_numbers(link_numbers(results)):
+        drawn = sheets.drawn_sheets(results, options.language, paper=paper, per_area=options.per_area)
     formats = {"pdf": page, "svg": svg, "dxf": dxf}
     return {
         f"-sheet-{number}.{ending}": written(sheet.drawing)
@@ -72,5 +75,5 @@ def check_format(name: str, *, with_sheets: bool = False) -> None:
 def written_note(note: Note, name: str) -> bytes:
     """Return a note in the format that the ending of a file name asks for."""
     check_format(name)
-    with use_units(note.units):
+    with use_units(note.units), use_numbers(link_numbers(note.results)):
         return WRITERS[PurePath(name).suffix.lower()](note)

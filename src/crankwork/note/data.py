@@ -172,7 +172,7 @@ def _task(material: Material) -> Iterator[Block]:
         value=words.amount(material.results.solved.speed, "rad/s"),
     )
     for geared in crank.geared:
-        yield words.paragraph("geared_crank", name=geared.link, ratio=words.number(geared.ratio))
+        yield words.paragraph("geared_crank", name=words.part(geared.link), ratio=words.number(geared.ratio))
     if machine.angular_acceleration:
         yield words.paragraph("acceleration", value=words.amount(machine.angular_acceleration, "rad/s2"))
     yield from _parts(material)
@@ -257,7 +257,8 @@ def _places(material: Material) -> Iterator[Table]:
         yield words.table("pivots", ("point", *axes), rows, "crr")
     lines = [
         (
-            name, guide.link or words.term("ground"), *(words.shown("point_x", value) for value in guide.point),
+            link_label(name, words.language), words.part(guide.link) if guide.link else words.term("ground"),
+            *(words.shown("point_x", value) for value in guide.point),
             words.number(math.degrees(guide.angle)),
         )
         for name, guide in linkage.guides.items()
@@ -271,7 +272,8 @@ def _outer_load(load: LoadInput, words: Words) -> Runs:
     amounts = {
         name: "…" if value is None else words.amount(value, unit) for name, (value, unit) in load.amounts.items()
     }
-    return words.sentence(f"load_{load.kind}", **load.names, **amounts)
+    parts = {key: words.part(name) for key, name in load.names.items()}
+    return words.sentence(f"load_{load.kind}", **parts, **amounts)
 
 
 def _chambers(material: Material) -> Iterator[Block]:
@@ -296,7 +298,7 @@ def _of_chamber(chamber: ChamberInput, material: Material) -> Iterator[str]:
     """Yield name, faces, areas, clearance, pressure around, and what gives the pressure of a chamber."""
     words, results = material.words, material.results
     yield chamber.name
-    yield ", ".join(f"{slider} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
+    yield ", ".join(f"{words.part(slider)} ({'+' if sense > 0 else _MINUS})" for slider, sense in chamber.faces)
     keys = [f"piston_area.{owner}" for owner in chamber.owners]
     yield "; ".join(words.number(in_display_unit(key, [results.value(key)])[0]) for key in keys)
     yield words.number(

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from crankwork.formula.calculation_lines import FormulaLine, Line
 from crankwork.formula.expression import Expression, Formula
+from crankwork.note.layout import PrintedEquation
 from crankwork.quantities import Language
 from crankwork.show.scene import Drawing
 from crankwork.units import METRIC, DisplayUnits
@@ -101,6 +102,7 @@ class Equation:
     area: float = 0.0
     cites: bool = True
     digits: int = 6
+    printed: PrintedEquation | None = None  # Instead of the step, where it is no single value
 
 
 @dataclass(frozen=True)
@@ -145,6 +147,7 @@ class Figure:
     alt: str
     label: str = ""
     floats: bool = True
+    to_scale: bool = False  # Whether it states a scale, so that it is printed as large as it is
 
     @property
     def name(self) -> str:

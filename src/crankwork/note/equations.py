@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import NamedTuple
 
 from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, Line, SumLine, ValueLine, without_noise
 from crankwork.formula.expression import Formula, Operation, Symbol, record, takes_angle, text
@@ -26,6 +25,7 @@ from crankwork.note.layout import (
     Box,
     Fence,
     Letter,
+    PrintedEquation,
     Row,
     Script,
     Sign,
@@ -61,15 +61,10 @@ _WITHOUT_ORDER = ("rotating", "counterweights")
 _TIGHT_UNITS = ("°", "%")
 
 
-class PrintedEquation(NamedTuple):
-    """An equation as lines of boxes, and as plain text for those who cannot see it."""
-
-    lines: tuple[Row, ...]
-    text: str
-
-
 def printed_equation(block: Equation, language: Language, limit: float = LINE_WIDTH) -> PrintedEquation:
     """Return the lines of an equation."""
+    if block.printed is not None:
+        return block.printed
     block = block if isinstance(block.step, Formula) else replace(block, step=without_noise(block.step))
     left = symbol_box(block.symbol or equation_symbol(block.step, language))
     parts: list[Box] = []

@@ -7,9 +7,14 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from crankwork.analysis import Array
+from crankwork.analysis.force_plans import force_plans
 from crankwork.analysis.mechanism import torque_by_routes
 from crankwork.analysis.rounding_noise import without_rounding
-from crankwork.note.document import Block, Citation, Paragraph, Reference, Table
+from crankwork.analysis.vector_polygons import worked_position
+from crankwork.formula.calculation_lines import ValueLine
+from crankwork.locale import translate
+from crankwork.note.document import Block, Citation, Equation, Paragraph, Reference, Table
+from crankwork.note.layout import EQUALS, Box, Digits, PrintedEquation, Row, Sign, Upright, row
 from crankwork.note.material import Material
 from crankwork.note.parts import (
     At,
@@ -27,9 +32,13 @@ from crankwork.note.parts import (
     either,
     every,
     full,
+    lacks,
     works,
 )
 from crankwork.note.tables import Column, long_table, quantity_column, tabulated
+from crankwork.note.vector_equations import vector_box
+from crankwork.report.display import link_numbers
+from crankwork.report.forces import force_symbol
 from crankwork.report.notices import skipped_figure_notes
 from crankwork.report.tables import any_nonzero
 
@@ -111,6 +120,34 @@ def _lever(material: Material) -> Iterator[Block]:
     yield from tabulated(material, "routes", shown, "routes")
 
 
+def _has_polygons(material: Material) -> bool:
+    return bool(force_plans(material.results, worked_position(material.results)))
+
+
+def _equilibrium(material: Material) -> Iterator[Block]:
+    """Yield the equation of the forces on each group, from the last one to the crank."""
+    words, numbers = material.words, {name: int(number) for name, number in link_numbers(material.results).items()}
+    plans = force_plans(material.results, worked_position(material.results))
+    solved, lines, texts = set[str](), list[Row](), list[str]()
+    for plan in plans:
+        parts: list[Box] = []
+        key = "drawing.links" if len(plan.links) > 1 else "drawing.link"
+        head = translate(key, words.language, links=", ".join(str(numbers[link]) for link in plan.links))
+        for force in plan.forces:
+            name = force_symbol(force, numbers, words.language).strip("$")
+            # of a guide the line of action is known
+            known = 2 if force.kind == "load" or force.name in solved else 1 if force.kind == "guide" else 0
+            parts += [*([Sign("+")] if parts else []), vector_box(name, known, words)]
+        solved |= {force.name for force in plan.forces}
+        lines.append(row(*parts, EQUALS, Digits("0"), Upright(f"  ({head})")))
+        texts.append(
+            " + ".join(force_symbol(force, numbers, words.language).strip("$") for force in plan.forces) + " = 0"
+        )
+    if lines:
+        yield words.paragraph("equilibrium")
+        yield Equation(ValueLine("", 0.0), printed=PrintedEquation(tuple(lines), "; ".join(texts)))
+
+
 def _route(name: str, values: Array, material: Material) -> Column:
     column = quantity_column(material, "balancing_torque", values, digits=5)
     return column._replace(heading=(*column.heading, f", {material.words.term(name)}"))
@@ -165,7 +202,8 @@ SECTIONS = (
     ), every(_is_loaded, driven)),
     Section("forces", (
         Head("linkage_forces"), When(_has_bodies, (Head("inertia_loads", 2), *_INERTIA_OF_LINKS)),
-        Head("reactions", 2), Text("reactions"), At("joint_forces"), Lines("joint_forces"),
+        Head("reactions", 2), Text("reactions"), _equilibrium,
+        When(either(full, lacks(_has_polygons)), (At("joint_forces"), Lines("joint_forces", first=True))),
         Places("reactions", _IN_JOINTS, "reactions", filled=True),
         Shown(("process_force", "joint_forces", "force_plans")), _undrawn,
         Head("lever", 2), _lever, Shown(("zhukovsky_lever",)),

@@ -9,6 +9,7 @@ from crankwork.note.document import Block, Citation, ItemList, Math, Run, Runs
 from crankwork.note.material import Material
 from crankwork.note.parts import At, Head, Lines, Places, Section, Shown, Text, When, amount, drawn, every, has, number
 from crankwork.note.wording import Words, named
+from crankwork.quantities.quantity import own_name
 from crankwork.report.tables import any_nonzero
 
 _SOURCE = "artobolevsky_1988, ch. 11, 14"
@@ -30,7 +31,7 @@ def _friction_of_joint(joint: FrictionInput, words: Words) -> Runs:
     runs: list[Run] = []
     for key, (value, unit) in joint.amounts.items():
         runs += [
-            ", " if runs else f"{joint.name.replace('_', ' ')}: ",
+            ", " if runs else f"{own_name('joint_force', joint.name)}: ",
             Math(words.symbol(key)),
             f" = {words.amount(value, unit)}",
         ]

@@ -7,7 +7,7 @@ finished text, so that every format prints the same digits and no space follows 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 SignKind = Literal["binary", "prefix", "relation", "times", "slash", "comma", "fence"]
 
@@ -88,7 +88,23 @@ class Apply:
     argument: Box
 
 
-Box = Letter | Upright | Digits | Sign | Row | Fraction | Root | Script | Fence | Apply
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """A box with a bar or an arrow over it, in bold, or with a line under it, as vectors have."""
+
+    inside: Box
+    mark: str  # `bar`, `arrow`, `bold` or `line`
+
+
+Box = Letter | Upright | Digits | Sign | Row | Fraction | Root | Script | Fence | Apply | Marked
+
+
+class PrintedEquation(NamedTuple):
+    """An equation as lines of boxes, and as plain text for those who cannot see it."""
+
+    lines: tuple[Row, ...]
+    text: str
+
 
 PRODUCT = Sign("", "times")
 DOT = Sign("·", "times")
@@ -137,6 +153,8 @@ def width(box: Box | None) -> float:  # noqa: C901 - one case per kind of box
             return width(inside) + _FENCE
         case Apply(name, argument):
             return width(name) + width(argument) + 0.17
+        case Marked(inside):
+            return width(inside)
 
 
 def first(box: Box) -> Box:

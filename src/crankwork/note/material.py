@@ -29,6 +29,7 @@ from crankwork.report.display import is_per_area, key_unit, label
 from crankwork.report.figures import drawings
 from crankwork.report.look import figure_title, kind_of
 from crankwork.report.tables import any_nonzero
+from crankwork.show.chart_layout import current_layout, use_layout
 from crankwork.show.scene import Drawing
 from crankwork.units import from_si
 
@@ -58,6 +59,8 @@ ESSENTIAL = frozenset((
     "motor_ratio", "gas_pressure", "cylinder_volume", "shaft_power", "work_per_cycle", "turning_moment",
     "stroke_work", "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
+# height of the figures of a linkage over that elsewhere
+_LOWER = 0.7
 # significant digits of the values of a note that does not show all
 _DIGITS = 4
 # sentences that refer to one of a kind, and to several
@@ -196,12 +199,27 @@ class Material:
         """Lines of the calculation of the cycle."""
         return cycle_lines(self.results) if self.has_piston else ()
 
+    @property
+    def position_plan(self) -> Drawing:
+        """The positions of a linkage, drawn whether figures are left out or not."""
+        return (self.drawn or self._drawings("position_plans"))["position_plans"]
+
+    def _drawings(self, *only: str) -> Mapping[str, Drawing]:
+        """Return the figures of these names, all without names."""
+        language, area = self.options.language, self.per_area
+        # the curves of a linkage are many
+        tall = _LOWER if self.machine.linkage is not None else 1.0
+        with use_layout(current_layout()._replace(tall=tall)):
+            return drawings(self.results, language=language, per_area=area, only=only or None)
+
     @cached_property
     def drawn(self) -> Mapping[str, Drawing]:
         """Figures by name; none if they are left out."""
-        if not self.options.figures:
-            return {}
-        return drawings(self.results, language=self.options.language, per_area=self.per_area)
+        return self._drawings() if self.options.figures else {}
+
+    def leave_out(self, *names: str) -> None:
+        """Show no figures of these names any more: others hold what they show."""
+        self._shown_figures |= set(names)
 
     def lines(self, group: str, *kinds: str) -> list[Line]:
         """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
@@ -220,6 +238,8 @@ class Material:
             # places of points stand with the motion
             places = () if group in ("motion", "driver") else ("point_x", "point_y")
             selected = [row for row in selected if _kind(row) in ESSENTIAL and _kind(row) not in places]
+            # the derivative of a sum is that of its terms
+            selected = [row for row in selected if not row.key.startswith("reduced_inertia_1.")]
         # of families, such as the journals of a shaft, a table has the others
         if first or not self.full:
             return self.worked(_first(selected))
@@ -359,9 +379,10 @@ class Material:
             # the crankpin has a name
             title = capital(drawing.title)
         text = seen(name, self)
+        alt = f"{title}. {text}".rstrip(". ") + "."
         if not text and has_text(f"seen.{kind}"):
-            return Figure(drawing, title, translate(f"seen.{kind}", self.words.language), label=f"f:{name}")
-        return Figure(drawing, title, f"{title}. {text}".rstrip(". ") + ".", label=f"f:{name}")
+            alt = translate(f"seen.{kind}", self.words.language)
+        return Figure(drawing, title, alt, label=f"f:{name}", to_scale=kind in _CONSTRUCTED)
 
 
 def _kind(line: Line) -> str:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from crankwork.note.characters import xml_text
-from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
+from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Marked, Root, Row, Script, Sign, Upright
 
 _SPACES = {"prefix": "0", "times": "0.12em", "slash": "0", "binary": "0.25em", "relation": "0.35em"}
 
 
-def mathml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
+def mathml_box(box: Box) -> str:  # noqa: C901, PLR0912 - one case per kind of box
     """Return a box as one element of MathML."""
     match box:
         case Letter(text):
@@ -35,6 +35,12 @@ def mathml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
         case Apply(name, argument):
             space = '<mo>\u2061</mo><mspace width="0.17em"/>'
             return f"<mrow>{mathml_box(name)}{space}{mathml_box(argument)}</mrow>"
+        case Marked(inside, "bold"):
+            return f'<mrow style="font-weight: bold">{mathml_box(inside)}</mrow>'
+        case Marked(inside, "line"):
+            return f'<mrow style="border-bottom: 1px solid; padding-bottom: 1px">{mathml_box(inside)}</mrow>'
+        case Marked(inside, mark):
+            return f'<mover>{mathml_box(inside)}<mo stretchy="true">{"→" if mark == "arrow" else "¯"}</mo></mover>'
 
 
 _FORMS = ("prefix", "postfix")

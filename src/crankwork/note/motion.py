@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.sampled_motion import transfer_ratios
+from crankwork.analysis.skeleton import skeleton
 from crankwork.note.closing import errors
 from crankwork.note.document import Block, Citation, Reference, Run
 from crankwork.note.material import Material
@@ -23,13 +24,17 @@ from crankwork.note.parts import (
     drawn,
     draws,
     driven,
+    either,
     every,
     full,
     has,
     in_full,
+    lacks,
 )
 from crankwork.note.tables import Column, tabulated
+from crankwork.note.vector_equations import has_vector_equations, vector_plans
 from crankwork.note.wording import named
+from crankwork.quantities.key import key_of
 
 _NOUNS = ("piston_displacement", "piston_velocity", "piston_acceleration")
 _ROD = ("rod_angle", "rod_angular_velocity", "rod_angular_acceleration")
@@ -67,8 +72,15 @@ def _largest_errors(material: Material) -> Iterator[Block]:
 
 
 def _positions(material: Material) -> Iterable[str]:
-    """Return the columns that say where points, links and sliders are."""
-    return [*material.of_axes("point"), *named(material.columns, "link_angle", "slider_displacement")]
+    """Return the columns that say where points, links and sliders are; the main ones leave out pin and centres."""
+    shape = skeleton(material.machine.mechanism)
+    known = () if material.full else (shape.pin, *shape.centres)
+    points = [key for key in material.of_axes("point") if key_of(key).owner not in known]
+    return [*points, *named(material.columns, "link_angle", "slider_displacement")]
+
+
+def _accelerations(material: Material) -> Iterable[str]:
+    return named(material.columns, *_ACCELERATING, *(("coriolis_acceleration",) if material.full else ()))
 
 
 def _transfer(material: Material) -> Iterator[Block]:
@@ -136,11 +148,12 @@ SECTIONS = (
         Head("linkage_kinematics"), Head("plans", 2), Text("positions"), Shown(("position_plans",)),
         Places("positions", _positions), When(full, (
             Head("transfer", 2), Text("transfer", {"source": Citation(_POSITIONS)}), _transfer,
-        )), Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion"),
-        Places("velocities", _MOVING), Places("accelerations", (*_ACCELERATING, "coriolis_acceleration")),
+        )), *_POLYGONS, vector_plans,
+        When(either(full, lacks(has_vector_equations)), (
+            Head("worked_motion", 2), At("motion"), Lines("speed"), Lines("motion", first=True),
+        )), Head("motion_tables", 2),
+        Places("velocities", _MOVING), Places("accelerations", _accelerations),
         _INSTANT_CENTRES, Shown(("centrodes", "paths", "points", "links")),
-        When(lambda material: bool(material.drawn), (
-            *_POLYGONS, Shown(("velocity_plan", "acceleration_plan", "sliders")),
-        )),
+        Shown(("sliders",)),
     ), drawn),
 )  # fmt: skip

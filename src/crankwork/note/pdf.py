@@ -33,7 +33,21 @@ from crankwork.note.document import (
     TitlePage,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
-from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright, width
+from crankwork.note.layout import (
+    Apply,
+    Box,
+    Digits,
+    Fence,
+    Fraction,
+    Letter,
+    Marked,
+    Root,
+    Row,
+    Script,
+    Sign,
+    Upright,
+    width,
+)
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.symbols import symbol_box
@@ -96,6 +110,7 @@ _LINE, _INSET = 0.66, 2.6
 _LONG_WORD = re.compile(r"\S{28,}")
 _ALIGN = {"l": "left", "c": "center", "r": "right"}
 _SIGNS = {"·": "dot.op", "": "thin", "/": "slash", "(": "paren.l", ")": "paren.r", ",": "comma thin", ";": '";" thin'}
+_MARKS = {"bar": "overline", "arrow": "arrow", "bold": "bold", "line": "underline"}
 _PRIMES = {"′": "prime", "″": "prime.double", "‴": "prime.triple"}
 
 
@@ -261,7 +276,7 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
 
 def _figure(block: Figure, number: str, language: Language) -> str:
-    width = _REDUCED * block.drawing.width / MM
+    width = (1.0 if block.to_scale else _REDUCED) * block.drawing.width / MM
     data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     words = typst_string(caption("figure", number, block.caption, language))
     image = (
@@ -336,6 +351,8 @@ def typst_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
             return f"attach({_base(base)}{feet}{f', t: {typst_box(above)}' if above else ''})"
         case Apply(name, argument):
             return f"{_name(name)} {typst_box(argument)}"
+        case Marked(inside, mark):
+            return f"{_MARKS[mark]}({typst_box(inside)})"
 
 
 def _letter(text: str) -> str:

@@ -41,7 +41,7 @@ def _range(material: Material) -> Iterator[Block]:
         for key in named(summary, kind, f"{kind}_circuit"):
             name = key_of(key).owner
             reached = (_value(material, f"{reach}.{name}") for reach in (kind, f"{kind}_circuit"))
-            row = (name, _unit(material, key), *reached)
+            row = (words.part(name), _unit(material, key), *reached)
             if row not in rows:
                 rows.append(row)
     if rows:
@@ -59,7 +59,7 @@ def _ends(material: Material) -> Iterator[Block]:
             ends = [f"{kind}_{word}.{name}" for word in ("min", "max")]
             shown = [text for end in ends for text in (_value(material, end), _place(material, end))]
             ways = [_value(material, f"{quantity}.{name}") for quantity in (travel, "time_ratio")]
-            rows.append((name, _unit(material, key), *shown, *ways))
+            rows.append((words.part(name), _unit(material, key), *shown, *ways))
     if not rows:
         return
     has_ratio = any(key.startswith("time_ratio.") for key in summary)
@@ -103,7 +103,7 @@ def _worst(material: Material) -> Iterator[Block]:
         if extreme is not None:
             symbol, place, unit = words.place(extreme.at)
             name, value = key_of(key).owner, _with_unit(place, unit, words)
-            yield words.paragraph("worst_angle", name=name, place=symbol, value=value)
+            yield words.paragraph("worst_angle", name=words.part(name), place=symbol, value=value)
             lines = [line for line in material.lines("transmission") if line.key in (extreme.key, key)]
             yield from material.worked(lines)
     yield _limits(material)
@@ -116,7 +116,7 @@ def _limits(material: Material) -> Table:
     names = dict.fromkeys(key_of(key).owner for key in named(summary, *kinds))
     rows = [
         (
-            name,
+            words.part(name),
             *(text for end in kinds for text in (_value(material, f"{end}.{name}"), _place(material, f"{end}.{name}"))),
         )
         for name in names

@@ -63,6 +63,8 @@ _LINKAGE = (
     "chambers", "forces", "balance", "reduction", "torques", "friction", "bearings", "harmonics", "motor", "flywheel",
     "law_of_motion", "transient", "comparison", "checks", "conclusion", "nomenclature", "sources", "appendix",
 )  # fmt: skip
+# sections of a linkage that the main course leaves out
+_FULL = ("bearings",)
 _CRANK_GEAR: dict[str, tuple[str, ...]] = {
     "ru": (
         "summary", "data", "cycle", "indicator", "kinematics", "dynamics", "torque", "crankpin", "mains", "balance",
@@ -95,7 +97,7 @@ def sections_of(material: Material) -> dict[str, Section]:
 def _order(material: Material) -> tuple[str, ...]:
     if material.has_piston:
         return _CRANK_GEAR[material.order]
-    return _LINKAGE
+    return tuple(name for name in _LINKAGE if material.full or name not in _FULL)
 
 
 def note_of_sections(results: Results, options: NoteOptions) -> Note:
@@ -121,7 +123,7 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     if options.full or not title_page.is_plain:
         front += [Contents(), PageBreak()]
     return Note(
-        options.title or material.machine.title or words.title(title),
+        options.title or getattr(document, f"title_{options.language}") or material.machine.title or words.title(title),
         options.language,
         (*front, *(_complete(blocks) if chosen else blocks)),
         tuple(author for author in document.author if author.strip()),

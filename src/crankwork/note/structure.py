@@ -13,6 +13,7 @@ from crankwork.mechanism.linkage import GROUND
 from crankwork.note.document import Block, Table
 from crankwork.note.material import Material
 from crankwork.note.parts import Section, drawn
+from crankwork.report.display import link_label
 
 _ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
@@ -37,7 +38,9 @@ def _structure(material: Material) -> Iterator[Block]:
     rows = [
         (
             str(number),
-            ", ".join(f"{numbers[name]} ({name})" for name in group.members if name in numbers),
+            ", ".join(
+                f"{numbers[name]} ({link_label(name, words.language)})" for name in group.members if name in numbers
+            ),
             _ROMAN[group.number],
             words.kind(kinds.get(frozenset(group.members), "")),
         )
@@ -74,12 +77,16 @@ def _pairs(material: Material, links: tuple[str, ...]) -> Table:
             # there the rod of the cylinder ends, not its barrel
             both = [rod_name(name) if name == driver.link else name for name in both]
         ends = sorted(0 if name == GROUND else links.index(name) for name in both)
-        name = (joint.point or pivots.get(joint.link, "")) if isinstance(joint, Pin) else joint.link
+        name = (
+            (joint.point or pivots.get(joint.link, ""))
+            if isinstance(joint, Pin)
+            else link_label(joint.link, words.language)
+        )
         kind = words.term("turning" if isinstance(joint, Pin) else "sliding")
         rows.append((str(number), name, f"{ends[0]}–{ends[1]}", kind))
     if isinstance(driver, Cylinder):
         inside = "–".join(str(links.index(name)) for name in (driver.link, rod_name(driver.link)))
-        rows.append((str(len(rows) + 1), driver.link, inside, words.term("sliding")))
+        rows.append((str(len(rows) + 1), link_label(driver.link, words.language), inside, words.term("sliding")))
     return words.table("pairs", ("number", "pair", "between", "kind"), rows, "cccc")
 
 

@@ -27,6 +27,8 @@ from crankwork.quantities.quantity import own_name
 from crankwork.report.display import link_label
 
 _FUNCTION = re.compile(r"(?P<name>sin|cos|tan|tg|ctg|arcsin|arccos|arctan|arctg|ln|lg|exp) ?(?P<rest>\S.*)")
+# the parts of a relative acceleration
+_RAISED = re.compile(r"(?P<base>a_.+)\^(?P<above>[ntτkr])")
 _SUM = re.compile(r" ?([+−=]) ?")
 _MULTIPLE = re.compile(r"(?P<count>\d+(?:[.,]\d+)?)(?P<rest>\D.*)")
 _SUBSTANCE = re.compile(r"(?P<base>\w)_(?P<below>[CHNO][CHNO₀-₉]*)")
@@ -52,6 +54,11 @@ def symbol_box(symbol: str) -> Box:
     >>> symbol_box("v_п.ср")
     Script(base=Letter(text='v'), below=Upright(text='п.ср'), above=None)
     """
+    if match := _RAISED.fullmatch(symbol):
+        box = symbol_box(match["base"])
+        return Script(
+            box.base if isinstance(box, Script) else box, getattr(box, "below", None), Upright(match["above"])
+        )
     over, slash, under = symbol.partition("/")
     if slash and over and under:
         top, bottom = symbol_box(over), symbol_box(under)
@@ -155,10 +162,8 @@ def owned_symbol(kind: str, shown: str, name: str, language: Language) -> str:
     # of the centre of mass of a link
     owner, *parts = shown_name.split(" ", 1) if shown_name.startswith("S ") else shown_name.split(".")
     marks = texts("marks", language)
-    names = [
-        link_label(owner, language),
-        *(marks[part] if part in _PARTS else link_label(part, language) for part in parts),
-    ]
+    crank = {"crank": link_label("crank", language)}
+    names = [crank.get(owner, owner), *(marks[part] if part in _PARTS else crank.get(part, part) for part in parts)]
     name = subscript(".".join(names))
     if "_i" in shown and not kind.startswith("indicated"):
         return shown.replace("_i", f"_{name}", 1)

@@ -93,11 +93,11 @@ def _in_steps(degrees: Array, end: float) -> NDArray[np.bool]:
     return np.isclose(steps, np.round(steps), atol=1e-9)
 
 
-def folded(table: Table, most: int = _MOST_PARTS) -> Table:
+def folded(table: Table, most: int = _MOST_PARTS, long: int = _LONG) -> Table:
     """Return a long narrow table with its parts side by side; any other as it is."""
     count, rows = len(table.headings), list(table.rows)
     parts = min(_MOST_COLUMNS // count, most)
-    if len(rows) <= _LONG or parts == 1 or not parts:
+    if len(rows) <= long or parts == 1 or not parts:
         return table
     height = -(-len(rows) // parts)
     filled = rows + [("",) * count] * (height * parts - len(rows))
@@ -155,7 +155,8 @@ def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words) ->
 
 def symbol_table(meanings: Sequence[tuple[Cell, str]], words: Words) -> Table:
     """Return the meanings of symbols."""
-    return folded(words.table("nomenclature", ("symbol", "meaning"), meanings, "ll", "t:nomenclature"), most=2)
+    table = words.table("nomenclature", ("symbol", "meaning"), meanings, "ll", "t:nomenclature")
+    return folded(table, most=2, long=_FEW)
 
 
 def value_row(key: str, value: float, words: Words, *, area: float | None = None, digits: int = 6) -> tuple[Cell, ...]:

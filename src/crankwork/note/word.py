@@ -38,7 +38,7 @@ from crankwork.note.document import (
     TitlePage,
 )
 from crankwork.note.equations import printed_equation
-from crankwork.note.layout import Apply, Box, Fence, Fraction, Root, Row, Script
+from crankwork.note.layout import Apply, Box, Fence, Fraction, Marked, Root, Row, Script
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.word_parts import (
     EQUATION_WIDTH,
@@ -399,6 +399,8 @@ def _high(box: Box | None) -> float:
             return _high(base) + 0.3 * _high(below) + 0.4 * _high(above)
         case Apply(name, argument):
             return max(_high(name), _high(argument))
+        case Marked(inside):
+            return _high(inside) + 0.2
         case _:
             return 1.0
 

@@ -24,8 +24,22 @@ from crankwork.note.document import (
     TitlePage,
     cell_length,
 )
-from crankwork.note.equations import PrintedEquation, formula_of
-from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
+from crankwork.note.equations import formula_of
+from crankwork.note.layout import (
+    Apply,
+    Box,
+    Digits,
+    Fence,
+    Fraction,
+    Letter,
+    Marked,
+    PrintedEquation,
+    Root,
+    Row,
+    Script,
+    Sign,
+    Upright,
+)
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering
@@ -58,6 +72,7 @@ _FONT = '<w:rPr><w:rFonts w:ascii="Cambria Math" w:hAnsi="Cambria Math" w:cs="Ca
 # normal text keeps a decimal comma tight, where mathematics would put a space after it
 # a parenthesis whose partner stands on another line is literal, or a reader of formulas looks for the partner
 _STYLES = {"letter": '<m:sty m:val="i"/>', "upright": '<m:sty m:val="p"/>', "text": "<m:nor/>",
+           "bold": '<m:sty m:val="b"/>',
            "literal": '<m:lit/><m:sty m:val="p"/>'}  # fmt: skip
 
 
@@ -376,7 +391,7 @@ def figure_xml(block: Figure, words: str, k: int, picture: str, lines: str) -> I
     yield paragraph(text_run(words), "Caption", '<w:jc w:val="center"/>')
 
 
-def omml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
+def omml_box(box: Box) -> str:  # noqa: C901, PLR0912 - one case per kind of box
     """Return a box as elements of Word's mathematics, prefixes `m` and `w` undeclared."""
     match box:
         case Letter(text):
@@ -403,6 +418,13 @@ def omml_box(box: Box) -> str:  # noqa: C901 - one case per kind of box
             return _script(box)
         case Apply(name, argument):
             return f"<m:func><m:fName>{omml_box(name)}</m:fName><m:e>{omml_box(argument)}</m:e></m:func>"
+        case Marked(Letter(text), "bold"):
+            return _math_run(text, "bold")
+        case Marked(inside, "arrow" | "bold"):
+            return f'<m:acc><m:accPr><m:chr m:val="\u20d7"/></m:accPr><m:e>{omml_box(inside)}</m:e></m:acc>'
+        case Marked(inside, mark):
+            place = "bot" if mark == "line" else "top"
+            return f'<m:bar><m:barPr><m:pos m:val="{place}"/></m:barPr><m:e>{omml_box(inside)}</m:e></m:bar>'
 
 
 def _math_run(text: str, style: str) -> str:

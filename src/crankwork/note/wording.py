@@ -17,7 +17,8 @@ from crankwork.note.printed_units import printed_unit
 from crankwork.note.symbols import owned_symbol
 from crankwork.quantities import QUANTITIES, base_key
 from crankwork.quantities.key import key_of
-from crankwork.report.display import FILE_KEYS, displayed, displayed_column, key_unit
+from crankwork.quantities.quantity import number_of
+from crankwork.report.display import FILE_KEYS, displayed, displayed_column, key_unit, link_label
 from crankwork.report.display import symbol as key_symbol
 from crankwork.units import from_si, shown_unit
 
@@ -105,6 +106,15 @@ class Words:
     def paragraph(self, key: str, **values: Run | Runs) -> Paragraph:
         """Return a sentence as a paragraph."""
         return Paragraph(self.sentence(key, **values))
+
+    def part(self, name: str) -> str:
+        """Return the name of a link or guide in words, behind its number if it has one."""
+        number, called = number_of(name), link_label(name, self.language)
+        return called if number in (name, called) else f"{number} ({called})"
+
+    def mark(self, key: str) -> str:
+        """Return the mark of a part in symbols."""
+        return texts("marks", self.language)[key]
 
     def way(self, key: str) -> str:
         """Return the name of a way to find a flywheel."""

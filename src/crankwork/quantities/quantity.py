@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from types import MappingProxyType
 from typing import NamedTuple
 
 from crankwork.locale import Language, translate
@@ -63,14 +67,35 @@ class Quantity(NamedTuple):
         return kind, own_name(kind, part)
 
 
+_NUMBERS: ContextVar[Mapping[str, str]] = ContextVar("numbers", default=MappingProxyType({}))
+
+
+@contextmanager
+def use_numbers(numbers: Mapping[str, str]) -> Iterator[None]:
+    """Call links by these numbers in symbols and in names of quantities within this context, as documents do."""
+    token = _NUMBERS.set(numbers)
+    try:
+        yield
+    finally:
+        _NUMBERS.reset(token)
+
+
+def number_of(link: str) -> str:
+    """Return what a link is called in a symbol: its number where links have numbers, else its name."""
+    return _NUMBERS.get().get(link, link)
+
+
 def own_name(kind: str, name: str) -> str:
     """Return the name of what a quantity belongs to; the link that tells apart joints of one point follows a space.
 
     A centre of mass of a link has the letter S.
     """
     if name.endswith(".centre"):
-        return f"S {name.removesuffix('.centre')}"
+        return f"S {number_of(name.removesuffix('.centre'))}"
     owner, dot, rest = name.partition(".")
+    owner, rest = number_of(owner), ".".join(map(number_of, rest.split(".")))
+    point, separator, link = owner.partition("_")
+    owner = f"{point}{separator}{number_of(link)}"
     of_joint = kind.startswith(("joint_", "doubled_area"))
     # what acts on a link is told by the joint it comes from
     return f"{owner.replace('_', ' ') if of_joint else owner}{dot}{rest.replace('_', ' ')}"

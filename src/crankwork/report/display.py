@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
-from crankwork.locale import decimal, has_text, translate
+from crankwork.locale import decimal, has_text, texts, translate
+from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
@@ -177,8 +178,14 @@ def _part(kind: str, name: str, language: Language) -> str:
 
 
 def link_label(link: str, language: Language) -> str:
-    """Return the name of a link; the crank has its name from the program."""
-    return translate("report.crank", language) if link == "crank" else link
+    """Return the name of a link or guide; names that templates give are those of the language."""
+    return texts("parts", language).get(link, link)
+
+
+def link_numbers(results: Results | None) -> dict[str, str]:
+    """Return the numbers of the moving links of a linkage by name, none of another machine."""
+    analysed = structure(results.machine.linkage)[0] if results is not None and results.machine.linkage else None
+    return {} if analysed is None else {name: str(number) for number, name in enumerate(analysed.links, start=1)}
 
 
 def row_name(name: str, language: Language) -> str:

@@ -180,14 +180,14 @@ def _plan(paper: Canvas, plan: ForcePolygon, place: ChartBox, numbers: dict[str,
             if np.any(corner != moved):
                 paper.line([corner[0], moved[0]], [corner[1], moved[1]], width=0.4, colour=GREY)
         paper.arrow(start, end, width=_REACTION if force.kind != "load" else _LOAD, style=SOLID)
-        marks.append((_symbol(force, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
+        marks.append((force_symbol(force, numbers, language), (start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
     label_marks(paper, marks, dot=0.0)
     links = ", ".join(str(numbers.get(link, link)) for link in plan.links)
     head = translate("drawing.links" if len(plan.links) > 1 else "drawing.link", language, links=links)
     draw_scale(paper, (left + 14, top + 10), ("μ_F", scale, row.unit), language, f"{head}:  ")
     for count, force in enumerate(plan.forces):
         shown = number(float(f"{_size(force):.4g}"), language)
-        text = f"{_symbol(force, numbers, language)} = {shown} {unit_name(row.unit, language)}"
+        text = f"{force_symbol(force, numbers, language)} = {shown} {unit_name(row.unit, language)}"
         paper.text(list_corner[0], list_corner[1] + 12 + _ROW * count, text)
     names = {own_number: name for name, own_number in numbers.items()}
     keys = key_of_links(names, (numbers[link] for link in plan.links if link in numbers), language)
@@ -229,7 +229,7 @@ def _size(force: PolygonForce) -> float:
     return float(values)
 
 
-def _symbol(force: PolygonForce, numbers: dict[str, int], language: Language) -> str:
+def force_symbol(force: PolygonForce, numbers: dict[str, int], language: Language) -> str:
     """Return the symbol of a force: that of its joint, of its guide, of the loads on its link, or of the driver."""
     if force.kind == "driver":
         return math_symbol(QUANTITIES["driver_force"].symbol(language))

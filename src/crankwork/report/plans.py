@@ -223,7 +223,7 @@ def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Lan
     """Return the magnitudes of the vectors and the turning of the links."""
     rows, unit = [], unit_name(kind.unit, language)
     for vector in vectors:
-        mark = _MARKS[vector.kind].format(translate("marks.tangential", language)) if kind.sign == "a" else ""
+        mark = vector_mark(vector.kind, language) if kind.sign == "a" else ""
         name = math_symbol(f"{kind.sign}_{vector.name}", mark)
         rows.append(f"{name} = {_four_digits(vector.length, language)} {unit}")
     unit = unit_name(kind.turning_unit, language)
@@ -232,6 +232,11 @@ def _rows(vectors: list[Vector], plan: VectorPolygon, kind: _Kind, language: Lan
             name = math_symbol(f"{kind.turning}_{link}")
             rows.append(f"{name} = {_four_digits(value, language)} {unit}")
     return rows
+
+
+def vector_mark(kind: Kind, language: Language) -> str:
+    """Return what stands over the symbol of an acceleration of a kind: `^n` of a normal one."""
+    return _MARKS[kind].format(translate("marks.tangential", language))
 
 
 def _four_digits(value: float, language: Language) -> str:

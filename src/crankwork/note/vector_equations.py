@@ -1,0 +1,250 @@
+"""Plans of velocities and accelerations in a note: vector equations by groups, the plans, what is read on them."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from crankwork.analysis.drawn_plans import (
+    ConstructedPlan,
+    PlanScales,
+    PlanVector,
+    VectorEquation,
+    constructed_plans,
+    is_constructed,
+)
+from crankwork.analysis.sampled_motion import sample_motion
+from crankwork.analysis.skeleton import skeleton
+from crankwork.analysis.vector_polygons import POSITION_STEP, driver_rates, velocities, worked_position
+from crankwork.formula.calculation_lines import ValueLine
+from crankwork.locale import translate
+from crankwork.locale.numbers import unit_name
+from crankwork.mechanism.mechanism import Crank
+from crankwork.note.document import Block, Cell, Equation, Figure, Math, Reference, Run, Runs, Table
+from crankwork.note.equations import value_box
+from crankwork.note.layout import DOT, EQUALS, PRODUCT, Box, Marked, PrintedEquation, Row, Script, Sign, Upright, row
+from crankwork.note.material import Material
+from crankwork.note.sheets.packing import in_grid
+from crankwork.note.sheets.plans import Scales
+from crankwork.note.symbols import number_box, symbol_box
+from crankwork.note.wording import Words
+from crankwork.report.display import symbol
+from crankwork.report.look import Style, position_sign, position_text
+from crankwork.report.plans import acceleration_plan, vector_mark, velocity_plan
+from crankwork.show.canvas import marked
+from crankwork.show.chart_layout import current_layout, use_layout
+from crankwork.show.scene import Drawing
+
+# to which points and lengths are laid off and read on paper [mm]
+READING = 0.5
+_SIGNS, _UNITS, _ROTARY = ("v", "a"), ("m/s", "m/s2"), ("rad/s", "rad/s2")
+_TURNING, _KINDS = ("speed", "angular_acceleration"), ("velocities", "accelerations")
+# shares of the largest value that are rounding
+_NOISE, _DIGITS, _TALL = 1e-9, 4, 1.3
+_MARKS: dict[str, Box] = {"=": EQUALS, "·": DOT, "": PRODUCT, "/": Sign("/", "slash")}
+_COMMA = row(Sign(",", "comma"), Upright("\u2009"))
+
+
+def has_vector_equations(material: Material) -> bool:
+    """Return whether the groups of a linkage have vector equations."""
+    return is_constructed(material.machine.mechanism)
+
+
+def vector_plans(material: Material) -> Iterator[Block]:
+    """Yield the equations of all groups, both plans, and the values read on them beside the exact ones."""
+    results, words, mechanism = material.results, material.words, material.machine.mechanism
+    degrees, links = worked_position(results), material.structure.links if material.structure is not None else ()
+    figure, scales = _figure(material, degrees, links)
+    exact, drawn = (constructed_plans(results, degrees, scales, precision, links) for precision in (0.0, READING))
+    if exact is None or drawn is None or not isinstance(mechanism.driver, Crank):
+        yield from material.presented((), ("velocity_plan", "acceleration_plan"))
+        return
+    yield words.paragraph("vector_equations", value=words.place_text(degrees))
+    coincident = velocities(mechanism, sample_motion(mechanism, [degrees]), 0, 1.0, links).coincident
+    points = [
+        words.phrase("beneath", point=point, link=str(link), other=over) for point, (link, over) in coincident.items()
+    ]
+    if points:
+        yield words.paragraph("coincident", points="; ".join(points))
+    shape, rate = skeleton(mechanism, links), exact[0].turning[1]
+    arm = PlanVector("".join(shape.letters[name] for name in shape.members[0].points[:2]), "normal", 0j, link=1,
+                     arm=mechanism.driver.radius)  # fmt: skip
+    for order, plan in enumerate(exact):
+        writer = _Writer(order, scales[1 + order], exact[0].turning, words)
+        yield words.paragraph(f"equations_of_{_KINDS[order]}")
+        yield writer.block((), [writer.crank(arm, rate, exact[1].turning[1])])
+        for group in plan.groups:
+            yield writer.block(
+                group, [line for equation in group for part in equation.right for line in writer.worked(part)]
+            )
+    if material.options.figures:
+        yield words.paragraph("see_construction", figures=Reference("f:velocity_plan"))
+        yield Figure(
+            figure,
+            figure.title,
+            translate("seen.velocity_plan", words.language),
+            label="f:velocity_plan",
+            to_scale=True,
+        )
+        material.leave_out("velocity_plan", "acceleration_plan")
+    compared = material.full or material.order != "en"
+    tables = [_table(exact[k], drawn[k] if compared else None, k, scales[1 + k], words) for k in range(2)]
+    values: dict[str, Run | Runs] = {kind: Reference(table.label) for kind, table in zip(_KINDS, tables, strict=True)}
+    mm = unit_name("mm", words.language)
+    scale = f"\u00a0=\u00a0{words.number(1e3 * scales.length)}\u00a0{mm}/{mm}"
+    values |= {"length": (Math("μ_l"), scale), "reading": words.number(READING)}
+    yield words.paragraph("read_on_plans" if compared else "plan_vectors", **values)
+    yield from tables
+
+
+def _figure(material: Material, degrees: float, links: tuple[str, ...]) -> tuple[Drawing, PlanScales]:
+    """Return both plans beside each other, and the scales at which the note draws plans."""
+    results, language, scales = material.results, material.words.language, Scales()
+    mechanism, style = results.machine.mechanism, Style(language, links, results.period)
+    moved, rates = sample_motion(mechanism, [degrees]), driver_rates(results, results.columns_at(np.array([degrees])))
+    given, number = (float(rates.first[0]), float(rates.second[0])), round(degrees / POSITION_STEP)
+    drawn = (
+        lambda: scales.kept("v", 0, velocity_plan(mechanism, moved, 0, given[0], style, number)),
+        lambda: scales.kept("a", 0, acceleration_plan(mechanism, moved, 0, *given, style, number)),
+    )
+    where = marked(f"{position_sign(style)} = {position_text(degrees, style)}")
+    with use_layout(current_layout()._replace(tall=_TALL)):
+        plans = in_grid(drawn, 2, translate("headings.polygons", language), language, lambda: where)
+    (plot,) = material.position_plan.plots
+    return plans, PlanScales(1.0 / plot.metre, scales.of("v", 0), scales.of("a", 0))
+
+
+class _Writer:
+    """Writes the equations of velocities, order 0, or accelerations, 1; `rates`: how fast links turn [rad/s]."""
+
+    def __init__(self, order: int, scale: float, rates: dict[int, float], words: Words) -> None:
+        self._order, self._scale, self._rates, self._words = order, scale, rates, words
+
+    def block(self, equations: Sequence[VectorEquation], further: list[Row]) -> Equation:
+        """Return the equations of a group with lines below them, under one number."""
+        lines = [row(*self._parts(equation)) for equation in equations] + further
+        sums = [" + ".join(map(self._name, equation.right)) for equation in equations]
+        lefts = [self._name(equation.left) for equation in equations]
+        text = "; ".join(f"{left} = {total}" if total else left for left, total in zip(lefts, sums, strict=True))
+        return Equation(ValueLine("", 0.0), printed=PrintedEquation(tuple(lines), text or _SIGNS[self._order]))
+
+    def _name(self, vector: PlanVector) -> str:
+        return name_of(vector, self._order, self._words)
+
+    def _parts(self, equation: VectorEquation) -> Iterator[Box]:
+        """Yield a vector equation, and along what line each vector lies."""
+        yield vector_box(self._name(equation.left), equation.left.known, self._words)
+        for index, vector in enumerate(equation.right):
+            yield from (Sign("+") if index else EQUALS, vector_box(self._name(vector), vector.known, self._words))
+        for vector in (equation.left, *equation.right):
+            where = vector.line[1:] or "0"
+            shown = self._words.phrase("along_guide", link=where) if vector.line and where.isdecimal() else where
+            if vector.line or not vector.drawn:
+                yield from (_COMMA, symbol_box(self._name(vector))) if equation.right else ()
+                yield from (Sign(vector.line[0], "relation") if vector.line else EQUALS, Upright(shown))
+
+    def _worked(self, unit: str, *parts: str | float | Script) -> Row:
+        """Return symbols and numbers side by side, the last with its unit."""
+        boxes: list[Box] = []
+        for part in parts:
+            box = self._number(part) if isinstance(part, float) else part
+            boxes.append(_MARKS.get(box) or symbol_box(box) if isinstance(box, str) else box)
+        value = float(parts[-1]) if isinstance(parts[-1], float) else 0.0
+        return row(*boxes[:-1], value_box(value, unit, self._words.language, _DIGITS))
+
+    def _number(self, value: float) -> Box:
+        return number_box(value, self._words.language, _DIGITS)[0]
+
+    def _turn(self, order: int, link: int) -> str:
+        return f"{symbol(_TURNING[order], self._words.language)}_{link}"
+
+    def crank(self, arm: PlanVector, rate: float, second: float) -> Row:
+        """Return the velocity of the crank pin, or its normal acceleration and the tangential one if there is one."""
+        name, length, turn = arm.name[1:], f"l_{arm.name}", self._turn(0, 1)
+        if not self._order:
+            return self._worked(
+                "m/s", f"v_{name}", "=", turn, "", length, "=", abs(rate), "·", arm.arm, "=", abs(rate) * arm.arm
+            )
+        normal = self._normal(f"a_{name}^n" if second else f"a_{name}", arm, rate)
+        if not second:
+            return normal
+        mark, turn = vector_mark("tangential", self._words.language), self._turn(1, 1)
+        product = (turn, "", length, "=", abs(second), "·", arm.arm, "=", abs(second) * arm.arm)
+        return row(normal, _COMMA, self._worked("m/s2", f"a_{name}{mark}", "=", *product))
+
+    def _normal(self, name: str, arm: PlanVector, rate: float) -> Row:
+        squared = Script(self._number(abs(rate)), None, Upright("2"))
+        product = f"{self._turn(0, arm.link)}²", "", f"l_{arm.name}", "=", squared, "·", arm.arm
+        return self._worked("m/s2", name, "=", *product, "=", rate**2 * arm.arm)
+
+    def worked(self, part: PlanVector) -> Iterator[Row]:
+        """Yield what goes with a part of a relative velocity or acceleration: its size, or the rate of its link."""
+        size, rate, name = abs(part.drawn) * self._scale, abs(self._rates.get(part.link, 0.0)), self._name(part)
+        match part.kind:
+            case "normal":
+                yield self._normal(name, part, rate)
+            case "relative" | "tangential":
+                quotient = name, "/", f"l_{part.name}", "=", size, "/", part.arm, "=", size / part.arm
+                yield self._worked(_ROTARY[self._order], self._turn(self._order, part.link), "=", *quotient)
+            case "coriolis" if rate:
+                relative = size / 2 / rate
+                product = 2.0, "", self._turn(0, part.link), "", f"v_{part.name}", "=", 2.0, "·", rate, "·", relative
+                yield self._worked("m/s2", name, "=", *product, "=", size)
+
+
+def vector_box(name: str, known: int, words: Words) -> Box:
+    """Return a vector, underlined once where its line is known and twice where its magnitude is known too."""
+    box = symbol_box(name)
+    script = box if isinstance(box, Script) else Script(box)
+    marked: Box = Script(Marked(script.base, words.mark("vector")), script.below, script.above)
+    for _ in range(known):
+        marked = Marked(marked, "line")
+    return marked
+
+
+def name_of(vector: PlanVector, order: int, words: Words) -> str:
+    """Return the symbol of a vector: `v_BA`, `a_BA^n`."""
+    return f"{_SIGNS[order]}_{vector.name}{vector_mark(vector.kind, words.language) if order else ''}"
+
+
+def plan_vectors(plan: ConstructedPlan) -> dict[tuple[str, str], PlanVector]:
+    """Return the vectors of a plan by name and kind, each once."""
+    parts = [part for group in plan.groups for equation in group for part in (*equation.right, equation.left)]
+    return {(part.name, part.kind): part for part in (*parts, *plan.similar)}
+
+
+def _table(plan: ConstructedPlan, drawn: ConstructedPlan | None, order: int, scale: float, words: Words) -> Table:
+    """Return the vectors of a plan and the rates of the links: exact, and beside them as they are read if drawn."""
+    vectors, rows = plan_vectors(plan), list[tuple[Cell, ...]]()
+    read = (
+        {key: round(abs(part.drawn) / READING) * READING for key, part in plan_vectors(drawn).items()} if drawn else {}
+    )
+    most = max(abs(part.drawn) for part in vectors.values())
+
+    def cells(exact: float, shown: float, unit: str, *, legible: bool = True) -> tuple[str, ...]:
+        name = unit_name(unit, words.language)
+        if drawn is None:
+            return words.number(exact, digits=_DIGITS), name
+        off = words.fixed(100.0 * (shown - exact) / exact, 2) if legible else "–"
+        if not legible:
+            return "–", words.number(exact, digits=_DIGITS), name, off
+        decimals = max(0, _DIGITS - 1 - math.floor(math.log10(abs(exact))))
+        return words.fixed(shown, decimals), words.fixed(exact, decimals), name, off
+
+    for key, part in vectors.items():
+        length = abs(part.drawn)
+        if length > _NOISE * most:
+            angle, shown = math.degrees(cmath.phase(part.drawn)) % 360.0, read.get(key, length)
+            values = cells(scale * length, scale * shown, _UNITS[order], legible=length > READING)
+            rows.append((Math(name_of(part, order, words)), words.fixed(angle, 1), words.fixed(shown, 1), *values))
+    for link, rate in plan.turning.items():
+        if link != 1 and abs(rate) > _NOISE * most * scale:
+            name = Math(f"{symbol(_TURNING[order], words.language)}_{link}")
+            rows.append((name, "–", "–", *cells(rate, drawn.turning[link] if drawn else rate, _ROTARY[order])))
+    titles = ("by_plan", "analytic", "unit", "deviation") if drawn else ("value", "unit")
+    caption, align = ("compared_", "crrrrcr") if drawn else ("plan_", "crrrc")
+    caption += _KINDS[order]
+    return words.table(caption, ("vector", "angle", "on_plan", *titles), rows, align, f"t:{caption}")
