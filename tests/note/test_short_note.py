@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from functools import cache
-from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,7 +14,7 @@ import crankwork
 from crankwork.analysis.all_cylinders import with_engine_results
 from crankwork.locale import capital, translate
 from crankwork.note.contents import note_of, written_note
-from crankwork.note.document import Contents, Equation, Figure, Heading, Note, Paragraph, TitlePage
+from crankwork.note.document import Contents, Equation, Figure, Heading, Note, Paragraph, TitlePage, side_by_side
 from crankwork.note.numbering import equation_source, numbering
 from crankwork.note.options import NoteOptions
 from crankwork.note.readings import reading
@@ -215,10 +214,14 @@ def test_figures_are_followed_by_what_is_read_from_them():
     def check(case):
         name, language = case
         read = {}
-        for block, after in pairwise(short(*case).blocks):
-            if isinstance(block, Figure) and block.name in {*EXTREMES, *OTHERS}:
-                assert isinstance(after, Paragraph), block.name
-                read[block.name] = numbers_of(after)
+        one = short(*case).blocks
+        for row in side_by_side(one):
+            told = iter(one[row[-1] + 1 :])
+            for block in (one[place] for place in row):
+                if isinstance(block, Figure) and block.name in {*EXTREMES, *OTHERS}:
+                    after = next(told)
+                    assert isinstance(after, Paragraph), block.name
+                    read[block.name] = numbers_of(after)
         assert read.keys() == READ[name]
         for kind, printed in read.items():
             wanted = expected(name, kind, per_area=language == "vi" and name != "press-geometry")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -23,12 +23,14 @@ from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Run
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.readings import reading
+from crankwork.note.table_width import is_narrow
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area, key_unit, label
 from crankwork.report.figures import drawings
 from crankwork.report.look import figure_title, kind_of
 from crankwork.report.tables import any_nonzero
+from crankwork.show.chart_layout import ChartLayout, use_layout
 from crankwork.show.scene import Drawing
 from crankwork.units import from_si
 
@@ -74,6 +76,12 @@ _MAIN_FIGURES = frozenset((
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
+# figures of a piston that are read at half the width of the text; charts of notes, lower than elsewhere, and these
+_SMALL = frozenset((
+    "indicator", "pressure", "piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar",
+    "crankpin_load", "big_end_polar", "small_end_polar", "crankpin_wear", "balance_orders", "excess_work", "tolle",
+))  # fmt: skip
+_LOW, _HALF = ChartLayout(tall=0.8), ChartLayout(width=267.0, left=64.0, right=10.0, tall=0.8)
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
@@ -201,7 +209,16 @@ class Material:
         """Figures by name; none if they are left out."""
         if not self.options.figures:
             return {}
-        return drawings(self.results, language=self.options.language, per_area=self.per_area)
+        return self._drawings(_LOW if self.has_piston else ChartLayout())
+
+    def _drawings(self, layout: ChartLayout, only: Collection[str] | None = None) -> Mapping[str, Drawing]:
+        with use_layout(layout):
+            return drawings(self.results, language=self.options.language, per_area=self.per_area, only=only)
+
+    @cached_property
+    def _small(self) -> Mapping[str, Drawing]:
+        """Figures by name that are half as wide as the text."""
+        return self._drawings(_HALF, [name for name in self.drawn if kind_of(name) in _SMALL and self.has_piston])
 
     def lines(self, group: str, *kinds: str) -> list[Line]:
         """Return the lines of a group, or those of it that give some quantities; none if there is no such group."""
@@ -313,12 +330,29 @@ class Material:
                 sentences += [" ", *sentence] if sentences else sentence
         if sentences:
             yield Paragraph(tuple(sentences))
-        for name in drawn:
-            yield self._figure(name)
-            read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
-            if read is not None:
-                yield read
-        yield from shown_tables
+        for row in self._rows(drawn, shown_tables):
+            yield from row
+            for name in (block.name for block in row if isinstance(block, Figure)):
+                read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
+                if read is not None:
+                    yield read
+
+    def _rows(self, names: Sequence[str], tables: Sequence[Table]) -> Iterator[tuple[Figure | Table, ...]]:
+        """Yield figures and tables, small ones in pairs side by side."""
+        small = [name for name in names if name in self._small]
+        narrow = [table.label for table in tables if self.has_piston and is_narrow(table)]
+        halves = [*small, *narrow][: len(small + narrow) // 2 * 2]
+        left: tuple[Figure | Table, ...] = ()
+        blocks: tuple[Figure | Table, ...] = (*(self._figure(name, half=name in halves) for name in names),
+                  *(replace(table, half=table.label in halves) for table in tables))  # fmt: skip
+        for block in blocks:
+            if not block.half:
+                yield (block,)
+            elif left:
+                yield (*left, block)
+                left = ()
+            else:
+                left = (block,)
 
     @cached_property
     def _figures(self) -> frozenset[str]:
@@ -351,17 +385,17 @@ class Material:
         title = figure_title(kind_of(name), self.words.language)
         return self.words.phrase("of_pin" if len(pins) == 1 else "of_pins", title=title, pins=", ".join(pins))
 
-    def _figure(self, name: str) -> Figure:
+    def _figure(self, name: str, *, half: bool) -> Figure:
         """Return a figure with its caption, and what who cannot see it is told."""
         self._shown_figures.add(name)
-        drawing, kind, title = self.drawn[name], kind_of(name), self._title(name)
+        drawing, kind, title = (self._small if half else self.drawn)[name], kind_of(name), self._title(name)
         if kind == "crankpin_polar" and self.machine.engine is None and self.words.has_names:
             # the crankpin has a name
             title = capital(drawing.title)
         text = seen(name, self)
         if not text and has_text(f"seen.{kind}"):
-            return Figure(drawing, title, translate(f"seen.{kind}", self.words.language), label=f"f:{name}")
-        return Figure(drawing, title, f"{title}. {text}".rstrip(". ") + ".", label=f"f:{name}")
+            return Figure(drawing, title, translate(f"seen.{kind}", self.words.language), f"f:{name}", half=half)
+        return Figure(drawing, title, f"{title}. {text}".rstrip(". ") + ".", f"f:{name}", half=half)
 
 
 def _kind(line: Line) -> str:

@@ -31,13 +31,14 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
+    side_by_side,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright, width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.symbols import symbol_box
-from crankwork.note.table_width import SIZES, fits, one_line_widths
+from crankwork.note.table_width import SIZES, fits, one_line_widths, room
 from crankwork.quantities import Language
 from crankwork.show.chart_layout import MM
 from crankwork.show.svg import svg
@@ -71,6 +72,9 @@ _SETTINGS = """
 #let drawing(body, words, place) = figure(
   body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: place,
 )
+#let beside(..parts) = place(auto, float: true, block(breakable: false, grid(
+  columns: (1fr, 1fr), column-gutter: 6mm, ..parts.pos(),
+)))
 #set page(foreground: context {
   let begun = ()
   for one in query(<begins>) {
@@ -86,8 +90,6 @@ _SETTINGS = """
 #let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
 """
 _TOGETHER = 20
-# of drawings, whose letters are then 8 pt
-_REDUCED = 0.87
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
 # height of a line of a table [em], and what is free above and below it [pt]
@@ -134,12 +136,13 @@ def typst_source(note: Note, numbers: Numbering) -> str:
         f'#set text(lang: "{language}", region: "{region}")' + _SETTINGS,
     ]
     turned = False
-    for block, number in zip(note.blocks, numbers.blocks, strict=True):
-        wide = isinstance(block, Table) and block.wide
+    for places in side_by_side(note.blocks):
+        wide = isinstance(block := note.blocks[places[0]], Table) and block.wide
         if wide != turned:
             parts.append("#page(flipped: true)[" if wide else "]")
             turned = wide
-        parts.extend(_block(block, number, note, numbers))
+        cells = ["\n".join(_block(note.blocks[place], numbers.blocks[place], note, numbers)) for place in places]
+        parts.append(cells[0] if len(cells) == 1 else f"#beside[{cells[0]}][{cells[1]}]")
     return "\n".join([*parts, "]" if turned else "", ""])
 
 
@@ -206,7 +209,7 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
-    size = next((letters for letters in SIZES if fits(block.headings, block.rows, letters, wide=block.wide)), SIZES[-1])
+    size = next((letters for letters in SIZES if fits(block.headings, block.rows, letters, room(block))), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
     # a short table stays on one page with its caption
     is_whole = len(block.rows) <= _TOGETHER
@@ -251,7 +254,7 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
     `marked`: whether a row that says where the table goes on stands above its header.
     """
-    widths = one_line_widths(block.headings, block.rows, size, wide=block.wide)
+    widths = one_line_widths(block.headings, block.rows, size, room(block))
     if not widths:
         return f"columns: {len(block.headings)}"
     columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
@@ -261,14 +264,13 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
 
 def _figure(block: Figure, number: str, language: Language) -> str:
-    width = _REDUCED * block.drawing.width / MM
     data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     words = typst_string(caption("figure", number, block.caption, language))
     image = (
         f'layout(size => image(bytes("{data}"), format: "svg", alt: {typst_string(block.alt)}, '
-        f"width: calc.min({width:.2f}pt, size.width)))"
+        f"width: calc.min({block.width / MM:.2f}pt, size.width)))"
     )
-    return f"#drawing({image}, {words}, {'auto' if block.floats else 'none'})"
+    return f"#drawing({image}, {words}, {'auto' if block.floats and not block.half else 'none'})"
 
 
 def _breakable(text: str) -> str:

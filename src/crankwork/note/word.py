@@ -36,6 +36,7 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
+    side_by_side,
 )
 from crankwork.note.equations import printed_equation
 from crankwork.note.layout import Apply, Box, Fence, Fraction, Root, Row, Script
@@ -45,6 +46,7 @@ from crankwork.note.word_parts import (
     PAGE_BREAK,
     PREFIXES,
     Columns,
+    beside_xml,
     contents_xml,
     cover_xml,
     equation_xml,
@@ -160,12 +162,16 @@ class _Writer:
 
     def write(self) -> None:
         """Add the blocks of the note, figures where they fit."""
-        blocks = self._note.blocks
+        blocks, rows = self._note.blocks, list(side_by_side(self._note.blocks))
         headings = len(_headings(self._note, self._numbers))
-        for k in flow(blocks, [self._height(item, headings) for item in blocks]):
-            block = blocks[k]
-            self.turn(wide=isinstance(block, Table) and block.wide)
-            self.block(block, self._numbers.blocks[k])
+        heights = [max(self._height(blocks[k], headings) for k in row) for row in rows]
+        for number in flow([blocks[row[0]] for row in rows], heights):
+            first = blocks[rows[number][0]]
+            self.turn(wide=isinstance(first, Table) and first.wide)
+            parts = [self._xml(blocks[k], self._numbers.blocks[k]) for k in rows[number]]
+            body = self._document.element.body
+            for xml in parts[0] if len(parts) == 1 else beside_xml(*parts):
+                body.insert(len(body) - 1, _element(xml))
 
     def _height(self, block: Block, headings: int) -> float:
         match block:
@@ -190,15 +196,6 @@ class _Writer:
         set_pages(section, wide=wide)
         self._wide = wide
 
-    def block(self, block: Block, number: str) -> None:
-        """Add a block."""
-        if isinstance(block, Figure):
-            self._figure(block, number)
-            return
-        body = self._document.element.body
-        for xml in self._xml(block, number):
-            body.insert(len(body) - 1, _element(xml))
-
     def _xml(self, block: Block, number: str) -> Iterator[str]:  # noqa: C901 - one case per kind of block
         numbers, note = self._numbers, self._note
         match block:
@@ -209,6 +206,8 @@ class _Writer:
                 yield paragraph(runs_xml(runs, numbers), "BodyText")
             case Equation():
                 yield from equation_xml(block, number, numbers, self._printed[id(block)])
+            case Figure():
+                yield from self._figure(block, number)
             case Table():
                 yield from table_xml(block, number, numbers, self._columns[id(block)])
             case ItemList(items):
@@ -224,7 +223,7 @@ class _Writer:
                 for key, k in numbers.sources.items():
                     yield _item(f"{k}.", text_run(cite(key)))
 
-    def _figure(self, block: Figure, number: str) -> None:
+    def _figure(self, block: Figure, number: str) -> Iterator[str]:
         from docx.opc.constants import RELATIONSHIP_TYPE  # noqa: PLC0415 - an optional part
         from docx.opc.packuri import PackURI  # noqa: PLC0415
         from docx.opc.part import Part  # noqa: PLC0415
@@ -234,9 +233,7 @@ class _Writer:
         lines = Part(PackURI(f"/word/media/drawing{self._figures}.svg"), "image/svg+xml", drawn, part.package)
         relations = part.get_or_add_image(io.BytesIO(picture))[0], part.relate_to(lines, RELATIONSHIP_TYPE.IMAGE)
         words = caption("figure", number, block.caption, self._note.language)
-        body = self._document.element.body
-        for xml in figure_xml(block, words, self._figures, *relations):
-            body.insert(len(body) - 1, _element(xml))
+        return figure_xml(block, words, self._figures, *relations)
 
 
 def _pictures(note: Note) -> dict[int, tuple[bytes, bytes]]:
@@ -368,7 +365,7 @@ def block_height(block: Block, headings: int, sources: Iterable[str]) -> float:
         case Paragraph(runs):
             return _LINE * _lines(runs) + _AFTER
         case Figure(drawing=drawing):
-            return drawing.height / MM * min(1.0, _WIDTH / (drawing.width / MM)) + _CAPTION
+            return drawing.height / drawing.width * min(block.width / MM, _WIDTH) + _CAPTION
         case ItemList(items):
             return sum(_LINE * _lines(item, _WIDTH - _ITEM) + 3 for item in items)
         case Contents():
