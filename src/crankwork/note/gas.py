@@ -90,6 +90,8 @@ _SHARES = (
     ("unburnt", "heat_unburnt"), ("rest", "heat_rest"),
 )  # fmt: skip
 _MEASURED_STEP = 10.0
+# the notice that says that two powers differ
+TWO_BASES = "torque_of_cycle"
 _DELIVERED, _VOLUME = "eastop_mcconkey_1993, ch. 12", "kolchin_demidov_2008, ch. 5"
 _CHARGE = "urieli_berchowitz_1984"
 _SINGLE = (
@@ -337,6 +339,25 @@ def _is_absolute(material: Material) -> bool:
     return material.machine.gas is not None and material.machine.gas.is_absolute
 
 
+def _two_bases(material: Material) -> Iterator[Block]:
+    """Yield why the diagram that is drawn and the heat calculation give different powers."""
+    words, summary = material.words, material.summary
+    apart = next((item.values for item in material.results.notices if item.code == TWO_BASES), None)
+    if apart is not None and {"indicated_mean_pressure.cycle", "filling_factor.diagram"} <= summary.keys():
+        drawn, calculated = (
+            words.amount(summary[f"indicated_mean_pressure{of}"], "MPa", digits=4) for of in ("", ".cycle")
+        )
+        yield words.paragraph(
+            "two_bases",
+            drawn=drawn,
+            calculated=calculated,
+            power=words.amount(summary["indicated_power"], "kW", digits=4),
+            percent=words.number(abs(float(apart["percent"])), digits=2),
+            diagram=words.number(summary["filling_factor.diagram"], digits=3),
+            assumed=words.number(summary["filling_factor"], digits=3),
+        )
+
+
 _OF_DELIVERY = Lines("delivery", intro="delivery", source=_DELIVERED)
 SECTIONS = (
     Section("cycle", (Head("cycle"), _cycle), lambda material: bool(material.cycle)),
@@ -344,7 +365,8 @@ SECTIONS = (
         Head("indicator"), _measured, Lines("gas", intro="volumes"), When(full, (_polytropes,)),
         When(_is_absolute, (Text("absolute"),)),
         Shown(("indicator", "pressure"), (_points, in_full(_laws))),
-        Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"), _OF_DELIVERY,
+        Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"),
+        _two_bases, _OF_DELIVERY,
         When(lambda material: any(key.startswith("inlet_flow.") for key in material.summary), (
             Text("delivery_of_all"),
         )),

@@ -5,6 +5,7 @@ All text stands in strings of Typst, so that nothing in it is markup.
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator
 
@@ -34,6 +35,7 @@ from crankwork.note.document import (
     side_by_side,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
+from crankwork.note.flow import flow, is_whole
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright, width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, numbering
@@ -69,12 +71,12 @@ _SETTINGS = """
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
   grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
 ))
-#let drawing(body, words, place) = figure(
-  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: place,
-)
-#let beside(..parts) = place(auto, float: true, block(breakable: false, grid(
+#let drawing(body, words) = block(breakable: false, width: 100%, above: 1.4em, below: 1.4em, figure(
+  body, caption: words, numbering: none, supplement: none, kind: "drawing",
+))
+#let beside(..parts) = block(breakable: false, above: 1.4em, below: 1.4em, grid(
   columns: (1fr, 1fr), column-gutter: 6mm, ..parts.pos(),
-)))
+))
 #set page(foreground: context {
   let begun = ()
   for one in query(<begins>) {
@@ -89,7 +91,17 @@ _SETTINGS = """
 #let above(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.6em, words)
 #let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
 """
-_TOGETHER = 20
+# one page of any height, on which positions show how high everything is, within a share
+_ENDLESS = "#set page(width: 210mm, height: auto)\n"
+_HEIGHTS = """
+#[#metadata(none)<at>]
+#context {
+  let down = query(<at>).map(one => one.location().position().y.pt())
+  [#metadata(range(down.len() - 1).map(k => calc.max(0, down.at(k + 1) - down.at(k))))<heights>]
+}
+"""
+_OFF = 0.01
+_TURNED, _TURNED_END = "#page(flipped: true)[\n", "\n]"
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
 # height of a line of a table [em], and what is free above and below it [pt]
@@ -107,8 +119,16 @@ def pdf(note: Note) -> bytes:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError(ErrorMessage("extra_writing", names="PDF"), "report") from None
-    source = typst_source(note, numbering(note)).encode("utf-8")
+    numbers = numbering(note)
+    rows, head, written = list(side_by_side(note.blocks)), _head(note), list(_written(note, numbers))
     try:
+        marked = "\n".join(f"#[#metadata(none)<at>]\n{text}" for text in written)
+        measured = f"{head}{_ENDLESS}{marked}{_HEIGHTS}".encode()
+        found = typst.query(measured, "<heights>", field="value", ignore_system_fonts=True)
+        order = flow([note.blocks[row[0]] for row in rows], json.loads(found)[0], _OFF)
+        # wide tables that follow each other share pages
+        body = "\n".join(written[place] for place in order).replace(f"{_TURNED_END}\n{_TURNED}", "")
+        source = f"{head}{body}\n".encode()
         return typst.compile(source, format="pdf", ignore_system_fonts=True, pdf_standards="a-2a")
     except typst.TypstError as error:
         missing = _NO_GLYPH.search(str(error))
@@ -124,26 +144,28 @@ def _missing_character(text: str) -> CrankworkError:
     return CrankworkError(ErrorMessage("glyph_missing", character=shown, codes=codes))
 
 
-def typst_source(note: Note, numbers: Numbering) -> str:
-    """Return a note as the source of a Typst document."""
+def _head(note: Note) -> str:
+    """Return how a note as Typst document begins."""
     year, month, day = (note.date.year, note.date.month, note.date.day) if note.date else (2000, 1, 1)
     authors = "".join(f"{typst_string(author)}, " for author in note.authors)
     language, _, region = LANGUAGE_TAGS[note.language].partition("-")
     date = f"datetime(year: {year}, month: {month}, day: {day})"
-    parts = [
-        f"#set document(title: {typst_string(note.title)}, author: ({authors}), date: {date})",
-        f"#set document(keywords: {typst_string(note.provenance)})",
-        f'#set text(lang: "{language}", region: "{region}")' + _SETTINGS,
-    ]
-    turned = False
+    return (
+        f"#set document(title: {typst_string(note.title)}, author: ({authors}), date: {date})\n"
+        f"#set document(keywords: {typst_string(note.provenance)})\n"
+        f'#set text(lang: "{language}", region: "{region}"){_SETTINGS}'
+    )
+
+
+def _written(note: Note, numbers: Numbering) -> Iterator[str]:
+    """Yield the source of each row of blocks, as `side_by_side` has them."""
     for places in side_by_side(note.blocks):
-        wide = isinstance(block := note.blocks[places[0]], Table) and block.wide
-        if wide != turned:
-            parts.append("#page(flipped: true)[" if wide else "]")
-            turned = wide
         cells = ["\n".join(_block(note.blocks[place], numbers.blocks[place], note, numbers)) for place in places]
-        parts.append(cells[0] if len(cells) == 1 else f"#beside[{cells[0]}][{cells[1]}]")
-    return "\n".join([*parts, "]" if turned else "", ""])
+        first = note.blocks[places[0]]
+        if isinstance(first, Table) and first.wide:
+            yield f"{_TURNED}{cells[0]}{_TURNED_END}"
+        else:
+            yield cells[0] if len(cells) == 1 else f"#beside[{cells[0]}][{cells[1]}]"
 
 
 def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterator[str]:  # noqa: C901 - one case per block
@@ -211,25 +233,24 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
     size = next((letters for letters in SIZES if fits(block.headings, block.rows, letters, room(block))), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
-    # a short table stays on one page with its caption
-    is_whole = len(block.rows) <= _TOGETHER
-    if is_whole:
+    whole = is_whole(block)
+    if whole:
         yield "#block(breakable: false)["
     above = typst_string(caption("table", number, block.caption, numbers.language))
-    yield f"#{'above' if is_whole else 'over'}({above})"
+    yield f"#{'above' if whole else 'over'}({above})"
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
         for row in block.rows
     )
-    again = "" if is_whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
+    again = "" if whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
-    columns = _columns(block, size, marked=not is_whole)
+    columns = _columns(block, size, marked=not whole)
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_whole)}), {header},\n{rows}))\n}}"
+        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not whole)}), {header},\n{rows}))\n}}"
     )
-    if is_whole:
+    if whole:
         yield "]"
 
 
@@ -270,7 +291,7 @@ def _figure(block: Figure, number: str, language: Language) -> str:
         f'layout(size => image(bytes("{data}"), format: "svg", alt: {typst_string(block.alt)}, '
         f"width: calc.min({block.width / MM:.2f}pt, size.width)))"
     )
-    return f"#drawing({image}, {words}, {'auto' if block.floats and not block.half else 'none'})"
+    return f"#drawing({image}, {words})"
 
 
 def _breakable(text: str) -> str:
