@@ -14,6 +14,7 @@ from crankwork.locale import capital, translate
 from crankwork.note import balance, bearings
 from crankwork.note.data import GEAR, cycle_keys
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
+from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Section, Shown, When, drawn, every, full, has, lacks, written
 from crankwork.note.printed_units import printed_unit
@@ -127,7 +128,9 @@ def _checks(material: Material) -> Iterator[Block]:
     """Yield the identities that were checked, the errors of the method, and what the reader should know."""
     words, results = material.words, material.results
     largest_errors = errors(material)
-    if results.checks:
+    if material.has_piston and not material.full and not results.unmet:
+        yield from _all_hold(material)
+    elif results.checks:
         before = () if material.has_piston else (*words.sentence("identities"), " ")
         yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
         rows = [(_identity(key, words), words.number(100.0 * check, digits=2)) for key, check in results.checks.items()]
@@ -137,9 +140,11 @@ def _checks(material: Material) -> Iterator[Block]:
     if largest_errors:
         yield words.paragraph("errors", table=Reference("t:errors"))
         yield _errors(material, largest_errors)
-    if results.notices:
+    # why two powers differ stands beside the diagram
+    notices = [notice for notice in results.notices if notice is not two_bases(material)]
+    if notices:
         yield words.paragraph("notices")
-        yield ItemList(tuple((_notice(notice, words),) for notice in results.notices))
+        yield ItemList(tuple((_notice(notice, words),) for notice in notices))
     if assumed := plain_assumptions(results, words.language):
         yield words.paragraph("assumptions")
         yield ItemList(tuple((text,) for text in assumed))
@@ -199,9 +204,16 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.unmet:
         yield Paragraph((capital(warning_text(results, words.language)),))
-    elif results.checks:
-        largest = words.number(100.0 * max(results.checks.values()), digits=2)
-        yield words.paragraph("all_hold", count=str(len(results.checks)), residual=largest)
+    else:
+        yield from _all_hold(material)
+
+
+def _all_hold(material: Material) -> Iterator[Block]:
+    """Yield that all checks hold, where there are any."""
+    checks = material.results.checks
+    if checks:
+        largest = material.words.number(100.0 * max(checks.values()), digits=2)
+        yield material.words.paragraph("all_hold", count=str(len(checks)), residual=largest)
 
 
 def _left_out(material: Material) -> Iterator[Block]:

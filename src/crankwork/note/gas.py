@@ -9,6 +9,7 @@ import numpy as np
 
 from crankwork.analysis.input_loads import stated_chambers
 from crankwork.analysis.polytropes import Polytropes, polytropes
+from crankwork.analysis.prepared import Notice
 from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine
 from crankwork.formula.expression import symbol
 from crankwork.formula.traced_value import Piecewise
@@ -90,8 +91,6 @@ _SHARES = (
     ("unburnt", "heat_unburnt"), ("rest", "heat_rest"),
 )  # fmt: skip
 _MEASURED_STEP = 10.0
-# the notice that says that two powers differ
-TWO_BASES = "torque_of_cycle"
 _DELIVERED, _VOLUME = "eastop_mcconkey_1993, ch. 12", "kolchin_demidov_2008, ch. 5"
 _CHARGE = "urieli_berchowitz_1984"
 _SINGLE = (
@@ -339,11 +338,16 @@ def _is_absolute(material: Material) -> bool:
     return material.machine.gas is not None and material.machine.gas.is_absolute
 
 
-def _two_bases(material: Material) -> Iterator[Block]:
+def two_bases(material: Material) -> Notice | None:
+    """Return the notice that diagram and heat calculation give different powers, where a note can say why."""
+    known = {"indicated_mean_pressure.cycle", "filling_factor.diagram"} <= material.summary.keys()
+    return next((item for item in material.results.notices if known and item.code == "torque_of_cycle"), None)
+
+
+def _bases(material: Material) -> Iterator[Block]:
     """Yield why the diagram that is drawn and the heat calculation give different powers."""
-    words, summary = material.words, material.summary
-    apart = next((item.values for item in material.results.notices if item.code == TWO_BASES), None)
-    if apart is not None and {"indicated_mean_pressure.cycle", "filling_factor.diagram"} <= summary.keys():
+    words, summary, apart = material.words, material.summary, two_bases(material)
+    if apart is not None:
         drawn, calculated = (
             words.amount(summary[f"indicated_mean_pressure{of}"], "MPa", digits=4) for of in ("", ".cycle")
         )
@@ -352,7 +356,7 @@ def _two_bases(material: Material) -> Iterator[Block]:
             drawn=drawn,
             calculated=calculated,
             power=words.amount(summary["indicated_power"], "kW", digits=4),
-            percent=words.number(abs(float(apart["percent"])), digits=2),
+            percent=words.number(abs(float(apart.values["percent"])), digits=2),
             diagram=words.number(summary["filling_factor.diagram"], digits=3),
             assumed=words.number(summary["filling_factor"], digits=3),
         )
@@ -366,7 +370,7 @@ SECTIONS = (
         When(_is_absolute, (Text("absolute"),)),
         Shown(("indicator", "pressure"), (_points, in_full(_laws))),
         Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"),
-        _two_bases, _OF_DELIVERY,
+        _bases, _OF_DELIVERY,
         When(lambda material: any(key.startswith("inlet_flow.") for key in material.summary), (
             Text("delivery_of_all"),
         )),

@@ -78,9 +78,12 @@ _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "c
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
 # figures of a piston that are read at half the width of the text; charts of notes, lower than elsewhere, and these
 _SMALL = frozenset((
-    "indicator", "pressure", "piston_forces", "rod_forces", "crankpin_forces", "torque", "crankpin_polar",
-    "crankpin_load", "big_end_polar", "small_end_polar", "crankpin_wear", "balance_orders", "excess_work", "tolle",
+    "indicator", "pressure", "kinematics", "tolle", "piston_forces", "rod_forces", "crankpin_forces", "torque",
+    "crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar", "crankpin_wear", "balance_orders",
+    "excess_work",
 ))  # fmt: skip
+# those that are large enough where nothing stands beside them either
+_ROUND = frozenset(("crankpin_wear",))
 _LOW, _HALF = ChartLayout(tall=0.8), ChartLayout(width=267.0, left=64.0, right=10.0, tall=0.8)
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
@@ -317,8 +320,8 @@ class Material:
         ]
         if not self.full:
             # of crankpins that differ the first
-            of_pins = [name for name in drawn if kind_of(name) in _OF_CRANKPINS]
-            drawn = [name for name in drawn if name not in of_pins or name == of_pins[0]]
+            firsts = {kind_of(name): name for name in reversed(drawn)}
+            drawn = [name for name in drawn if kind_of(name) not in _OF_CRANKPINS or name in firsts.values()]
         labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
         for name in drawn:
             labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
@@ -388,7 +391,8 @@ class Material:
     def _figure(self, name: str, *, half: bool) -> Figure:
         """Return a figure with its caption, and what who cannot see it is told."""
         self._shown_figures.add(name)
-        drawing, kind, title = (self._small if half else self.drawn)[name], kind_of(name), self._title(name)
+        kind, title = kind_of(name), self._title(name)
+        drawing = (self._small if half or kind in _ROUND & self._small.keys() else self.drawn)[name]
         if kind == "crankpin_polar" and self.machine.engine is None and self.words.has_names:
             # the crankpin has a name
             title = capital(drawing.title)

@@ -35,7 +35,7 @@ from crankwork.note.document import (
     side_by_side,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
-from crankwork.note.flow import flow, is_whole
+from crankwork.note.flow import TOGETHER, flow, is_whole
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright, width
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, numbering
@@ -66,10 +66,10 @@ _SETTINGS = """
   let wide = measure(line).width
   if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
 })
-#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.85em, below: 0.85em, grid(
+#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.7em, below: 0.7em, grid(
   columns: (1fr, auto), column-gutter: 0.8em,
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
-  grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
+  grid(row-gutter: 0.75em, align: center, ..all.pos()), number,
 ))
 #let drawing(body, words) = block(breakable: false, width: 100%, above: 1.4em, below: 1.4em, figure(
   body, caption: words, numbering: none, supplement: none, kind: "drawing",
@@ -231,7 +231,8 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
-    size = next((letters for letters in SIZES if fits(block.headings, block.rows, letters, room(block))), SIZES[-1])
+    sizes = SIZES[len(block.rows) > TOGETHER :]
+    size = next((letters for letters in sizes if fits(block.headings, block.rows, letters, room(block))), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
     whole = is_whole(block)
     if whole:
