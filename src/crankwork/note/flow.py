@@ -35,21 +35,37 @@ def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Itera
     factors = np.linspace(1.0 - off, 1.0 + off, 15)
     filled, waited, is_heading = np.zeros(len(factors)), 0.0, False
     for k, (block, height) in enumerate(zip(blocks, heights, strict=True)):
-        if is_whole(block) and (waiting or _left(filled, height).max() > _LITTLE):
-            waiting.append(k)
-            continue
+        whole = is_whole(block)
+        waiting += [k] if whole else []
         covers = isinstance(block, TitlePage) and not block.is_plain
         is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
-        most = _EMPTY if isinstance(block, Heading) and block.level == 1 else _LITTLE
-        while waiting and not is_heading and (is_new or _fits_here(filled, heights[waiting[0]], waited, most)):
-            figure, waited = waiting.pop(0), 0.0
-            filled = _after(filled, blocks[figure], heights[figure] * factors)
-            yield figure
-        yield k
-        is_heading = isinstance(block, Heading)
-        waited += height if waiting else 0.0
-        filled = np.zeros(len(factors)) if is_new else _after(filled, block, height * factors)
+        most = PAGE if is_new else _EMPTY if isinstance(block, Heading) and block.level == 1 else _LITTLE
+        # what waits does not stand between a heading and its text
+        while waiting and (not is_heading or waiting == [k]):
+            place = next((place for place in _ready(waiting, blocks) if _fits_here(filled, heights[place], most)), None)
+            if place is None and (waited <= _LONG or _left(filled, heights[waiting[0]]).mean() > _EMPTY):
+                break
+            place = waiting[0] if place is None else place
+            waiting.remove(place)
+            filled, waited, is_heading = _after(filled, blocks[place], heights[place] * factors), 0.0, False
+            yield place
+        if not whole:
+            yield k
+            is_heading = isinstance(block, Heading)
+            waited += height if waiting else 0.0
+            filled = np.zeros(len(factors)) if is_new else _after(filled, block, height * factors)
     yield from waiting
+
+
+def _ready(waiting: Sequence[int], blocks: Sequence[Block]) -> Iterator[int]:
+    """Yield what may be printed next of what waits: figures keep their order, and so do tables."""
+    before: set[type] = set()
+    for place in waiting:
+        block = blocks[place]
+        kinds = {Figure, Table} if isinstance(block, Figure | Table) and block.half else {type(block)}
+        if not kinds & before:
+            yield place
+        before |= kinds
 
 
 def _left(filled: Array, height: float) -> Array:
@@ -57,10 +73,9 @@ def _left(filled: Array, height: float) -> Array:
     return np.where(filled + height > PAGE, PAGE - filled, 0.0)
 
 
-def _fits_here(filled: Array, figure: float, waited: float, most: float) -> bool:
-    """Return whether a waiting figure is placed here: it leaves little empty, or does so on average and waited long."""
-    left = _left(filled, figure)
-    return bool(left.max() <= most or (waited > _LONG and left.mean() <= _EMPTY))
+def _fits_here(filled: Array, figure: float, most: float) -> bool:
+    """Return whether a waiting figure leaves little empty where it is placed here."""
+    return bool(_left(filled, figure).max() <= most)
 
 
 def _after(filled: Array, block: Block, high: Array) -> Array:
