@@ -64,6 +64,8 @@ _SAME = {
     "flywheel_inertia.exact": ("flywheel_inertia",),
 }  # fmt: skip
 _GLANCE = 10
+# the machine and its main results stand on one page [mm]
+_HIGHEST = 85.0
 
 # the label of the heading that a list of the symbols follows
 NOMENCLATURE = "nomenclature"
@@ -197,7 +199,7 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
         yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
-        yield Figure(film.still(), title, film.about or title, label="f:machine", floats=False)
+        yield Figure(film.still(), title, film.about or title, label="f:machine", high=_HIGHEST)
     keys = [key for kind in _NUMBERS for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     yield words.paragraph("see_table", tables=Reference("t:glance"))

@@ -138,20 +138,20 @@ def cell_length(cell: Cell) -> int:
 class Figure:
     """A drawing; `alt` says what it shows, and the end of its label what it is called elsewhere.
 
-    `floats`: whether it may stand at the head of a page instead of here. `half`: as of a table.
+    `high`: how high it is at most [mm]; `half`: as of a table.
     """
 
     drawing: Drawing
     caption: str
     alt: str
     label: str = ""
-    floats: bool = True
+    high: float = 240.0
     half: bool = False
 
     @property
     def width(self) -> float:
-        """Width on the page, where letters are then 8 pt. [mm]"""
-        return 0.87 * self.drawing.width
+        """Width on the page, where letters are 8 pt unless it would be too high. [mm]"""
+        return self.drawing.width * min(0.87, self.high / self.drawing.height)
 
     @property
     def name(self) -> str:

@@ -84,7 +84,7 @@ _SMALL = frozenset((
 ))  # fmt: skip
 # those that are large enough where nothing stands beside them either
 _ROUND = frozenset(("crankpin_wear",))
-_LOW, _HALF = ChartLayout(tall=0.7), ChartLayout(width=267.0, left=64.0, right=10.0, tall=0.66)
+_LOW, _HALF = ChartLayout(tall=0.7), ChartLayout(width=267.0, left=64.0, right=10.0, tall=0.6)
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives

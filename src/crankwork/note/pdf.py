@@ -50,9 +50,9 @@ _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.
 _SETTINGS = """
 #set page(paper: "a4", margin: (left: 25mm, right: 15mm, top: 20mm, bottom: 20mm), numbering: "1")
 #set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
-#set par(leading: 0.68em, spacing: 0.85em, justify: true)
+#set par(leading: 0.65em, spacing: 0.75em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
-#show heading: set block(above: 1.5em, below: 0.9em, sticky: true)
+#show heading: set block(above: 1.3em, below: 0.8em, sticky: true)
 #show heading: set par(justify: false)
 #show heading.where(level: 1): set text(size: 14pt)
 #show heading.where(level: 2): set text(size: 12pt)
@@ -71,10 +71,10 @@ _SETTINGS = """
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
   grid(row-gutter: 0.75em, align: center, ..all.pos()), number,
 ))
-#let drawing(body, words) = block(breakable: false, width: 100%, above: 1.4em, below: 1.4em, figure(
+#let drawing(body, words) = block(breakable: false, width: 100%, above: 1.2em, below: 1.2em, figure(
   body, caption: words, numbering: none, supplement: none, kind: "drawing",
 ))
-#let beside(..parts) = block(breakable: false, above: 1.4em, below: 1.4em, grid(
+#let beside(..parts) = block(breakable: false, above: 1.2em, below: 1.2em, grid(
   columns: (1fr, 1fr), column-gutter: 6mm, ..parts.pos(),
 ))
 #set page(foreground: context {
@@ -88,8 +88,8 @@ _SETTINGS = """
 #let again(count, words) = (
   table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
 )
-#let above(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.6em, words)
-#let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
+#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, words)
+#let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { words; v(-16pt) })
 """
 # one page of any height, on which positions show how high everything is, within a share
 _ENDLESS = "#set page(width: 210mm, height: auto)\n"
@@ -278,7 +278,9 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
     """
     widths = one_line_widths(block.headings, block.rows, size, room(block))
     if not widths:
-        return f"columns: {len(block.headings)}"
+        # words have the room that symbols and numbers leave
+        parts = ", ".join("1fr" if letter == "l" else "auto" for letter in block.align)
+        return f"columns: ({parts},)" if "l" in block.align else f"columns: {len(block.headings)}"
     columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):
         return columns

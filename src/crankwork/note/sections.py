@@ -120,10 +120,10 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     parts = itertools.chain.from_iterable(known[name].parts for name in chosen or _order(material) if name in known)
     blocks = tuple(_with_nomenclature(_cited_once(written(parts, material)), material))
     made, subtitle = _titles(material)
-    title, below = material.machine.title, words.title(subtitle)
+    title, title_page = material.machine.title, cover(document, options.language, words.title(subtitle))
     if title and not _speaks(title, options.language):
-        title, below = "", f"{title}. {below}"
-    title_page = cover(document, options.language, below)
+        # the title of the file stands below that of its language
+        title, title_page = "", replace(title_page, below=(title, *title_page.below))
     front: list[Block] = [title_page]
     if options.full or not title_page.is_plain:
         front += [Contents(), PageBreak()]
@@ -184,7 +184,6 @@ def _engine_title(material: Material) -> str:
         words.language,
         engine=words.title("four_stroke" if material.machine.cycle == FOUR_STROKE else "two_stroke"),
         count=str(len(engine.layout.places)) if engine is not None else "1",
-        kind=words.kind(engine.layout.kind) if engine is not None else "",
         size=f"{bore.rpartition(chr(160))[0]} × {stroke}",
         speed=words.amount(summary["rotational_speed"], "rpm", digits=4),
     )
