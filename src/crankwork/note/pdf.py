@@ -279,8 +279,9 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
     widths = one_line_widths(block.headings, block.rows, size, room(block))
     if not widths:
         # words have the room that symbols and numbers leave
-        parts = ", ".join("1fr" if letter == "l" else "auto" for letter in block.align)
-        return f"columns: ({parts},)" if "l" in block.align else f"columns: {len(block.headings)}"
+        of_words = [any(isinstance(cell, str) and " " in cell for cell in column)
+                    for column in zip(*block.rows, strict=True)]  # fmt: skip
+        return f"columns: ({', '.join('1fr' if words else 'auto' for words in of_words)},)"
     columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):
         return columns

@@ -56,7 +56,7 @@ _PEOPLE: dict[Language, tuple[str, ...]] = {
     "ru": ("author", "student_number", "group", "supervisor", "checked_by", "standards_by", "approved_by"),
     "vi": ("supervisor", "author", "student_number", "group", "checked_by", "standards_by", "approved_by"),
 }
-# tables of values in a short note
+# tables of values that name their symbols
 _OF_VALUES = ("t:data", "t:cycle_data", "t:cycle_results")
 _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
@@ -148,8 +148,7 @@ def _cited_once(blocks: Iterable[Block]) -> Iterator[Block]:
 def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[Block]:
     """Yield blocks, the symbols of all equations listed below the heading that stands for them."""
     kept, words = list(blocks), material.words
-    # the tables of values name their symbols
-    values = [block for block in kept if isinstance(block, Table) and block.label in _OF_VALUES and not material.full]
+    values = [block for block in kept if isinstance(block, Table) and block.label in _OF_VALUES]
     told = {cell.content for table in values for row in table.rows for cell in row if isinstance(cell, Math)}
     listed = [meaning for meaning in meanings(kept, words.language) if meaning.symbol not in told]
     for block in kept:
@@ -157,9 +156,7 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
             yield block
         elif listed:
             yield block
-            yield words.paragraph(
-                f"{'' if material.full else 'other_'}symbols_listed", table=Reference("t:nomenclature")
-            )
+            yield words.paragraph("symbols_listed", table=Reference("t:nomenclature"))
             yield symbol_table([(Math(meaning.symbol), meaning.text) for meaning in listed], words)
 
 
