@@ -54,8 +54,8 @@ READ = {
 }  # fmt: skip
 # pages of the PDF in each language
 PAGES = {
-    "petrol-four": (20, 21, 22), "spark-engine": (14, 15, 18), "press-geometry": (16, 17, 16),
-    "slider-crank": (4, 4, 6), "press": (6, 6, 6),
+    "petrol-four": (15, 16, 16), "spark-engine": (10, 10, 12), "press-geometry": (15, 17, 16),
+    "slider-crank": (3, 3, 4), "press": (6, 6, 6),
 }  # fmt: skip
 NUMBER = re.compile(r"(−?\d+(?:[.,]\d+)?)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?")
 RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")

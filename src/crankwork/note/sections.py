@@ -162,8 +162,9 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
 
 def _titles(material: Material) -> tuple[str, str]:
     """Return the title of a note that has none of its own, and the key of its subtitle."""
-    words, space = material.words, material.results.solved.space
+    words = material.words
     if material.has_piston:
+        space = material.results.solved.space
         is_engine = space is not None and space.work > 0 and "bore" in material.summary
         return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
     if material.machine.turning is not None:
