@@ -75,6 +75,12 @@ def nomenclature(one: Note) -> list[tuple[Math, str]]:
     return [(symbol, meaning) for symbol, meaning in pairs if isinstance(symbol, Math)]
 
 
+def value_rows(one: Note, *labels: str) -> list[tuple[object, ...]]:
+    """Return the rows of tables of single values, their parts one below the other: name, symbol, value, unit."""
+    found = (tables(one)[label] for label in labels if label in tables(one))
+    return [tuple(row[start : start + 4]) for table in found for start in (0, 4) for row in table.rows if row[start:]]
+
+
 def figures(one: Note) -> dict[str, Figure]:
     """Return the figures by their labels, without what says that they are figures."""
     return {block.label.removeprefix("f:"): block for block in blocks(one, Figure)}

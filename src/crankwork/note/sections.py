@@ -180,7 +180,10 @@ def _engine_title(material: Material) -> str:
     return translate(
         f"note.title_of_{'several' if several else 'one'}",
         words.language,
-        engine=words.title("four_stroke" if material.machine.cycle == FOUR_STROKE else "two_stroke"),
+        engine=translate(
+            "templates.title_engine" if material.machine.cycle == FOUR_STROKE else "note.two_stroke_engine",
+            words.language,
+        ),
         count=str(len(engine.layout.places)) if engine is not None else "1",
         size=f"{bore.rpartition(chr(160))[0]} × {stroke}",
         speed=words.amount(summary["rotational_speed"], "rpm", digits=4),
