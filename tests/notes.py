@@ -76,9 +76,10 @@ def nomenclature(one: Note) -> list[tuple[Math, str]]:
 
 
 def value_rows(one: Note, *labels: str) -> list[tuple[object, ...]]:
-    """Return the rows of tables of single values, their parts one below the other: name, symbol, value, unit."""
-    found = (tables(one)[label] for label in labels if label in tables(one))
-    return [tuple(row[start : start + 4]) for table in found for start in (0, 4) for row in table.rows if row[start:]]
+    """Return the rows of tables of single values, their parts one below the other: name, symbol, value, unit, place."""
+    found = [row for label in labels if label in tables(one) for row in tables(one)[label].rows]
+    parts = [(row, 4 if len(row) % 5 else 5) for row in found]
+    return [tuple(row[start : start + size]) for row, size in parts for start in range(0, len(row), size)]
 
 
 def figures(one: Note) -> dict[str, Figure]:
