@@ -35,8 +35,8 @@ def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Itera
     factors = np.linspace(1.0 - off, 1.0 + off, 15)
     filled, waited, is_heading = np.zeros(len(factors)), 0.0, False
     for k, (block, height) in enumerate(zip(blocks, heights, strict=True)):
-        whole = is_whole(block)
-        waiting += [k] if whole else []
+        may_wait = is_whole(block)
+        waiting += [k] if may_wait else []
         covers = isinstance(block, TitlePage) and not block.is_plain
         is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
         most = PAGE if is_new else _EMPTY if isinstance(block, Heading) and block.level == 1 else _LITTLE
@@ -49,7 +49,7 @@ def flow(blocks: Sequence[Block], heights: Sequence[float], off: float) -> Itera
             waiting.remove(place)
             filled, waited, is_heading = _after(filled, blocks[place], heights[place] * factors), 0.0, False
             yield place
-        if not whole:
+        if not may_wait:
             yield k
             is_heading = isinstance(block, Heading)
             waited += height if waiting else 0.0

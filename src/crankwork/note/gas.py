@@ -346,17 +346,17 @@ def two_bases(material: Material) -> Notice | None:
 
 def _bases(material: Material) -> Iterator[Block]:
     """Yield why the diagram that is drawn and the heat calculation give different powers."""
-    words, summary, apart = material.words, material.summary, two_bases(material)
-    if apart is not None:
+    words, summary, difference = material.words, material.summary, two_bases(material)
+    if difference is not None:
         drawn, calculated = (
-            words.amount(summary[f"indicated_mean_pressure{of}"], "MPa", digits=4) for of in ("", ".cycle")
+            words.amount(summary[f"indicated_mean_pressure{suffix}"], "MPa", digits=4) for suffix in ("", ".cycle")
         )
         yield words.paragraph(
             "two_bases",
             drawn=drawn,
             calculated=calculated,
             power=words.amount(summary["indicated_power"], "kW", digits=4),
-            percent=words.number(abs(float(apart.values["percent"])), digits=2),
+            percent=words.number(abs(float(difference.values["percent"])), digits=2),
             diagram=words.number(summary["filling_factor.diagram"], digits=3),
             assumed=words.number(summary["filling_factor"], digits=3),
         )

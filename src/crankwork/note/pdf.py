@@ -124,8 +124,8 @@ def pdf(note: Note) -> bytes:
     try:
         marked = "\n".join(f"#[#metadata(none)<at>]\n{text}" for text in written)
         measured = f"{head}{_ENDLESS}{marked}{_HEIGHTS}".encode()
-        found = typst.query(measured, "<heights>", field="value", ignore_system_fonts=True)
-        order = flow([note.blocks[row[0]] for row in rows], json.loads(found)[0], _OFF)
+        heights = typst.query(measured, "<heights>", field="value", ignore_system_fonts=True)
+        order = flow([note.blocks[row[0]] for row in rows], json.loads(heights)[0], _OFF)
         # wide tables that follow each other share pages
         body = "\n".join(written[place] for place in order).replace(f"{_TURNED_END}\n{_TURNED}", "")
         source = f"{head}{body}\n".encode()
@@ -234,24 +234,24 @@ def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     sizes = SIZES[len(block.rows) > TOGETHER :]
     size = next((letters for letters in sizes if fits(block.headings, block.rows, letters, room(block))), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
-    whole = is_whole(block)
-    if whole:
+    is_kept = is_whole(block)
+    if is_kept:
         yield "#block(breakable: false)["
     above = typst_string(caption("table", number, block.caption, numbers.language))
-    yield f"#{'above' if whole else 'over'}({above})"
+    yield f"#{'above' if is_kept else 'over'}({above})"
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
         for row in block.rows
     )
-    again = "" if whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
+    again = "" if is_kept else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
-    columns = _columns(block, size, marked=not whole)
+    columns = _columns(block, size, marked=not is_kept)
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not whole)}), {header},\n{rows}))\n}}"
+        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_kept)}), {header},\n{rows}))\n}}"
     )
-    if whole:
+    if is_kept:
         yield "]"
 
 

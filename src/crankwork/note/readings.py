@@ -99,20 +99,22 @@ def concluded(material: Material) -> Iterator[Paragraph]:
     """Yield what the results of an engine mean, in a few sentences."""
     words, summary, results = material.words, material.summary, material.results
     output = "shaft_output" if "effective_power" in summary else "diagram_output"
-    found = [reading(kind, material) for kind in (output, "range_of_piston_forces", "total_torque", "crankpin_bearing")]
+    sentences = [
+        reading(kind, material) for kind in (output, "range_of_piston_forces", "total_torque", "crankpin_bearing")
+    ]
     if material.cycle:
         odd = [notice for notice in results.notices if {"low", "high"} <= notice.values.keys()]
-        found.insert(1, words.paragraph("reads_cycle_odd" if odd else "reads_cycle"))
+        sentences.insert(1, words.paragraph("reads_cycle_odd" if odd else "reads_cycle"))
     if "bearing_loads" in results.listings and material.has_engine:
-        found.append(_of_mains(material))
-    found.append(reading("evenness", material))
+        sentences.append(_of_mains(material))
+    sentences.append(reading("evenness", material))
     if "balance" in results.listings:
         free = {key_of(key).owner.rpartition(".")[2]: value for key, value in summary.items()
                 if key_of(key).quantity == "free_force"}  # fmt: skip
         order = max(free, key=free.__getitem__, default="")
         values = {"order": order, "value": words.amount(free[order], key_unit("free_force"), digits=4)} if order else {}
-        found.append(words.paragraph("reads_free" if order else "reads_balanced", **values))
-    yield from (paragraph for paragraph in found if paragraph is not None)
+        sentences.append(words.paragraph("reads_free" if order else "reads_balanced", **values))
+    yield from (paragraph for paragraph in sentences if paragraph is not None)
 
 
 def _of_mains(material: Material) -> Paragraph | None:

@@ -149,8 +149,8 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
     """Yield blocks, the symbols of all equations listed below the heading that stands for them."""
     kept, words = list(blocks), material.words
     values = [block for block in kept if isinstance(block, Table) and block.label in _OF_VALUES]
-    told = {cell.content for table in values for row in table.rows for cell in row if isinstance(cell, Math)}
-    listed = [meaning for meaning in meanings(kept, words.language) if meaning.symbol not in told]
+    named = {cell.content for table in values for row in table.rows for cell in row if isinstance(cell, Math)}
+    listed = [meaning for meaning in meanings(kept, words.language) if meaning.symbol not in named]
     for block in kept:
         if getattr(block, "label", "") != closing.NOMENCLATURE:
             yield block

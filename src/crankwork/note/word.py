@@ -43,12 +43,12 @@ from crankwork.note.word_parts import (
     PAGE_BREAK,
     PREFIXES,
     Columns,
-    beside_xml,
     contents_xml,
     cover_xml,
     equation_xml,
     figure_xml,
     heading_xml,
+    pair_xml,
     paragraph,
     runs_xml,
     table_columns,
@@ -167,7 +167,7 @@ class _Writer:
             self.turn(wide=isinstance(first, Table) and first.wide)
             parts = [self._xml(blocks[k], self._numbers.blocks[k]) for k in rows[number]]
             body = self._document.element.body
-            for xml in parts[0] if len(parts) == 1 else beside_xml(*parts):
+            for xml in parts[0] if len(parts) == 1 else pair_xml(*parts):
                 body.insert(len(body) - 1, _element(xml))
 
     def _height(self, block: Block, headings: int) -> float:

@@ -105,7 +105,7 @@ def equation_xml(block: Equation, number: str, numbers: Numbering, printed: Prin
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
 
 
-def beside_xml(left: Iterable[str], right: Iterable[str]) -> Iterator[str]:
+def pair_xml(left: Iterable[str], right: Iterable[str]) -> Iterator[str]:
     """Yield the paragraphs of two blocks side by side."""
     half = TEXT_WIDTH // 2
     yield (
