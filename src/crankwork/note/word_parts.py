@@ -25,6 +25,7 @@ from crankwork.note.document import (
     cell_length,
 )
 from crankwork.note.equations import PrintedEquation, formula_of
+from crankwork.note.flow import is_whole
 from crankwork.note.layout import Apply, Box, Digits, Fence, Fraction, Letter, Root, Row, Script, Sign, Upright
 from crankwork.note.layout import width as box_width
 from crankwork.note.math import formula_box
@@ -119,6 +120,8 @@ def pair_xml(left: Iterable[str], right: Iterable[str]) -> Iterator[str]:
 def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -> Iterator[str]:
     """Yield the caption of a table, the table with a header on every page, and a gap after it."""
     size, widths, row_height = columns
+    # a short table stays on one page
+    together = len(block.rows) - 1 if is_whole(block) else _TOGETHER
     font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
     words = caption("table", number, block.caption, numbers.language)
     yield paragraph(text_run(words), "Caption", '<w:keepNext/><w:jc w:val="left"/>')
@@ -144,7 +147,7 @@ def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -
         f"<w:tr><w:trPr><w:cantSplit/>{high}</w:trPr>"
         + "".join(
             f"{start}{_run(cell, numbers, font)}</w:p></w:tc>"
-            for start, cell in zip(kept if k < _TOGETHER else free, row, strict=True)
+            for start, cell in zip(kept if k < together else free, row, strict=True)
         )
         + "</w:tr>"
         for k, row in enumerate(block.rows)
