@@ -79,6 +79,13 @@ def nomenclature(one: Note) -> list[tuple[Math, str]]:
     return [(symbol, meaning) for symbol, meaning in pairs if isinstance(symbol, Math)]
 
 
+def value_rows(one: Note, *labels: str) -> list[tuple[object, ...]]:
+    """Return the rows of tables of single values, their parts one below the other: name, symbol, value, unit, place."""
+    found = [row for label in labels if label in tables(one) for row in tables(one)[label].rows]
+    parts = [(row, 4 if len(row) % 5 else 5) for row in found]
+    return [tuple(row[start : start + size]) for row, size in parts for start in range(0, len(row), size)]
+
+
 def figures(one: Note) -> dict[str, Figure]:
     """Return the figures by their labels, without what says that they are figures."""
     return {block.label.removeprefix("f:"): block for block in blocks(one, Figure)}

@@ -13,7 +13,7 @@ from crankwork.formula.calculation_lines import DelayedLine, FormulaLine, ValueL
 from crankwork.formula.expression import evaluate
 from crankwork.locale import translate
 from crankwork.machine import Document
-from crankwork.note.document import Equation, Figure, Math, Note, Paragraph, Reference, Table
+from crankwork.note.document import Equation, Figure, ItemList, Math, Note, Paragraph, Reference, Table
 from crankwork.note.equations import line_parts
 from crankwork.note.layout import EQUALS
 from crankwork.note.numbering import numbering
@@ -23,7 +23,7 @@ from crankwork.quantities import LANGUAGES
 from crankwork.sources import source_language
 from each import failing, for_each
 from note.built import key_of
-from notes import blocks, figures, nomenclature, note, printed, shown, tables, value, words, worked
+from notes import blocks, figures, nomenclature, note, printed, shown, tables, value, value_rows, words, worked
 
 # every kind of machine; in the light part two engines, a linkage and a driven one in each language
 LIGHT = [(name, one) for name in ("spark-engine", "petrol-four", "press-geometry", "boom") for one in LANGUAGES]
@@ -228,16 +228,29 @@ def test_values_by_the_piston_area_are_those_of_the_tables():
 @for_each(
     ("name", "wanted"),
     [
-        ("v8-diesel", ["N_e", "N_iΣ", "M_Σср"]),
         ("press-geometry", ["M_Σ,max", "M_Σ,min", "H_5", "R_max,O"]),
         ("punching-machine", ["P_дв", "M_ср", "J_м", "δ"]),
     ],
 )
 def test_a_conclusion_says_the_numbers_that_matter(name, wanted):
-    found = tables(note(name, "ru"))
-    assert [row[1].content for row in found["glance"].rows][: len(wanted)] == wanted
+    found = note(name, "ru")
+    first, all_rows = (
+        [row[1].content for row in value_rows(found, label) if row[0]] for label in ("glance", "summary")
+    )
+    assert first[: len(wanted)] == wanted
     # and all of them together with others
-    assert set(wanted) <= {row[1].content for row in found["summary"].rows}
+    assert set(wanted) <= set(all_rows)
+
+
+@for_each("language", LANGUAGES)
+def test_the_conclusion_of_an_engine_is_a_few_sentences_with_the_numbers_that_matter(language):
+    found = note("petrol-four", language, full=False)
+    rows = value_rows(found, "glance")
+    said = ["".join(map(str, item)) for item in blocks(found, ItemList)[-1].items]
+    assert 5 <= len(said) <= 8
+    # power, mean and ends of the torque, ends of the force on the pin, flywheel
+    for row in [*rows[:6], rows[7]]:
+        assert any(f"{row[2]}\u00a0{row[3]}" in text for text in said), row
 
 
 def test_one_cylinder_has_no_table_of_sums():

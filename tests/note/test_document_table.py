@@ -72,7 +72,8 @@ def test_what_the_table_says_stands_on_the_cover(language):
 
 
 def test_a_cover_without_a_table_says_what_the_note_is():
-    below = ("Кинематический и динамический расчёт. Расчётно-пояснительная записка",)
+    # the title of the file is in English
+    below = ("Slider-crank mechanism", "Кинематический и динамический расчёт. Расчётно-пояснительная записка")
     assert _cover(_note("")) == TitlePage(below=below)
     # an option goes before the author of the file
     results = crankwork.analyse(read_machine(MACHINE + FULL))

@@ -110,7 +110,7 @@ def test_tables_have_the_columns_of_their_school():
     found = tables(note(FOUR, "ru"))
     assert symbols(found["along"]) == ["φ", "Δp_г", "P_г", "j", "P_j", "P"]
     assert symbols(found["forces"]) == [
-        "φ", "tg β", "N", "1/cos β", "S", "cos(φ+β)/cos β", "K", "sin(φ+β)/cos β", "T", "M_кр",
+        "φ", "tg β", "N", "1/cos β", "S_ш", "cos(φ+β)/cos β", "K", "sin(φ+β)/cos β", "T", "M_кр",
     ]  # fmt: skip
     assert symbols(found["motion"]) == ["φ", "S_I", "S_II", "S_x", "v_I", "v_II", "v", "j_I", "j_II", "j"]
     # a table of the speed is called so only where it has the speed
@@ -267,7 +267,12 @@ def test_what_is_not_known_is_left_out():
 def test_title_and_author_are_the_users():
     one = note(SPARK, "vi", title="Đồ án", author="N. V. A")
     assert (one.title, one.authors) == ("Đồ án", ("N. V. A",))
-    assert note(SPARK, "vi").title == results(SPARK).machine.title
+    own = results(SPARK).machine.title
+    assert note(SPARK, "en").title == own
+    # one of another language stands below what the engine is
+    made = note(SPARK, "vi")
+    assert made.title.startswith("Động cơ bốn kỳ, một xi lanh, 105,8 × 105,8")
+    assert own in made.blocks[0].below
     assert blocks(one, Bibliography)
 
 

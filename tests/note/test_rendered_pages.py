@@ -198,7 +198,7 @@ def test_no_page_of_a_long_word_note_is_nearly_empty(tmp_path):
 )
 def test_a_table_that_goes_on_says_so_on_every_page_but_its_first(language, words, tmp_path):
     path = tmp_path / "note.pdf"
-    for rows, times in ((20, 0), (120, 2)):
+    for rows, times in ((20, 0), (150, 2)):
         table = Table("c", (("a",), ("b",)), [(str(k), "1.5") for k in range(rows)])
         path.write_bytes(written_note(Note("t", language, (table,)), "note.pdf"))
         assert _printed(path).text.count(words) == times

@@ -21,7 +21,7 @@ from crankwork.report.display import link_numbers
 from crankwork.report.display import symbol as key_symbol
 from each import for_each
 from note.built import SOME, broken, looked_at, note, schools, source
-from notes import as_numbered, blocks, nomenclature, printed, tables
+from notes import as_numbered, blocks, nomenclature, printed, value_rows
 
 OTHERS = (
     "spark-engine: exact", "v8-diesel", "radial-five", "narrow-v6: textbook", "two-stroke", "atkinson", "beta-stirling",
@@ -30,11 +30,11 @@ OTHERS = (
 # what may stand flat: units after a comma, and names that the file gives; z is also the point where burning ends
 UNIT = re.compile(r"^, [^,]+$")
 FLAT = {"–", "", "z"}
-# letters that books of a school give two things: moving links and revolutions, stroke and force along the rod, angle of
-# the crank and excess of air, of the rod and molar change; pressure in the cylinder by two ways, and transfer functions
-# by two names
-SCHOOL = {"en": "n", "ru": "nS", "vi": "nαβ"}
+# letters that books of a school give two things: moving links and revolutions; pressure in the cylinder by two ways,
+# and transfer functions by two names
+SCHOOL = {"en": "n", "ru": "n", "vi": "n"}
 SAME = {"p", "p₁", "V", "x′", "x″", "S_x′", "S_x″"}
+VALUES = ("data", "cycle_data", "cycle_results")
 # what is found in several ways
 WAYS = ("flywheel_inertia", "whole_inertia", "wittenbauer_slope", "excess_work")
 # wanted and reached
@@ -79,6 +79,8 @@ def needed(step: FormulaLine, language: str) -> dict[str, tuple[str, ...]]:
 def unexplained(one: Note) -> list[str]:
     """Return the symbols of equations that nothing explains."""
     known = {row[0].content for row in nomenclature(one)}
+    # the tables of values name their symbols
+    known |= {row[1].content for row in value_rows(one, *VALUES) if isinstance(row[1], Math)}
     worked = blocks(one, Equation)
     needs = [(block, needed(block.step, one.language)) for block in worked if isinstance(block.step, FormulaLine)]
     # one of a kind is explained for all of them
@@ -150,7 +152,7 @@ test_a_symbol_of_a_table_of_values_stands_for_one_row = every_note(lambda _, one
 def test_a_symbol_without_explanation_is_found():
     one = note("slider-crank")
     (table,) = (block for block in one.blocks if getattr(block, "label", "") == "t:nomenclature")
-    for missing in ("r", "λ", "ω", "φ"):
+    for missing in ("ω", "φ"):
         rows = [(*row, "", "") for row in nomenclature(one) if row[0].content != missing]
         shown = tuple(replace(table, rows=rows) if block is table else block for block in one.blocks)
         assert len(rows) == len(nomenclature(one)) - 1
@@ -160,9 +162,9 @@ def test_a_symbol_without_explanation_is_found():
 @for_each(
     ("name", "language", "letter", "both"),
     [
-        ("petrol-four", "ru", "S", {"ход поршня", "сила вдоль шатуна"}),
-        ("petrol-four", "vi", "α", {"góc quay trục khuỷu", "hệ số dư lượng không khí"}),
-        ("petrol-four", "vi", "β", {"góc lắc thanh truyền", "hệ số thay đổi phân tử thực tế"}),
+        ("petrol-four", "ru", "S", {"ход поршня"}),
+        ("petrol-four", "vi", "α", {"góc quay trục khuỷu"}),
+        ("petrol-four", "vi", "β", {"góc lắc thanh truyền"}),
         ("double-acting-steam", "en", "n", {"moving links", "rotational speed, rpm"}),
         # a derivative and the transfer function that it is are one thing
         ("spark-engine", "en", "x″", {"second transfer function of the piston, m"}),
@@ -222,7 +224,7 @@ def test_equations_read_as_those_of_books(cases):
 
 @pytest.mark.parametrize("name", ["petrol-four", pytest.param("radial-five", marks=pytest.mark.slow)])
 def test_what_is_put_into_the_cycle_stands_in_the_table_of_its_data(name):
-    rows = {row[1].content: row for row in tables(note(name, "ru"))["cycle_data"].rows}
+    rows = {row[1].content: row for row in value_rows(note(name, "ru"), "cycle_data") if isinstance(row[1], Math)}
     assert {"C", "H", "O", "a_m", "b_m", "c", "m", "m_r"} <= rows.keys()
     assert (rows["C"][2], rows["a_m"][2:]) == ("0,855", ("0,034", "МПа"))
     assert "принято" in rows["C"][0]

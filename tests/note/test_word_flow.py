@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from crankwork.note.document import Figure, Heading, PageBreak, Paragraph, Table
-from crankwork.note.word import PAGE, flow
+from crankwork.note.flow import PAGE, flow
 from crankwork.show.scene import Drawing
 
 FIGURE = Figure(Drawing("t", "en", 160.0, 100.0, ()), "Figure", "a figure")
@@ -12,7 +12,7 @@ TABLE = Table("table", (("x",),), [["1"]])
 
 
 def _order(*placed: tuple[object, float]) -> list[int]:
-    return list(flow([one for one, _ in placed], [height for _, height in placed]))
+    return list(flow([one for one, _ in placed], [height for _, height in placed], 0.03))
 
 
 def test_a_figure_without_room_waits_until_text_has_filled_the_page():

@@ -26,6 +26,7 @@ from crankwork.note.parts import (
     full,
     has,
     in_full,
+    lacks,
     turning,
 )
 from crankwork.note.wording import named
@@ -104,9 +105,10 @@ SECTIONS = (
     # polar, unrolled and wear in one
     Section("crankpin", (
         Head("crankpin"), *_PIN, _OF_ROD, _STATED,
+        When(lacks(full), (_oil_hole,)),
         Shown(("crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar"),
-              (Over("crankpin", _columns), _LOADS)),
-        Head("wear", 2), *_WEAR,
+              (Over("crankpin", _columns), _LOADS), ("crankpin_wear",)),
+        When(full, (Head("wear", 2), *_WEAR)),
     ), _has_pin),
     Section("polar", (
         Head("crankpin"), *_PIN, Shown(("crankpin_polar",), (Over("crankpin", _of_crankpin),)),

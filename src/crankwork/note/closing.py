@@ -14,9 +14,11 @@ from crankwork.locale import capital, translate
 from crankwork.note import balance, bearings
 from crankwork.note.data import GEAR, cycle_keys
 from crankwork.note.document import Bibliography, Block, Cell, Figure, ItemList, Math, Paragraph, Reference, Runs, Table
+from crankwork.note.gas import two_bases
 from crankwork.note.material import Material
-from crankwork.note.parts import Head, Section, Shown, Text, When, drawn, every, full, has, lacks, written
+from crankwork.note.parts import Head, Section, Shown, When, drawn, every, full, has, lacks, written
 from crankwork.note.printed_units import printed_unit
+from crankwork.note.readings import concluded
 from crankwork.note.table_width import SIZES, fits
 from crankwork.note.tables import position_tables, quantity_columns, short_rows, value_row, value_table
 from crankwork.note.wording import Words, named
@@ -30,17 +32,6 @@ from crankwork.report.notices import notice_text
 from crankwork.report.summary import warning_text
 from crankwork.report.tables import any_nonzero
 
-# results of a crank gear that stand in the conclusion, in their order; the others stand in the appendix
-_MAIN = (
-    "mean_piston_speed", "piston_velocity_max", "piston_velocity_min", "piston_acceleration_max",
-    "piston_acceleration_min", "gas_pressure_max", "inertia_force_max", "inertia_force_min", "piston_force_max",
-    "piston_force_min", "side_force_max", "side_force_min", "tangential_force_max", "tangential_force_min",
-    "rotating_inertia_force", "crank_torque_max", "crank_torque_min", "mean_torque", "indicated_work",
-    "indicated_mean_pressure", "indicated_power", "effective_mean_pressure", "effective_power", "effective_torque",
-    "effective_efficiency", "effective_fuel_consumption", "displacement", "total_torque_max",
-    "total_torque_min", "excess_work", "flywheel_inertia", "speed_fluctuation", "mean_crankpin_load",
-    "crankpin_load_max", "oil_hole_angle",
-)  # fmt: skip
 _OF_ENGINES = (
     "displacement", "mean_torque.1", "indicated_power.1", "total_torque_max", "total_torque_min", "cylinder_count",
 )  # fmt: skip
@@ -69,8 +60,13 @@ _NUMBERS = (
     "piston_acceleration_max", "piston_acceleration_min",
 )  # fmt: skip
 # what another makes needless: a flywheel may follow from another excess work than that of the shaft
-_SAME = {"shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",)}
+_SAME = {
+    "shaft_power": ("motor_power",), "excess_work": ("flywheel_inertia",), "indicated_power": ("effective_power",),
+    "flywheel_inertia.exact": ("flywheel_inertia",),
+}  # fmt: skip
 _GLANCE = 10
+# the machine and its main results stand on one page [mm]
+_HIGHEST = 85.0
 
 # the label of the heading that a list of the symbols follows
 NOMENCLATURE = "nomenclature"
@@ -135,7 +131,9 @@ def _checks(material: Material) -> Iterator[Block]:
     """Yield the identities that were checked, the errors of the method, and what the reader should know."""
     words, results = material.words, material.results
     largest_errors = errors(material)
-    if results.checks:
+    if material.has_piston and not material.full and not results.unmet:
+        yield from _all_hold(material)
+    elif results.checks:
         before = () if material.has_piston else (*words.sentence("identities"), " ")
         yield Paragraph((*before, *words.sentence("checks", table=Reference("t:identities"))))
         rows = [(_identity(key, words), words.number(100.0 * check, digits=2)) for key, check in results.checks.items()]
@@ -145,9 +143,11 @@ def _checks(material: Material) -> Iterator[Block]:
     if largest_errors:
         yield words.paragraph("errors", table=Reference("t:errors"))
         yield _errors(material, largest_errors)
-    if results.notices:
+    # why two powers differ stands beside the diagram
+    notices = [notice for notice in results.notices if notice is not two_bases(material)]
+    if notices:
         yield words.paragraph("notices")
-        yield ItemList(tuple((_notice(notice, words),) for notice in results.notices))
+        yield ItemList(tuple((_notice(notice, words),) for notice in notices))
     if assumed := plain_assumptions(results, words.language):
         yield words.paragraph("assumptions")
         yield ItemList(tuple((text,) for text in assumed))
@@ -200,16 +200,23 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         title = translate("subjects.machine", words.language)
         place = words.place_text(float(film.angles[film.rest]))
         yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
-        yield Figure(film.still(), title, film.about or title, label="f:machine", floats=False)
+        yield Figure(film.still(), title, film.about or title, label="f:machine", high=_HIGHEST)
     keys = [key for kind in _NUMBERS for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     yield words.paragraph("see_table", tables=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)
     if results.unmet:
         yield Paragraph((capital(warning_text(results, words.language)),))
-    elif results.checks:
-        largest = words.number(100.0 * max(results.checks.values()), digits=2)
-        yield words.paragraph("all_hold", count=str(len(results.checks)), residual=largest)
+    else:
+        yield from _all_hold(material)
+
+
+def _all_hold(material: Material) -> Iterator[Block]:
+    """Yield that all checks hold, where there are any."""
+    checks = material.results.checks
+    if checks:
+        largest = material.words.number(100.0 * max(checks.values()), digits=2)
+        yield material.words.paragraph("all_hold", count=str(len(checks)), residual=largest)
 
 
 def _left_out(material: Material) -> Iterator[Block]:
@@ -226,22 +233,18 @@ def _left_out(material: Material) -> Iterator[Block]:
 
 
 def _conclusion(material: Material) -> Iterator[Block]:
-    """Yield the main results as a table."""
+    """Yield what the results of an engine mean, or the main results as a table."""
+    if material.has_piston:
+        yield ItemList(tuple(paragraph.runs for paragraph in concluded(material)))
+        return
+    yield material.words.paragraph("conclusion", table=Reference("t:summary"))
     yield value_table("summary", [_row(material, key) for key in _main_keys(material)], material.words)
 
 
 def _main_keys(material: Material) -> list[str]:
-    """Return the keys of the main results in order: all, but of a crank gear those that its appendix does not have."""
-    summary = material.summary
-    if not material.has_piston:
-        keys = [key for key in summary if not _is_place(key)]
-        return keys if material.full else [key for key in keys if key_of(key).quantity in _OF_LINKAGES]
-    # those of each method have a table of their own
-    alone = ("excess_work", "flywheel_inertia")
-    keys = [key for kind in _MAIN for key in summary
-            if key == kind or (key.startswith(f"{kind}.") and kind not in alone)]  # fmt: skip
-    # for one cylinder those of its own torque only
-    return [key for key in keys if material.has_engine or key not in _OF_ENGINES]
+    """Return the keys of the main results of a linkage in order."""
+    keys = [key for key in material.summary if not _is_place(key)]
+    return keys if material.full else [key for key in keys if key_of(key).quantity in _OF_LINKAGES]
 
 
 def _row(material: Material, key: str) -> tuple[Cell, ...]:
@@ -258,7 +261,7 @@ def _row(material: Material, key: str) -> tuple[Cell, ...]:
 def _further(material: Material) -> Iterator[Block]:
     """Yield single values that are not among the main results, and figures that no section has."""
     words, summary = material.words, material.summary
-    main = {*_main_keys(material), *(() if material.has_engine else _OF_ENGINES)}
+    main = {*(() if material.has_piston else _main_keys(material)), *(() if material.has_engine else _OF_ENGINES)}
     main |= {*GEAR, "bore", *(cycle_keys(material) if material.cycle else ())}
     left = [
         key
@@ -315,7 +318,7 @@ SECTIONS = (
     Section("checks", (Head("checks"), _checks), _has_checks),
     Section("summary", (Head("results"), _at_a_glance)),
     Section("conclusion", (
-        Head("conclusion"), Text("conclusion", {"table": Reference("t:summary")}), _conclusion,
+        Head("conclusion"), _conclusion,
         When(lacks(full), (_left_out,)),
     )),
     Section("nomenclature", (lambda material: [material.words.heading("nomenclature", label=NOMENCLATURE)],)),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from crankwork.analysis.input_loads import ChamberInput, LoadInput, stated_chambers, stated_charges, stated_loads
 from crankwork.formula.traced_value import Input, Node, in_order
@@ -18,6 +19,7 @@ from crankwork.note.document import Block, Cell, Citation, Figure, ItemList, Mat
 from crankwork.note.material import Material
 from crankwork.note.parts import Head, Lines, Section, Text, When, driven, has, lacks, machine_has, school
 from crankwork.note.symbols import subscript
+from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
 from crankwork.quantities import cycle as cycle_quantities
@@ -44,9 +46,17 @@ _MOST_POINTS = 60
 
 
 def _given(material: Material) -> Iterator[Block]:
-    """Yield the table of the input data."""
+    """Yield the table of the input data, beside it the crank gear with the senses of its angles and forces."""
     yield material.words.paragraph("data", table=Reference("t:data"))
-    yield value_table("data", _rows(material), material.words)
+    if not material.options.figures or "piston_force" not in material.results.columns:
+        yield value_table("data", _rows(material), material.words)
+        return
+    title, language = material.words.title("scheme"), material.words.language
+    half = is_narrow(table := value_table("data", _rows(material), material.words, parts=1))
+    scheme = crank_gear_scheme(title, language)
+    yield material.words.paragraph("scheme_drawn", figure=Reference("f:scheme"))
+    yield Figure(scheme, title, translate("seen.scheme", language), label="f:scheme", half=half)
+    yield replace(table, half=half)
 
 
 def _how(material: Material) -> Iterator[Block]:
@@ -66,14 +76,6 @@ def _how(material: Material) -> Iterator[Block]:
     yield words.paragraph("conventions")
     if "piston_force" in results.columns:
         yield words.paragraph("references", **{name: Citation(source) for name, source in _SOURCES.items()})
-
-
-def _scheme(material: Material) -> Iterator[Block]:
-    """Yield the crank gear with the senses in which its angles and forces are counted."""
-    if material.options.figures and "piston_force" in material.results.columns:
-        title, language = material.words.title("scheme"), material.words.language
-        yield material.words.paragraph("scheme_drawn", figure=Reference("f:scheme"))
-        yield Figure(crank_gear_scheme(title, language), title, translate("seen.scheme", language), label="f:scheme")
 
 
 def _rows(material: Material) -> Iterator[tuple[Cell, ...]]:
@@ -470,15 +472,14 @@ def _points(material: Material, table: str, key: str) -> Table:
 
 
 _SHEETS = When(lambda material: material.options.sheets, (Text("sheets"),))
-_HOW = (_how, _scheme)
 SECTIONS = (
     Section("preface", (Head("preface"), Text("preface")), has("piston_displacement")),
     Section("data", (
-        Head("data"), _given, When(lacks(school("en")), _HOW),
+        Head("data"), _given, When(lacks(school("en")), (_how,)),
         Lines("geometry", intro="geometry"), Lines("speed", ("speed", "mean_piston_speed")),
         When(lambda material: material.results.solved.space is None, (Lines("gas", intro="volumes"),)),
     ), has("piston_displacement")),
-    Section("method", (Head("method"), *_HOW), has("piston_displacement")),
+    Section("method", (Head("method"), _how), has("piston_displacement")),
     Section("task", (Head("task"), _shaft), machine_has("turning")),
     Section("task", (Head("task"), Text("task_table"), _table, _SHEETS), machine_has("transfer")),
     Section("task", (Head("task"), Text("driven_task"), _driven), driven),

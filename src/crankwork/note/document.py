@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import datetime as dt
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -110,7 +110,7 @@ class Table:
     """A table: rows of finished text and symbols under headings; a wide one stands on a page turned on its side.
 
     `align` has a letter per column, `l`, `c` or `r`; without it everything stands to the right. Without a caption it is
-    more of the table before it.
+    more of the table before it. `half`: whether it stands beside another block that is half as wide as the text.
     """
 
     caption: str
@@ -119,6 +119,7 @@ class Table:
     wide: bool = False
     align: str = ""
     label: str = ""
+    half: bool = False
 
     def __post_init__(self) -> None:
         count = len(self.headings)
@@ -139,15 +140,21 @@ def cell_length(cell: Cell) -> int:
 class Figure:
     """A drawing; `alt` says what it shows, and the end of its label what it is called elsewhere.
 
-    `floats`: whether it may stand at the head of a page instead of here.
+    `high`: how high it is at most [mm]; `half`: as of a table.
     """
 
     drawing: Drawing
     caption: str
     alt: str
     label: str = ""
-    floats: bool = True
+    high: float = 240.0
+    half: bool = False
     to_scale: bool = False  # Whether it states a scale, so that it is printed as large as it is
+
+    @property
+    def width(self) -> float:
+        """Width on the page, where letters are 8 pt unless it would be too high. [mm]"""
+        return self.drawing.width * min(1.0 if self.to_scale else 0.87, self.high / self.drawing.height)
 
     @property
     def name(self) -> str:
@@ -211,6 +218,14 @@ class Bibliography:
 Block = (
     Heading | Paragraph | Equation | Table | Figure | ItemList | PageBreak | Contents | TitlePage | Bibliography
 )  # fmt: skip
+
+
+def side_by_side(blocks: Sequence[Block]) -> Iterator[tuple[int, ...]]:
+    """Yield the place of each block, of two that are half as wide as the text both together."""
+    places = iter(range(len(blocks)))
+    for place in places:
+        block = blocks[place]
+        yield (place, next(places)) if isinstance(block, Table | Figure) and block.half else (place,)
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,9 @@ def printed_equation(block: Equation, language: Language, limit: float = LINE_WI
     lines = list(_lines(left, parts, limit))
     if block.area:
         symbol, value, unit = _per_area(block, language)
-        lines += _lines(symbol_box(symbol), [value_box(value, unit, language, block.digits)], limit)
+        divided = row(symbol_box(symbol), EQUALS, value_box(value, unit, language, block.digits))
+        joined = row(lines[-1], Sign(";", "comma"), SPACE, divided)
+        lines[-1:] = [joined] if width(joined) <= limit else [lines[-1], divided]
     return PrintedEquation(tuple(lines), _plain(block, language))
 
 

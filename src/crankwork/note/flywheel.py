@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from crankwork.locale import capital
-from crankwork.note.document import Block, Bold, Citation, Paragraph
+from crankwork.note.document import Block, Bold, Citation, Paragraph, Reference
 from crankwork.note.lines import WHEEL_SIZES
 from crankwork.note.material import Material
 from crankwork.note.parts import (
@@ -24,6 +24,7 @@ from crankwork.note.parts import (
     Text,
     When,
     amount,
+    either,
     every,
     full,
     has,
@@ -140,12 +141,14 @@ _FOUND: tuple[Part, ...] = (Text("flywheel", {"value": _wanted}), _by_methods)
 _OF_ENERGY_AND_SPEED = ("kinetic_energy_change", "crank_speed")
 _FIGURES = ("excess_work", "crank_speed")
 _OF_ENERGY = has("excess_work.mertsalov")
+_IS_EXACT = every(_is_wanted, has("flywheel_inertia.exact"))
 _STEADY = Text("steady", {"speed": amount("steady_speed", "rpm"), "fluctuation": number("steady_fluctuation")})
 SECTIONS = (
     Section("evenness", (
-        Head("evenness"), When(_OF_ENERGY, (Text("evenness_of_all"),)),
-        When(lacks(_OF_ENERGY), (Text("evenness"),)), Lines("uniformity"),
-        When(every(_is_wanted, has("flywheel_inertia.exact")), _FOUND),
+        Head("evenness"), When(every(_OF_ENERGY, lacks(_IS_EXACT)), (Text("evenness_of_all"),)),
+        When(every(_OF_ENERGY, _IS_EXACT), (Text("evenness_exact", {"table": Reference("flywheels")}),)),
+        When(lacks(_OF_ENERGY), (Text("evenness"),)), When(either(full, lacks(_IS_EXACT)), (Lines("uniformity"),)),
+        When(_IS_EXACT, _FOUND),
         When(has("crank_speed"), (Shown(_FIGURES, (Over("speed", _OF_ENERGY_AND_SPEED),)),)),
         When(lacks(has("crank_speed")), (Shown(_FIGURES, (Over("energy", _OF_ENERGY_AND_SPEED),)),)),
         When(every(full, _is_alone), HARMONICS),

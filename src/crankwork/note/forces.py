@@ -165,7 +165,7 @@ def _has_bodies(material: Material) -> bool:
 
 _OF_FORCES = Lines("force_extremes", intro="extremes")
 _OF_POWER = Lines("power", ("mean_torque", "mean_driving_torque"))
-_WORKED: tuple[Part, ...] = (At("forces"), Lines("forces"), Lines("reduction"))
+_WORKED: tuple[Part, ...] = (At("forces"), Lines("forces"), When(full, (Lines("reduction"),)))
 _ON_CRANKPIN = Shown(("rod_forces", "crankpin_forces", "torque"), (Over("forces", _across),))
 _INERTIA_OF_LINKS: tuple[Part, ...] = (
     Text("inertia_of_links", {"source": Citation(_STATICS)}), At("inertia_loads"), Lines("inertia_loads"),

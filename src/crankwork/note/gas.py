@@ -9,6 +9,7 @@ import numpy as np
 
 from crankwork.analysis.input_loads import stated_chambers
 from crankwork.analysis.polytropes import Polytropes, polytropes
+from crankwork.analysis.prepared import Notice
 from crankwork.formula.calculation_lines import FormulaLine, Line, ValueLine
 from crankwork.formula.expression import symbol
 from crankwork.formula.traced_value import Piecewise
@@ -337,6 +338,30 @@ def _is_absolute(material: Material) -> bool:
     return material.machine.gas is not None and material.machine.gas.is_absolute
 
 
+def two_bases(material: Material) -> Notice | None:
+    """Return the notice that diagram and heat calculation give different powers, where a note can say why."""
+    known = {"indicated_mean_pressure.cycle", "filling_factor.diagram"} <= material.summary.keys()
+    return next((item for item in material.results.notices if known and item.code == "torque_of_cycle"), None)
+
+
+def _bases(material: Material) -> Iterator[Block]:
+    """Yield why the diagram that is drawn and the heat calculation give different powers."""
+    words, summary, difference = material.words, material.summary, two_bases(material)
+    if difference is not None:
+        drawn, calculated = (
+            words.amount(summary[f"indicated_mean_pressure{suffix}"], "MPa", digits=4) for suffix in ("", ".cycle")
+        )
+        yield words.paragraph(
+            "two_bases",
+            drawn=drawn,
+            calculated=calculated,
+            power=words.amount(summary["indicated_power"], "kW", digits=4),
+            percent=words.number(abs(float(difference.values["percent"])), digits=2),
+            diagram=words.number(summary["filling_factor.diagram"], digits=3),
+            assumed=words.number(summary["filling_factor"], digits=3),
+        )
+
+
 _OF_DELIVERY = Lines("delivery", intro="delivery", source=_DELIVERED)
 SECTIONS = (
     Section("cycle", (Head("cycle"), _cycle), lambda material: bool(material.cycle)),
@@ -344,7 +369,8 @@ SECTIONS = (
         Head("indicator"), _measured, Lines("gas", intro="volumes"), When(full, (_polytropes,)),
         When(_is_absolute, (Text("absolute"),)),
         Shown(("indicator", "pressure"), (_points, in_full(_laws))),
-        Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"), _OF_DELIVERY,
+        Lines("power", ("indicated_work", "indicated_mean_pressure", "indicated_power"), intro="work"),
+        _bases, _OF_DELIVERY,
         When(lambda material: any(key.startswith("inlet_flow.") for key in material.summary), (
             Text("delivery_of_all"),
         )),

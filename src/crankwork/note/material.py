@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -23,13 +23,14 @@ from crankwork.note.document import Block, Equation, Figure, Paragraph, Run, Run
 from crankwork.note.lines import Group, cycle_lines, lines_of
 from crankwork.note.options import NoteOptions
 from crankwork.note.readings import reading
+from crankwork.note.table_width import is_narrow
 from crankwork.note.wording import Words, named
 from crankwork.quantities.key import key_of
 from crankwork.report.display import is_per_area, key_unit, label
 from crankwork.report.figures import drawings
 from crankwork.report.look import figure_title, kind_of
 from crankwork.report.tables import any_nonzero
-from crankwork.show.chart_layout import current_layout, use_layout
+from crankwork.show.chart_layout import ChartLayout, use_layout
 from crankwork.show.scene import Drawing
 from crankwork.units import from_si
 
@@ -77,6 +78,15 @@ _MAIN_FIGURES = frozenset((
 ))  # fmt: skip
 _OF_SCHOOL = {"vi": frozenset(("brix", "tolle", "indicator", "big_end_polar", "crankpin_load")),
               "ru": frozenset(("indicator", "zhukovsky_lever", "crankpin_load"))}  # fmt: skip
+# figures of a piston that are read at half the width of the text; charts of notes, lower than elsewhere, and these
+_SMALL = frozenset((
+    "indicator", "pressure", "kinematics", "tolle", "piston_forces", "rod_forces", "crankpin_forces", "torque",
+    "crankpin_polar", "crankpin_load", "big_end_polar", "small_end_polar", "crankpin_wear", "balance_orders",
+    "excess_work",
+))  # fmt: skip
+# those that are large enough where nothing stands beside them either
+_ROUND = frozenset(("crankpin_wear",))
+_LOW, _HALF = ChartLayout(tall=0.7), ChartLayout(width=267.0, left=64.0, right=10.0, tall=0.6)
 # what a crank gear of its own has no need of
 _OF_ENGINES = ("total_torque", "main_journal", "journal_share")
 # values without a formula that a table of their own gives
@@ -202,20 +212,28 @@ class Material:
     @property
     def position_plan(self) -> Drawing:
         """The positions of a linkage, drawn whether figures are left out or not."""
-        return (self.drawn or self._drawings("position_plans"))["position_plans"]
+        return (self.drawn or self._drawings(only=["position_plans"]))["position_plans"]
 
-    def _drawings(self, *only: str) -> Mapping[str, Drawing]:
-        """Return the figures of these names, all without names."""
-        language, area = self.options.language, self.per_area
-        # the curves of a linkage are many
-        tall = _LOWER if self.machine.linkage is not None else 1.0
-        with use_layout(current_layout()._replace(tall=tall)):
-            return drawings(self.results, language=language, per_area=area, only=only or None)
+    def _drawings(
+        self, layout: ChartLayout | None = None, only: Collection[str] | None = None
+    ) -> Mapping[str, Drawing]:
+        """Return the figures of these names, all without names; in a layout, or in that of the text."""
+        if layout is None:
+            # the curves of a linkage are many
+            tall = _LOWER if self.machine.linkage is not None else 1.0
+            layout = _LOW if self.has_piston else ChartLayout(tall=tall)
+        with use_layout(layout):
+            return drawings(self.results, language=self.options.language, per_area=self.per_area, only=only)
 
     @cached_property
     def drawn(self) -> Mapping[str, Drawing]:
         """Figures by name; none if they are left out."""
         return self._drawings() if self.options.figures else {}
+
+    @cached_property
+    def _small(self) -> Mapping[str, Drawing]:
+        """Figures by name that are half as wide as the text."""
+        return self._drawings(_HALF, [name for name in self.drawn if kind_of(name) in _SMALL and self.has_piston])
 
     def leave_out(self, *names: str) -> None:
         """Show no figures of these names any more: others hold what they show."""
@@ -320,8 +338,8 @@ class Material:
         ]
         if not self.full:
             # of crankpins that differ the first
-            of_pins = [name for name in drawn if kind_of(name) in _OF_CRANKPINS]
-            drawn = [name for name in drawn if name not in of_pins or name == of_pins[0]]
+            firsts = {kind_of(name): name for name in reversed(drawn)}
+            drawn = [name for name in drawn if kind_of(name) not in _OF_CRANKPINS or name in firsts.values()]
         labels: dict[str, list[str]] = {"table": [table.label for table in shown_tables if table.label]}
         for name in drawn:
             labels.setdefault("construction" if name in _CONSTRUCTED else "figure", []).append(f"f:{name}")
@@ -333,12 +351,29 @@ class Material:
                 sentences += [" ", *sentence] if sentences else sentence
         if sentences:
             yield Paragraph(tuple(sentences))
-        for name in drawn:
-            yield self._figure(name)
-            read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
-            if read is not None:
-                yield read
-        yield from shown_tables
+        for row in self._rows(drawn, shown_tables):
+            yield from row
+            for name in (block.name for block in row if isinstance(block, Figure)):
+                read = reading(kind_of(name), self, *crankpins(name, self.results.columns)[:1])
+                if read is not None:
+                    yield read
+
+    def _rows(self, names: Sequence[str], tables: Sequence[Table]) -> Iterator[tuple[Figure | Table, ...]]:
+        """Yield figures and tables, small ones in pairs side by side."""
+        small = [name for name in names if name in self._small]
+        narrow = [table.label for table in tables if self.has_piston and is_narrow(table)]
+        halves = [*small, *narrow][: len(small + narrow) // 2 * 2]
+        left: tuple[Figure | Table, ...] = ()
+        blocks: tuple[Figure | Table, ...] = (*(self._figure(name, half=name in halves) for name in names),
+                  *(replace(table, half=table.label in halves) for table in tables))  # fmt: skip
+        for block in blocks:
+            if not block.half:
+                yield (block,)
+            elif left:
+                yield (*left, block)
+                left = ()
+            else:
+                left = (block,)
 
     @cached_property
     def _figures(self) -> frozenset[str]:
@@ -371,10 +406,11 @@ class Material:
         title = figure_title(kind_of(name), self.words.language)
         return self.words.phrase("of_pin" if len(pins) == 1 else "of_pins", title=title, pins=", ".join(pins))
 
-    def _figure(self, name: str) -> Figure:
+    def _figure(self, name: str, *, half: bool) -> Figure:
         """Return a figure with its caption, and what who cannot see it is told."""
         self._shown_figures.add(name)
-        drawing, kind, title = self.drawn[name], kind_of(name), self._title(name)
+        kind, title = kind_of(name), self._title(name)
+        drawing = (self._small if half or kind in _ROUND & self._small.keys() else self.drawn)[name]
         if kind == "crankpin_polar" and self.machine.engine is None and self.words.has_names:
             # the crankpin has a name
             title = capital(drawing.title)
@@ -382,7 +418,7 @@ class Material:
         alt = f"{title}. {text}".rstrip(". ") + "."
         if not text and has_text(f"seen.{kind}"):
             alt = translate(f"seen.{kind}", self.words.language)
-        return Figure(drawing, title, alt, label=f"f:{name}", to_scale=kind in _CONSTRUCTED)
+        return Figure(drawing, title, alt, f"f:{name}", half=half, to_scale=kind in _CONSTRUCTED)
 
 
 def _kind(line: Line) -> str:

@@ -134,7 +134,7 @@ SECTIONS = (
     ), has("piston_displacement")),
     Section("acceleration", (
         Head("acceleration"), Text("tolle"), At("motion"), Lines("motion"), Lines("harmonics"), _EXTREMES,
-        Shown(("tolle",), (_of_piston("acceleration"), _OF_RODS)), _largest_errors,
+        Shown(("tolle",), (_of_piston("acceleration"), in_full(_OF_RODS))), _largest_errors,
     ), has("piston_displacement")),
     # a driver with a law of its own
     Section("kinematics", (

@@ -140,14 +140,16 @@ class Places:
 
 @dataclass(frozen=True)
 class Shown:
-    """Kinds of figures, and tables, after a sentence that refers to them by number."""
+    """Kinds of figures, and tables, after a sentence that refers to them by number; `short`: of short notes only."""
 
     figures: tuple[str, ...] = ()
     tables: tuple[Callable[[Material], Table | None], ...] = ()
+    short: tuple[str, ...] = ()
 
     def __call__(self, material: Material) -> Iterator[Block]:
         """Yield them."""
-        return material.presented([table(material) for table in self.tables], self.figures)
+        figures = (*self.figures, *(() if material.full else self.short))
+        return material.presented([table(material) for table in self.tables], figures)
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ All text stands in strings of Typst, so that nothing in it is markup.
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator
 
@@ -31,8 +32,10 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
+    side_by_side,
 )
 from crankwork.note.equations import formula_of, line_parts, printed_equation
+from crankwork.note.flow import TOGETHER, flow, is_whole
 from crankwork.note.layout import (
     Apply,
     Box,
@@ -51,7 +54,7 @@ from crankwork.note.layout import (
 from crankwork.note.math import formula_box
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.symbols import symbol_box
-from crankwork.note.table_width import SIZES, fits, one_line_widths
+from crankwork.note.table_width import SIZES, fits, one_line_widths, room
 from crankwork.quantities import Language
 from crankwork.show.chart_layout import MM
 from crankwork.show.svg import svg
@@ -61,9 +64,9 @@ _NO_GLYPH = re.compile(r'the text `"(?P<text>.+?)"` could not be displayed', re.
 _SETTINGS = """
 #set page(paper: "a4", margin: (left: 25mm, right: 15mm, top: 20mm, bottom: 20mm), numbering: "1")
 #set text(font: "Libertinus Serif", size: 11pt, hyphenate: true)
-#set par(leading: 0.68em, spacing: 0.85em, justify: true)
+#set par(leading: 0.65em, spacing: 0.75em, justify: true)
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif"))
-#show heading: set block(above: 1.5em, below: 0.9em, sticky: true)
+#show heading: set block(above: 1.3em, below: 0.8em, sticky: true)
 #show heading: set par(justify: false)
 #show heading.where(level: 1): set text(size: 14pt)
 #show heading.where(level: 2): set text(size: 12pt)
@@ -77,14 +80,17 @@ _SETTINGS = """
   let wide = measure(line).width
   if wide > size.width { scale(size.width / wide * 100%, reflow: true, line) } else { line }
 })
-#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.85em, below: 0.85em, grid(
+#let lines(number, ..all) = block(width: 100%, breakable: false, above: 0.7em, below: 0.7em, grid(
   columns: (1fr, auto), column-gutter: 0.8em,
   align: (center + horizon, right + if all.pos().len() > 1 { bottom } else { horizon }),
-  grid(row-gutter: 0.9em, align: center, ..all.pos()), number,
+  grid(row-gutter: 0.75em, align: center, ..all.pos()), number,
 ))
-#let drawing(body, words, place) = figure(
-  body, caption: words, numbering: none, supplement: none, kind: "drawing", placement: place,
-)
+#let drawing(body, words) = block(breakable: false, width: 100%, above: 1.2em, below: 1.2em, figure(
+  body, caption: words, numbering: none, supplement: none, kind: "drawing",
+))
+#let beside(..parts) = block(breakable: false, above: 1.2em, below: 1.2em, grid(
+  columns: (1fr, 1fr), column-gutter: 6mm, ..parts.pos(),
+))
 #set page(foreground: context {
   let begun = ()
   for one in query(<begins>) {
@@ -96,12 +102,20 @@ _SETTINGS = """
 #let again(count, words) = (
   table.cell(colspan: count, inset: 0pt, stroke: none, block(height: 16pt, [#metadata(words)<begins>])),
 )
-#let above(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.6em, words)
-#let over(words) = block(width: 100%, sticky: true, above: 1.4em, below: 0.5em, { words; v(-16pt) })
+#let above(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.6em, words)
+#let over(words) = block(width: 100%, sticky: true, above: 1.2em, below: 0.5em, { words; v(-16pt) })
 """
-_TOGETHER = 20
-# of drawings, whose letters are then 8 pt
-_REDUCED = 0.87
+# one page of any height, on which positions show how high everything is, within a share
+_ENDLESS = "#set page(width: 210mm, height: auto)\n"
+_HEIGHTS = """
+#[#metadata(none)<at>]
+#context {
+  let down = query(<at>).map(one => one.location().position().y.pt())
+  [#metadata(range(down.len() - 1).map(k => calc.max(0, down.at(k + 1) - down.at(k))))<heights>]
+}
+"""
+_OFF = 0.01
+_TURNED, _TURNED_END = "#page(flipped: true)[\n", "\n]"
 # a line of an equation and its number that are estimated no wider are not measured, which takes long; of a letter [em]
 _SURELY_FITS, _LETTER = 33.5, 0.5
 # height of a line of a table [em], and what is free above and below it [pt]
@@ -120,8 +134,16 @@ def pdf(note: Note) -> bytes:
         import typst  # noqa: PLC0415 - an optional part
     except ImportError:
         raise MissingExtraError(ErrorMessage("extra_writing", names="PDF"), "report") from None
-    source = typst_source(note, numbering(note)).encode("utf-8")
+    numbers = numbering(note)
+    rows, head, written = list(side_by_side(note.blocks)), _head(note), list(_written(note, numbers))
     try:
+        marked = "\n".join(f"#[#metadata(none)<at>]\n{text}" for text in written)
+        measured = f"{head}{_ENDLESS}{marked}{_HEIGHTS}".encode()
+        heights = typst.query(measured, "<heights>", field="value", ignore_system_fonts=True)
+        order = flow([note.blocks[row[0]] for row in rows], json.loads(heights)[0], _OFF)
+        # wide tables that follow each other share pages
+        body = "\n".join(written[place] for place in order).replace(f"{_TURNED_END}\n{_TURNED}", "")
+        source = f"{head}{body}\n".encode()
         return typst.compile(source, format="pdf", ignore_system_fonts=True, pdf_standards="a-2a")
     except typst.TypstError as error:
         missing = _NO_GLYPH.search(str(error))
@@ -137,25 +159,28 @@ def _missing_character(text: str) -> CrankworkError:
     return CrankworkError(ErrorMessage("glyph_missing", character=shown, codes=codes))
 
 
-def typst_source(note: Note, numbers: Numbering) -> str:
-    """Return a note as the source of a Typst document."""
+def _head(note: Note) -> str:
+    """Return how a note as Typst document begins."""
     year, month, day = (note.date.year, note.date.month, note.date.day) if note.date else (2000, 1, 1)
     authors = "".join(f"{typst_string(author)}, " for author in note.authors)
     language, _, region = LANGUAGE_TAGS[note.language].partition("-")
     date = f"datetime(year: {year}, month: {month}, day: {day})"
-    parts = [
-        f"#set document(title: {typst_string(note.title)}, author: ({authors}), date: {date})",
-        f"#set document(keywords: {typst_string(note.provenance)})",
-        f'#set text(lang: "{language}", region: "{region}")' + _SETTINGS,
-    ]
-    turned = False
-    for block, number in zip(note.blocks, numbers.blocks, strict=True):
-        wide = isinstance(block, Table) and block.wide
-        if wide != turned:
-            parts.append("#page(flipped: true)[" if wide else "]")
-            turned = wide
-        parts.extend(_block(block, number, note, numbers))
-    return "\n".join([*parts, "]" if turned else "", ""])
+    return (
+        f"#set document(title: {typst_string(note.title)}, author: ({authors}), date: {date})\n"
+        f"#set document(keywords: {typst_string(note.provenance)})\n"
+        f'#set text(lang: "{language}", region: "{region}"){_SETTINGS}'
+    )
+
+
+def _written(note: Note, numbers: Numbering) -> Iterator[str]:
+    """Yield the source of each row of blocks, as `side_by_side` has them."""
+    for places in side_by_side(note.blocks):
+        cells = ["\n".join(_block(note.blocks[place], numbers.blocks[place], note, numbers)) for place in places]
+        first = note.blocks[places[0]]
+        if isinstance(first, Table) and first.wide:
+            yield f"{_TURNED}{cells[0]}{_TURNED_END}"
+        else:
+            yield cells[0] if len(cells) == 1 else f"#beside[{cells[0]}][{cells[1]}]"
 
 
 def _block(block: Block, number: str, note: Note, numbers: Numbering) -> Iterator[str]:  # noqa: C901 - one case per block
@@ -221,27 +246,27 @@ def _equation(block: Equation, number: str, numbers: Numbering) -> Iterator[str]
 
 def _table(block: Table, number: str, numbers: Numbering) -> Iterator[str]:
     count = len(block.headings)
-    size = next((letters for letters in SIZES if fits(block.headings, block.rows, letters, wide=block.wide)), SIZES[-1])
+    sizes = SIZES[len(block.rows) > TOGETHER :]
+    size = next((letters for letters in sizes if fits(block.headings, block.rows, letters, room(block))), SIZES[-1])
     align = ", ".join(_ALIGN[letter] for letter in (block.align or "r" * count))
-    # a short table stays on one page with its caption
-    is_whole = len(block.rows) <= _TOGETHER
-    if is_whole:
+    is_kept = is_whole(block)
+    if is_kept:
         yield "#block(breakable: false)["
     above = typst_string(caption("table", number, block.caption, numbers.language))
-    yield f"#{'above' if is_whole else 'over'}({above})"
+    yield f"#{'above' if is_kept else 'over'}({above})"
     headings = ", ".join(f"[{_heading(runs, numbers)}]" for runs in block.headings)
     rows = ",\n".join(
         ", ".join(typst_string(cell) if isinstance(cell, str) else f"[{_cell(cell, numbers)}]" for cell in row)
         for row in block.rows
     )
-    again = "" if is_whole else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
+    again = "" if is_kept else f"..again({count}, {typst_string(continued(number, numbers.language))}), "
     header = f"table.header({again}..({headings},).map(cell => table.cell(align: center + horizon, cell)))"
-    columns = _columns(block, size, marked=not is_whole)
+    columns = _columns(block, size, marked=not is_kept)
     yield (
         f"#{{\nset text(size: {size:g}pt, hyphenate: false)\nset par(justify: false, leading: 0.55em)\n"
-        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_whole)}), {header},\n{rows}))\n}}"
+        f"align(center, table({columns}, align: ({align},), stroke: ruled({int(not is_kept)}), {header},\n{rows}))\n}}"
     )
-    if is_whole:
+    if is_kept:
         yield "]"
 
 
@@ -266,9 +291,12 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
     `marked`: whether a row that says where the table goes on stands above its header.
     """
-    widths = one_line_widths(block.headings, block.rows, size, wide=block.wide)
+    widths = one_line_widths(block.headings, block.rows, size, room(block))
     if not widths:
-        return f"columns: {len(block.headings)}"
+        # words have the room that symbols and numbers leave
+        of_words = [any(isinstance(cell, str) and " " in cell for cell in column)
+                    for column in zip(*block.rows, strict=True)]  # fmt: skip
+        return f"columns: ({', '.join('1fr' if words else 'auto' for words in of_words)},)"
     columns = f"columns: ({', '.join(f'{points:.1f}pt' for points in widths)},)"
     if any(isinstance(cell, Math) for row in block.rows for cell in row):
         return columns
@@ -276,14 +304,13 @@ def _columns(block: Table, size: float, *, marked: bool) -> str:
 
 
 def _figure(block: Figure, number: str, language: Language) -> str:
-    width = (1.0 if block.to_scale else _REDUCED) * block.drawing.width / MM
     data = svg(block.drawing).decode("utf-8").replace("\\", "\\\\").replace('"', '\\"')
     words = typst_string(caption("figure", number, block.caption, language))
     image = (
         f'layout(size => image(bytes("{data}"), format: "svg", alt: {typst_string(block.alt)}, '
-        f"width: calc.min({width:.2f}pt, size.width)))"
+        f"width: calc.min({block.width / MM:.2f}pt, size.width)))"
     )
-    return f"#drawing({image}, {words}, {'auto' if block.floats else 'none'})"
+    return f"#drawing({image}, {words})"
 
 
 def _breakable(text: str) -> str:

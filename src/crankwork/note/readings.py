@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from crankwork.quantities.key import key_of
-from crankwork.report.display import key_unit
+from crankwork.report.display import key_unit, row_name
 
 if TYPE_CHECKING:
     from crankwork.note.document import Paragraph
@@ -25,6 +25,11 @@ _VALUES: Mapping[str, tuple[str, ...]] = {
     "crankpin_polar": ("crankpin_load_max", "mean_crankpin_load"),
     "torques": ("driving_torque_max", "driving_torque_min"),
     "reduced_inertia": ("reduced_inertia_max", "reduced_inertia_min"),
+    "shaft_output": ("effective_power", "effective_torque", "rotational_speed", "effective_fuel_consumption"),
+    "diagram_output": ("indicated_power", "mean_torque"),
+    "range_of_piston_forces": ("piston_force_max", "piston_force_min"),
+    "crankpin_bearing": ("crankpin_load_max", "mean_crankpin_load"),
+    "evenness": ("flywheel_inertia", "speed_fluctuation"),
 }
 # the sum of a force along the axis of a cylinder
 _PARTS = ("gas_force", "inertia_force")
@@ -87,4 +92,42 @@ def _of_joints(material: Material) -> Paragraph | None:
         name=key_of(key).owner,
         value=words.amount(forces[key], key_unit(key), digits=4),
         angle=words.amount(angle, "deg", digits=4),
+    )
+
+
+def concluded(material: Material) -> Iterator[Paragraph]:
+    """Yield what the results of an engine mean, in a few sentences."""
+    words, summary, results = material.words, material.summary, material.results
+    output = "shaft_output" if "effective_power" in summary else "diagram_output"
+    sentences = [
+        reading(kind, material) for kind in (output, "range_of_piston_forces", "total_torque", "crankpin_bearing")
+    ]
+    if material.cycle:
+        odd = [notice for notice in results.notices if {"low", "high"} <= notice.values.keys()]
+        sentences.insert(1, words.paragraph("reads_cycle_odd" if odd else "reads_cycle"))
+    if "bearing_loads" in results.listings and material.has_engine:
+        sentences.append(_of_mains(material))
+    sentences.append(reading("evenness", material))
+    if "balance" in results.listings:
+        free = {key_of(key).owner.rpartition(".")[2]: value for key, value in summary.items()
+                if key_of(key).quantity == "free_force"}  # fmt: skip
+        order = max(free, key=free.__getitem__, default="")
+        values = {"order": order, "value": words.amount(free[order], key_unit("free_force"), digits=4)} if order else {}
+        sentences.append(words.paragraph("reads_free" if order else "reads_balanced", **values))
+    yield from (paragraph for paragraph in sentences if paragraph is not None)
+
+
+def _of_mains(material: Material) -> Paragraph | None:
+    """Return the sentence on the main journal with the largest load."""
+    words, listing = material.words, material.results.listings["bearing_loads"]
+    rows = [row for row, name in enumerate(listing.names) if name.startswith("main_journal")]
+    if not rows:
+        return None
+    load, angle = (listing.columns[f"bearing_load_max{place}"] for place in ("", "_angle"))
+    row = max(rows, key=lambda index: float(load[index]))
+    return words.paragraph(
+        "reads_mains",
+        name=row_name(listing.names[row], words.language),
+        value=words.amount(float(load[row]), key_unit("bearing_load_max"), digits=4),
+        angle=words.amount(float(angle[row]), "deg", digits=4),
     )

@@ -39,6 +39,7 @@ from crankwork.note.document import (
     Paragraph,
     Person,
     Reference,
+    Table,
     TitlePage,
 )
 from crankwork.note.legends import meanings
@@ -47,6 +48,7 @@ from crankwork.note.numbering import equation_source
 from crankwork.note.options import NoteOptions
 from crankwork.note.parts import Section, written
 from crankwork.note.tables import symbol_table
+from crankwork.report.gas import FOUR_STROKE
 
 # who stands on a cover, in the order of each language, and who signs beside the name
 _PEOPLE: dict[Language, tuple[str, ...]] = {
@@ -54,6 +56,8 @@ _PEOPLE: dict[Language, tuple[str, ...]] = {
     "ru": ("author", "student_number", "group", "supervisor", "checked_by", "standards_by", "approved_by"),
     "vi": ("supervisor", "author", "student_number", "group", "checked_by", "standards_by", "approved_by"),
 }
+# tables of values that name their symbols
+_OF_VALUES = ("t:data", "t:cycle_data", "t:cycle_results")
 _SIGN = ("author", "supervisor", "checked_by", "standards_by", "approved_by")
 
 
@@ -117,13 +121,20 @@ def note_of_sections(results: Results, options: NoteOptions) -> Note:
     known = sections_of(material)
     parts = itertools.chain.from_iterable(known[name].parts for name in chosen or _order(material) if name in known)
     blocks = tuple(_with_nomenclature(_cited_once(written(parts, material)), material))
-    title, subtitle = _titles(material)
-    title_page = cover(document, options.language, words.title(subtitle))
+    made, subtitle = _titles(material)
+    own, title_page = (
+        getattr(document, f"title_{options.language}"),
+        cover(document, options.language, words.title(subtitle)),
+    )
+    title = own or material.machine.title
+    if title and not own and not _speaks(title, options.language):
+        # the title of the file stands below that of its language
+        title, title_page = "", replace(title_page, below=(title, *title_page.below))
     front: list[Block] = [title_page]
     if options.full or not title_page.is_plain:
         front += [Contents(), PageBreak()]
     return Note(
-        options.title or getattr(document, f"title_{options.language}") or material.machine.title or words.title(title),
+        options.title or title or made,
         options.language,
         (*front, *(_complete(blocks) if chosen else blocks)),
         tuple(author for author in document.author if author.strip()),
@@ -143,7 +154,9 @@ def _cited_once(blocks: Iterable[Block]) -> Iterator[Block]:
 def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[Block]:
     """Yield blocks, the symbols of all equations listed below the heading that stands for them."""
     kept, words = list(blocks), material.words
-    listed = meanings(kept, words.language)
+    values = [block for block in kept if isinstance(block, Table) and block.label in _OF_VALUES]
+    named = {cell.content for table in values for row in table.rows for cell in row if isinstance(cell, Math)}
+    listed = [meaning for meaning in meanings(kept, words.language) if meaning.symbol not in named]
     for block in kept:
         if getattr(block, "label", "") != closing.NOMENCLATURE:
             yield block
@@ -154,12 +167,40 @@ def _with_nomenclature(blocks: Iterable[Block], material: Material) -> Iterator[
 
 
 def _titles(material: Material) -> tuple[str, str]:
-    """Return the keys of the title and the subtitle of a note that has none of its own."""
+    """Return the title of a note that has none of its own, and the key of its subtitle."""
+    words = material.words
     if material.has_piston:
-        return "crank_gear", "subtitle"
+        space = material.results.solved.space
+        is_engine = space is not None and space.work > 0 and "bore" in material.summary
+        return _engine_title(material) if is_engine else words.title("crank_gear"), "subtitle"
     if material.machine.turning is not None:
-        return "turning", "turning_subtitle"
-    return ("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
+        return words.title("turning"), "turning_subtitle"
+    return words.title("tabulated" if material.results.has_positions else "linkage"), "linkage_subtitle"
+
+
+def _engine_title(material: Material) -> str:
+    """Return what an engine is: strokes, cylinders, bore and stroke, speed."""
+    words, summary, engine = material.words, material.summary, material.machine.engine
+    bore, stroke = (words.amount(summary[key], "mm", digits=4) for key in ("bore", "stroke"))
+    several = engine is not None and len(engine.layout.places) > 1
+    return translate(
+        f"note.title_of_{'several' if several else 'one'}",
+        words.language,
+        engine=translate(
+            "templates.title_engine" if material.machine.cycle == FOUR_STROKE else "note.two_stroke_engine",
+            words.language,
+        ),
+        count=str(len(engine.layout.places)) if engine is not None else "1",
+        size=f"{bore.rpartition(chr(160))[0]} × {stroke}",
+        speed=words.amount(summary["rotational_speed"], "rpm", digits=4),
+    )
+
+
+def _speaks(title: str, language: Language) -> bool:
+    """Return whether a title may be in a language: by its letters."""
+    letters = [letter for letter in title.lower() if letter.isalpha() and not letter.isascii()]
+    is_russian = any("а" <= letter <= "ё" for letter in letters)
+    return is_russian if language == "ru" else not is_russian and (language == "en" or bool(letters))
 
 
 def _complete(blocks: Iterable[Block]) -> Iterator[Block]:

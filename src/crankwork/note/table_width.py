@@ -4,35 +4,44 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from crankwork.note.document import Cell, Math, Runs, cell_length
+from crankwork.note.document import Cell, Math, Runs, Table, cell_length
 from crankwork.note.layout import width
 from crankwork.note.symbols import symbol_box
 from crankwork.show.scene import CAP_HEIGHT, text_width
 
-# of the text on a page upright and on its side, and beside the text of each column [pt]
-PAGE, WIDE_PAGE, _SIDES = 480.0, 725.0, 8.0
+# of the text on a page upright, half of it, and on its side, and beside the text of each column [pt]
+PAGE, HALF_PAGE, WIDE_PAGE, _SIDES = 480.0, 231.0, 725.0, 8.0
+# rows of a table beside a figure
+_FEW = 20
 # of letters of tables [pt]
 SIZES = (10.0, 9.0, 8.0)
 # of a digit, a letter of a word and a space [em]
 _DIGIT, _LETTER, _SPACE = 0.5, 0.52, 0.3
 
 
-def fits(headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, *, wide: bool = False) -> bool:
-    """Return whether a table fits on a page with letters of a size, no word of it divided."""
+def room(table: Table) -> float:
+    """Return the width that a table has. [pt]"""
+    return WIDE_PAGE if table.wide else HALF_PAGE if table.half else PAGE
+
+
+def is_narrow(table: Table) -> bool:
+    """Return whether a table is read at half the width of the text."""
+    return len(table.rows) <= _FEW and fits(table.headings, table.rows, SIZES[-1], HALF_PAGE)
+
+
+def fits(headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, page: float = PAGE) -> bool:
+    """Return whether a table fits on a page, or a part of one, with letters of a size, no word of it divided."""
     columns = list(zip(*rows, strict=True)) or [()] * len(headings)
     ems = sum(max(*_parts(runs), *map(_cell, column), 0.0) for runs, column in zip(headings, columns, strict=True))
-    return ems * size + _SIDES * len(headings) <= (WIDE_PAGE if wide else PAGE)
+    return ems * size + _SIDES * len(headings) <= page
 
 
-def one_line_widths(
-    headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, *, wide: bool = False
-) -> list[float]:
+def one_line_widths(headings: Sequence[Runs], rows: Sequence[Sequence[Cell]], size: float, page: float) -> list[float]:
     """Return the widths of columns in which every entry is one line, none if they are too wide together. [pt]
 
     Headings stand in one line too where there is room for all of them.
     """
     entries = [max(map(_line, column), default=0.0) for column in zip(*rows, strict=True)] or [0.0] * len(headings)
-    page = WIDE_PAGE if wide else PAGE
     parts = [_parts(runs) for runs in headings]
     for words in ([sum(pieces) + _SPACE * (len(pieces) - 1) for pieces in parts], [max(pieces) for pieces in parts]):
         ems = [max(entry, word) for entry, word in zip(entries, words, strict=True)]

@@ -94,7 +94,7 @@ def _in_steps(degrees: Array, end: float) -> NDArray[np.bool]:
 
 
 def folded(table: Table, most: int = _MOST_PARTS, long: int = _LONG) -> Table:
-    """Return a long narrow table with its parts side by side; any other as it is."""
+    """Return a table of more than `long` rows with its parts side by side if it is narrow; any other as it is."""
     count, rows = len(table.headings), list(table.rows)
     parts = min(_MOST_COLUMNS // count, most)
     if len(rows) <= long or parts == 1 or not parts:
@@ -144,13 +144,16 @@ def _row_text(name: str, words: Words) -> str:
     return row_name(name, words.language) if has_text(f"report.{name.partition('.')[0]}") else name.replace("_", " ")
 
 
-def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words) -> Table:
-    """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry."""
+def value_table(caption: str, rows: Iterable[tuple[Cell, ...]], words: Words, parts: int = 2) -> Table:
+    """Return a table of single values: name, symbol, value, unit, and the crank angle where there is a fifth entry.
+
+    `parts`: how many of its parts stand side by side where it is long.
+    """
     entries = list(rows)
     titles: list[str | Runs] = ["quantity", "symbol", "value", "unit"]
     if any(len(row) > len(titles) for row in entries):
         titles.append((words.column("at") + " ", words.place(0.0)[0]))
-    return words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}")
+    return folded(words.table(caption, titles, entries, "lcrcr"[: len(titles)], f"t:{caption}"), parts, _FEW)
 
 
 def symbol_table(meanings: Sequence[tuple[Cell, str]], words: Words) -> Table:

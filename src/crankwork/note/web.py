@@ -25,6 +25,7 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
+    side_by_side,
 )
 from crankwork.note.equations import printed_equation
 from crankwork.note.interactive import bar, controls, look, page_data, stored_data_element, symbol_html
@@ -84,6 +85,7 @@ ul { list-style: "–  "; padding-left: 1.4em; }
 figure { margin: 1.6em 0; text-align: center; break-inside: avoid; }
 figure svg { max-width: 100%; height: auto; }
 figcaption { margin-top: .5em; }
+.beside { display: flex; flex-wrap: wrap; justify-content: space-evenly; gap: 0 1rem; }
 @media screen {
   .table thead th { position: sticky; top: 0; box-shadow: inset 0 1px var(--g6), inset 0 -1px var(--g6); }
   .wide { position: relative; left: 50%; width: max-content; max-width: 96vw; transform: translateX(-50%); }
@@ -141,7 +143,10 @@ def web(note: Note) -> bytes:
         *([] if results is None else bar(note.language)),
         "<main>",
     ]
+    second = {row[1] for row in side_by_side(note.blocks) if len(row) > 1}
     for k, (block, number) in enumerate(zip(note.blocks, numbers.blocks, strict=True)):
+        if k + 1 in second:
+            parts.append('<div class="beside">')
         if film is not None and isinstance(block, Figure) and block.name == "machine":
             # here it moves
             own = "".join(controls(film, note.language))
@@ -150,6 +155,8 @@ def web(note: Note) -> bytes:
             parts.append(f'<figure id="machine">{moves}</figure>')
         else:
             parts.extend(_block(block, number, k, note, numbers))
+        if k in second:
+            parts.append("</div>")
     parts.append("</main>")
     if results is not None:
         parts += [

@@ -1,7 +1,6 @@
 """Notes as Word files: their blocks, the order of their figures, styles and pages.
 
-Word has no figures that float: a figure without room on its page waits until the text after it has filled the page, as
-it would in print. The heights of blocks are estimated; where that is wrong a figure stands a little earlier or later.
+The heights of blocks are estimated; where that is wrong a figure stands a little earlier or later.
 """
 
 from __future__ import annotations
@@ -14,9 +13,6 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from crankwork.analysis import Array
 from crankwork.errors import MissingExtraError
 from crankwork.locale import ErrorMessage
 from crankwork.note.captions import LANGUAGE_TAGS, caption
@@ -36,8 +32,10 @@ from crankwork.note.document import (
     Runs,
     Table,
     TitlePage,
+    side_by_side,
 )
 from crankwork.note.equations import printed_equation
+from crankwork.note.flow import LINE, flow
 from crankwork.note.layout import Apply, Box, Fence, Fraction, Marked, Root, Row, Script
 from crankwork.note.numbering import Numbering, numbering
 from crankwork.note.word_parts import (
@@ -50,6 +48,7 @@ from crankwork.note.word_parts import (
     equation_xml,
     figure_xml,
     heading_xml,
+    pair_xml,
     paragraph,
     runs_xml,
     table_columns,
@@ -74,13 +73,13 @@ if TYPE_CHECKING:
 _EPOCH = dt.datetime(2000, 1, 1, tzinfo=dt.UTC)
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 _PIXELS_PER_INCH = 110.0
-# of a page: height and width of its text, and what may stay empty for a figure that keeps to its section [pt]
-PAGE, _WIDTH, _EMPTY = 728.0, 481.0, 150.0
-# how high blocks may be beside what is estimated, and how much text a figure waits for until it stands anywhere [pt]
-_OFF, _LONG = np.linspace(0.97, 1.03, 15), 1.5 * PAGE
+# width of the text of a page [pt]
+_WIDTH = 481.0
 # lines of text and of mathematics; what a line of a legend and a fraction have more; what stands after a paragraph [pt]
-_LINE, _MATHS, _HIGHER, _AFTER = 16.0, 16.4, 12.0, 6.0
-_CAPTION, _BEGINS = 17.0 + _LINE, 90.0
+_MATHS, _HIGHER, _AFTER = 16.4, 12.0, 6.0
+_CAPTION = 17.0 + LINE
+# by how much the heights may be wrong
+_OFF = 0.03
 _HEADINGS = {1: 46.0, 2: 37.0, 3: 33.0}
 _SIZE = 12.0
 # before the words of a legend and of an item [pt]; as wide as a symbol in the line, about
@@ -160,12 +159,16 @@ class _Writer:
 
     def write(self) -> None:
         """Add the blocks of the note, figures where they fit."""
-        blocks = self._note.blocks
+        blocks, rows = self._note.blocks, list(side_by_side(self._note.blocks))
         headings = len(_headings(self._note, self._numbers))
-        for k in flow(blocks, [self._height(item, headings) for item in blocks]):
-            block = blocks[k]
-            self.turn(wide=isinstance(block, Table) and block.wide)
-            self.block(block, self._numbers.blocks[k])
+        heights = [max(self._height(blocks[k], headings) for k in row) for row in rows]
+        for number in flow([blocks[row[0]] for row in rows], heights, _OFF):
+            first = blocks[rows[number][0]]
+            self.turn(wide=isinstance(first, Table) and first.wide)
+            parts = [self._xml(blocks[k], self._numbers.blocks[k]) for k in rows[number]]
+            body = self._document.element.body
+            for xml in parts[0] if len(parts) == 1 else pair_xml(*parts):
+                body.insert(len(body) - 1, _element(xml))
 
     def _height(self, block: Block, headings: int) -> float:
         match block:
@@ -190,15 +193,6 @@ class _Writer:
         set_pages(section, wide=wide)
         self._wide = wide
 
-    def block(self, block: Block, number: str) -> None:
-        """Add a block."""
-        if isinstance(block, Figure):
-            self._figure(block, number)
-            return
-        body = self._document.element.body
-        for xml in self._xml(block, number):
-            body.insert(len(body) - 1, _element(xml))
-
     def _xml(self, block: Block, number: str) -> Iterator[str]:  # noqa: C901 - one case per kind of block
         numbers, note = self._numbers, self._note
         match block:
@@ -209,6 +203,8 @@ class _Writer:
                 yield paragraph(runs_xml(runs, numbers), "BodyText")
             case Equation():
                 yield from equation_xml(block, number, numbers, self._printed[id(block)])
+            case Figure():
+                yield from self._figure(block, number)
             case Table():
                 yield from table_xml(block, number, numbers, self._columns[id(block)])
             case ItemList(items):
@@ -224,7 +220,7 @@ class _Writer:
                 for key, k in numbers.sources.items():
                     yield _item(f"{k}.", text_run(cite(key)))
 
-    def _figure(self, block: Figure, number: str) -> None:
+    def _figure(self, block: Figure, number: str) -> Iterator[str]:
         from docx.opc.constants import RELATIONSHIP_TYPE  # noqa: PLC0415 - an optional part
         from docx.opc.packuri import PackURI  # noqa: PLC0415
         from docx.opc.part import Part  # noqa: PLC0415
@@ -234,9 +230,7 @@ class _Writer:
         lines = Part(PackURI(f"/word/media/drawing{self._figures}.svg"), "image/svg+xml", drawn, part.package)
         relations = part.get_or_add_image(io.BytesIO(picture))[0], part.relate_to(lines, RELATIONSHIP_TYPE.IMAGE)
         words = caption("figure", number, block.caption, self._note.language)
-        body = self._document.element.body
-        for xml in figure_xml(block, words, self._figures, *relations):
-            body.insert(len(body) - 1, _element(xml))
+        return figure_xml(block, words, self._figures, *relations)
 
 
 def _pictures(note: Note) -> dict[int, tuple[bytes, bytes]]:
@@ -296,51 +290,6 @@ def _reproducible(data: bytes) -> bytes:
     return stream.getvalue()
 
 
-def flow(blocks: Sequence[Block], heights: Sequence[float]) -> Iterator[int]:
-    """Yield the places of blocks in the order in which they are written; `heights`: how high each is. [pt]"""
-    waiting: list[int] = []
-    filled, waited, is_heading = np.zeros(len(_OFF)), 0.0, False
-    for k, (block, height) in enumerate(zip(blocks, heights, strict=True)):
-        if isinstance(block, Figure) and (waiting or _left(filled, height).max() > _EMPTY):
-            waiting.append(k)
-            continue
-        covers = isinstance(block, TitlePage) and not block.is_plain
-        is_new = covers or isinstance(block, PageBreak) or (isinstance(block, Table) and block.wide)
-        while waiting and not is_heading and (is_new or _fits_here(filled, heights[waiting[0]], waited)):
-            figure, waited = waiting.pop(0), 0.0
-            filled = _after(filled, blocks[figure], heights[figure])
-            yield figure
-        yield k
-        is_heading = isinstance(block, Heading)
-        waited += height if waiting else 0.0
-        filled = np.zeros(len(_OFF)) if is_new else _after(filled, block, height)
-    yield from waiting
-
-
-def _left(filled: Array, height: float) -> Array:
-    """Return the empty height of a page on which a figure is placed. [pt]"""
-    return np.where(filled + height > PAGE, PAGE - filled, 0.0)
-
-
-def _fits_here(filled: Array, figure: float, waited: float) -> bool:
-    """Return whether a waiting figure is placed here: it leaves little empty, or does so on average and waited long."""
-    left = _left(filled, figure)
-    return bool(left.max() <= _EMPTY or (waited > _LONG and left.mean() <= _EMPTY))
-
-
-def _after(filled: Array, block: Block, height: float) -> Array:
-    """Return the filled height of the page after a block; text and tables continue on the next one."""
-    high = np.full(len(_OFF), height) if isinstance(block, Figure) else height * _OFF
-    begins = filled
-    if isinstance(block, Table | Heading):
-        # neither caption and header nor a heading stand alone at the foot of a page; a header stands on every page
-        least = _BEGINS if isinstance(block, Table) else height + 2 * _LINE
-        begins = np.where(filled + least > PAGE, 0.0, filled)
-        high = high + 2 * _LINE * ((begins + high) // PAGE)
-    is_divided = isinstance(block, Table | Paragraph | ItemList | Contents)
-    return np.where(begins + high <= PAGE, begins + high, (begins + high) % PAGE if is_divided else high)
-
-
 def equation_height(lines: Sequence[Row]) -> float:
     """Return about how high the lines of an equation are. [pt]"""
     return sum(_MATHS + _HIGHER * (_high(row) - 1.0) for row in lines) + 2.0
@@ -357,7 +306,7 @@ def table_height(block: Table, columns: Columns) -> float:
         )
         for cells in block.rows
     )
-    return rows + (2.4 + 1.2 * tall) * size + _CAPTION + 0.7 * _LINE
+    return rows + (2.4 + 1.2 * tall) * size + _CAPTION + 0.7 * LINE
 
 
 def block_height(block: Block, headings: int, sources: Iterable[str]) -> float:
@@ -366,15 +315,15 @@ def block_height(block: Block, headings: int, sources: Iterable[str]) -> float:
         case Heading(level):
             return _HEADINGS[min(level, 3)]
         case Paragraph(runs):
-            return _LINE * _lines(runs) + _AFTER
+            return LINE * _lines(runs) + _AFTER
         case Figure(drawing=drawing):
-            return drawing.height / MM * min(1.0, _WIDTH / (drawing.width / MM)) + _CAPTION
+            return drawing.height / drawing.width * min(block.width / MM, _WIDTH) + _CAPTION
         case ItemList(items):
-            return sum(_LINE * _lines(item, _WIDTH - _ITEM) + 3 for item in items)
+            return sum(LINE * _lines(item, _WIDTH - _ITEM) + 3 for item in items)
         case Contents():
-            return _HEADINGS[1] + (_LINE + 3) * headings
+            return _HEADINGS[1] + (LINE + 3) * headings
         case Bibliography():
-            return sum(_LINE * _lines((cite(source),), _WIDTH - _ITEM) + 3 for source in sources)
+            return sum(LINE * _lines((cite(source),), _WIDTH - _ITEM) + 3 for source in sources)
         case _:
             return 0.0
 

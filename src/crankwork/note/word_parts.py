@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from crankwork.formula.calculation_lines import FormulaLine
@@ -25,6 +25,7 @@ from crankwork.note.document import (
     cell_length,
 )
 from crankwork.note.equations import formula_of
+from crankwork.note.flow import is_whole
 from crankwork.note.layout import (
     Apply,
     Box,
@@ -120,9 +121,22 @@ def equation_xml(block: Equation, number: str, numbers: Numbering, printed: Prin
     yield paragraph("", "", '<w:spacing w:before="0" w:after="0" w:line="40" w:lineRule="exact"/>')
 
 
+def pair_xml(left: Iterable[str], right: Iterable[str]) -> Iterator[str]:
+    """Yield the paragraphs of two blocks side by side."""
+    half = TEXT_WIDTH // 2
+    yield (
+        f'<w:tbl><w:tblPr><w:tblW w:w="{TEXT_WIDTH}" w:type="dxa"/><w:tblLayout w:type="fixed"/>{_NONE}</w:tblPr>'
+        f'<w:tblGrid>{2 * f"""<w:gridCol w:w="{half}"/>"""}</w:tblGrid><w:tr><w:trPr><w:cantSplit/></w:trPr>'
+        f"{''.join(cell(half, ''.join(part), 'top') for part in (left, right))}</w:tr></w:tbl>"
+    )
+    yield paragraph("", "", '<w:spacing w:before="0" w:after="0"/>')
+
+
 def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -> Iterator[str]:
     """Yield the caption of a table, the table with a header on every page, and a gap after it."""
     size, widths, row_height = columns
+    # a short table stays on one page
+    together = len(block.rows) - 1 if is_whole(block) else _TOGETHER
     font = f'<w:sz w:val="{size}"/><w:szCs w:val="{size}"/>'
     words = caption("table", number, block.caption, numbers.language)
     yield paragraph(text_run(words), "Caption", '<w:keepNext/><w:jc w:val="left"/>')
@@ -148,7 +162,7 @@ def table_xml(block: Table, number: str, numbers: Numbering, columns: Columns) -
         f"<w:tr><w:trPr><w:cantSplit/>{high}</w:trPr>"
         + "".join(
             f"{start}{_run(cell, numbers, font)}</w:p></w:tc>"
-            for start, cell in zip(kept if k < _TOGETHER else free, row, strict=True)
+            for start, cell in zip(kept if k < together else free, row, strict=True)
         )
         + "</w:tr>"
         for k, row in enumerate(block.rows)
@@ -177,7 +191,7 @@ def table_columns(block: Table, numbers: Numbering) -> Columns:
 
     A column is as wide as its entries, but no narrower than a word of them or of its heading.
     """
-    full = WIDE_TEXT_WIDTH if block.wide else TEXT_WIDTH
+    full = WIDE_TEXT_WIDTH if block.wide else HALF_TEXT_WIDTH if block.half else TEXT_WIDTH
     columns = list(zip(*block.rows, strict=True)) or [()] * len(block.headings)
     words = [max(map(_word_width, column), default=0.0) for column in columns]
     entries = [
@@ -259,8 +273,8 @@ def heading_xml(level: int, text: str, k: int) -> str:
     return paragraph(f'{start}{text_run(text)}<w:bookmarkEnd w:id="{k}"/>', f"Heading{level}")
 
 
-# twentieths of a point, for an A4 page upright and on its side
-TEXT_WIDTH, WIDE_TEXT_WIDTH = 9638, 14570
+# twentieths of a point, for an A4 page upright, half of it, and on its side
+TEXT_WIDTH, HALF_TEXT_WIDTH, WIDE_TEXT_WIDTH = 9638, 4640, 14570
 
 
 def text_run(text: str, properties: str = "") -> str:
@@ -368,7 +382,7 @@ _DRAWING = "http://schemas.openxmlformats.org/drawingml/2006"
 def figure_xml(block: Figure, words: str, k: int, picture: str, lines: str) -> Iterator[str]:
     """Yield the k-th figure and its caption; `picture` and `lines` are the names of its parts."""
     drawing = block.drawing
-    width = min(drawing.width, _WIDEST)
+    width = min(block.width, _WIDEST)
     size = f'cx="{round(width * _EMU)}" cy="{round(drawing.height * width / drawing.width * _EMU)}"'
     about = f'id="{k}" name="drawing{k}" descr="{xml_text(block.alt)}"'
     blip = (
