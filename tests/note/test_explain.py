@@ -199,7 +199,7 @@ def test_each_polytrope_has_the_exponent_of_its_piece():
 def test_an_explanation_ends_with_what_its_symbols_mean():
     words = dict(legend("\n".join(explained("v8-diesel", "total_torque --at 100 --lang vi")), "vi"))
     assert (words["M"], words["α"]) == ("mômen quay trục khuỷu", "góc quay trục khuỷu")
-    assert words["α_n"] == "hệ số dư lượng không khí"
+    assert words["α_kk"] == "hệ số dư lượng không khí"
     assert words["λ_p"].startswith("tỉ số tăng áp suất")
 
 

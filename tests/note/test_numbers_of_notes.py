@@ -34,6 +34,7 @@ SHORT = 3
 NOT_HELD = {
     "t:compared_velocities": "what is read on a plan, and lengths on paper",
     "t:compared_accelerations": "what is read on a plan, and lengths on paper",
+    "gear_ratios": "speeds of motors, which test_gear_ratios_are_those_of_motors_with_slip holds",
     "t:plan_velocities": "lengths on paper",
     "t:plan_accelerations": "lengths on paper",
     "transfer": "sizes of transfer functions are made for the table from those of the points",
@@ -145,6 +146,18 @@ def not_held_in_tables(case: str) -> list[tuple]:
 @every_machine
 def test_the_numbers_of_tables_are_those_of_the_results(cases):
     assert broken(not_held_in_tables, cases) == {}
+
+
+def test_gear_ratios_are_those_of_motors_with_slip():
+    """Synchronous speeds of 1 to 4 pole pairs at 50 Hz, less 4 %, over 30 rpm of the crank."""
+    found = note("punching-machine", "en")
+    (table,) = (one for one in found.blocks if isinstance(one, Table) and one.label == "gear_ratios")
+    crank = results("punching-machine").summary["rotational_speed"] * 30 / np.pi
+    for pairs, row in enumerate(table.rows, start=1):
+        synchronous, rated, ratio = (float(str(cell).replace("\N{NARROW NO-BREAK SPACE}", "")) for cell in row)
+        assert synchronous == 3000 / pairs
+        assert rated == 0.96 * 3000 / pairs
+        assert ratio == pytest.approx(0.96 * 3000 / pairs / crank, rel=5e-4)
 
 
 def moments(results: Results) -> list[Snapshot]:

@@ -65,10 +65,12 @@ def test_svg_has_the_size_the_texts_and_the_curves_of_its_sheet(kind):
     assert written == sorted("".join(run.text for run in runs(text.text)) for text in texts(one))
     assert "КП.01.02.000 <&>" in written
     if kind == "engine":
-        (path,) = (found for found in root.iter(f"{SVG}path") if found.get("class") == "radial_force")
-        points = np.array([point.split() for point in path.get("d")[1:].split("L")], dtype=float)
+        drawn = [curve for path in root.iter(f"{SVG}path") for curve in path.get("d").split("M")[1:]]
         (expected,) = lines(one, "radial_force")
-        assert np.allclose(points * [1, -1] + [0, 594], simplified(expected), atol=6e-4)
+        points = simplified(expected)
+        curves = [np.array([point.split() for point in curve.rstrip("Zz").split("L")], dtype=float) for curve in drawn]
+        same = [curve for curve in curves if curve.shape == points.shape]
+        assert any(np.allclose(curve * [1, -1] + [0, 594], points, atol=6e-4) for curve in same)
 
 
 @for_each(("size", "width", "height"), [("A1", 841, 594), ("A0", 1189, 841)])

@@ -404,7 +404,8 @@ class _Reader:
     def _guide(self, name: str, table: Table, ground: Mapping[str, Point]) -> Guide:
         key, through = f"guides.{name}", table.get("through", [0.0, 0.0])
         link = self._word(f"{key}.link", table["link"]) if "link" in table else ""
-        if [through] == list(self.tables.get("links", {}).get(link, {}).get("joins", ()))[:1]:
+        links = self.tables.get("links")
+        if link and isinstance(links, dict) and [through] == list(links.get(link, {}).get("joins", ()))[:1]:
             through = [0.0, 0.0]  # Where the frame of the link begins
         if not isinstance(through, str):
             point = self._point(f"{key}.through", through)

@@ -41,8 +41,8 @@ _THIN, _BLOCK, WHITE = "#8c8c8c", "#d9d9d9", "#ffffff"
 _NUMBER, _TOGETHER = 8.0, 2.5
 # of names of points [pt], what is free about them, and where they stand at a support [units of the picture]
 _LETTER, _CLEAR, _BY_SUPPORT = 9.0, 6.0, ((0.0, -33.0), (-24.0, -16.0), (24.0, -16.0))
-# radius of the arrow of rotation, of the crank's
-_ROTATION = 0.55
+# radius of the arrow of rotation [pt]
+_ROTATION = 14.0
 # parts are drawn smaller than on a screen: units of the picture in a point of the paper
 _UNITS = 1.5
 
@@ -203,9 +203,10 @@ def _rotation(sheet: _Sheet) -> None:
     sense = math.copysign(1.0, arms[0, 0] * arms[1, 1] - arms[0, 1] * arms[1, 0])
     # above the pivot, whose name stands below
     angles = np.pi / 2 + sense * np.linspace(-0.75, 0.75, 16)
-    points = pivot + _ROTATION * float(np.hypot(*arms[0])) * np.column_stack([np.cos(angles), np.sin(angles)])
-    _line_of(sheet.graph, points[:-1], width=0.6)
-    sheet.graph.paper.arrow(sheet.graph.point(*points[-2]), sheet.graph.point(*points[-1]), width=0.6)
+    x, y = sheet.graph.point(*pivot)
+    across, down = x + _ROTATION * np.cos(angles), y - _ROTATION * np.sin(angles)
+    sheet.graph.paper.line(across[:-1], down[:-1], width=0.6)
+    sheet.graph.paper.arrow((across[-2], down[-2]), (across[-1], down[-1]), width=0.6)
 
 
 def _paths(sheet: _Sheet, names: Sequence[str]) -> None:

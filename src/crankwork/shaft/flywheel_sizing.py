@@ -66,7 +66,7 @@ def rim_diameter(v_r: Value, w: Value) -> Value:
 @formula("rim_diameter", "khurmi_gupta_2005, ch. 16")
 def rim_diameter_of_section(J_r: Value, rho_r: Value, pi: Value, b_r: Value, t_r: Value) -> Value:
     """Mean diameter that a rim of a section must have, all of its mass at that diameter."""
-    return np.cbrt(4 * J_r / (rho_r * pi * b_r * t_r))
+    return (4 * J_r / (rho_r * pi * b_r * t_r)) ** (1 / 3)
 
 
 @formula("rim_section", "khurmi_gupta_2005, ch. 16")
