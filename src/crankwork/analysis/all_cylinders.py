@@ -131,7 +131,7 @@ def with_whole_engine(results: Results, traced: EngineTrace | None) -> Results:
         == 1
         < len({place.throw for place in engine.layout.places})
     ):
-        notices.append(Notice("no_spacing", {}))
+        notices.append(Notice("no_spacing", {"name": "engine.spacing"}))
     firing = firing_trace(engine)
     if traced is None:
         notices.append(Notice("motion_only", {}))

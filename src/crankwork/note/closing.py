@@ -39,7 +39,8 @@ _OF_ENGINES = (
 _PLACES = ("_max_angle", "_min_angle", "_max_time", "_min_time")
 # main results of linkages; the others are in the full note
 _OF_LINKAGES = frozenset((
-    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_acceleration_max",
+    "slider_stroke", "time_ratio", "slider_velocity_max", "slider_velocity_min", "slider_acceleration_max",
+    "slider_acceleration_min",
     "normal_force_max", "transmission_angle_min", "reduced_inertia_max",
     "static_torque_max", "driving_torque_max", "driving_torque_min", "mean_torque", "mean_driving_torque",
     "efficiency", "mean_efficiency", "motor_power", "standard_motor_power", "shaft_power",
@@ -201,7 +202,9 @@ def _at_a_glance(material: Material) -> Iterator[Block]:
         place = words.place_text(float(film.angles[film.rest]))
         yield words.paragraph("machine_drawn", figure=Reference("f:machine"), value=place)
         yield Figure(film.still(), title, film.about or title, label="f:machine", high=_HIGHEST)
-    keys = [key for kind in _NUMBERS for key in _of(kind, summary)
+    # a linkage has a joint there
+    numbers = [kind for kind in _NUMBERS if material.has_piston or kind != "crankpin_load_max"]
+    keys = [key for kind in numbers for key in _of(kind, summary)
             if not any(same in summary for same in _SAME.get(kind, ()))]  # fmt: skip
     yield words.paragraph("see_table", tables=Reference("t:glance"))
     yield value_table("glance", [_row(material, key) for key in keys[:_GLANCE]], words)

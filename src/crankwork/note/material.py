@@ -441,18 +441,18 @@ def _formula_name(line: Line) -> str:
 
 
 def _first(lines: list[Line], *, by_part: bool = False) -> Iterator[Line]:
-    """Yield the first line of each formula, and for each quantity the first value without one.
+    """Yield the first line of each formula that is not zero, and for each quantity the first value without one.
 
     `by_part`: also of each kind of part, such as the masses that rotate, whatever its number is.
     """
-    seen: set[tuple[str, str, str]] = set()
+    first: dict[tuple[str, str, str], Line] = {}
     for line in lines:
         kind, owner = key_of(line.key)
         part = "".join(letter for letter in owner if letter.isalpha()) if by_part else ""
         mark = (_formula_name(line), kind, part)
-        if mark not in seen:
-            seen.add(mark)
-            yield line
+        if mark not in first or (line.value and not first[mark].value):
+            first[mark] = line
+    yield from first.values()
 
 
 _SHOWN: Mapping[str, tuple[str, ...]] = {

@@ -103,6 +103,12 @@ def _centres(material: Material) -> Iterable[str]:
 
 _MOST = ("piston_velocity_max_angle", "piston_velocity_max", "piston_velocity_min")
 _OF_RODS = Over("rod", _ROD, one_turn=True)
+_EXACT_ORDERS = When(
+    lambda material: (
+        material.results.method.is_exact and "piston_acceleration_second_order" in material.results.columns
+    ),
+    (Text("exact_orders"),),
+)
 _REPEATS, _EXTREMES = Text("repeats"), Lines("extremes", intro="extremes")
 # where links turn about that have no fixed pivot
 _INSTANT_CENTRES = When(lambda material: material.full and bool(material.of_axes("instant_centre")), (
@@ -120,11 +126,12 @@ SECTIONS = (
             Over("motion", tuple(key for noun in _NOUNS for key in (*_orders(noun), noun)), one_turn=True),
             in_full(_OF_RODS),
         )),
-        _largest_errors,
+        _EXACT_ORDERS, _largest_errors,
     ), has("piston_displacement")),
     Section("displacement", (
         Head("brix"), Text("brix"), At("motion"), Lines("motion", (*_SWING, "piston_displacement")),
         Lines("harmonics", _orders("piston_displacement")), _REPEATS, Shown(("brix",), (_of_piston("displacement"),)),
+        _EXACT_ORDERS,
     ), has("piston_displacement")),
     Section("velocity", (
         Head("velocity"), At("motion"), Lines("motion", ("piston_transfer_1", "piston_velocity")),

@@ -5,6 +5,7 @@ Conditions ask for keys of results, for parts of the machine, or for the school;
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -92,7 +93,7 @@ class Over:
     def __call__(self, material: Material) -> Table | None:
         """Return it, None without columns."""
         keys = self.keys(material) if callable(self.keys) else self.keys
-        return angle_table(material, self.caption, keys, one_turn=self.one_turn)
+        return angle_table(material, self.caption, keys, until=360.0 if self.one_turn else math.inf)
 
 
 @dataclass(frozen=True)

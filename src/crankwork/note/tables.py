@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -22,8 +23,8 @@ from crankwork.report.display import displayed, key_unit, label, row_name
 _LONG, _MOST_PARTS, _MOST_COLUMNS = 24, 3, 10
 # columns of numbers beside position and crank angle that fit on a page
 _MOST = 9
-_TURN = 360.0
-# what is rounding beside the largest value of a column
+# angles that are the same [deg], and what is rounding beside the largest value of a column
+_NEAR = 1e-9
 _NOISE = 1e-9
 # rows and steps of a short table
 _FEW, _STEPS = 13, 12
@@ -49,9 +50,9 @@ def quantity_columns(material: Material, keys: Iterable[str], columns: Mapping[s
     return [quantity_column(material, key, columns[key]) for key in keys]
 
 
-def angle_table(material: Material, caption: str, keys: Iterable[str], *, one_turn: bool = False) -> Table | None:
+def angle_table(material: Material, caption: str, keys: Iterable[str], *, until: float = math.inf) -> Table | None:
     """Return a table over the crank angle; parts of a long narrow one stand side by side."""
-    table = long_table(material, caption, keys, one_turn=one_turn)
+    table = long_table(material, caption, keys, until=until)
     return None if table is None else folded(table)
 
 
@@ -60,12 +61,12 @@ def long_table(
     caption: str,
     keys: Iterable[str],
     *,
-    one_turn: bool = False,
+    until: float = math.inf,
     decimals: Mapping[str, int] | None = None,
 ) -> Table | None:
-    """Return a table over the crank angle with one row for each."""
+    """Return a table over the crank angle with one row for each, to the angle `until` [deg]."""
     words, degrees = material.words, material.results.grid.degrees
-    rows = short_rows(material, one_turn=one_turn)
+    rows = short_rows(material, until=until)
     columns = [
         quantity_column(material, key, material.columns[key][rows], decimals=(decimals or {}).get(key))
         for key in keys
@@ -77,10 +78,10 @@ def long_table(
     return column_table(caption, [Column(words.titled("crank_angle"), angles), *columns], words)
 
 
-def short_rows(material: Material, *, one_turn: bool = False) -> NDArray[np.bool]:
+def short_rows(material: Material, *, until: float = math.inf) -> NDArray[np.bool]:
     """Return which rows a table over the crank angle has in this note."""
     degrees = material.results.grid.degrees
-    rows = degrees <= _TURN if one_turn else np.full(len(degrees), fill_value=True)
+    rows = degrees <= until + _NEAR
     if material.full or rows.sum() <= _FEW:
         return rows
     coarse = rows & _in_steps(degrees, float(degrees[rows][-1]))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
+
+import numpy as np
 
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import in_order
@@ -33,6 +36,8 @@ from crankwork.note.parts import (
 )
 from crankwork.note.tables import Column, angle_table, position_tables, quantity_columns
 
+# share of the largest torque that is rounding
+_NOISE = 1e-6
 _WORK, _EFFICIENCY, _HARMONICS = "artobolevsky_1988, ch. 15", "artobolevsky_1988, ch. 14", "den_hartog_1956, ch. 5"
 _TORQUES = ("static_torque", "dynamic_torque", "balancing_torque", "driving_torque")
 _OF_TABLE = ("reduced_inertia_1", "dynamic_torque", "static_torque", "balancing_torque", "driving_torque")
@@ -46,7 +51,24 @@ def _firing_order(material: Material) -> str:
 def _all_cylinders(material: Material) -> Table | None:
     """Return the torques of the cylinders, their sum, and the sum of the tangential forces."""
     keys = [key for key in material.columns if key.startswith("crank_torque.")]
-    return angle_table(material, "total", [*keys, "total_torque", "total_tangential_force"])
+    interval = math.inf if material.full else _interval(material)
+    return angle_table(material, "total", [*keys, "total_torque", "total_tangential_force"], until=interval)
+
+
+def _repeats(material: Material) -> bool:
+    return math.isfinite(_interval(material))
+
+
+def _interval(material: Material) -> float:
+    """Return the crank angle after which the total torque repeats, infinite if that is the cycle. [deg]"""
+    results, cycle = material.results, material.machine.cycle
+    known, degrees = results.trace.get("firing_interval"), results.grid.degrees
+    interval = cycle if known is None else math.degrees(known.value)
+    total = dict(zip(np.round(degrees % cycle, 9).tolist(), material.columns["total_torque"].tolist(), strict=True))
+    later = [(value, total.get(round((angle + interval) % cycle, 9), value)) for angle, value in total.items()]
+    limit = _NOISE * max(map(abs, total.values()))
+    repeats = all(abs(value - again) <= limit for value, again in later)
+    return interval if interval < cycle and interval in degrees and repeats else math.inf
 
 
 def _losses(material: Material) -> Iterator[Block]:
@@ -135,6 +157,7 @@ SECTIONS = (
                 "tangential_force", "crank_torque", "throw_torque", "total_torque", "total_tangential_force",
             )),
         )),
+        When(every(_SEVERAL, lacks(full), _repeats), (Text("total_repeats"),)),
         When(_SEVERAL, (Shown(("total_tangential_force", "total_torque"), (_all_cylinders,)),)),
         When(_ONE, (
             Shown(("total_torque",)),

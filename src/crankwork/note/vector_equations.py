@@ -25,7 +25,20 @@ from crankwork.locale.numbers import unit_name
 from crankwork.mechanism.mechanism import Crank
 from crankwork.note.document import Block, Cell, Equation, Figure, Math, Reference, Run, Runs, Table
 from crankwork.note.equations import value_box
-from crankwork.note.layout import DOT, EQUALS, PRODUCT, Box, Marked, PrintedEquation, Row, Script, Sign, Upright, row
+from crankwork.note.layout import (
+    DOT,
+    EQUALS,
+    PRODUCT,
+    Box,
+    Fence,
+    Marked,
+    PrintedEquation,
+    Row,
+    Script,
+    Sign,
+    Upright,
+    row,
+)
 from crankwork.note.material import Material
 from crankwork.note.sheets.packing import in_grid
 from crankwork.note.sheets.plans import Scales
@@ -146,7 +159,7 @@ class _Writer:
                 yield from (_COMMA, symbol_box(self._name(vector))) if equation.right else ()
                 yield from (Sign(vector.line[0], "relation") if vector.line else EQUALS, Upright(shown))
 
-    def _worked(self, unit: str, *parts: str | float | Script) -> Row:
+    def _worked(self, unit: str, *parts: str | float | Script | Fence) -> Row:
         """Return symbols and numbers side by side, the last with its unit."""
         boxes: list[Box] = []
         for part in parts:
@@ -188,7 +201,8 @@ class _Writer:
                 yield self._normal(name, part, rate)
             case "relative" | "tangential":
                 quotient = name, "/", f"l_{part.name}", "=", size, "/", part.arm, "=", size / part.arm
-                yield self._worked(_ROTARY[self._order], self._turn(self._order, part.link), "=", *quotient)
+                turn = Fence(symbol_box(self._turn(self._order, part.link)), "||")
+                yield self._worked(_ROTARY[self._order], turn, "=", *quotient)
             case "coriolis" if rate:
                 relative = size / 2 / rate
                 product = 2.0, "", self._turn(0, part.link), "", f"v_{part.name}", "=", 2.0, "·", rate, "·", relative

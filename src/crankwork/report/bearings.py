@@ -335,8 +335,14 @@ def _rings(engine: Drawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str
     # across a ring its angle would stand on the worn surface
     below = 10.0 * any(ring.hole.arc < 360 for ring in rings.values())
     head = (_HEAD if len(rings) > 1 else 0.0) + below
-    paper = Canvas(current_layout().width, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT)
     deepest = max(float(ring.sums.max()) for ring in rings.values()) or 1.0
+    unit = engine.unit("wear_sum")
+    largest = translate("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
+    text = f"{engine.symbol('wear_sum')} – {largest}; {translate('drawing.worn', engine.language)}"
+    frame = translate(f"drawing.{'crank_up' if thing == 'crankpin' else engine.shaft_frame}", engine.language)
+    rows = [row for line_text in (text, frame) for row in fitted_lines(line_text, 8, current_layout().width / WIDER)]
+    further = 12.0 * max(len(rows) - 2, 0)
+    paper = Canvas(current_layout().width, TOP + lines * (side + head) + (lines - 1) * _GAP + _FOOT + further)
     graphs = {}
     for index, (name, ring) in enumerate(rings.items()):
         top = TOP + (index // across) * (side + head + _GAP) + head
@@ -348,13 +354,9 @@ def _rings(engine: Drawn, listing: str, thing: str) -> tuple[Canvas, Mapping[str
             angle = engine.number(ring.hole.angle, 4)
             hole = translate("drawing.oil_hole_at", engine.language, angle=angle)
             small_text(paper, box.left + side / 2, top - 3, hole)
-    unit = engine.unit("wear_sum")
-    largest = translate("drawing.largest", engine.language, value=f"{engine.number(deepest, 4)} {unit}")
-    text = f"{engine.symbol('wear_sum')} – {largest}; {translate('drawing.worn', engine.language)}"
-    frame = translate(f"drawing.{'crank_up' if thing == 'crankpin' else engine.shaft_frame}", engine.language)
-    rows = [row for line_text in (text, frame) for row in fitted_lines(line_text, 8, current_layout().width / WIDER)]
     for index, row in enumerate(rows):
-        paper.text(current_layout().width / 2, paper.height - 35 + 12 * index, row, size=8, anchor="middle")
+        level = paper.height - 35 - further + 12 * index
+        paper.text(current_layout().width / 2, level, row, size=8, anchor="middle")
     return paper, graphs
 
 

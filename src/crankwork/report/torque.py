@@ -17,7 +17,7 @@ from crankwork.report.display import row_name
 from crankwork.report.forces import Line, curves_over_cycle
 from crankwork.report.gas import FOUR_STROKE
 from crankwork.report.look import Drawn, angle_ticks, axis_title, displayed_values, figure_title, math_symbol
-from crankwork.show.canvas import Canvas, plain, text_width
+from crankwork.show.canvas import GREY, Canvas, plain, text_width
 from crankwork.show.chart import (
     BOTTOM,
     TOP,
@@ -82,13 +82,13 @@ def _summed(engine: Drawn, key: str, own: str, mean: float | None = None) -> tup
         mean, level = (0.0, 0.0) if abs(level) < 1e-9 * float(np.max(np.abs(total))) else (mean, level)
         rows.append(Row(engine.stated("mean_total_torque", mean), DASHED))
     which = translate("drawing.cylinder", engine.language, number=1)
-    rows.append(Row(f"{engine.named(own)}, {which}", DOTTED, _THIN))
+    rows.append(Row(f"{engine.named(own)}, {which}", SOLID, _THIN, GREY))
     rows.append(Row(f"▼ – {translate('drawing.fires', engine.language)}", width=0.0))
     paper, box = sheet(225.0 + _FIRING, rows)
     box = box._replace(top=box.top + _FIRING, height=box.height - _FIRING)
     graph = over_cycle(paper, box, limits(total, cylinder), engine.cycle, engine.language)
     firings(engine, graph)
-    graph.curve("cylinder_1", degrees, cylinder, DOTTED, width=_THIN)
+    graph.curve("cylinder_1", degrees, cylinder, width=_THIN, colour=GREY)
     graph.curve("total", degrees, total, width=_NAMED)
     if mean is not None:
         graph.level(level, DASHED, "mean")
