@@ -66,12 +66,13 @@ def _by_methods(material: Material) -> Iterator[Block]:
         name: line.value for name in methods for line in lines if line.key in (f"excess_work.{name}", "excess_work")
     }
     rows = [
-        (words.way(name), words.shown("excess_work", excess[name]),
-         words.shown("flywheel_inertia", summary[f"flywheel_inertia.{name}"]))
+        (words.way(name), words.shown("excess_work", excess[name], digits=material.digits),
+         words.shown("flywheel_inertia", summary[f"flywheel_inertia.{name}"], digits=material.digits))
         for name in methods
         if name in excess
     ]  # fmt: skip
     titles = ("way", words.titled("excess_work"), words.titled("flywheel_inertia"))
+    yield words.paragraph("flywheel_ways")
     yield words.table("flywheels", titles, rows, "lrr", "flywheels")
 
 

@@ -137,9 +137,9 @@ class Words:
         shown = self.number(float(from_si(value, unit)) if unit else value, digits=digits)
         return shown + ("" if not name or name in _TIGHT else "\u00a0") + name
 
-    def shown(self, key: str, value: float) -> str:
+    def shown(self, key: str, value: float, *, digits: int = 6) -> str:
         """Return a value in SI in the unit in which tables show its key."""
-        return self.number(displayed(key, value))
+        return self.number(displayed(key, value), digits=digits)
 
     def number(self, value: float, *, digits: int = 6) -> str:
         """Return a number as text; a dash where there is none."""

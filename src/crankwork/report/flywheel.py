@@ -33,6 +33,8 @@ from crankwork.units import METRIC, use_units
 
 _PANEL_GAP, _NAMES = 15.0, 24.0
 _TALL, _WIDE = 331.0, 1.08
+# share of an excess work by which two are the same
+_SAME = 1e-6
 # how much taller it may be for a round scale; how far tangents are drawn beyond the curve, of its width
 _TALLER, _BEYOND = 1.3, 0.12
 
@@ -68,7 +70,11 @@ def excess_work(engine: Drawn) -> tuple[Canvas, Mapping[str, Graph]]:
         sign = f"{symbol}{',' if '_' in symbol else '_'}{name}$"
         mark_point(graph, name, float(np.degrees(place)), value, sign)
     place = 0.5 * engine.cycle * (0.02 if np.degrees(extremes.at_largest) > 0.1 * engine.cycle else 1.9)
-    _span(graph, place, unit_less, f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}")
+    name = f"{engine.symbol('excess_work')} = {engine.value('excess_work', excess.work)}"
+    if not math.isclose(excess.work, engine.results.summary.get("excess_work", excess.work), rel_tol=_SAME):
+        # the flywheel may follow from another one
+        name = f"{name}, {translate('report.way_mertsalov', language)}"
+    _span(graph, place, unit_less, name)
     engine.name_axes(graph, "crank_angle", "excess_work")
     return paper, {"torque": torque, "energy": graph}
 
