@@ -404,8 +404,18 @@ def test_inputs_of_the_form_are_those_of_the_linkage(tmp_path, text, changes):
     relocate(results.trace.values(), paths)
     nodes = [known.node for known in in_order(results.trace.values()) if isinstance(known.node, Input)]
     tables = {node.path.partition(".")[0] for node in nodes} - {"", "method", "table"}
-    assert tables <= {"crank", "links", "sliders", "guides", "chambers", "shaft", "bearings", "balance", "flywheel",
-                      "motor_selection"}
+    assert tables <= {
+        "crank",
+        "links",
+        "sliders",
+        "guides",
+        "chambers",
+        "shaft",
+        "bearings",
+        "balance",
+        "flywheel",
+        "motor_selection",
+    }
     assert results.trace["rod_length"].node.path in {f"links.{rod}.length" for rod in ("rod", "rod_1")}
     stated = machine.stated
     assert {path for path in ("links.rod.length", "links.rod_1.length") if path in stated} <= {

@@ -62,10 +62,11 @@ def test_summary_json_and_explanation_speak_one_system() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "languages"),
-    [("engine", ["ru"]), ("press", ["vi"]), pytest.param("crank-shaper", ["en", "ru"], marks=pytest.mark.slow)],
+    ("name", "languages", "on_paper"),
+    # scale, rounding and headings of plans are in millimetres of the paper
+    [("engine", ["ru"], 0), ("press", ["vi"], 6), ("crank-shaper", ["en", "ru"], 6)],
 )
-def test_a_note_shows_every_value_in_its_system_beside_si(name, languages) -> None:
+def test_a_note_shows_every_value_in_its_system_beside_si(name, languages, on_paper) -> None:
     results = crankwork.analyse(crankwork.read_machine(f'units = "imperial"\n{crankwork.template(name)}'))
     found = {}
     for language in languages:
@@ -75,7 +76,7 @@ def test_a_note_shows_every_value_in_its_system_beside_si(name, languages) -> No
         text = re.sub(r"<[^>]+>", " ", re.sub(r"<style.*?</style>", "", page, flags=re.DOTALL))
         found[language] = re.findall(r"\bMPa\b|\bМПа\b|cm³|см³|\bmm\b|\bмм\b", text)
         assert ("фунт-сила" if language == "ru" else "lbf") in text
-    assert found == {language: [] for language in languages}
+    assert found == {language: ["мм" if language == "ru" else "mm"] * on_paper for language in languages}
 
 
 def test_the_option_stands_over_the_file(machine_file, crankwork) -> None:

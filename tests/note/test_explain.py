@@ -149,7 +149,7 @@ FOLLOWED = {
         "λ = 0.3   rod.ratio, set on the command line by --set",
     ),
     # the working cycle of books has letters that the motion has too
-    ("v8-diesel", "total_torque --at 100 --lang vi"): ("M_hh = α_n·M_0 = …",),
+    ("v8-diesel", "total_torque --at 100 --lang vi"): ("M_hh = α_kk·M_0 = …",),
     ("v8-diesel", "gas_pressure --at 370 --lang vi"): ("p = đường cong nối…·τ·τ·…",),
     ("v8-diesel", "gas_pressure --at 370 --lang ru"): ("p = плавная кривая…·τ·τ·…",),
     ("press-geometry", "joint_force.D --at 60"): (

@@ -321,7 +321,7 @@ def test_what_a_page_calculates_itself_and_what_stays_behind(name, key, figures,
         # nothing acts on the way back: where the least torque stands is rounding
         ("toggle-press", "fixed_points.E[2]", ["static_torque_min_angle"], ["pressure_angle_max.D"]),
         # the same 2 % away, as long as the weights are less than the force of the press
-        ("press", "crank.speed", ["joint_force_max_angle.O"], ["dynamic_torque_max"]),
+        ("press", "crank.speed", ["oil_hole_angle.A"], ["dynamic_torque_max"]),
     ],
 )
 def test_values_that_may_be_others_elsewhere_are_no_live_ones(name, key, filed, live):

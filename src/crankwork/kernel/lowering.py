@@ -231,6 +231,12 @@ def _end_at_same_angles(ends: list[float | None], other_ends: list[float | None]
     )
 
 
+def _is_delicate(node: ProcedureValue) -> bool:
+    """Return whether a value may be rounding: a small difference of columns, the direction of a vector near zero."""
+    formed = node.general_form
+    return node.word == "error" or (formed is not None and getattr(formed.node, "word", "") == "direction")
+
+
 def _needs_more(value: KernelValue) -> bool:
     if value.kind == "pieces":
         return any(end.value is not None for end in value.detail[0])
@@ -272,6 +278,9 @@ class Lowering:
         """
         compiled = []
         for key in keys:
+            node = self._designs.traces[0][key].node
+            if isinstance(node, ProcedureValue) and _is_delicate(node):
+                continue
             try:
                 self._designs.add(key)
                 value = self.value(self._designs.traces[0][key])

@@ -16,7 +16,7 @@ from crankwork.analysis import Array, Results
 from crankwork.analysis.rounding_noise import rounding_of_extremes
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import Delayed, Input, ProcedureValue, TracedValue, in_order
-from crankwork.kernel.compiled import CONVERGED, Kernel
+from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.javascript import Script
 from crankwork.kernel.lowering import DesignTraces, Lowering
 from crankwork.locale import ErrorMessage, Language
@@ -162,8 +162,8 @@ class LivePage:
             for key, values, left in zip(
                 unconverged, kernel(designs).values, kernel.truncation_error_of(designs), strict=True
             ):
-                is_exact = left <= CONVERGED
-                slack = np.full(is_exact.sum(), _SAME)
+                is_exact = left <= _FOLLOWED
+                slack = np.maximum(left[is_exact], _SAME)
                 is_right = self.traces[0][key].varies or self._is_right(key, values[is_exact], is_exact, slack)
                 if is_right and np.all(left <= _FOLLOWED):
                     self._converged |= reductions[key]

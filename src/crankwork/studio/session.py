@@ -334,7 +334,8 @@ def _places(results: Results) -> dict[str, tuple[float, float]]:
 
 def _first(names: Sequence[str]) -> list[str]:
     """Return the figures shown initially: curves before constructions."""
-    return sorted(names, key=lambda name: name.endswith(("plan", "plans", "lever", "centrodes", "brix", "tolle")))[:3]
+    built = ("plan", "plans", "lever", "centrodes", "brix", "tolle", "paths")
+    return sorted(names, key=lambda name: name.endswith(built))[:3]
 
 
 def _shown(path: Path) -> str:
