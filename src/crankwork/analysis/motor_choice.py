@@ -8,6 +8,7 @@ from crankwork.machine import Machine
 from crankwork.shaft.motor import synchronous_speed
 from crankwork.shaft.motor_selection import (
     POLE_PAIRS,
+    POWERS_SOURCE,
     MotorSelection,
     gear_ratio_of_motor,
     needed_power,
@@ -16,6 +17,14 @@ from crankwork.shaft.motor_selection import (
 
 # share of the largest torque below which a mean is rounding
 _CANCELLED = 1e-12
+
+# where the series of powers is published
+SERIES_SOURCE = POWERS_SOURCE
+
+
+def selection_of(machine: Machine) -> MotorSelection:
+    """Return how a motor is selected: as stated, or as usual."""
+    return machine.drive.selection or MotorSelection()
 
 
 def motor_of_crank(
@@ -37,7 +46,7 @@ def mean_power(mean: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
 
 def motor_choice(machine: Machine, mean: TracedValue, w: TracedValue) -> dict[str, TracedValue]:
     """Return the mean power at the crank, that of the motor, its next standard size, and gear ratios by speed."""
-    selection, pi = machine.drive.selection or MotorSelection(), machine.method.pi
+    selection, pi = selection_of(machine), machine.method.pi
     path, reserve = "motor_selection.{}".format, absent("power_reserve", 1.0)
     if selection.reserve != 1.0:
         reserve = given("power_reserve", selection.reserve, path("reserve"))

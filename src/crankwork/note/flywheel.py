@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from crankwork.analysis.motor_choice import SERIES_SOURCE, selection_of
 from crankwork.locale import capital
 from crankwork.note.document import Block, Bold, Citation, Paragraph, Reference
 from crankwork.note.lines import WHEEL_SIZES
@@ -37,7 +38,6 @@ from crankwork.note.parts import (
 from crankwork.note.tables import position_tables, quantity_column
 from crankwork.note.torque import HARMONICS
 from crankwork.quantities.key import key_of
-from crankwork.shaft.motor_selection import POWERS_SOURCE, MotorSelection
 
 _OF_ALL = ("work_per_cycle", "energy_fluctuation", *WHEEL_SIZES)
 # rows of a table over the angle of a shaft
@@ -103,18 +103,14 @@ def _rated(material: Material) -> str:
     return material.words.amount(material.machine.drive.rated_power, "kW")
 
 
-def _selection(material: Material) -> MotorSelection:
-    return material.machine.drive.selection or MotorSelection()
-
-
 def _gear_ratios(material: Material) -> Iterator[Block]:
     """Yield the size of the motor that is selected, and the table of its gear ratios."""
-    words, summary, slip = material.words, material.results.summary, _selection(material).slip
+    words, summary, slip = material.words, material.results.summary, selection_of(material.machine).slip
     size = summary.get("standard_motor_power")
     if size is None:
-        yield words.paragraph("motor_beyond", source=Citation(POWERS_SOURCE))
+        yield words.paragraph("motor_beyond", source=Citation(SERIES_SOURCE))
     else:
-        yield words.paragraph("motor_size", source=Citation(POWERS_SOURCE), size=words.amount(size, "kW"))
+        yield words.paragraph("motor_size", source=Citation(SERIES_SOURCE), size=words.amount(size, "kW"))
     speeds = {float(key_of(key).owner): value for key, value in summary.items() if key.startswith("motor_ratio.")}
     rows = [
         tuple(words.number(value, digits=4) for value in (speed, speed * (1 - slip), ratio))
@@ -165,7 +161,7 @@ SECTIONS = (
         Shown(("speed",)),
     ), lambda material: bool(material.machine.turning) and any(map(material.has, _COLUMNS))),
     Section("motor", (
-        Head("motor"), Text("motor_choice", {"slip": lambda known: known.words.number(100 * _selection(known).slip)}),
+        Head("motor"), Text("motor_choice", {"slip": lambda known: known.words.number(100 * selection_of(known.machine).slip)}),
         Lines("motor", ("shaft_power", "efficiency", "motor_power")),
         When(full, (Lines("motor"),)), When(lacks(full), (Lines("motor", ("motor_ratio",), first=True),)),
         _gear_ratios,
