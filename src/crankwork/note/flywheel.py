@@ -103,6 +103,11 @@ def _rated(material: Material) -> str:
     return material.words.amount(material.machine.drive.rated_power, "kW")
 
 
+def _slip(material: Material) -> str:
+    """Return the slip of the motor that is selected. [%]"""
+    return material.words.number(100 * selection_of(material.machine).slip)
+
+
 def _gear_ratios(material: Material) -> Iterator[Block]:
     """Yield the size of the motor that is selected, and the table of its gear ratios."""
     words, summary, slip = material.words, material.results.summary, selection_of(material.machine).slip
@@ -161,7 +166,7 @@ SECTIONS = (
         Shown(("speed",)),
     ), lambda material: bool(material.machine.turning) and any(map(material.has, _COLUMNS))),
     Section("motor", (
-        Head("motor"), Text("motor_choice", {"slip": lambda known: known.words.number(100 * selection_of(known.machine).slip)}),
+        Head("motor"), Text("motor_choice", {"slip": _slip}),
         Lines("motor", ("shaft_power", "efficiency", "motor_power")),
         When(full, (Lines("motor"),)), When(lacks(full), (Lines("motor", ("motor_ratio",), first=True),)),
         _gear_ratios,
