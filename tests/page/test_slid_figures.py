@@ -48,7 +48,7 @@ def test_columns_and_values_of_another_design_make_its_curves(stored):
 
 def test_what_polynomials_do_not_follow_is_named_and_links_stand_upon_joints(stored):
     data = stored(document("crank", "vi").encode())
-    assert data["sliders"]["filed"] == ["oil_hole_angle.A"]
+    assert data["sliders"]["filed"] == ["counterweight_angle", "oil_hole_angle.A"]
     plans = ["position_plans", "velocity_plan", "acceleration_plan", "centrodes", "force_plans", "zhukovsky_lever"]
     of_sums = ["crankpin_wear", "main_wear", "torque_harmonics"]
     assert [name for name, one in data["figures"].items() if one.get("filed")] == plans + of_sums
