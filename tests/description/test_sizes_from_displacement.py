@@ -86,3 +86,24 @@ def test_mistakes_are_told(text: str) -> None:
     with pytest.raises(crankwork.InputError) as refused:
         crankwork.read_machine(text)
     assert MISTAKES[text] in str(refused.value)
+
+
+@for_each(
+    ("cylinder", "stroke", "mistakes"),
+    [
+        ('displacement = "500 cm3"', "86 mm", ["gas.cycle"]),
+        ('displacement = "500 cmm3"', "86 mm", ["cylinder.displacement", "gas.cycle"]),
+        ('displacement = "500 cm3"', "86 nm", ["crank.stroke", "gas.cycle"]),
+        ('displacement = "500 cm3", stroke_bore_ratio = 1', "86 mm", ["cylinder.displacement", "gas.cycle"]),
+    ],
+)
+def test_a_mistake_elsewhere_takes_no_bore_away(cylinder: str, stroke: str, mistakes: list[str]) -> None:
+    gas = """
+points.a = { angle = "0 deg", pressure = "0 MPa" }
+points.b = { angle = "720 deg", pressure = "0 MPa" }
+pieces = [{ law = "constant", points = ["a", "b"] }]
+"""
+    text = _one(f'stroke = "{stroke}", ', f"{cylinder}, compression_ratio = 9", f'piston.mass = "1 kg"\n[gas]{gas}')
+    with pytest.raises(crankwork.InputError) as refused:
+        crankwork.read_machine(text)
+    assert sorted(line.split(": ")[1] for line in str(refused.value).splitlines()) == sorted(mistakes)

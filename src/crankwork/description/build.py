@@ -94,13 +94,18 @@ def _with_sizes(values: Values, pi: float, reader: Reader) -> Values:
         return values
     volume, ratio, bore = (cylinder.si(key) for key in ("displacement", "stroke_bore_ratio", "bore"))
     stroke = 2 * crank.si("radius") if "radius" in crank else crank.si("stroke")
-    key = f"cylinder.{next(key for key in cylinder if key in SIZES)}"
+    stated = [f"cylinder.{key}" for key in cylinder if key in SIZES]
+    key, sizes = stated[0], (*stated, "cylinder.bore", "crank.radius", "crank.stroke")
+    if reader.has_errors(*sizes):
+        reader.suspect("cylinder.bore")
+        return values
     count = sum(size is not None for size in (volume, ratio, bore, stroke))
     if count != 2 or "power" in values["cycle"]:
         reader.add_error(key, ErrorMessage("sizes_two"))
     elif cylinder.si("offset") or values["engine"]["offsets"]:
         reader.add_error(key, ErrorMessage("sizes_offset"))
-    if reader.problems:
+    if reader.has_errors(key):
+        reader.suspect("cylinder.bore")
         return values
     volume = None if volume is None else volume / (values["engine"]["cylinders"] or 1)
     bore, stroke = bore_and_stroke(pi, volume, ratio, bore, stroke)

@@ -51,7 +51,7 @@ def build_gas(
 def _check_gas(values: Values, cylinder: Cylinder | None, reader: Reader) -> None:
     """Report missing keys of the gas."""
     if cylinder is None:
-        if not reader.has_errors("cylinder.bore"):
+        if not reader.has_errors("cylinder.bore", "cylinder.displacement", "cylinder.stroke_bore_ratio"):
             reader.add_error("gas", ErrorMessage("gas_cylinder"))
     elif (
         {cylinder.clearance_volume, cylinder.compression_ratio} == {None}

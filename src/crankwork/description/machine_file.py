@@ -305,15 +305,11 @@ def file_keys(values: Mapping[str, Any]) -> TableSpec:
     is_alone = is_calculated and not is_loaded and {"rod", "piston"}.isdisjoint(values)
     if (isinstance(cycle, dict) and "power" in cycle) or not SIZES.isdisjoint(values.get("cylinder") or ()):
         return engine_files.SIZED_CYCLE_FILE if is_alone else LOADED_SIZED_FILE if is_loaded else SIZED_FILE
-    return (
-        engine_files.CYCLE_FILE
-        if is_alone
-        else engine_files.STARTED_ENGINE
-        if is_started
-        else LOADED_FILE
-        if is_loaded
-        else MACHINE_FILE
-    )
+    if is_alone:
+        return engine_files.CYCLE_FILE
+    if is_started:
+        return engine_files.STARTED_ENGINE
+    return LOADED_FILE if is_loaded else MACHINE_FILE
 
 
 def parse(source: str, name: str) -> dict[str, Any]:

@@ -142,6 +142,10 @@ class Reader:
         """Whether further mistakes are only counted."""
         return len(self.problems) >= _MAX_PROBLEMS
 
+    def suspect(self, key: str) -> None:
+        """Take a key for reported that follows from reported ones."""
+        self._suspects.add(key)
+
     def has_errors(self, *keys: str) -> bool:
         """Return whether one of the keys, or a table around it, is already reported: its consequences are not."""
         around = ({key, *(key[:index] for index, mark in enumerate(key) if mark == ".")} for key in keys)
