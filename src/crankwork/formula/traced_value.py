@@ -397,9 +397,10 @@ def to_number(value: Any) -> Any:  # noqa: ANN401 - whatever number it is
     return value.value if isinstance(value, TracedValue) else value
 
 
-def reached(column: TracedValue, degrees: float, level: float = 0.0) -> TracedValue:
+def reached(column: TracedValue, degrees: float, level: TracedValue | float = 0.0) -> TracedValue:
     """Return the crank angle at which a column reaches a level. [deg]"""
-    return TracedValue(ProcedureValue(degrees, "reached", (column,), degrees, given("", level)))
+    traced = level if isinstance(level, TracedValue) else given("", level)
+    return TracedValue(ProcedureValue(degrees, "reached", (column,), degrees, traced))
 
 
 def select(condition: Any, first: Any, second: Any) -> Any:  # noqa: ANN401 - numbers, arrays of them, or of traced values

@@ -18,6 +18,7 @@ from crankwork.formula.traced_value import (
     TracedValue,
     given,
     is_traced,
+    reached,
     to_number,
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
@@ -71,7 +72,7 @@ class TracedVolume:
     def reached(self, volume: TracedValue, start: float, end: float) -> TracedValue:
         """Return the crank angle between two others at which a volume is reached. [deg]"""
         angle = solve_monotone(self._numbers, volume.value, start, end)
-        return TracedValue(ProcedureValue(angle, "reached", (self.volume,), angle, volume))
+        return reached(self.volume, angle, volume)
 
 
 class DiagramInput(NamedTuple):
@@ -206,9 +207,7 @@ class _DiagramTracer:
             return round(degrees, 9)
         if point.angle is not None:
             return self._angle_stated(name, point.angle, degrees)
-        return TracedValue(
-            ProcedureValue(degrees, "reached", (self._source.volume,), degrees, self._point_volume(name, point))
-        )
+        return reached(self._source.volume, degrees, self._point_volume(name, point))
 
     def _angle_stated(self, name: str, angle: float, degrees: float) -> TracedValue:
         stated = given("", angle, f"{self._source.path}.points.{name}.angle", "deg")

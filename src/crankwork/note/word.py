@@ -161,7 +161,8 @@ class _Writer:
         """Add the blocks of the note, figures where they fit."""
         blocks, rows = self._note.blocks, list(side_by_side(self._note.blocks))
         headings = len(_headings(self._note, self._numbers))
-        heights = [max(self._height(blocks[k], headings) for k in row) for row in rows]
+        # a line stands below blocks side by side
+        heights = [max(self._height(blocks[k], headings) for k in row) + LINE * (len(row) > 1) for row in rows]
         for number in flow([blocks[row[0]] for row in rows], heights, _OFF):
             first = blocks[rows[number][0]]
             self.turn(wide=isinstance(first, Table) and first.wide)
