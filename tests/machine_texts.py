@@ -26,3 +26,12 @@ loads = [{ kind = "torque", link = "second", torque = ["7 N*m"] }]
 
 # a cylinder of an engine whose diagram is drawn point by point
 POINTS_ENGINE = Path(__file__).with_name("machines").joinpath("points-engine.toml").read_text("utf-8")
+# stroke of 100 mm
+SLIDER_CRANK = """
+fixed_points.O = ["0 mm", "0 mm"]
+crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "60 rpm" }
+links.rod = { joins = ["A", "B"], length = "200 mm" }
+guides.bed = { angle = "0 deg" }
+sliders.ram = { guide = "bed", pin = "B", mass = "2 kg" }
+positions.B = ["250 mm", "0 mm"]
+"""

@@ -6,19 +6,11 @@ import pytest
 
 import crankwork
 from crankwork.shaft.motor_selection import standard_power
-from machine_texts import analysed
+from machine_texts import SLIDER_CRANK, analysed
 
 PRESS, COMPRESSOR = (crankwork.template(name) for name in ("press", "compressor"))
 # speeds without load at 50 and 60 Hz
 AT_50_HZ, AT_60_HZ = ("3000", "1500", "1000", "750"), ("3600", "1800", "1200", "900")
-SLIDER_CRANK = """
-fixed_points.O = ["0 mm", "0 mm"]
-crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "60 rpm" }
-links.rod = { joins = ["A", "B"], length = "200 mm" }
-guides.bed = { angle = "0 deg" }
-sliders.ram = { guide = "bed", pin = "B", mass = "2 kg" }
-positions.B = ["250 mm", "0 mm"]
-"""
 MOTOR = '[motor]\nrated_power = "1.1 kW"\nrated_speed = "1400 rpm"\noverload = 2.2\npole_pairs = 2\nratio = 10\n'
 
 

@@ -6,17 +6,7 @@ import pytest
 
 import crankwork
 from each import for_each
-from machine_texts import analysed
-
-# stroke of 100 mm
-SLIDER_CRANK = """
-fixed_points.O = ["0 mm", "0 mm"]
-crank = { pivot = "O", pin = "A", radius = "50 mm", speed = "60 rpm" }
-links.rod = { joins = ["A", "B"], length = "200 mm" }
-guides.bed = { angle = "0 deg" }
-sliders.ram = { guide = "bed", pin = "B", mass = "2 kg" }
-positions.B = ["250 mm", "0 mm"]
-"""
+from machine_texts import SLIDER_CRANK, analysed
 
 
 def _with(load: str) -> str:

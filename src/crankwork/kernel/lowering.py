@@ -523,7 +523,7 @@ class Lowering:
         return self._of_word(known, node)
 
     def _of_word(self, known: TracedValue, node: ProcedureValue) -> KernelValue:
-        """Lower what a procedure found that is told by its word alone."""
+        """Lower the value of a procedure that is known by its word alone."""
         match node.word:
             case "at" if node.by is not None and self._designs.differs[id(node.by.node)]:
                 return self._at(node.operands[0], self.value(node.by), node.at or 0.0)
