@@ -30,7 +30,7 @@ from crankwork.description.machine_file import template
 from crankwork.errors import DoubtfulError
 from crankwork.formula.traced_value import given
 from crankwork.kernel.grid import with_delayed_breakpoints
-from crankwork.loads import monotone, pressure_processing
+from crankwork.loads import curves, pressure_processing
 from crankwork.locale.numbers import number
 from crankwork.mechanism.structure import _longest_loop
 from crankwork.mechanism.table_reader import linkage_from
@@ -280,7 +280,7 @@ def test_abscissas_that_are_remembered_are_found_as_numbers_are() -> None:
     for at, one in enumerate(x):
         traced[at] = given("crank_angle", one)
     at = np.array([5.0, 12.0, 39.0])
-    assert monotone._interval(traced, at).tolist() == monotone._interval(x, at).tolist() == [0, 1, 2]
+    assert curves._interval(traced, at).tolist() == curves._interval(x, at).tolist() == [0, 1, 2]
 
 
 def test_the_least_number_that_a_machine_may_have_is_one() -> None:
