@@ -24,7 +24,7 @@ from crankwork.analysis.input_loads import FrictionInput
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.cli.__init__ import studio
-from crankwork.cli.asked import parse_count
+from crankwork.cli.options import parse_count
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
 from crankwork.errors import DoubtfulError
@@ -155,7 +155,7 @@ def test_kernels_that_begin_alike_are_different_kernels(tmp_path, monkeypatch) -
 
 
 def test_workers_are_as_many_as_asked_for_and_none_for_all_processors() -> None:
-    from crankwork.cli.studies import _number_of
+    from crankwork.cli import _number_of
 
     assert (_number_of(None, None), _number_of(None, "tcp://here:1"), _number_of("3", None)) == (0, 0, 3)
     assert _number_of("1024", None) == 1024
