@@ -617,7 +617,7 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
 def solve(options: CommonOptions, equation: str, field: str, start: str | None, end: str | None, steps: str) -> None:
     """Find the numbers of a file that make a value what is wanted: "piston_force@33deg = 0" --for crank.speed."""
     from crankwork.description.document import load
-    from crankwork.study.solution import solution_data, solution_text
+    from crankwork.study.solve import solution_data, solution_text
     from crankwork.study.solve import solve as solved
 
     with progress_bar() as progress:
@@ -640,7 +640,7 @@ def spread(options: CommonOptions, keys: tuple[str, ...], samples: str, within: 
     """Tell how far results spread where the file states numbers with a tolerance or a deviation."""
     from crankwork.description.document import load
     from crankwork.study.spread import spread as found_spread
-    from crankwork.study.spread_text import spread_data, spread_text
+    from crankwork.study.spread import spread_data, spread_text
 
     with progress_bar() as progress:
         spreads = found_spread(
