@@ -24,13 +24,13 @@ from crankwork.analysis.input_loads import FrictionInput
 from crankwork.analysis.rounding_noise import without_rounding
 from crankwork.analysis.transmission_quality import USUAL, USUAL_PRESSURE
 from crankwork.cli.__init__ import studio
-from crankwork.cli.asked import parse_count
+from crankwork.cli.options import parse_count
 from crankwork.description.expand import expanded
 from crankwork.description.machine_file import template
 from crankwork.errors import DoubtfulError
 from crankwork.formula.traced_value import given
 from crankwork.kernel.grid import with_delayed_breakpoints
-from crankwork.loads import monotone, pressure_processing
+from crankwork.loads import curves, pressure_processing
 from crankwork.locale.numbers import number
 from crankwork.mechanism.structure import _longest_loop
 from crankwork.mechanism.table_reader import linkage_from
@@ -155,7 +155,7 @@ def test_kernels_that_begin_alike_are_different_kernels(tmp_path, monkeypatch) -
 
 
 def test_workers_are_as_many_as_asked_for_and_none_for_all_processors() -> None:
-    from crankwork.cli.studies import _number_of
+    from crankwork.cli import _number_of
 
     assert (_number_of(None, None), _number_of(None, "tcp://here:1"), _number_of("3", None)) == (0, 0, 3)
     assert _number_of("1024", None) == 1024
@@ -280,7 +280,7 @@ def test_abscissas_that_are_remembered_are_found_as_numbers_are() -> None:
     for at, one in enumerate(x):
         traced[at] = given("crank_angle", one)
     at = np.array([5.0, 12.0, 39.0])
-    assert monotone._interval(traced, at).tolist() == monotone._interval(x, at).tolist() == [0, 1, 2]
+    assert curves._interval(traced, at).tolist() == curves._interval(x, at).tolist() == [0, 1, 2]
 
 
 def test_the_least_number_that_a_machine_may_have_is_one() -> None:

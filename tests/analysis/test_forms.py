@@ -17,7 +17,7 @@ from crankwork import Description, analyse, read_machine, template
 from crankwork.analysis.results import Results
 from crankwork.description.expand import expanded
 from crankwork.errors import RenamedKeyWarning
-from crankwork.quantities.renamed import RENAMED
+from crankwork.quantities.key import RENAMED
 from crankwork.study.numeric_field import numeric_field
 from crankwork.study.variants import MachineVariants
 from each import for_each

@@ -18,7 +18,7 @@ from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import in_order
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
-from crankwork.loads.load_curve import LoadCurve
+from crankwork.loads.curves import LoadCurve
 from crankwork.loads.process import TorqueOnLink
 from crankwork.note.contents import note_of
 from crankwork.note.options import NoteOptions

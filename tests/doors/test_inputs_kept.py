@@ -17,7 +17,7 @@ WRITERS = {
     "draw": ("svg", "gif", "mp4", "pdf", "png", "dxf"),
 }
 REFUSED = "{}: is what this run reads; move it away or choose another name or folder\n"
-COMPUTING = ("crankwork.cli.asked.analyse_with_progress", "crankwork.description.machine_file.read")
+COMPUTING = ("crankwork.cli.options.analyse_with_progress", "crankwork.description.machine_file.read")
 
 
 def test_the_commands_that_write_one_file_are_those_tried_here() -> None:

@@ -17,8 +17,7 @@ import numpy as np
 import pytest
 
 import crankwork
-from crankwork.loads.load import force_at
-from crankwork.loads.spring import Spring
+from crankwork.loads.load import Spring, force_at
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"

@@ -16,9 +16,8 @@ from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.motion_laws import law_at
 from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
-from crankwork.loads.load import applied_loads
+from crankwork.loads.load import Weight, applied_loads
 from crankwork.loads.process import ForceOnPoint, TorqueOnLink
-from crankwork.loads.weight import Weight
 from crankwork.mechanism.chain import Chain, ChainLink
 from crankwork.mechanism.driver import Cylinder, DrivingSlider
 from crankwork.mechanism.dyads import RRP, RRR, Guide

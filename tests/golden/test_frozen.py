@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from crankwork.quantities.renamed import MOVED, RENAMED
+from crankwork.quantities.key import MOVED, RENAMED
 from each import for_each
 
 HERE = Path(__file__).parent

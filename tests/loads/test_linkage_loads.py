@@ -10,6 +10,7 @@ from crankwork.errors import GeometryError, InputError
 from crankwork.kinematics.bodies import body_motions
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import (
     Damper,
     ForceOnPoint,
@@ -21,7 +22,6 @@ from crankwork.loads.load import (
     Weight,
     applied_loads,
 )
-from crankwork.loads.load_curve import LoadCurve
 from crankwork.mechanism.catalog import crank_shaper, four_bar, slotted_press
 from crankwork.mechanism.mechanism import Crank, Mechanism, body_at
 from each import for_each

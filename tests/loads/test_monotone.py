@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
 from crankwork.kinematics.crank_grid import Array
-from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
+from crankwork.loads.curves import hermite, hermite_slope, monotone_slopes
 from each import for_each
 
 values = st.floats(-10.0, 10.0).map(lambda value: round(value, 3))

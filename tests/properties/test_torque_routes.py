@@ -20,6 +20,7 @@ from crankwork.dynamics.routes import virtual_work_torque, zhukovsky_torque
 from crankwork.kinematics.chain_solver import as_chain
 from crankwork.kinematics.crank_grid import CrankGrid
 from crankwork.kinematics.motion import linkage_motion
+from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import (
     ForceOnPoint,
     Load,
@@ -30,7 +31,6 @@ from crankwork.loads.load import (
     Weight,
     applied_loads,
 )
-from crankwork.loads.load_curve import LoadCurve
 from crankwork.mechanism.catalog import (
     crank_shaper,
     four_bar,

@@ -11,7 +11,7 @@ import pytest
 
 import crankwork
 from crankwork import cli
-from crankwork.study.spread_text import spread_text
+from crankwork.study.spread import spread_text
 
 pytestmark = [pytest.mark.elsewhere, pytest.mark.usefixtures("by_arrays")]
 

@@ -13,7 +13,7 @@ from crankwork.analysis.piston_kinematics import HARMONICS
 from crankwork.analysis.results import Results
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.slider_crank import SliderCrank
-from crankwork.loads.load_curve import LoadCurve
+from crankwork.loads.curves import LoadCurve
 from crankwork.loads.process import ProcessForce
 from crankwork.shaft.flywheel import wittenbauer_slope_largest, wittenbauer_slope_least
 

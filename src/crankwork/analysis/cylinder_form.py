@@ -19,7 +19,7 @@ from crankwork.dynamics.masses import CrankGearMasses, rod_big_end_mass, rod_ine
 from crankwork.errors import CrankworkError, Problem
 from crankwork.kinematics.slider_crank import SliderCrank, check_slider_crank
 from crankwork.loads.chamber import Chamber
-from crankwork.loads.weight import Weight
+from crankwork.loads.load import Weight
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Bearings, Cylinder, Drive, Engine, Gas, Machine, Shaft
 from crankwork.mechanism.cells import Cell, CrankCells, NoCellsError, Part, crank_cells

@@ -9,7 +9,7 @@ from dataclasses import replace
 from crankwork.analysis.cell_gas import nearly_equal
 from crankwork.formula.traced_value import TracedValue, delayed
 from crankwork.loads.chamber import Chamber
-from crankwork.loads.weight import Weight
+from crankwork.loads.load import Weight
 from crankwork.machine import Machine
 from crankwork.mechanism.equal_parts import EqualPart, equal_parts
 from crankwork.mechanism.joints import joints

@@ -21,8 +21,7 @@ from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.traced_motion import traced_mechanism, traced_motion
 from crankwork.loads import gas
 from crankwork.loads.chamber import Chamber, own_cycle
-from crankwork.loads.chamber_gas import ChamberGas, rate_by_angle, solve_chambers, stated_valves
-from crankwork.loads.equal_chambers import with_equal_chambers
+from crankwork.loads.chamber_gas import ChamberGas, rate_by_angle, solve_chambers, stated_valves, with_equal_chambers
 from crankwork.loads.valves import inlet_flow, isothermal_efficiency
 from crankwork.machine import Machine
 

@@ -9,11 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.loads.chamber import Chamber, face_names
-from crankwork.loads.damper import Damper, SliderDamper
-from crankwork.loads.load import Load
+from crankwork.loads.load import Damper, Load, SliderDamper, SliderSpring, Spring, Weight
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
-from crankwork.loads.spring import SliderSpring, Spring
-from crankwork.loads.weight import Weight
 from crankwork.machine import Machine
 from crankwork.mechanism.joints import names_of_pivots
 

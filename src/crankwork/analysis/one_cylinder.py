@@ -32,7 +32,7 @@ from crankwork.loads import gas as gas_formulas
 from crankwork.loads.valves import StatedValves, inlet_flow
 from crankwork.machine import Machine
 from crankwork.method import Method
-from crankwork.quantities.renamed import MOVED
+from crankwork.quantities.key import MOVED
 
 _CHECK_STEP = 1.0
 _MOVING = ("piston_velocity", "piston_acceleration")

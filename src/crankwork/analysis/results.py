@@ -22,8 +22,7 @@ from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import ErrorMessage, Language
 from crankwork.method import Method
 from crankwork.quantities import QUANTITIES, base_key
-from crankwork.quantities.key import key_of
-from crankwork.quantities.renamed import MOVED, RENAMED
+from crankwork.quantities.key import MOVED, RENAMED, key_of
 from crankwork.units import coherent_unit
 
 if TYPE_CHECKING:

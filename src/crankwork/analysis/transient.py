@@ -23,7 +23,7 @@ from crankwork.formula.traced_value import FunctionValue, ProcedureValue, Traced
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.crank_range import CrankRange
 from crankwork.kinematics.motion import Motion
-from crankwork.loads.potential import has_potential, potential_energy
+from crankwork.loads.load import has_potential, potential_energy
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.joints import names_of_pivots
 from crankwork.shaft.collocation import gauss

@@ -8,27 +8,21 @@ import json
 import os
 import re
 import sys
+import time
 import warnings
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, Literal, TextIO
 
 import click
 
-from crankwork.cli.asked import (
-    CommonOptions,
-    analyse_with_progress,
-    parse_angle_or_time,
-    parse_count,
-    parse_formats,
-    parse_number,
-    with_common_options,
-)
-from crankwork.cli.documents import draw, page, report
 from crankwork.cli.options import (
     COMPARE,
-    FORMAT,
+    FIGURES,
     JSON,
     LANG,
+    LANGUAGE,
+    MACHINE,
     METHOD,
     NO_FIGURES,
     OVERWRITE,
@@ -36,13 +30,18 @@ from crankwork.cli.options import (
     SET,
     STEP,
     SYSTEM,
-    THEME,
-    LocalizedCommand,
+    CommonOptions,
     LocalizedGroup,
+    analyse_with_progress,
+    drawing_ending,
+    parse_angle_or_time,
+    parse_count,
+    parse_formats,
+    parse_number,
     placeholder,
     requested_language,
+    with_common_options,
 )
-from crankwork.cli.studies import map_, optimise, sweep
 from crankwork.errors import (
     CrankworkError,
     DoubtfulError,
@@ -52,40 +51,15 @@ from crankwork.errors import (
     missing_extras,
 )
 from crankwork.locale import ErrorMessage, Language, in_language, translate
-from crankwork.progress import progress_bar, with_progress
+from crankwork.progress import counting, progress_bar, with_progress
 
-_MODULES = {"starlette": "studio", "uvicorn": "studio", "websockets": "studio"}
+if TYPE_CHECKING:
+    from crankwork.show.scene import Drawing
+    from crankwork.show.theme import Theme
 
-
-@click.command(cls=LocalizedCommand)
-@click.argument("file", required=False)
-@click.option("--port", metavar="N", default="0")
-@click.option("--no-browser", is_flag=True)
-@LANG
-def studio(file: str | None, port: str, language: Language, *, no_browser: bool) -> None:
-    """Open the studio, with a machine file or a shared text."""
-    if not (port.isascii() and port.isdecimal() and len(port) < 6 and int(port) < 1 << 16):
-        raise CrankworkError(
-            ErrorMessage("option_wrong", option="--port", mistake=ErrorMessage("port_range", port=port[:20]))
-        )
-    if extras := missing_extras(_MODULES):
-        raise MissingExtraError(ErrorMessage("extra_studio"), *extras)
-    from crankwork import files
-    from crankwork.studio.server import StartupOptions, serve
-    from crankwork.studio.session import is_share, opened_share
-
-    if file is None:
-        opening = StartupOptions()
-    elif is_share(file):
-        opening = StartupOptions(opened_share(file, language))
-    else:
-        path = Path(file)
-        text = files.read_text(path, advice=ErrorMessage("check_path_or_new", path=path))
-        # a text of another form is not saved in its place
-        opening = (
-            StartupOptions(opened_share(text, language)) if is_share(text) else StartupOptions(text, path.resolve())
-        )
-    serve(opening, language, int(port), opens=not no_browser, says=click.echo)
+_MAX_WORKERS = 1024
+_OF_STUDIES = {"pyarrow": "data", "scipy": "data"}
+_OF_STUDIO = {"starlette": "studio", "uvicorn": "studio", "websockets": "studio"}
 
 
 def main() -> None:
@@ -230,9 +204,7 @@ def new(options: CommonOptions, name: str | None, output: str | None) -> None:
 
 @commands.command()
 @click.argument("file")
-@LANG
-@SYSTEM
-@SET
+@MACHINE
 @click.option("--circuits", is_flag=True)
 @JSON
 @click.option("--expand", is_flag=True)
@@ -283,15 +255,11 @@ def check(options: CommonOptions, *, circuits: bool, expand: bool, assumptions: 
 @click.option("-o", "--output", metavar="DIR")
 @STEP
 @METHOD
-@LANG
-@SYSTEM
-@SET
+@MACHINE
 @COMPARE
 @PER_AREA
 @JSON
-@NO_FIGURES
-@FORMAT
-@THEME
+@FIGURES
 @click.option("--width", type=click.Choice(["85", "170"]), default="170")
 @click.option("--excel-csv", is_flag=True)
 @OVERWRITE
@@ -337,8 +305,273 @@ def run(options: CommonOptions, output: str | None, width: str, *, excel_csv: bo
     options.raise_if_unverified(results)
 
 
-for command in (report, page, draw, sweep, optimise, map_, studio):
-    commands.add_command(command)
+@commands.command()
+@click.argument("file")
+@click.option("-o", "--output", required=True, metavar="NOTE")
+@STEP
+@METHOD
+@LANG
+@click.option("--school", type=LANGUAGE)
+@SYSTEM
+@SET
+@COMPARE
+@PER_AREA
+@click.option("--title", default="", metavar="TEXT")
+@click.option("--author", default="", metavar="TEXT")
+@click.option("--full", is_flag=True)
+@NO_FIGURES
+@click.option("--sheets", is_flag=True)
+@click.option("--paper", type=click.Choice(["A0", "A1", "A2", "A3"]))
+@click.option("--grid", is_flag=True)
+@OVERWRITE
+@with_common_options
+def report(  # noqa: PLR0913 - one argument per option of the command
+    options: CommonOptions,
+    output: str,
+    school: str | None,
+    title: str,
+    author: str,
+    paper: Literal["A0", "A1", "A2", "A3"] | None,
+    *,
+    full: bool,
+    sheets: bool,
+    grid: bool,
+) -> None:
+    """Write the calculation note of a machine as PDF, Word or web page."""
+    from crankwork.note.contents import check_format, written_note
+
+    sheets = sheets or grid or paper is not None
+    # before anything else is loaded
+    check_format(output, with_sheets=sheets)
+    from crankwork import files
+    from crankwork.note.contents import note_of, sheets_of
+    from crankwork.note.options import NoteOptions
+
+    files.check_files(output, overwrite=options.overwrite)
+    note_options = NoteOptions(
+        language=options.language, school=school or "", per_area=options.per_area, title=title.strip(),
+        author=author.strip(), full=full, figures=not options.no_figures, sheets=sheets, paper=paper or "A1", grid=grid,
+    )  # fmt: skip
+    results = options.results()
+    written: dict[str | Path, bytes] = {output: written_note(note_of(results, note_options), output)}
+    if sheets:
+        stem = os.path.splitext(output)[0]  # noqa: PTH122 - a name, not a file
+        written |= {stem + ending: data for ending, data in sheets_of(results, note_options).items()}
+    files.write_files(written, overwrite=options.overwrite)
+    options.print_written(", ".join(map(str, written)))
+    options.raise_if_unverified(results)
+
+
+@commands.command()
+@click.argument("file")
+@click.option("-o", "--output", required=True, metavar="FILE")
+@STEP
+@METHOD
+@MACHINE
+@COMPARE
+@click.option("--slider", "sliders", multiple=True, metavar="KEY[=FROM..TO]")
+@OVERWRITE
+@with_common_options
+def page(options: CommonOptions, output: str, sliders: tuple[str, ...]) -> None:
+    """Write a machine as one web page: moving, diagrams to read, values explained."""
+    from crankwork import files
+    from crankwork.page.document import page as written
+
+    if not output.lower().endswith((".html", ".htm")):
+        raise CrankworkError(ErrorMessage("page_ending", name=output))
+    files.check_files(output, overwrite=options.overwrite)
+    results = options.results()
+    live = None
+    if sliders:
+        from crankwork.description.document import load
+        from crankwork.study.sliders import moved
+
+        live = moved(load(options.file), sliders, options.overrides, results)
+    files.write_files({output: written(results, options.language, options.origin(), live)}, overwrite=options.overwrite)
+    options.print_written(output)
+    options.raise_if_unverified(results)
+
+
+@commands.command()
+@click.argument("file")
+@click.option("-o", "--output", required=True, metavar="FILE")
+@click.option("--at", "place", metavar="DEG")
+@click.option("--forces", is_flag=True)
+@METHOD
+@MACHINE
+@click.option("--theme", type=click.Choice(["print", "colour", "dark"]), default="colour")
+@OVERWRITE
+@with_common_options
+def draw(options: CommonOptions, output: str, place: str | None, *, forces: bool) -> None:
+    """Draw a machine as it moves, or as it stands at a crank angle."""
+    ending = drawing_ending(output, is_still=place is not None)
+    from crankwork import files
+    from crankwork.report.drawing import drawn
+
+    files.check_files(output, overwrite=options.overwrite)
+    results = options.results()
+    angle_or_time = None if place is None else parse_angle_or_time(place, "time" if results.period else "angle")
+    with progress_bar() as progress:
+        drawing = drawn(
+            results, ending, options.theme, angle_or_time, options.language, forces=forces, progress=progress
+        )
+    files.write_files({output: drawing}, overwrite=options.overwrite)
+    options.print_written(output)
+    options.raise_if_unverified(results)
+
+
+@commands.command()
+@click.argument("study")
+@click.option("-o", "--output", metavar="DIR", required=True)
+@click.option("--workers", metavar="N")
+@click.option("--scheduler", metavar="ADDRESS")
+@click.option("--resume", is_flag=True)
+@LANG
+@SET
+@JSON
+@FIGURES
+@with_common_options
+def sweep(
+    options: CommonOptions, study: str, output: str, workers: str | None, scheduler: str | None, *, resume: bool
+) -> None:
+    """Calculate the designs of a study: the best, the Pareto set, histograms and what matters."""
+    from crankwork import files
+    from crankwork.study.runner import ExecutionOptions, run_study
+    from crankwork.study.study_figures import found_drawings
+    from crankwork.study.study_file import load_study
+    from crankwork.study.study_text import found_data, found_files, found_text
+
+    where = ExecutionOptions(_number_of(workers, scheduler), scheduler or "")
+    formats = () if options.no_figures else parse_formats(options.formats)
+    stated = load_study(study, options.settings)
+    if extras := missing_extras(_OF_STUDIES):
+        raise MissingExtraError(ErrorMessage("extra_study"), *extras)
+    started = time.monotonic()
+    try:
+        with counting(stated.count) as progress:
+            aggregate = run_study(stated, output, where, resume=resume, progress=progress)
+    except KeyboardInterrupt:
+        click.echo(f"\n{translate('study.stopped', options.language)}", err=True)
+        raise
+    drawings = found_drawings(stated, aggregate, options.language) if formats else {}
+    contents = found_files(stated, aggregate) | _figures(drawings, formats, options.theme)
+    files.write_folder(output, contents, overwrite=True)
+    options.print_result(lambda: found_text(stated, aggregate, options.language), lambda: found_data(stated, aggregate))
+    passed = time.monotonic() - started
+    options.print_written(output, "\n")
+    rate = {"seconds": f"{passed:.1f}", "rate": f"{aggregate.designs / passed:.0f}"}
+    click.echo(translate("study.rate", options.language, **rate), err=True)
+
+
+@commands.command()
+@click.argument("study")
+@click.option("-o", "--output", metavar="DIR", required=True)
+@LANG
+@SET
+@JSON
+@OVERWRITE
+@with_common_options
+def optimise(options: CommonOptions, study: str, output: str) -> None:
+    """Find the best design of a study: its machine file, its active constraints, and the iterations."""
+    from crankwork import files
+    from crankwork.study.optimise import best_of
+    from crankwork.study.optimum_text import optimum_data, optimum_files, optimum_text
+    from crankwork.study.study_file import load_study
+
+    stated = load_study(study, options.settings, is_search=True)
+    files.check_folder(output, overwrite=options.overwrite)
+    with progress_bar() as progress:
+        optimum = best_of(stated, progress)
+    contents = optimum_files(stated, optimum, output)
+    options.print_result(lambda: optimum_text(stated, optimum, options.language), lambda: optimum_data(stated, optimum))
+    files.write_folder(output, contents, overwrite=options.overwrite)
+    options.print_written(output, "\n")
+
+
+@commands.command(name="map")
+@click.argument("file")
+@click.option("--over", multiple=True, required=True, metavar="KEY=FROM..TO")
+@click.option("-o", "--output", metavar="DIR")
+@click.option("--workers", metavar="N")
+@MACHINE
+@JSON
+@FIGURES
+@OVERWRITE
+@with_common_options
+def map_(options: CommonOptions, over: tuple[str, ...], output: str | None, workers: str | None) -> None:
+    """Compute a machine over ranges of one or two numbers of its file."""
+    from crankwork import files
+    from crankwork.description.document import load
+    from crankwork.study.map_figures import map_drawings
+    from crankwork.study.parameter_map import map_data, map_files, map_text, mapped
+
+    formats = () if options.no_figures or output is None else parse_formats(options.formats)
+    if output is not None:
+        files.check_folder(output, overwrite=options.overwrite)
+    count = _number_of(workers, None) or os.cpu_count() or 1
+    with progress_bar() as progress:
+        parameter_map = mapped(load(options.file), over, options.overrides, progress, count)
+    options.print_result(lambda: map_text(parameter_map, options.language), lambda: map_data(parameter_map))
+    if output is not None:
+        drawings = map_drawings(parameter_map, options.language) if formats else {}
+        files.write_folder(
+            output, map_files(parameter_map) | _figures(drawings, formats, options.theme), overwrite=options.overwrite
+        )
+        options.print_written(output, "\n")
+
+
+def _figures(drawings: Mapping[str, Drawing], formats: tuple[str, ...], theme: Theme) -> dict[str, bytes]:
+    """Return figures as files, by their names in a folder."""
+    from crankwork.show.formats import FORMATS
+
+    return {
+        f"figures/{name}.{ending}": FORMATS[ending](drawing, theme)
+        for ending in formats
+        for name, drawing in drawings.items()
+    }
+
+
+def _number_of(workers: str | None, scheduler: str | None) -> int:
+    """Return the number of workers of an option, 0 for the number of processors."""
+    if workers is None:
+        return 0
+    if scheduler is not None:
+        raise CrankworkError(ErrorMessage("workers_or"))
+    count = parse_count(workers)
+    if not 1 <= count <= _MAX_WORKERS:
+        raise CrankworkError(ErrorMessage("workers_number", most=str(_MAX_WORKERS)))
+    return count
+
+
+@commands.command()
+@click.argument("file", required=False)
+@click.option("--port", metavar="N", default="0")
+@click.option("--no-browser", is_flag=True)
+@LANG
+def studio(file: str | None, port: str, language: Language, *, no_browser: bool) -> None:
+    """Open the studio, with a machine file or a shared text."""
+    if not (port.isascii() and port.isdecimal() and len(port) < 6 and int(port) < 1 << 16):
+        raise CrankworkError(
+            ErrorMessage("option_wrong", option="--port", mistake=ErrorMessage("port_range", port=port[:20]))
+        )
+    if extras := missing_extras(_OF_STUDIO):
+        raise MissingExtraError(ErrorMessage("extra_studio"), *extras)
+    from crankwork import files
+    from crankwork.studio.server import StartupOptions, serve
+    from crankwork.studio.session import is_share, opened_share
+
+    if file is None:
+        opening = StartupOptions()
+    elif is_share(file):
+        opening = StartupOptions(opened_share(file, language))
+    else:
+        path = Path(file)
+        text = files.read_text(path, advice=ErrorMessage("check_path_or_new", path=path))
+        # a text of another form is not saved in its place
+        opening = (
+            StartupOptions(opened_share(text, language)) if is_share(text) else StartupOptions(text, path.resolve())
+        )
+    serve(opening, language, int(port), opens=not no_browser, says=click.echo)
 
 
 @commands.command()
@@ -347,9 +580,7 @@ for command in (report, page, draw, sweep, optimise, map_, studio):
 @click.option("--at", "place", metavar="DEG")
 @click.option("--list", "with_keys", is_flag=True)
 @METHOD
-@LANG
-@SYSTEM
-@SET
+@MACHINE
 @with_common_options
 def explain(options: CommonOptions, key: str | None, place: str | None, *, with_keys: bool) -> None:
     """Explain one value of a machine: every step in order, down to the lines of the file."""
@@ -386,7 +617,7 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
 def solve(options: CommonOptions, equation: str, field: str, start: str | None, end: str | None, steps: str) -> None:
     """Find the numbers of a file that make a value what is wanted: "piston_force@33deg = 0" --for crank.speed."""
     from crankwork.description.document import load
-    from crankwork.study.solution import solution_data, solution_text
+    from crankwork.study.solve import solution_data, solution_text
     from crankwork.study.solve import solve as solved
 
     with progress_bar() as progress:
@@ -402,16 +633,14 @@ def solve(options: CommonOptions, equation: str, field: str, start: str | None, 
 @click.argument("keys", nargs=-1)
 @click.option("--samples", metavar="N", default="2000")
 @click.option("--within", metavar="N", default="3")
-@LANG
-@SYSTEM
-@SET
+@MACHINE
 @JSON
 @with_common_options
 def spread(options: CommonOptions, keys: tuple[str, ...], samples: str, within: str) -> None:
     """Tell how far results spread where the file states numbers with a tolerance or a deviation."""
     from crankwork.description.document import load
     from crankwork.study.spread import spread as found_spread
-    from crankwork.study.spread_text import spread_data, spread_text
+    from crankwork.study.spread import spread_data, spread_text
 
     with progress_bar() as progress:
         spreads = found_spread(

@@ -26,13 +26,10 @@ from crankwork.description.shaft_build import build_bearings, build_shaft, check
 from crankwork.description.stated import stated_numbers
 from crankwork.description.value_types import MeasuredValue, Reader
 from crankwork.dynamics.tabulated_inertia import TabulatedBody
-from crankwork.loads.damper import Damper, SliderDamper
+from crankwork.loads.curves import LoadCurve as LoadTable
 from crankwork.loads.indicator import DiagramError
-from crankwork.loads.load import Load
-from crankwork.loads.load_curve import LoadCurve as LoadTable
+from crankwork.loads.load import Damper, Load, SliderDamper, SliderSpring, Spring, Weight
 from crankwork.loads.process import ForceOnPoint, ProcessForce, TorqueOnLink
-from crankwork.loads.spring import SliderSpring, Spring
-from crankwork.loads.weight import Weight
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Drive, Machine, TransferTable, Transient
 from crankwork.mechanism.driver import Law, LinkMotor

@@ -27,8 +27,8 @@ from crankwork.kinematics.crank_range import (
 from crankwork.kinematics.motion import linkage_motion
 from crankwork.kinematics.position_analysis import place
 from crankwork.kinematics.traced_motion import traced_motion
+from crankwork.loads.curves import LoadCurve
 from crankwork.loads.load import Load, applied_loads
-from crankwork.loads.load_curve import LoadCurve
 from crankwork.loads.process import ProcessForce
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine

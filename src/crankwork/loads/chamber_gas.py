@@ -1,4 +1,4 @@
-"""Gas in chambers: volumes, pressures and forces on sliding pieces, as traced values."""
+"""Gas in chambers: volumes, pressures and forces on sliding pieces, as traced values; equal parts have equal gas."""
 
 from __future__ import annotations
 
@@ -40,6 +40,7 @@ from crankwork.loads.traced_diagram import DiagramInput
 from crankwork.loads.valves import Flow, StatedValves
 from crankwork.locale import ErrorMessage
 from crankwork.mechanism.driver import Law
+from crankwork.mechanism.equal_parts import EqualPart
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities.key import key_of
 
@@ -496,3 +497,45 @@ def _sealed(
     constant = given(f"specific_gas_constant.{name}", charge.gas_constant or math.nan, f"{path}.gas_constant")
     mass = charge_mass(name, charge, total_volume, constant, period)
     return gas.isothermal_pressure(mass, constant, total_volume), [mass]
+
+
+def with_equal_chambers(filling: ChamberGas, chambers: Mapping[str, Chamber], parts: Sequence[EqualPart]) -> ChamberGas:
+    """Return the gas of all chambers, by that of those in parts that later parts are equal to."""
+    if not parts or not chambers:
+        return filling
+    columns, singles, forces = dict(filling.columns), dict(filling.singles), [*filling.forces]
+    for part in parts:
+        for first, own in part.chambers.items():
+            owners = dict(zip(face_names(first, chambers[first]), face_names(own, chambers[own]), strict=True))
+            owners |= {first: own} | {face.slider: part.names[face.slider] for face in chambers[first].faces}
+            for values in (columns, singles):
+                for key, known in [*values.items()]:
+                    kind, owner = key_of(key)
+                    if owner in owners:
+                        name = f"{kind}.{owners[owner]}"
+                        values[name] = (
+                            delayed(known, part.delay, part.cycle, name) if known.varies else known.named(name)
+                        )
+            forces += [
+                GasForce(own, owners[force.slider], columns[f"gas_force.{owners[force.force.key.partition('.')[2]]}"])
+                for force in filling.forces
+                if force.chamber == first
+            ]
+    order = {name: number for number, name in enumerate(chambers)}
+    forces.sort(key=lambda force: order[force.chamber])
+    columns, singles = _in_order(columns, chambers), _in_order(singles, chambers)
+    return filling._replace(columns=columns, singles=singles, forces=tuple(forces))
+
+
+def _in_order(values: Mapping[str, TracedValue], chambers: Mapping[str, Chamber]) -> dict[str, TracedValue]:
+    """Return values of each chamber in the order of chambers; gas forces and rod loads come last."""
+    order = dict[str, int]()
+    for number, (name, chamber) in enumerate(chambers.items()):
+        order |= dict.fromkeys((name, *face_names(name, chamber), *(face.slider for face in chamber.faces)), number)
+    last = ("gas_force", "rod_load")
+
+    def rank(key: str) -> tuple[int, int]:
+        kind, owner = key_of(key)
+        return last.index(kind) + 1 if kind in last else 0, order.get(owner, -1)
+
+    return {key: values[key] for key in sorted(values, key=rank)}

@@ -18,8 +18,8 @@ from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import TracedValue
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dead_centres import solve_monotone
+from crankwork.loads.curves import hermite, hermite_slope, monotone_slopes
 from crankwork.loads.gas import polytropic_pressure
-from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 from crankwork.locale import ErrorMessage
 
 Law = Literal["constant", "polytropic", "rounded"]

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.curves import hermite, hermite_slope, monotone_slopes
 from crankwork.loads.indicator import DiagramError, IndicatorDiagram, Segment
-from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 from crankwork.locale import ErrorMessage
 from crankwork.units import UNITS
 

@@ -11,9 +11,9 @@ import numpy as np
 from crankwork.formula.replay import replay
 from crankwork.formula.traced_value import FormulaCall, Piecewise, ProcedureValue, Tabulated, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
+from crankwork.loads.curves import CurvePoint, curve_between
 from crankwork.loads.gas import gauge_pressure, polytropic_pressure
 from crankwork.loads.indicator import IndicatorDiagram, Segment
-from crankwork.loads.interpolation import CurvePoint, curve_between
 
 # A stated volume within this tolerance is the computed volume.
 _SAME_VOLUME = 1e-12

@@ -27,10 +27,8 @@ from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.motion import Motion
 from crankwork.kinematics.traced_motion import angle_of, interpolant_of
 from crankwork.loads.applied_loads import AppliedLoads, check_name, force_along_guide, force_at, torque_on
-from crankwork.loads.interpolation import CurvePoint, cubic_between, curve_between, line_between
-from crankwork.loads.load_curve import Curve
-from crankwork.loads.load_curve import LoadCurve as LoadTable
-from crankwork.loads.monotone import monotone_slopes
+from crankwork.loads.curves import Curve, CurvePoint, cubic_between, curve_between, line_between, monotone_slopes
+from crankwork.loads.curves import LoadCurve as LoadTable
 from crankwork.mechanism.dyads import Branch
 from crankwork.mechanism.mechanism import Mechanism
 from crankwork.quantities.key import key_of

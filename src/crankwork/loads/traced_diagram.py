@@ -23,10 +23,9 @@ from crankwork.formula.traced_value import (
 )
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.kinematics.dead_centres import solve_monotone
+from crankwork.loads.curves import cubic_between, monotone_slopes
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Piece, Segment
-from crankwork.loads.interpolation import cubic_between
-from crankwork.loads.monotone import monotone_slopes
 from crankwork.loads.valves import StatedValves
 
 # crank angles closer together than this are equal [deg]

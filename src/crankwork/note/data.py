@@ -22,7 +22,7 @@ from crankwork.note.symbols import subscript
 from crankwork.note.table_width import is_narrow
 from crankwork.note.tables import Column, position_tables, value_row, value_table
 from crankwork.note.wording import Words, in_display_unit
-from crankwork.quantities import cycle as cycle_quantities
+from crankwork.quantities import SUBJECTS
 from crankwork.report.display import key_unit, link_label
 from crankwork.report.scheme import crank_gear_scheme
 from crankwork.report.summary import results_method
@@ -156,7 +156,7 @@ def _sizes(bearings: Bearings, words: Words) -> Iterator[tuple[Cell, ...]]:
 
 def cycle_keys(material: Material) -> list[str]:
     """Return the keys of the inputs of the working cycle: its values without a line."""
-    given = {row.key for row in cycle_quantities.ROWS} - {line.key for line in material.cycle}
+    given = {row.key for row in SUBJECTS["cycle"]} - {line.key for line in material.cycle}
     return [key for key in material.summary if key in given and key not in _ELSEWHERE]
 
 

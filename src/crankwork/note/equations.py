@@ -38,7 +38,7 @@ from crankwork.note.layout import (
 from crankwork.note.math import RESULT_DIGITS, enough_digits, formula_box, is_exact_pi, whole_degrees
 from crankwork.note.printed_units import display_unit, printed_unit
 from crankwork.note.symbols import number_box, owned_symbol, symbol_box
-from crankwork.quantities import QUANTITIES, Language, base_key, chambers, linkage
+from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, key_unit
 from crankwork.report.display import symbol as key_symbol
@@ -112,7 +112,7 @@ def equation_symbol(step: Line | Formula, language: Language) -> str:
 
 
 # quantities that links, points and chambers have, whose names are any words
-OF_LINKS = frozenset(row.key for row in (*linkage.ROWS, *chambers.ROWS))
+OF_LINKS = frozenset(row.key for row in (*SUBJECTS["linkage"], *SUBJECTS["chambers"]))
 
 
 # loads of any bearing that are known as those of a crankpin too

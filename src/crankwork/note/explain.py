@@ -35,14 +35,14 @@ from crankwork.note.equations import OF_LINKS, distinct_values, line_parts, show
 from crankwork.note.legends import words_of
 from crankwork.note.numbering import Numbering
 from crankwork.note.printed_units import printed_unit
-from crankwork.quantities import QUANTITIES, Language, base_key, cycle
+from crankwork.quantities import QUANTITIES, SUBJECTS, Language, base_key
 from crankwork.quantities.key import key_of
 from crankwork.report.display import display_key, in_own_units, label, link_label
 from crankwork.sources import cite
 from crankwork.units import UNITS, from_si, to_si
 
 _OF_ANGLE = re.compile(r"^(sin|cos|tan) ?")
-_OF_CYCLE = frozenset(row.key for row in cycle.ROWS)
+_OF_CYCLE = frozenset(row.key for row in SUBJECTS["cycle"])
 _OWNERS = {"stroke": "of_piston"}
 # what is found of the whole course of a column, and how many rows of that are told at most [deg]
 _IN_JOINTS = ("joint_force", "joint_force_x", "joint_force_y")

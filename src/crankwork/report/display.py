@@ -13,9 +13,8 @@ import numpy as np
 from crankwork.locale import decimal, has_text, texts, translate
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.quantities.key import key_of
+from crankwork.quantities.key import MOVED, key_of
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
-from crankwork.quantities.renamed import MOVED
 from crankwork.units import DisplayUnits, from_si, use_units
 
 if TYPE_CHECKING:

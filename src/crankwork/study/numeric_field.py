@@ -1,15 +1,17 @@
-"""One number of a machine file: its limits, its stated value, and the points of a search."""
+"""Numbers of a machine file: their limits, stated values, the points of a search, and how a study varies a field."""
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crankwork import units
 from crankwork.description.document import stated_value
-from crankwork.description.machine_file import entry_at, file_keys, steps_of
+from crankwork.description.machine_file import Setting, entry_at, file_keys, steps_of
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, nearest_name
 from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, is_fraction, shown
 from crankwork.errors import CrankworkError, UnknownKeyError
@@ -22,6 +24,11 @@ _FAR = 30.0
 _WIDE = 100.0
 # factor of the stated number that bounds the range if the limits are wider
 _AROUND = 10.0
+Law = Literal["list", "even", "ratios", "uniform", "normal", "words"]
+# range of a normal distribution that a calculation is compiled for, in deviations
+_WITHIN = 5.0
+# least probability of a quantile
+_MIN_PROBABILITY = 2.0**-40
 
 
 class NumericField(NamedTuple):
@@ -106,7 +113,7 @@ def _unknown(key: str, around: object, step: str | int) -> ErrorMessage:
 
 def search_points(field: NumericField, start: str | float | None, end: str | float | None, steps: int) -> SearchPoints:
     """Return the points of a search, between the stated ends or around the stated number."""
-    low, high = (limit(field, text, option) for text, option in ((start, "--from"), (end, "--to")))
+    low, high = (stated_limit(field, text, option) for text, option in ((start, "--from"), (end, "--to")))
     own = None if low is not None and high is not None else _own_range(field)
     if own is None and (low is None or high is None):
         missing = "--from" if low is None else "--to"
@@ -124,7 +131,7 @@ def search_points(field: NumericField, start: str | float | None, end: str | flo
     return SearchPoints(values, is_even, is_stated)
 
 
-def limit(field: NumericField, written: str | float | None, option: str) -> float | None:
+def stated_limit(field: NumericField, written: str | float | None, option: str) -> float | None:
     """Return an end of the range in SI; a number without a unit is in the unit of the file."""
     if written is None:
         return None
@@ -153,3 +160,63 @@ def _own_range(field: NumericField) -> tuple[float, float] | None:
     if low >= 0:
         return max(low, now / _AROUND), min(high, now * _AROUND)
     return max(low, now - _AROUND * abs(now)), min(high, now + _AROUND * abs(now))
+
+
+@dataclass(frozen=True)
+class VariedField:
+    """A field that designs differ in. Designs hold it in SI; names and integers by their index in the list.
+
+    `ends`: of a range or a uniform distribution; for a normal one mean and standard deviation.
+    """
+
+    key: str
+    law: Law
+    number: NumericField | None = None
+    ends: tuple[float, float] = (0.0, 0.0)
+    values: tuple[Any, ...] = ()
+    steps: int = 0
+
+    @property
+    def unit(self) -> str:
+        """Unit in the file."""
+        return self.number.unit if self.number else ""
+
+    @property
+    def count(self) -> int:
+        """Number of values of a grid, 0 for any number."""
+        return len(self.values) or (self.steps + 1 if self.steps else 0)
+
+    def of_places(self, places: NDArray[Any]) -> Array:
+        """Return the values at indices of a list or a range, counted from 0."""
+        if self.law == "words":
+            return np.asarray(places, dtype=float)
+        if self.values:
+            return np.asarray(np.array(self.values, dtype=float)[places])
+        return self.of_shares(places / self.steps)
+
+    def of_shares(self, shares: Array) -> Array:
+        """Return the quantiles of the distribution at probabilities."""
+        low, high = self.ends
+        if self.values:
+            return self.of_places(np.minimum(shares * len(self.values), len(self.values) - 1).astype(np.intp))
+        if self.law == "ratios":
+            return np.where(shares < 1, low * (high / low) ** shares, high)
+        if self.law == "normal":
+            from scipy.special import ndtri  # noqa: PLC0415 - an optional part
+
+            return np.asarray(low + high * ndtri(np.clip(shares, _MIN_PROBABILITY, 1 - _MIN_PROBABILITY)))
+        return np.asarray(low * (1 - shares) + high * shares)
+
+    @property
+    def span(self) -> tuple[float, float, float]:
+        """Least, intermediate and largest value of designs. [SI]"""
+        low, high = (min(self.values), max(self.values)) if self.values and self.number else self.ends
+        if self.law == "normal" and self.number is not None:
+            low, high = (low - _WITHIN * high, low + _WITHIN * high)
+            low, high = max(low, self.number.low), min(high, self.number.high)
+        return low, (low * high) ** 0.5 if self.law == "ratios" else (low + high) / 2, high
+
+    def setting(self, value: float) -> Setting:
+        """Return the setting of a design."""
+        stated = self.values[int(value)] if self.number is None else self.number.written(float(value))
+        return Setting(self.key, self.key, stated)

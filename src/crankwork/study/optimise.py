@@ -15,8 +15,7 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.report.display import key_unit
-from crankwork.study.design_space import DesignSpace
-from crankwork.study.search import REACHED, Candidate, Problem, SearchMethod, searched, written_limits
+from crankwork.study.search import REACHED, Candidate, DesignSpace, Problem, SearchMethod, searched, written_limits
 from crankwork.study.study_file import Study
 from crankwork.study.sweep import Swept, units_of
 from crankwork.units import coherent_unit, from_si, use_units

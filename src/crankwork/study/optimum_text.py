@@ -17,10 +17,10 @@ from crankwork.locale import Language, capital, translate
 from crankwork.locale.numbers import aligned, number, unit_name
 from crankwork.report.display import displayed, displayed_column, displayed_size, key_unit, label, plain, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
+from crankwork.study.numeric_field import VariedField
 from crankwork.study.optimise import ActiveConstraint, Optimum
 from crankwork.study.study_file import Study
 from crankwork.study.study_text import value_text, with_unit
-from crankwork.study.varied_field import VariedField
 from crankwork.units import from_si, use_units
 
 _DIGITS = 8

@@ -16,7 +16,7 @@ from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.page.sliders import Slider, SliderDesigns
-from crankwork.study.numeric_field import NumericField, limit, numeric_field
+from crankwork.study.numeric_field import NumericField, numeric_field, stated_limit
 from crankwork.study.parameter_map import ends_of
 
 _OPTION = "--slider"
@@ -123,7 +123,7 @@ def _range(values: dict[str, object], text: str, around: float) -> tuple[Numeric
         return number, max(number.low, number.now - reach), min(number.high, number.now + reach)
     low, high = ends_of(f"{match['low']}..{match['high']}")
     option = f"{_OPTION} {key}"
-    ends = [limit(number, bound, option) for bound in (low, high)]
+    ends = [stated_limit(number, bound, option) for bound in (low, high)]
     assert ends[0] is not None and ends[1] is not None  # noqa: S101, PT018 - both are stated
     if not ends[0] < ends[1]:
         raise CrankworkError(ErrorMessage("slider_empty", key=key, start=low, end=high))

@@ -1,4 +1,4 @@
-"""Uncertainty of results from uncertain numbers of the machine file, with their contributions."""
+"""Uncertainty of results from uncertain numbers of the machine file, with their contributions: values, text, data."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import hermite_e
@@ -18,12 +18,15 @@ from crankwork.description.machine_file import Setting
 from crankwork.description.value_types import DEVIATIONS_OF_TOLERANCE
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
-from crankwork.locale import ErrorMessage
+from crankwork.locale import ErrorMessage, Language, in_language, translate
+from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities.key import key_of
+from crankwork.report.display import displayed, displayed_size, key_unit, label, rounded
 from crankwork.study.chunks import by_kind
 from crankwork.study.numeric_field import NumericField, numeric_field
 from crankwork.study.roots import reason_of
 from crankwork.study.variants import MachineVariants
+from crankwork.units import use_units
 
 SAMPLES = 2000
 _MIN_SAMPLES, _MAX_SAMPLES = 100, 1_000_000
@@ -46,6 +49,8 @@ _SIGNIFICANT = 4.0
 _ORDERS = 4
 # keys of crank angles, which are periodic
 _ANGLES = ("_max_angle", "_min_angle")
+# least share of the variance that is printed
+_MIN_SHARE = 0.005
 
 
 class Cause(NamedTuple):
@@ -384,3 +389,69 @@ def _by_cause(draws: Array, centred: Array) -> Array:
         basis = hermite_e.hermeval(draws, [0.0] * order + [1.0]) / math.sqrt(math.factorial(order))
         variances += np.maximum(np.nanmean(basis[:, :, None] * centred[:, None, :], axis=0) ** 2 - noise, 0.0)
     return variances
+
+
+def spread_text(spreads: Spreads, language: Language = "en") -> str:
+    """Return every uncertain value with its deviation and contributions, as text."""
+    with use_units(spreads.results.machine.units):
+        return _text(spreads, language)
+
+
+def _text(spreads: Spreads, language: Language) -> str:
+    title = spreads.results.machine.title
+    lines = [title] if title else []
+    within = number(spreads.within, language)
+    lines += [translate("study.normal", language), translate("study.worst", language, within=within), ""]
+    rows = []
+    for key, spread in spreads.items():
+        causes = ", ".join(
+            f"{cause.key} {number(100 * cause.share, language, digits=3)} %"
+            for cause in spread.causes
+            if cause.share > _MIN_SHARE
+        )
+        sign = translate("study.sampled", language) if spread.is_sampled else ""
+        if spread.mean is not None:
+            mean = number(displayed(key, spread.mean), language, digits=4)
+            causes = f"{translate('study.mean', language, value=mean)}; {causes}"
+        # significant digits of sampled deviations
+        size = number(displayed_size(key, spread.deviation), language, digits=3 if spread.is_sampled else 6)
+        shown = [number(displayed(key, spread.value), language), size]
+        worst = " … ".join(number(displayed(key, end), language) for end in spread.worst)
+        rows.append((label(key, language), " σ ".join(shown), worst, unit_name(key_unit(key), language), causes, sign))
+    wide = [max((len(row[column]) for row in rows), default=0) for column in range(5)]
+    lines += ["  ".join(cell.ljust(size) for cell, size in zip(row, [*wide, 0], strict=True)).rstrip() for row in rows]
+    if spreads.samples:
+        lines += [
+            "",
+            translate("study.samples", language, count=str(spreads.samples), sign=translate("study.sampled", language)),
+        ]
+    for reason, count in spreads.refused.items():
+        lines += [
+            "",
+            translate("study.draws_refused", language, count=str(count), reason=in_language(reason, language)),
+        ]
+    return "\n".join(lines)
+
+
+def spread_data(spreads: Spreads) -> dict[str, Any]:
+    """Return the spreads as plain data, in the units of the tables."""
+    with use_units(spreads.results.machine.units):
+        return {
+            "title": spreads.results.machine.title,
+            "samples": spreads.samples,
+            "within": spreads.within,
+            "refused": [{"count": count, "reason": str(reason)} for reason, count in spreads.refused.items()],
+            "spreads": {
+                key: {
+                    "value": rounded(displayed(key, spread.value)),
+                    "deviation": rounded(displayed_size(key, spread.deviation)),
+                    "unit": key_unit(key),
+                    "least": rounded(displayed(key, spread.worst[0])),
+                    "largest": rounded(displayed(key, spread.worst[1])),
+                    "is_sampled": spread.is_sampled,
+                    "mean": None if spread.mean is None else rounded(displayed(key, spread.mean)),
+                    "causes": {cause.key: rounded(cause.share) for cause in spread.causes},
+                }
+                for key, spread in spreads.items()
+            },
+        }

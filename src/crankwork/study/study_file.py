@@ -19,10 +19,9 @@ from crankwork.description.value_types import Choice, Flag, MeasuredValue, Numbe
 from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage, Language
 from crankwork.report.display import key_unit
-from crankwork.study.numeric_field import NumericField, kind_of, numeric_field, single_kind
+from crankwork.study.numeric_field import NumericField, VariedField, kind_of, numeric_field, single_kind
 from crankwork.study.search import SearchMethod
 from crankwork.study.variants import check_single
-from crankwork.study.varied_field import VariedField
 from crankwork.units import System, parse_in, use_units
 
 # number of points of a Sobol sequence of 30 bits

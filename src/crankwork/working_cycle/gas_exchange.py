@@ -13,8 +13,8 @@ import numpy as np
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import TracedValue, to_number
 from crankwork.kinematics.crank_grid import Array
+from crankwork.loads.curves import hermite, hermite_slope
 from crankwork.loads.indicator import Segment
-from crankwork.loads.monotone import hermite, hermite_slope
 
 _ANGLE_TOLERANCE = 1e-9
 

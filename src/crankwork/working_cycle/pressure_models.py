@@ -20,6 +20,7 @@ from crankwork.formula.traced_value import ProcedureValue, TracedValue, absent
 from crankwork.kinematics.crank_grid import Array
 from crankwork.kinematics.dead_centres import solve_monotone
 from crankwork.loads import gas as gas_formulas
+from crankwork.loads.curves import hermite
 from crankwork.loads.indicator import (
     DiagramPoint,
     IndicatorDiagram,
@@ -29,7 +30,6 @@ from crankwork.loads.indicator import (
     quadrature,
     solve_diagram,
 )
-from crankwork.loads.monotone import hermite
 from crankwork.loads.pressure import at_angle, traced_pressure
 from crankwork.locale import ErrorMessage
 from crankwork.working_cycle.calculated_cycle import Calculated, CalculatedCycle, Corners

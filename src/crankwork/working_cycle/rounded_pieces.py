@@ -14,9 +14,9 @@ import numpy as np
 
 from crankwork.formula.expression import Value
 from crankwork.formula.traced_value import Piecewise, TracedAngle, TracedValue, to_number
+from crankwork.loads.curves import hermite, hermite_slope, monotone_slopes
 from crankwork.loads.gas import polytropic_pressure
 from crankwork.loads.indicator import DiagramPoint, IndicatorDiagram, Law, Piece
-from crankwork.loads.monotone import hermite, hermite_slope, monotone_slopes
 from crankwork.loads.traced_diagram import column, curve_laws
 
 # prefix of the names of points that only shape a curve
