@@ -95,6 +95,7 @@ def optimise(options: CommonOptions, study: str, output: str) -> None:
 
 @click.command(name="map", cls=LocalizedCommand)
 @click.argument("file")
+@click.argument("keys", nargs=-1)
 @click.option("--over", multiple=True, required=True, metavar="KEY=FROM..TO")
 @click.option("-o", "--output", metavar="DIR")
 @click.option("--workers", metavar="N")
@@ -107,7 +108,9 @@ def optimise(options: CommonOptions, study: str, output: str) -> None:
 @THEME
 @OVERWRITE
 @with_common_options
-def map_(options: CommonOptions, over: tuple[str, ...], output: str | None, workers: str | None) -> None:
+def map_(
+    options: CommonOptions, keys: tuple[str, ...], over: tuple[str, ...], output: str | None, workers: str | None
+) -> None:
     """Compute a machine over ranges of one or two numbers of its file."""
     from crankwork import files
     from crankwork.description.document import load
@@ -119,7 +122,7 @@ def map_(options: CommonOptions, over: tuple[str, ...], output: str | None, work
         files.check_folder(output, overwrite=options.overwrite)
     count = _number_of(workers, None) or os.cpu_count() or 1
     with progress_bar() as progress:
-        parameter_map = mapped(load(options.file), over, options.overrides, progress, count)
+        parameter_map = mapped(load(options.file), over, options.overrides, progress, count, keys=keys)
     options.print_result(lambda: map_text(parameter_map, options.language), lambda: map_data(parameter_map))
     if output is not None:
         drawings = map_drawings(parameter_map, options.language) if formats else {}

@@ -11,13 +11,14 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.lowering import NotCompiledError
 from crankwork.kernel.reduction_adjoints import part_key
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
-from crankwork.study.numeric_field import NumericField, limit, numeric_field
+from crankwork.study.search_points import limit
 from crankwork.study.variants import MachineVariants, single, threaded
 from crankwork.units import System
 

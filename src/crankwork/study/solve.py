@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.locale import ErrorMessage
 from crankwork.machine import Machine
-from crankwork.study.numeric_field import NumericField, SearchPoints, numeric_field, search_points
 from crankwork.study.roots import Interval, Jump, Root, RootSearchResult, Sample, find_roots
+from crankwork.study.search_points import SearchPoints, search_points
 from crankwork.study.target import Target, TargetText, is_rounding, parse_target, split_target, value_function
 from crankwork.units import System
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from crankwork.analysis import Results, analyse, columns_only, value_only
+from crankwork.analysis.requested_values import place_of, with_requested
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import TracedValue
 from crankwork.locale import ErrorMessage
@@ -49,6 +50,7 @@ def split_target(equation: str) -> TargetText:
 def parse_target(parts: TargetText, results: Results) -> Target:
     """Parse and validate a target equation against the results of the stated machine."""
     key, place, right = results.current(parts.key), parts.place, parts.level
+    results = results if place else with_requested(results, [key])
     if key not in results:
         # raises an error with the nearest keys
         results.value(key)
@@ -60,20 +62,11 @@ def parse_target(parts: TargetText, results: Results) -> Target:
     if varies and not place:
         example = f"{results.period / 2:g}s" if results.period else "90deg"
         raise CrankworkError(ErrorMessage("place_missing", key=key, example=f"{key}@{example}"))
-    position = _place(place, is_time=bool(results.period)) if place else None
+    position = place_of(place, is_time=bool(results.period)) if place else None
     # raises an error for an angle outside the cycle
     results.value(key, position)
     with use_units(results.machine.units):
         return Target(key, position, level(key, right))
-
-
-def _place(text: str, *, is_time: bool) -> float:
-    """Return a crank angle [deg] or a time [s]."""
-    try:
-        value = parse_in(text, "s" if is_time else "deg")
-    except ValueError as error:
-        raise CrankworkError(ErrorMessage("option_wrong", option=f"@{text}", mistake=error.args[0])) from None
-    return value if is_time else round(math.degrees(value), 9)
 
 
 def level(key: str, text: str) -> float:
@@ -108,7 +101,9 @@ def value_function(target: Target, machine: Machine, results: Results) -> Callab
         partial = method(machine)
         if key in partial.trace and math.isclose(partial.value(key, position), value, abs_tol=_SAME):
             return lambda variant: method(variant).value(key, position)
-    return lambda variant: analyse(variant).value(key, position)
+    return lambda variant: (with_requested(analyse(variant), [key]) if position is None else analyse(variant)).value(
+        key, position
+    )
 
 
 def is_rounding(target: Target, results: Results) -> bool:

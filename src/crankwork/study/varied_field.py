@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField
 from crankwork.kinematics.crank_grid import Array
-from crankwork.study.numeric_field import NumericField
 
 Law = Literal["list", "even", "ratios", "uniform", "normal", "words"]
 # range of a normal distribution that a calculation is compiled for, in deviations

@@ -1,27 +1,22 @@
-"""One number of a machine file: its limits, its stated value, and the points of a search."""
+"""One number of a machine file: its limits and its stated value, and numbers that follow others."""
 
 from __future__ import annotations
 
-import math
+import re
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from crankwork import units
 from crankwork.description.document import stated_value
 from crankwork.description.machine_file import entry_at, file_keys, steps_of
 from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, nearest_name
-from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, is_fraction, shown
+from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, is_fraction
 from crankwork.errors import CrankworkError, UnknownKeyError
-from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 
-# ratio of the ends from which points are spaced by equal ratios
-_FAR = 30.0
-# ratio of the limits up to which the range is all between them
-_WIDE = 100.0
-# factor of the stated number that bounds the range if the limits are wider
-_AROUND = 10.0
+_DECIMAL = r"[0-9]+(?:[.,][0-9]+)?"
+_FOLLOWING = re.compile(
+    rf"(?:(?P<factor>-?{_DECIMAL})\s*[*·×]\s*)?(?P<key>[a-z][^\s*/+]*\.[^\s*/+]+)(?:\s*/\s*(?P<divisor>{_DECIMAL}))?"
+)
 
 
 class NumericField(NamedTuple):
@@ -38,14 +33,6 @@ class NumericField(NamedTuple):
         """Return a value as the file states it."""
         number = float(units.from_si(value, self.unit))
         return f"{number!r} {self.unit}" if self.unit else number
-
-
-class SearchPoints(NamedTuple):
-    """Values of a number that are sampled."""
-
-    values: Array  # Ascending values [SI]
-    is_even: bool  # By equal ratios otherwise
-    is_stated: bool  # From the stated number or its limits otherwise
 
 
 def kind_of(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - each kind has its own type
@@ -104,52 +91,25 @@ def _unknown(key: str, around: object, step: str | int) -> ErrorMessage:
     return ErrorMessage("key_form", key=key[:60])
 
 
-def search_points(field: NumericField, start: str | float | None, end: str | float | None, steps: int) -> SearchPoints:
-    """Return the points of a search, between the stated ends or around the stated number."""
-    low, high = (limit(field, text, option) for text, option in ((start, "--from"), (end, "--to")))
-    own = None if low is not None and high is not None else _own_range(field)
-    if own is None and (low is None or high is None):
-        missing = "--from" if low is None else "--to"
-        raise CrankworkError(ErrorMessage("range_needed", option=missing, key=field.key))
-    is_stated = own is None
-    own = own or (0, 0)
-    low, high = own[0] if low is None else low, own[1] if high is None else high
-    if not low < high:
-        ends = ((start, low), (end, high))
-        written = [stated if isinstance(stated, str) else shown(field.written(value)) for stated, value in ends]
-        raise CrankworkError(ErrorMessage("range_empty", start=written[0], end=written[1]))
-    is_even = not 0 < low * _FAR <= high
-    values = np.linspace(low, high, steps + 1) if is_even else np.geomspace(low, high, steps + 1)
-    values[0], values[-1] = low, high
-    return SearchPoints(values, is_even, is_stated)
+def follows_another(value: object) -> bool:
+    """Return whether a setting may say that a number follows another one: `3.5 * crank.radius`."""
+    return isinstance(value, str) and bool(_FOLLOWING.fullmatch(value))
 
 
-def limit(field: NumericField, written: str | float | None, option: str) -> float | None:
-    """Return an end of the range in SI; a number without a unit is in the unit of the file."""
-    if written is None:
-        return None
-    text = str(written).strip()
+def following(values: dict[str, Any], key: str, value: str) -> str | float:
+    """Return what a number that follows another one amounts to; a text that names no number of the file as it is."""
+    match: Any = _FOLLOWING.fullmatch(value)
     try:
-        value = units.parse_in(text, field.unit) if field.unit else float(text.replace(",", "."))
-    except ValueError as error:
-        mistake = error.args[0] if field.unit else ErrorMessage("number_plain", value=shown(text), example="0.25")
-        raise CrankworkError(ErrorMessage("option_wrong", option=option, mistake=mistake)) from None
-    if not math.isfinite(value) or not field.low <= value <= field.high:
-        low, high = (str(field.written(end)) for end in (field.low, field.high))
-        raise CrankworkError(ErrorMessage("limit_outside", option=option, key=field.key, low=low, high=high))
-    return value
-
-
-def _own_range(field: NumericField) -> tuple[float, float] | None:
-    """Return the limits of a number if they are close together, or a range around the stated number."""
-    low, high, now = field.low, field.high, field.now
-    if field.dimension == "angle" and low < 0:
-        middle = now or 0.0
-        return max(low, middle - math.pi), min(high, middle + math.pi)
-    if field.dimension == "angle" or (not field.unit and high - low <= _WIDE) or 0 < high <= _WIDE * low:
-        return low, high
-    if not now:
-        return None
-    if low >= 0:
-        return max(low, now / _AROUND), min(high, now * _AROUND)
-    return max(low, now - _AROUND * abs(now)), min(high, now + _AROUND * abs(now))
+        field = numeric_field(values, key)
+        other = numeric_field(values, match["key"])
+    except CrankworkError:
+        if match["key"] == value:
+            # a name, such as that of a file
+            return value
+        raise
+    if other.now is None:
+        raise CrankworkError(ErrorMessage("following_nothing", key=key, other=other.key))
+    if field.dimension != other.dimension:
+        raise CrankworkError(ErrorMessage("following_kind", key=key, other=other.key))
+    factor = float((match["factor"] or "1").replace(",", ".")) / float((match["divisor"] or "1").replace(",", "."))
+    return field.written(factor * other.now)
