@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import crankwork
+from crankwork.description.numeric_field import numeric_field
 from crankwork.kernel.compiled import Kernel
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.numeric_field import numeric_field
 
 
 class Varied:

@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from crankwork.report.summary import summary_text
     from crankwork.study.optimise import Optimum, optimise
     from crankwork.study.solve import Solution, solve
+    from crankwork.study.solve_several import SeveralSolutions, solve_several
     from crankwork.study.spread import Spreads, spread
     from crankwork.study.sweep import Swept, sweep
 
@@ -85,6 +86,7 @@ _HOMES = {
     "RenamedKeyWarning": "errors",
     "Results": "analysis",
     "Segment": "mechanism.driver",
+    "SeveralSolutions": "study.solve_several",
     "Solution": "study.solve",
     "Spreads": "study.spread",
     "Swept": "study.sweep",
@@ -104,6 +106,7 @@ _HOMES = {
     "scotch_yoke": "mechanism.catalog",
     "slotted_press": "mechanism.catalog",
     "solve": "study.solve",
+    "solve_several": "study.solve_several",
     "spread": "study.spread",
     "stephenson_six_bar": "mechanism.catalog",
     "summary_text": "report.summary",
@@ -142,6 +145,7 @@ __all__ = [
     "RenamedKeyWarning",
     "Results",
     "Segment",
+    "SeveralSolutions",
     "Solution",
     "Spreads",
     "Swept",
@@ -161,6 +165,7 @@ __all__ = [
     "scotch_yoke",
     "slotted_press",
     "solve",
+    "solve_several",
     "spread",
     "stephenson_six_bar",
     "summary_text",

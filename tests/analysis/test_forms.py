@@ -16,9 +16,9 @@ import pytest
 from crankwork import Description, analyse, read_machine, template
 from crankwork.analysis.results import Results
 from crankwork.description.expand import expanded
+from crankwork.description.numeric_field import numeric_field
 from crankwork.errors import RenamedKeyWarning
 from crankwork.quantities.key import RENAMED
-from crankwork.study.numeric_field import numeric_field
 from crankwork.study.variants import MachineVariants
 from each import for_each
 from expansions import ROOT, WAYS, differences, differences_as_drawn, machine_files

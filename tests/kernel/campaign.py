@@ -24,6 +24,7 @@ import numpy as np
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError
 from crankwork.formula.cycle_interpolant import BEYOND
 from crankwork.formula.replay import replay
@@ -32,7 +33,6 @@ from crankwork.kernel import compiled
 from crankwork.kernel.compiled import CONVERGED, Kernel
 from crankwork.kernel.lowering import DesignTraces, Lowering, NotCompiledError
 from crankwork.kinematics.crank_grid import CrankGrid
-from crankwork.study.numeric_field import NumericField, numeric_field
 
 plausible_file = runpy.run_path(str(Path(__file__).parents[1] / "doors" / "plausible.py"))["plausible_file"]
 # how many numbers are varied, by how much of what they are, and how many designs are compared

@@ -197,7 +197,7 @@ def test_what_cannot_be_spread_is_refused() -> None:
     for radius, key, message in (
         (None, "", "no number of the file has a tolerance or a standard deviation"),
         ("50 sd 0.1 mm", "strok", "stroke"),
-        ("50 sd 0.1 mm", "piston_velocity", "single values|angle"),
+        ("50 sd 0.1 mm", "piston_velocity", "crank_torque@90deg|single value"),
         ("50 sd -1 mm", "", "crank.radius"),
         ("50 sd mm", "", "crank.radius"),
         ("50 sd 1 kg", "", "crank.radius"),

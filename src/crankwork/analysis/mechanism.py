@@ -64,7 +64,7 @@ from crankwork.formula.cycle_interpolant import CycleInterpolant
 from crankwork.formula.replay import Program
 from crankwork.formula.traced_value import ProcedureValue, TracedValue, given
 from crankwork.kinematics.crank_grid import Array, CrankGrid
-from crankwork.kinematics.crank_range import CrankRange, pass_change_points
+from crankwork.kinematics.crank_range import pass_change_points
 from crankwork.kinematics.grashof import FourBarType, grashof
 from crankwork.kinematics.instant_centres import absent_where_still, pivoted_links
 from crankwork.kinematics.motion import Motion, linkage_motion
@@ -229,7 +229,7 @@ def _singles(moved: _Moved, trace: Mapping[str, TracedValue], name: str | None =
     followed = _followed(trace, pivoted, has_friction=moved.friction.is_free) | quality
     notices = list[Notice]()
     start, end = (0.0, machine.cycle) if result is None else machine.working_range or open_range(result)
-    ends = _where_unbounded(machine, result)
+    ends = singular_ends(machine, None if result is None else (result.start, result.end))
     without = find_singular_columns(followed, *ends, machine.cycle if result is None else result.end - result.start)
     notices += _singular_notices(without)
     if machine.working_range is None or result is None:
@@ -317,10 +317,13 @@ def _table(machine: Machine, reached: ReachableMotion, grid: CrankGrid | None) -
     return inside
 
 
-def _where_unbounded(machine: Machine, travel: CrankRange | None) -> tuple[list[float], list[float]]:
-    """Return the crank angles at which columns may grow beyond all bounds, and on which side of them the motion is."""
-    if travel is not None:
-        return [travel.start, travel.end], [1.0, -1.0]
+def singular_ends(machine: Machine, ends: tuple[float, float] | None) -> tuple[list[float], list[float]]:
+    """Return the crank angles at which columns may grow beyond all bounds, and on which side of them the motion is.
+
+    `ends`: the limits of a crank that turns back. [deg]
+    """
+    if ends is not None:
+        return [*ends], [1.0, -1.0]
     passages = machine.mechanism.passages.values()
     changes = sorted({change for passage in passages for change in passage.changes if 0.0 <= change <= machine.cycle})
     return changes, [-1.0 if change == machine.cycle else 1.0 for change in changes]

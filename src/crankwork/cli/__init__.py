@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import itertools
 import json
 import os
 import re
@@ -490,6 +491,7 @@ def optimise(options: CommonOptions, study: str, output: str) -> None:
 
 @commands.command(name="map")
 @click.argument("file")
+@click.argument("keys", nargs=-1)
 @click.option("--over", multiple=True, required=True, metavar="KEY=FROM..TO")
 @click.option("-o", "--output", metavar="DIR")
 @click.option("--workers", metavar="N")
@@ -498,7 +500,9 @@ def optimise(options: CommonOptions, study: str, output: str) -> None:
 @FIGURES
 @OVERWRITE
 @with_common_options
-def map_(options: CommonOptions, over: tuple[str, ...], output: str | None, workers: str | None) -> None:
+def map_(
+    options: CommonOptions, keys: tuple[str, ...], over: tuple[str, ...], output: str | None, workers: str | None
+) -> None:
     """Compute a machine over ranges of one or two numbers of its file."""
     from crankwork import files
     from crankwork.description.document import load
@@ -510,7 +514,7 @@ def map_(options: CommonOptions, over: tuple[str, ...], output: str | None, work
         files.check_folder(output, overwrite=options.overwrite)
     count = _number_of(workers, None) or os.cpu_count() or 1
     with progress_bar() as progress:
-        parameter_map = mapped(load(options.file), over, options.overrides, progress, count)
+        parameter_map = mapped(load(options.file), over, options.overrides, progress, count, keys=keys)
     options.print_result(lambda: map_text(parameter_map, options.language), lambda: map_data(parameter_map))
     if output is not None:
         drawings = map_drawings(parameter_map, options.language) if formats else {}
@@ -605,27 +609,49 @@ def explain(options: CommonOptions, key: str | None, place: str | None, *, with_
 
 @commands.command()
 @click.argument("file")
-@click.argument("equation")
-@click.option("--for", "field", required=True, metavar="KEY")
-@click.option("--from", "start", metavar="VALUE")
-@click.option("--to", "end", metavar="VALUE")
+@click.argument("equations", nargs=-1, required=True, metavar="EQUATION...")
+@click.option("--for", "fields", required=True, multiple=True, metavar="KEY")
+@click.option("--from", "low", multiple=True, metavar="VALUE")
+@click.option("--to", "high", multiple=True, metavar="VALUE")
 @click.option("--steps", metavar="N", default="400")
 @LANG
 @SET
 @JSON
 @with_common_options
-def solve(options: CommonOptions, equation: str, field: str, start: str | None, end: str | None, steps: str) -> None:
-    """Find the numbers of a file that make a value what is wanted: "piston_force@33deg = 0" --for crank.speed."""
+def solve(
+    options: CommonOptions,
+    equations: tuple[str, ...],
+    fields: tuple[str, ...],
+    low: tuple[str, ...],
+    high: tuple[str, ...],
+    steps: str,
+) -> None:
+    """Find the numbers of a file that make values what is wanted: "piston_force@33deg = 0" --for crank.speed."""
     from crankwork.description.document import load
     from crankwork.study.solve import solution_data, solution_text
     from crankwork.study.solve import solve as solved
+    from crankwork.study.solve_several import several_data, several_text, solve_several
 
+    limits = list(itertools.zip_longest(low, high, fillvalue=None))
+    if len(limits) > len(fields) or (limits and len(low or high) != len(high or low)):
+        raise CrankworkError(ErrorMessage("solve_limits"))
+    limits += [(None, None)] * (len(fields) - len(limits))
+    description = load(options.file)
     with progress_bar() as progress:
-        solution = solved(
-            load(options.file), equation, field, limits=(start, end), steps=parse_count(steps),
-            overrides=options.settings, told=progress,
-        )  # fmt: skip
-    options.print_result(lambda: solution_text(solution, options.language), lambda: solution_data(solution))
+        if len(equations) == len(fields) == 1:
+            solution = solved(
+                description, equations[0], fields[0], limits=limits[0], steps=parse_count(steps),
+                overrides=options.settings, told=progress,
+            )  # fmt: skip
+            several = None
+        else:
+            several = solve_several(
+                description, equations, fields, limits=limits, overrides=options.settings, progress=progress
+            )
+    if several is None:
+        options.print_result(lambda: solution_text(solution, options.language), lambda: solution_data(solution))
+    else:
+        options.print_result(lambda: several_text(several, options.language), lambda: several_data(several))
 
 
 @commands.command()

@@ -11,12 +11,12 @@ from crankwork import files
 from crankwork.description.machine_file import (
     Setting,
     apply_override,
+    apply_settings,
     are_readable,
     entry_at,
     file_keys,
     parse,
     read_machine,
-    settings_of,
     steps_of,
 )
 from crankwork.description.schema import TableSpec, Values
@@ -125,8 +125,7 @@ class Description:
     def values_with(self, overrides: Sequence[str | Setting]) -> dict[str, Any]:
         """Return the values of the file with overrides applied, as nested tables and lists."""
         values = self.values
-        for setting in settings_of(overrides):
-            apply_override(values, setting)
+        apply_settings(values, overrides)
         return values
 
     @property

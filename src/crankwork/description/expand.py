@@ -10,7 +10,7 @@ from crankwork.description.cylinder_keys import OWN_SIZES
 from crankwork.description.document import Description, load
 from crankwork.description.file_columns import resolve_file_columns
 from crankwork.description.load_keys import LOADING
-from crankwork.description.machine_file import file_keys, idle_keys, read, settings_of, with_first_sizes
+from crankwork.description.machine_file import apply_settings, file_keys, idle_keys, read, with_first_sizes
 from crankwork.description.schema import TableSpec, Values
 from crankwork.description.shorthand import given_motion_tables, linkage_tables, linkage_values
 from crankwork.description.toml_edit import key_text, toml, with_value
@@ -27,7 +27,7 @@ def expanded(path: str | Path, overrides: Sequence[str] = (), language: Language
     """Return the text of a machine file with shorthand and defaults written out; these are marked by a comment."""
     read(path, overrides)
     description = load(path)
-    for setting in settings_of(overrides):
+    for setting in apply_settings(description.values, overrides):
         description[setting.key] = setting.value
     values, keys = description.values, file_keys(description.values)
     if "transfer" in keys.keys:

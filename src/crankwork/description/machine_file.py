@@ -97,9 +97,7 @@ def read_machine(
     """
     folder = folder or Path()
     source, values, mistakes = _mended(source, name)
-    settings = settings_of(overrides)
-    for setting in settings:
-        apply_override(values, setting)
+    settings = apply_settings(values, overrides)
     reader = Reader.of(values)
     machine = _build(values, reader, folder)
     if mistakes or reader.problems or machine is None:
@@ -451,9 +449,17 @@ def _syntax_message(source: str, name: str, text: str) -> ErrorMessage:
     return ErrorMessage("not_toml", place=place, line=line or ErrorMessage("ends_early"))
 
 
-def settings_of(overrides: Sequence[str | Setting]) -> list[Setting]:
-    """Return the settings of options."""
-    return [override if isinstance(override, Setting) else _setting(override) for override in overrides]
+def apply_settings(values: dict[str, Any], overrides: Sequence[str | Setting]) -> list[Setting]:
+    """Apply the settings of options to the values, those that follow other numbers last; return them as applied."""
+    from crankwork.description.numeric_field import following, follows_another  # noqa: PLC0415 - needs this module
+
+    settings = [override if isinstance(override, Setting) else _setting(override) for override in overrides]
+    settings.sort(key=lambda setting: follows_another(setting.value))
+    for index, setting in enumerate(settings):
+        if follows_another(setting.value):
+            settings[index] = setting._replace(value=following(values, setting.key, setting.value))
+        apply_override(values, settings[index])
+    return settings
 
 
 def _setting(text: str) -> Setting:

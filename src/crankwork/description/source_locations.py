@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from crankwork import files
 from crankwork.description.cylinder_keys import OF_LINKAGE
-from crankwork.description.machine_file import Setting, apply_override, file_keys, parse, settings_of
+from crankwork.description.machine_file import Setting, apply_settings, file_keys, parse
 from crankwork.description.schema import TableSpec
 from crankwork.description.stated import stated_numbers
 from crankwork.description.toml_positions import locate
@@ -48,10 +48,9 @@ class Origin(NamedTuple):
 class _File:
     """A machine file with settings applied."""
 
-    def __init__(self, source: str, name: str, settings: Sequence[Setting]) -> None:
-        self._values, self._lines, self._settings = parse(source, name), locate(source), settings
-        for setting in settings:
-            apply_override(self._values, setting)
+    def __init__(self, source: str, name: str, overrides: Sequence[str | Setting]) -> None:
+        self._values, self._lines = parse(source, name), locate(source)
+        self._settings = apply_settings(self._values, overrides)
         self._keys = file_keys(self._values)
         self._stated = stated_numbers(self._keys.read(self._values, "", Reader.of(self._values)) or {})
 
@@ -127,4 +126,4 @@ def origins_of(
     source: str, name: str = "text", overrides: Sequence[str | Setting] = ()
 ) -> Callable[[str, Iterable[float]], Origin]:
     """Return `origins` of a text."""
-    return _File(source, name, settings_of(overrides)).origin
+    return _File(source, name, overrides).origin

@@ -26,14 +26,16 @@ MOVED: Mapping[str, str] = MappingProxyType(
 class Key(NamedTuple):
     """The key of a result: its quantity, and the part of the machine that it belongs to.
 
-    `joint_force.A` is the joint force of joint A. What belongs to the whole machine has no owner.
+    `joint_force.A` is the joint force of joint A. What belongs to the whole machine has no owner. Where it is taken
+    stands with the owner: `@33deg`, or `A@33deg`.
     """
 
     quantity: str
     owner: str = ""
 
     def __str__(self) -> str:
-        return f"{self.quantity}.{self.owner}" if self.owner else self.quantity
+        separator = "." if self.owner and not self.owner.startswith("@") else ""
+        return f"{self.quantity}{separator}{self.owner}"
 
     def derived(self, suffix: str) -> str:
         """Return the key of what is derived from this: `joint_force.A` with `_max` is `joint_force_max.A`."""
@@ -50,6 +52,9 @@ def key_of(text: str) -> Key:
     'joint_force_max_angle.A'
     >>> str(Key("point_x", "coupler.centre"))
     'point_x.coupler.centre'
+    >>> key_of("crank_torque@33.5deg").quantity
+    'crank_torque'
     """
-    quantity, _, owner = text.partition(".")
-    return Key(quantity, owner)
+    what, sign, place = text.partition("@")
+    quantity, _, owner = what.partition(".")
+    return Key(quantity, f"{owner}{sign}{place}")

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Concatenate, ParamSpec, TypeVar
 import numpy as np
 
 from crankwork.locale import decimal, has_text, texts, translate
+from crankwork.locale.numbers import number, unit_name
 from crankwork.mechanism.structure import structure
 from crankwork.quantities import QUANTITIES, Language, base_key
-from crankwork.quantities.key import MOVED, key_of
+from crankwork.quantities.key import MOVED, Key, key_of
 from crankwork.quantities.quantity import OWNED, own_name, owned_name
-from crankwork.units import DisplayUnits, from_si, use_units
+from crankwork.units import DisplayUnits, from_si, parse_in, use_units
 
 if TYPE_CHECKING:
     from crankwork.analysis import Array, Results
@@ -152,6 +153,11 @@ def display_key(key: str, results: Results) -> str:
 def label(key: str, language: Language) -> str:
     """Return the name of a key: `largest piston velocity`, and with its own name `joint force, A`."""
     kind, name = key_of(key)
+    name, sign, place = name.partition("@")
+    if sign:
+        return translate(
+            "report.at_place", language, what=label(str(Key(kind, name)), language), place=_place(place, language)
+        )
     if kind in _OF_ORDERS and name:
         # half orders where a cycle has two turns
         is_order = name.replace(".", "", 1).isdecimal()
@@ -162,6 +168,13 @@ def label(key: str, language: Language) -> str:
     if name in _EXTREMES:
         return _label(f"{kind}_{name}", language)
     return _label(kind, language, _part(kind, name, language) if name else "")
+
+
+def _place(text: str, language: Language) -> str:
+    """Return a crank angle or a time as a key names it: `33deg`, `0.2s`."""
+    unit = "s" if text.endswith("s") else "deg"
+    value = number(float(from_si(parse_in(text, unit), unit)), language)
+    return f"{value}{'' if unit == 'deg' else ' '}{unit_name(unit, language)}"
 
 
 def _part(kind: str, name: str, language: Language) -> str:

@@ -8,12 +8,12 @@ from typing import Any
 
 from crankwork.description.document import Description
 from crankwork.description.machine_file import entry_at, file_keys, idle_keys, steps_of
+from crankwork.description.numeric_field import single_kind
 from crankwork.description.schema import DefaultBy, KeySpec, ListOf, NameOr, NumberOr, TableSpec, Values, WordOr
 from crankwork.description.toml_edit import toml
 from crankwork.description.value_types import Choice, Flag, MeasuredValue, Number, Quantity, Reader, Text
 from crankwork.errors import CrankworkError
 from crankwork.locale import Language
-from crankwork.study.numeric_field import single_kind
 from crankwork.units import EXAMPLES, from_si
 
 _NUMBER = re.compile(r"\s*[+-]?[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?\s*")

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from crankwork.description.document import Description
 from crankwork.description.load_keys import LOADING
+from crankwork.description.numeric_field import kind_of
 from crankwork.description.toml_edit import document
 from crankwork.description.value_types import Reader
 from crankwork.errors import CrankworkError, InputError
@@ -21,7 +22,6 @@ from crankwork.mechanism.linkage import Linkage, Member
 from crankwork.mechanism.mechanism import Crank
 from crankwork.mechanism.structure import chain_mobility, structure
 from crankwork.studio.form import stated_text
-from crankwork.study.numeric_field import kind_of
 from crankwork.units import from_si, parse
 
 _SPEED = "60 rpm"

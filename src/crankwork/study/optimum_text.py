@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 
 from crankwork.description.document import Description
-from crankwork.description.machine_file import settings_of
+from crankwork.description.machine_file import Setting, apply_settings
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import Language, capital, translate
 from crankwork.locale.numbers import aligned, number, unit_name
 from crankwork.report.display import displayed, displayed_column, displayed_size, key_unit, label, plain, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
-from crankwork.study.numeric_field import VariedField
 from crankwork.study.optimise import ActiveConstraint, Optimum
 from crankwork.study.study_file import Study
 from crankwork.study.study_text import value_text, with_unit
+from crankwork.study.varied_field import VariedField
 from crankwork.units import from_si, use_units
 
 _DIGITS = 8
@@ -43,13 +43,14 @@ def _machine(study: Study, optimum: Optimum, folder: str | PurePath) -> Descript
     """Return the machine file of the best design, with paths to its tables relative to a folder."""
     own = study.machine
     best = Description(own.dump(), own.name, folder=own.folder)
-    settings = {setting.key: setting.value for setting in settings_of(study.overrides)}
+    written = [Setting(key, key, value) for key, value in _written(study, optimum).items()]
+    settings = {setting.key: setting.value for setting in apply_settings(own.values, [*study.overrides, *written])}
     tables = {
         key: Path(os.path.relpath((own.folder or Path()) / own[key], folder)).as_posix()
         for key in own
         if key.rpartition(".")[2] == "file" and isinstance(own[key], str)
     }
-    for key, value in (settings | tables | _written(study, optimum)).items():
+    for key, value in (settings | tables).items():
         best[key] = value
     return best
 

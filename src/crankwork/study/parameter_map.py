@@ -14,8 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from crankwork.analysis import Results, analyse
+from crankwork.analysis.requested_values import with_requested
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError
 from crankwork.formula.traced_value import Input
 from crankwork.kinematics.crank_grid import Array
@@ -24,11 +26,11 @@ from crankwork.machine import Machine
 from crankwork.report.display import displayed_column, key_unit, label, rounded
 from crankwork.report.tables import Sheet, csv_of_sheet
 from crankwork.study.chunks import by_kind
-from crankwork.study.numeric_field import NumericField, SearchPoints, numeric_field, search_points
 from crankwork.study.roots import reason_of
 from crankwork.study.runner import each
 from crankwork.study.study_text import value_text, with_unit
 from crankwork.study.variants import MachineVariants
+from crankwork.study.varied_field import SearchPoints, search_points
 from crankwork.units import System, from_si, use_units
 
 STEPS = 12
@@ -71,10 +73,12 @@ def mapped(
     overrides: Sequence[str | Setting] = (),
     progress: Callable[[float], None] | None = None,
     workers: int = 1,
+    *,
+    keys: Sequence[str] = (),
 ) -> Map:
     """Return the single values of a machine over ranges of one or two numbers, `crank.speed=800..6000rpm`.
 
-    `workers`: processes for many points.
+    `keys`: which values, those of the summary by default; `workers`: processes for many points.
     """
     if not 1 <= len(over) <= _AXES:
         raise CrankworkError(ErrorMessage("map_axes"))
@@ -90,10 +94,10 @@ def mapped(
     indices = list(np.ndindex(shape))
     of_points = None
     if len(indices) >= _MANY:
-        of_points = _together(description, fields, designs, overrides)
+        of_points = _together(description, fields, designs, overrides, keys)
     if of_points is None:
         points = [[*overrides, *_settings(fields, design)] for design in designs]
-        of_points = each(functools.partial(_point, description), points, workers)
+        of_points = each(functools.partial(_point, description, keys), points, workers)
     columns: dict[str, Array] = {}
     given: set[str] = set()
     reasons = list[str]()
@@ -131,22 +135,27 @@ def _settings(fields: Mapping[str, NumericField], design: Array) -> list[Setting
 
 
 def _together(
-    description: Description, fields: Mapping[str, NumericField], designs: Array, overrides: Sequence[str | Setting]
+    description: Description,
+    fields: Mapping[str, NumericField],
+    designs: Array,
+    overrides: Sequence[str | Setting],
+    keys: Sequence[str],
 ) -> Iterator[_Point | str] | None:
     """Return the results at points, shape (n, fields), calculated together; None if that is not possible. [SI]"""
     low, high = designs.min(axis=0), designs.max(axis=0)
     spans = np.stack([low, np.median(designs, axis=0), high], axis=1)
     corners = np.array(list(itertools.product(*spans[:, ::2])))
     try:
-        machines = MachineVariants(description, fields, spans, (), overrides)
+        machines = MachineVariants(description, fields, spans, keys, overrides)
     except CrankworkError:
         return None
     samples = [machines.stated]
     for corner in corners:
         with contextlib.suppress(CrankworkError):
             samples.append(machines.results(corner))
-    machines.keys += samples[0].summary
-    if any(sample.summary.keys() != samples[0].summary.keys() for sample in samples):
+    if not keys:
+        machines.keys += samples[0].summary
+    if not keys and any(sample.summary.keys() != samples[0].summary.keys() for sample in samples):
         # the keys of results differ between points
         return None
     machines.compile(None, corners.T, is_for_few=len(designs) < _WORTH_COMPILING)
@@ -162,13 +171,14 @@ def _together(
     )
 
 
-def _point(description: Description, settings: Sequence[str | Setting]) -> _Point | str:
+def _point(description: Description, keys: Sequence[str], settings: Sequence[str | Setting]) -> _Point | str:
     """Return the results at a point, or the reason why there is no machine."""
     try:
-        results = analyse(description.machine(settings))
+        results = with_requested(analyse(description.machine(settings)), keys)
+        values = {key: results.value(key) for key in keys} if keys else dict(results.summary)
     except CrankworkError as error:
         return reason_of(error)
-    return _Point(dict(results.summary), {key for key in results.summary if _is_given(results, key)})
+    return _Point(values, {key for key in values if _is_given(results, key)})
 
 
 def _axis(values: dict[str, object], text: str) -> tuple[NumericField, SearchPoints]:

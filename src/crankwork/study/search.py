@@ -18,6 +18,7 @@ import numpy as np
 from crankwork.analysis import Results
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import Kernel
 from crankwork.kernel.lowering import NotCompiledError
@@ -25,9 +26,9 @@ from crankwork.kernel.reduction_adjoints import part_key
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.report.dataset import check_extras
-from crankwork.study.numeric_field import NumericField, numeric_field, stated_limit
 from crankwork.study.solve import level
 from crankwork.study.variants import MachineVariants, single, threaded
+from crankwork.study.varied_field import stated_limit
 from crankwork.units import System
 
 # parts of the cycle, each with its own extremes

@@ -11,13 +11,14 @@ import numpy as np
 from crankwork.analysis import Results, analyse
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.description.value_types import shown
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.page.sliders import Slider, SliderDesigns
-from crankwork.study.numeric_field import NumericField, numeric_field, stated_limit
 from crankwork.study.parameter_map import ends_of
+from crankwork.study.varied_field import stated_limit
 
 _OPTION = "--slider"
 _OPTION_FORM = re.compile(r"\s*(?P<key>[^=\s]+)\s*(?:=\s*(?P<low>[^:]+?)\s*\.\.\s*(?P<high>[^:]+?)\s*)?")

@@ -8,16 +8,18 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from crankwork.analysis import Results, analyse, columns_only, value_only
+from crankwork.analysis.requested_values import place_of, with_requested
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.formula.traced_value import TracedValue
 from crankwork.locale import ErrorMessage, Language, capital, in_language, translate
 from crankwork.locale.numbers import number, unit_name
 from crankwork.machine import Machine
 from crankwork.report.display import displayed, key_unit, label, rounded
-from crankwork.study.numeric_field import NumericField, SearchPoints, numeric_field, search_points
 from crankwork.study.roots import Interval, Jump, Root, RootSearchResult, Sample, find_roots
+from crankwork.study.varied_field import SearchPoints, search_points
 from crankwork.units import System, from_si, parse_in, use_units
 
 # in SI: rounding
@@ -59,6 +61,7 @@ def split_target(equation: str) -> TargetText:
 def parse_target(parts: TargetText, results: Results) -> Target:
     """Parse and validate a target equation against the results of the stated machine."""
     key, place, right = results.current(parts.key), parts.place, parts.level
+    results = results if place else with_requested(results, [key])
     if key not in results:
         # raises an error with the nearest keys
         results.value(key)
@@ -70,20 +73,11 @@ def parse_target(parts: TargetText, results: Results) -> Target:
     if varies and not place:
         example = f"{results.period / 2:g}s" if results.period else "90deg"
         raise CrankworkError(ErrorMessage("place_missing", key=key, example=f"{key}@{example}"))
-    position = _place(place, is_time=bool(results.period)) if place else None
+    position = place_of(place, is_time=bool(results.period)) if place else None
     # raises an error for an angle outside the cycle
     results.value(key, position)
     with use_units(results.machine.units):
         return Target(key, position, level(key, right))
-
-
-def _place(text: str, *, is_time: bool) -> float:
-    """Return a crank angle [deg] or a time [s]."""
-    try:
-        value = parse_in(text, "s" if is_time else "deg")
-    except ValueError as error:
-        raise CrankworkError(ErrorMessage("option_wrong", option=f"@{text}", mistake=error.args[0])) from None
-    return value if is_time else round(math.degrees(value), 9)
 
 
 def level(key: str, text: str) -> float:
@@ -118,7 +112,8 @@ def value_function(target: Target, machine: Machine, results: Results) -> Callab
         partial = method(machine)
         if key in partial.trace and math.isclose(partial.value(key, position), value, abs_tol=_SAME):
             return lambda variant: method(variant).value(key, position)
-    return lambda variant: analyse(variant).value(key, position)
+    requested = [key] if position is None else []
+    return lambda variant: with_requested(analyse(variant), requested).value(key, position)
 
 
 def is_rounding(target: Target, results: Results) -> bool:

@@ -13,8 +13,10 @@ from numpy.polynomial import hermite_e
 from numpy.typing import NDArray
 
 from crankwork.analysis import Results, analyse
+from crankwork.analysis.requested_values import with_requested
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.description.value_types import DEVIATIONS_OF_TOLERANCE
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
@@ -23,9 +25,8 @@ from crankwork.locale.numbers import number, unit_name
 from crankwork.quantities.key import key_of
 from crankwork.report.display import displayed, displayed_size, key_unit, label, rounded
 from crankwork.study.chunks import by_kind
-from crankwork.study.numeric_field import NumericField, numeric_field
 from crankwork.study.roots import reason_of
-from crankwork.study.variants import MachineVariants
+from crankwork.study.variants import MachineVariants, check_single
 from crankwork.units import use_units
 
 SAMPLES = 2000
@@ -166,14 +167,11 @@ def spread(  # noqa: PLR0913 - results, draws and worst case
         raise CrankworkError(ErrorMessage("samples_outside", fewest=str(_MIN_SAMPLES), most=str(_MAX_SAMPLES)))
     if not 0 < within <= _MAX_WITHIN:
         raise CrankworkError(ErrorMessage("within_outside", most=f"{_MAX_WITHIN:g}"))
-    neighbours = _Neighbours(description, overrides, seed)
+    neighbours = _Neighbours(description, overrides, seed, keys)
     stated = neighbours.stated
     known = {key: value for key, value in stated.summary.items() if np.isfinite(value) and (not keys or key in keys)}
     for key in keys:
-        if key not in stated.summary:
-            # raises an error with the nearest keys
-            stated.value(key)
-            raise CrankworkError(ErrorMessage("spread_single", key=key[:60]))
+        check_single(stated, key)
     neighbours.near = near = _Near(list(known), np.array(list(known.values())), math.radians(stated.machine.cycle))
     middle = near.middle
     first, second = neighbours.alone(told)
@@ -230,8 +228,10 @@ class _Near(NamedTuple):
 class _Neighbours:
     """Variants of the stated machine; the uncertain numbers are given in deviations."""
 
-    def __init__(self, description: Description, overrides: Sequence[str | Setting], seed: int) -> None:
-        self._description, self._overrides = description, list(overrides)
+    def __init__(
+        self, description: Description, overrides: Sequence[str | Setting], seed: int, keys: Sequence[str]
+    ) -> None:
+        self._description, self._overrides, self._keys = description, list(overrides), keys
         machine = description.machine(overrides)
         deviations, self._tolerances = machine.deviations, machine.tolerances
         if not deviations:
@@ -240,7 +240,7 @@ class _Neighbours:
         self._numbers: dict[str, NumericField] = {key: numeric_field(values, key) for key in deviations}
         self.given = {key: (number.now or 0.0, deviations[key]) for key, number in self._numbers.items()}
         self._middle, self._sizes = np.array(list(self.given.values())).T
-        self.stated = analyse(machine)
+        self.stated = with_requested(analyse(machine), keys)
         self.near = _Near((), np.zeros(0), 0.0)
         self._compiled: list[tuple[NDArray[np.intp], MachineVariants]] = []
         self._generator = np.random.default_rng(seed)
@@ -338,7 +338,7 @@ class _Neighbours:
             for (key, number), value, middle in zip(self._numbers.items(), design.tolist(), self._middle, strict=True)
             if value != middle
         ]
-        return analyse(self._description.machine([*self._overrides, *changes]))
+        return with_requested(analyse(self._description.machine([*self._overrides, *changes])), self._keys)
 
 
 class _Worst:

@@ -17,10 +17,10 @@ from crankwork.show.chart import CIRCLE, DOT, Graph, Row, round_ticks, sheet, sm
 from crankwork.show.chart_layout import current_layout
 from crankwork.show.scene import DASH_DOT, DASHED, Drawing
 from crankwork.study.chunks import StudyAggregate, feasible_designs, is_shown
-from crankwork.study.numeric_field import VariedField
 from crankwork.study.ranking import Histogram, Index, thin_front
 from crankwork.study.study_file import Study
 from crankwork.study.study_text import axis_title, ranked, value_text
+from crankwork.study.varied_field import VariedField
 from crankwork.units import from_si, use_units
 
 _TALL, _LINES_TALL, _BAR = 190.0, 210.0, 21.0

@@ -12,16 +12,18 @@ from typing import Any, NamedTuple, get_args
 
 from crankwork import __version__, files
 from crankwork.analysis import Results, analyse
+from crankwork.analysis.requested_values import with_requested
 from crankwork.description.document import Description, load, stated_value
 from crankwork.description.machine_file import Setting, input_error, parse, schema_text
+from crankwork.description.numeric_field import NumericField, kind_of, numeric_field, single_kind
 from crankwork.description.schema import KeySpec, MapOf, OneOrMore, TableSpec, Values
 from crankwork.description.value_types import Choice, Flag, MeasuredValue, Number, Reader, Text, shown
 from crankwork.errors import CrankworkError
 from crankwork.locale import ErrorMessage, Language
 from crankwork.report.display import key_unit
-from crankwork.study.numeric_field import NumericField, VariedField, kind_of, numeric_field, single_kind
 from crankwork.study.search import SearchMethod
 from crankwork.study.variants import check_single
+from crankwork.study.varied_field import VariedField
 from crankwork.units import System, parse_in, use_units
 
 # number of points of a Sobol sequence of 30 bits
@@ -97,6 +99,7 @@ STUDY_FILE = TableSpec("study", {
     "machine": KeySpec(Text(), required=True),
     "designs": KeySpec(_DESIGNS),
     "vary": KeySpec(MapOf(As(("array", "string"), _RANGE), _MAX_FIELDS, _MAX_DEPTH), required=True),
+    "settings": KeySpec(MapOf(As(("array", "string", "number", "boolean")), _MAX_FIELDS, _MAX_DEPTH)),
     "objectives": KeySpec(MapOf(Choice(tuple(_SIGNS)), 8, _MAX_DEPTH)),
     "limits": KeySpec(MapOf(_OF_VALUE, _MAX_FIELDS, _MAX_DEPTH)),
     "values": KeySpec(OneOrMore(_KEY, most=100)),
@@ -173,6 +176,7 @@ def read_study(
     reader = Reader()
     machine = _machine(values, reader, folder or Path())
     if machine is not None:
+        overrides = [*_settings(values, machine, reader), *overrides]
         stated = machine.values_with(overrides)
         reader.decimal_comma = stated.get("decimal_mark") == ","
         values["vary"] = _flat_fields(values.get("vary"), stated)
@@ -186,7 +190,9 @@ def read_study(
         reader.add_error("designs", ErrorMessage("missing", advice='drawing = "sobol"'))
     varied = [] if machine is None else list(_varied(read, stated, reader, is_search=is_search))
     results = None if machine is None else _analysed(machine, overrides, reader)
-    limits = {} if results is None else _wanted(read, results, reader)
+    limits: dict[str, tuple[float, float]] = {}
+    if results is not None:
+        limits, results = _wanted(read, results, reader)
     count = 0 if is_search else _count(read, varied, reader)
     if reader.problems or machine is None or results is None:
         raise input_error(text, name, reader)
@@ -230,6 +236,19 @@ def _machine(values: Mapping[str, Any], reader: Reader, folder: Path) -> Descrip
     except CrankworkError as error:
         reader.add_error("machine", error.args[0])
         return None
+
+
+def _settings(values: dict[str, Any], machine: Description, reader: Reader) -> Iterator[Setting]:
+    """Yield the settings of a study, which hold for all its designs."""
+    values["settings"] = _flat_fields(values.get("settings", {}), machine.values)
+    for key, value in values["settings"].items() if isinstance(values["settings"], dict) else ():
+        setting = Setting("settings", key, value)
+        try:
+            machine.values_with([setting])
+        except CrankworkError as error:
+            reader.add_error(f"settings.{key}", error.args[0])
+        else:
+            yield setting
 
 
 def _analysed(machine: Description, overrides: Sequence[str | Setting], reader: Reader) -> Results | None:
@@ -395,8 +414,8 @@ class _Field:
         self._reader.add_error(f"{self._path}{suffix}", message)
 
 
-def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[float, float]]:
-    """Check every key that is named, and return the limits. [SI]"""
+def _wanted(read: Values, results: Results, reader: Reader) -> tuple[dict[str, tuple[float, float]], Results]:
+    """Check every key that is named, and return the limits [SI] and the results that have all keys."""
     named = {
         **{f"objectives.{key}": key for key in read["objectives"] or ()},
         **{f"limits.{key}": key for key in read["limits"] or ()},
@@ -405,6 +424,7 @@ def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[f
     known = set()
     for path, key in named.items():
         try:
+            results = with_requested(results, [key])
             check_single(results, key)
         except CrankworkError as error:
             reader.add_error(path, error.args[0])
@@ -414,7 +434,7 @@ def _wanted(read: Values, results: Results, reader: Reader) -> dict[str, tuple[f
         reader.add_error("values", ErrorMessage("study_nothing"))
     with use_units(results.machine.units):
         limits = (read["limits"] or {}).items()
-        return {key: _limits(key, stated, reader) for key, stated in limits if stated and key in known}
+        return {key: _limits(key, stated, reader) for key, stated in limits if stated and key in known}, results
 
 
 def _limits(key: str, stated: Values, reader: Reader) -> tuple[float, float]:

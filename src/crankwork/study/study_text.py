@@ -16,9 +16,9 @@ from crankwork.report.display import displayed, displayed_column, displayed_size
 from crankwork.report.tables import Sheet, csv_of_sheet
 from crankwork.show.canvas import plain as plain_text
 from crankwork.study.chunks import NUMBER, StudyAggregate, feasible_designs, ranks
-from crankwork.study.numeric_field import VariedField
 from crankwork.study.ranking import Index, Moments
 from crankwork.study.study_file import Study
+from crankwork.study.varied_field import VariedField
 from crankwork.units import from_si, use_units
 
 _DIGITS = 6

@@ -12,12 +12,12 @@ import numpy as np
 
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField, numeric_field
 from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 from crankwork.report.dataset import check_extras
 from crankwork.report.display import key_unit
-from crankwork.study.numeric_field import NumericField, numeric_field
 from crankwork.study.variants import MachineVariants
 from crankwork.units import coherent_unit, parse_in, use_units
 

@@ -11,14 +11,16 @@ from typing import Any
 import numpy as np
 
 from crankwork.analysis import Results, analyse
+from crankwork.analysis.requested_values import with_requested
 from crankwork.description.document import Description
 from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField
 from crankwork.errors import CrankworkError, UnknownKeyError
 from crankwork.kernel.compiled import CONVERGED, BatchResult, Kernel
 from crankwork.kernel.lowering import NotCompiledError
 from crankwork.kinematics.crank_grid import Array, CrankGrid
 from crankwork.locale import ErrorMessage
-from crankwork.study.numeric_field import NumericField
+from crankwork.quantities.key import key_of
 
 # largest relative difference of compiled values and an analysis
 _SAME = 1e-9
@@ -71,7 +73,7 @@ class MachineVariants:
             Setting(key, key, number.written(float(value)))
             for (key, number), value in zip(self._numbers.items(), design, strict=True)
         ]
-        return analyse(self._description.machine([*self._overrides, *written]))
+        return with_requested(analyse(self._description.machine([*self._overrides, *written])), self.keys)
 
     def compile(self, steps: int | None, checked: Array, *, is_for_few: bool = False) -> None:
         """Compile the calculation and check it against analyses of some designs; store the reason if that fails."""
@@ -184,7 +186,8 @@ def check_single(results: Results, key: str) -> None:
     results = results.holding(key)
     known = results.trace.get(key)
     if key not in results.summary and (key in results.columns if known is None else known.varies):
-        raise UnknownKeyError(ErrorMessage("sweep_single", key=key[:60]))
+        values = {"at": f"{key[:60]}@90deg", "largest": key_of(key[:60]).derived("_max")}
+        raise UnknownKeyError(ErrorMessage("single_needed", key=key[:60], **values))
     results.value(key)
 
 

@@ -1,4 +1,4 @@
-"""Numbers of a machine file: their limits, stated values, the points of a search, and how a study varies a field."""
+"""How a study varies a number of a machine file, and the points of a search for one."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from crankwork import units
-from crankwork.description.document import stated_value
-from crankwork.description.machine_file import Setting, entry_at, file_keys, steps_of
-from crankwork.description.schema import ListOf, NameOr, NumberOr, TableSpec, nearest_name
-from crankwork.description.value_types import MeasuredValue, Number, Quantity, Reader, is_fraction, shown
-from crankwork.errors import CrankworkError, UnknownKeyError
+from crankwork.description.machine_file import Setting
+from crankwork.description.numeric_field import NumericField
+from crankwork.description.value_types import shown
+from crankwork.errors import CrankworkError
 from crankwork.kinematics.crank_grid import Array
 from crankwork.locale import ErrorMessage
 
@@ -31,84 +30,12 @@ _WITHIN = 5.0
 _MIN_PROBABILITY = 2.0**-40
 
 
-class NumericField(NamedTuple):
-    """A number of a machine file: key, limits in SI, unit as written, dimension and stated value in SI."""
-
-    key: str
-    low: float
-    high: float
-    unit: str = ""
-    dimension: str = ""
-    now: float | None = None
-
-    def written(self, value: float) -> str | float:
-        """Return a value as the file states it."""
-        number = float(units.from_si(value, self.unit))
-        return f"{number!r} {self.unit}" if self.unit else number
-
-
 class SearchPoints(NamedTuple):
     """Values of a number that are sampled."""
 
     values: Array  # Ascending values [SI]
     is_even: bool  # By equal ratios otherwise
     is_stated: bool  # From the stated number or its limits otherwise
-
-
-def kind_of(values: dict[str, Any], key: str) -> Any:  # noqa: ANN401 - each kind has its own type
-    """Return the value type of a key of a machine file; the error does not name the key."""
-    kind: Any = file_keys(values)
-    for step in steps_of(key):
-        around, kind = kind, entry_at(kind, step)
-        if kind is None:
-            raise UnknownKeyError(_unknown(key, around, step))
-    return kind
-
-
-def numeric_field(values: dict[str, Any], key: str) -> NumericField:
-    """Return the number of a machine file that a key names; it must be continuous."""
-    try:
-        kind = kind_of(values, key)
-    except UnknownKeyError as error:
-        mistake = error.args[0]
-        message = (
-            mistake if mistake.name == "key_form" else ErrorMessage("option_key_wrong", key=key[:60], mistake=mistake)
-        )
-        raise UnknownKeyError(message) from None
-    now = stated_value(values, key)
-    kind, reader = single_kind(kind, now), Reader(decimal_comma=True)
-    match kind:
-        case Quantity(dimensions, low, high):
-            read = None if now is None else kind.read(now, key, reader)
-            unit = units.EXAMPLES[dimensions[0]].split()[1]
-            if not isinstance(read, MeasuredValue):
-                return NumericField(key, low, high, unit, dimensions[0])
-            return NumericField(key, low, high, read.unit or unit, read.dimension, read.value)
-        case Number(low, high, whole=False):
-            return NumericField(key, low, high, now=None if now is None else kind.read(now, key, reader))
-        case Number():
-            raise CrankworkError(ErrorMessage("sought_counts", key=key))
-    raise CrankworkError(ErrorMessage("sought_no_number", key=key))
-
-
-def single_kind(kind: Any, now: object) -> Any:  # noqa: ANN401 - each kind has its own type
-    """Return the type of a number in a field that also allows something else."""
-    if isinstance(kind, NameOr):
-        kind = kind.other
-    if isinstance(kind, ListOf) and kind.may_be_one and isinstance(now, str):
-        kind = kind.entry
-    if isinstance(kind, NumberOr):
-        return kind.quantity if isinstance(now, str) and not is_fraction(now) else kind.number
-    return kind
-
-
-def _unknown(key: str, around: object, step: str | int) -> ErrorMessage:
-    """Return the error of a key that no file has."""
-    if isinstance(around, TableSpec) and isinstance(step, str):
-        nearest = nearest_name(step, tuple(around.keys))
-        message = ErrorMessage("unknown_key_near", nearest=nearest) if nearest else None
-        return message or ErrorMessage("unknown_key", known=", ".join(around.keys))
-    return ErrorMessage("key_form", key=key[:60])
 
 
 def search_points(field: NumericField, start: str | float | None, end: str | float | None, steps: int) -> SearchPoints:
