@@ -35,7 +35,7 @@ def computed(box) -> str:
         case Script(base, None, above):
             return f"({computed(base)})**{computed(above)}"
         case Sign(text, _):
-            return {"−": "-", "=": "==", "": "*"}.get(text, text)
+            return {"−": "-", "=": "==", "·": "*"}.get(text, text)
         case Digits(text):
             return text.replace(",", ".")
     return box.text if isinstance(box, Upright) and box.text.isdigit() else ""

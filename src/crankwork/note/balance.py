@@ -11,6 +11,7 @@ from crankwork.mechanism.mechanism import Crank
 from crankwork.note.document import Block, Citation, Equation, Reference, Runs
 from crankwork.note.equations import value_box
 from crankwork.note.layout import (
+    DOT,
     EQUALS,
     PRODUCT,
     Box,
@@ -77,9 +78,9 @@ def _counterweight(material: Material) -> Iterator[Block]:
     lost = max(map(abs, parts.values())) / (2 * value * speed**2)
     digits = material.digits + max(0, math.ceil(math.log10(lost)))
 
-    def written(shown: Callable[[str], Box], rate: Box) -> Box:
+    def written(shown: Callable[[str], Box], times: Box, rate: Box) -> Box:
         squares = [_squared(Fence(row(shown(first), Sign(sign), shown(second)))) for first, sign, second in sums]
-        return Fraction(Root(row(squares[0], Sign("+"), squares[1])), row(Digits("2"), PRODUCT, _squared(rate)))
+        return Fraction(Root(row(squares[0], Sign("+"), squares[1])), row(Digits("2"), times, _squared(rate)))
 
     def letter(name: str) -> Box:
         return symbol_box(f"{words.symbol('shaking_force')},{name}")
@@ -89,8 +90,8 @@ def _counterweight(material: Material) -> Iterator[Block]:
         box = number_box(wave, words.language, digits)[0]
         return Fence(box) if wave < 0 else box
 
-    letters = written(letter, symbol_box(words.symbol("speed")))
-    numbers = written(number, number_box(speed, words.language, digits)[0])
+    letters = written(letter, PRODUCT, symbol_box(words.symbol("speed")))
+    numbers = written(number, DOT, number_box(speed, words.language, digits)[0])
     result = value_box(value, "kg*m", words.language, material.digits)
     lines = row(symbol_box(words.symbol(key)), EQUALS, letters), row(EQUALS, numbers, EQUALS, result)
     text = f"{words.symbol(key)} = {words.amount(value, 'kg*m', digits=material.digits)}"

@@ -61,7 +61,7 @@ ESSENTIAL = frozenset((
     "stroke_work", "shearing_force", "rim_mass", "efficiency", "free_air_delivery", "clearance_volumetric_efficiency",
 ))  # fmt: skip
 # height of the figures of a linkage over that elsewhere
-_LOWER = 0.7
+_LOWER = 0.62
 # significant digits of the values of a note that does not show all
 _DIGITS = 4
 # sentences that refer to one of a kind, and to several

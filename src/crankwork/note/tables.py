@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -180,7 +181,9 @@ def tabulated(
     columns = [
         quantity_column(material, item, material.columns[item]) if isinstance(item, str) else item for item in keys
     ]
-    return position_tables(caption, material.positions, columns, material.words, first=material.first, label=label)
+    tables = position_tables(caption, material.positions, columns, material.words, first=material.first, label=label)
+    # a narrow one takes half the height
+    return tables if material.full else map(partial(folded, most=2, long=_STEPS), tables)
 
 
 def distinct_columns(material: Material, keys: Sequence[str]) -> tuple[list[str], list[Block]]:
